@@ -2,11 +2,10 @@
 
 #include <filesystem>
 
-#include "base/fault.h"
-#include "cli/commands/commands.h"
 #include "cli/terminal/at_option.h"
+#include "cli/commands/commands.h"
+#include "cli/output/readable_logs.h"
 #include "sim/record/export/exporters.h"
-#include "sim/record/log/run_log.h"
 
 namespace reachlab::cli {
 namespace {
@@ -23,34 +22,20 @@ fs::path datasetOf(const std::string& log) {
   return folder.filename() == "sourcedata" ? folder.parent_path() : folder;
 }
 
-std::vector<record::RunLog> openAll(const std::string& what) {
-  std::vector<record::RunLog> runs;
-  std::vector<Fault> faults;
-  for (const std::string& path : record::findLogs(what)) {
-    try {
-      runs.push_back(record::RunLog::open(path));
-      const record::RunLog& run = runs.back();
-      if (run.goodBytes() < run.fileBytes())
-        fmt::print(stderr, "{}: damaged after byte {} of {}: read up to there ({} trials)\n", path, run.goodBytes(), run.fileBytes(),
-                   run.trials().size());
-    } catch (const FaultError& error) {
-      faults.insert(faults.end(), error.faults.begin(), error.faults.end());
-    }
-  }
-  if (runs.empty()) throw FaultError(std::move(faults));
-  if (!faults.empty()) fmt::print(stderr, "{}\n", toText(faults));
-  return runs;
-}
-
 void exportLogs(const Options& options) {
-  const std::vector<record::RunLog> runs = openAll(options.what);
-  const fs::path dataset = datasetOf(runs.front().path());
+  const ReadableLogs logs = openReadableLogs(options.what);
+  for (const record::RunLog& run : logs.runs)
+    if (run.goodBytes() < run.fileBytes())
+      fmt::print(stderr, "{}: damaged after byte {} of {}: read up to there ({} trials)\n", run.path(), run.goodBytes(), run.fileBytes(),
+                 run.trials().size());
+  const fs::path dataset = datasetOf(logs.runs.front().path());
   std::vector<std::string> written;
   atOption("--out", [&] {
     const record::Exporter& exporter = *record::findExporter(options.format);
-    written = options.out.empty() ? record::writeInto(dataset.string(), exporter, runs) : exporter.write(runs, options.out);
+    written = options.out.empty() ? record::writeInto(dataset.string(), exporter, logs.runs) : exporter.write(logs.runs, options.out);
   });
   for (const std::string& path : written) fmt::print("{}\n", path);
+  logs.tellUnreadable();
 }
 
 }  // namespace

@@ -5,10 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "base/fault.h"
+#include "cli/terminal/at_option.h"
 #include "cli/commands/commands.h"
+#include "cli/output/readable_logs.h"
 #include "cli/output/success_table.h"
 #include "cli/output/trial_profile.h"
-#include "cli/terminal/at_option.h"
 #include "sim/record/export/tidy_csv.h"
 #include "sim/record/log/run_log.h"
 #include "sim/record/log/trial_measures.h"
@@ -70,47 +71,49 @@ std::string runsTable(const std::vector<record::RunLog>& logs) {
 }
 
 std::string trialsTable(const record::RunLog& log) {
-  std::vector<std::vector<std::string>> rows{{"trial", "outcome", "reason", "mass", "by", "", "movement_time_s", "reaction_time_s",
-                                              "peak_speed_m_per_s", "peak_force_n", "clamped_ticks"}};
+  struct Shown {
+    std::string_view measure;
+    int digits;
+  };
+  static constexpr Shown kShown[] = {
+      {"movement_time_s", 3}, {"task_reaction_time_s", 3}, {"peak_hand_speed_m_per_s", 3}, {"peak_force_n", 2}, {"clamped_ticks", 0}};
+  std::vector<std::vector<std::string>> rows{{"trial", "outcome", "reason", "mass", "by", ""}};
+  for (const Shown& shown : kShown) rows.front().emplace_back(shown.measure);
   for (const record::RecordedTrial& t : log.trials()) {
     const bool success = t.result.outcome == trial::Outcome::Success;
     rows.push_back({std::to_string(t.trial), std::string(trial::nameOf(t.result.outcome)),
                     success ? "" : std::string(trial::nameOf(t.result.reason)), t.result.mass > 0 ? std::to_string(t.result.mass) : "",
-                    t.result.by != 0 ? rounded(t.result.by, 4) : "", t.result.by != 0 ? record::unitOf(t.result.reason) : "",
-                    rounded(record::movementTimeOf(t), 3), rounded(record::timesOf(t).reaction, 3), rounded(t.peakHandSpeed, 3),
-                    rounded(t.peakForce, 2), std::to_string(t.clampedTicks)});
+                    t.result.by != 0 ? rounded(t.result.by, 4) : "", t.result.by != 0 ? record::unitOf(t.result.reason) : ""});
+    for (const Shown& shown : kShown) rows.back().push_back(rounded(record::tickMeasure(shown.measure).of(t), shown.digits));
   }
   return alignedTable(rows);
 }
 
-Json trialJson(const record::RecordedTrial& t) {
-  const record::TrialTimes times = record::timesOf(t);
-  return {{"trial", t.trial},
-          {"outcome", trial::nameOf(t.result.outcome)},
-          {"reason", trial::nameOf(t.result.reason)},
-          {"mass", t.result.mass},
-          {"by", t.result.by},
-          {"by_unit", record::unitOf(t.result.reason)},
-          {"movement_time_s", record::movementTimeOf(t)},
-          {"start_s", times.start},
-          {"armed_s", times.armed},
-          {"go_s", times.go},
-          {"onset_s", times.onset},
-          {"end_s", times.end},
-          {"reaction_time_s", times.reaction},
-          {"peak_hand_speed_m_per_s", t.peakHandSpeed},
-          {"hand_path_m", t.handPathLength},
-          {"peak_force_n", t.peakForce},
-          {"mean_force_n", t.meanForce},
-          {"clamped_ticks", t.clampedTicks},
-          {"missed_ticks", t.missedTicks},
-          {"complete", t.complete}};
+Json trialJson(const record::RunLog& log, const record::RecordedTrial& t) {
+  const record::TrialTimes times = record::timesOf(t, log.firstSampleTick());
+  Json json{{"trial", t.trial},
+            {"outcome", trial::nameOf(t.result.outcome)},
+            {"reason", trial::nameOf(t.result.reason)},
+            {"by_unit", record::unitOf(t.result.reason)},
+            {"start_s", times.start},
+            {"armed_s", times.armed},
+            {"go_s", times.go},
+            {"task_onset_s", times.onset},
+            {"end_s", times.end},
+            {"complete", t.complete}};
+  for (const record::TickMeasure& measure : record::tickMeasures()) {
+    const double value = measure.of(t);
+    Json& out = json[std::string(measure.name)];
+    if (measure.count) out = static_cast<std::int64_t>(value);
+    else out = value;
+  }
+  return json;
 }
 
 Json runJson(const record::RunLog& log) {
   const record::RunConfiguration& c = log.configuration();
   Json trials = Json::array();
-  for (const record::RecordedTrial& t : log.trials()) trials.push_back(trialJson(t));
+  for (const record::RecordedTrial& t : log.trials()) trials.push_back(trialJson(log, t));
   return {{"log", log.path()},
           {"state", stateOf(log)},
           {"subject", c.subject},
@@ -139,10 +142,10 @@ const record::RecordedTrial& trialOf(const std::vector<record::RunLog>& logs, in
 }
 
 void showTrial(const record::RunLog& log, const record::RecordedTrial& trial, bool asJson) {
-  const TrialProfile profile = profileOf(log, trial);
+  const ShownTrial profile = profileOf(log, trial);
   const char* timeColumn = profile.sinceOnset ? "since_onset_s" : "since_start_s";
   if (asJson) {
-    Json json = trialJson(trial);
+    Json json = trialJson(log, trial);
     json["samples"] = {{timeColumn, profile.time},
                        {"hand_speed_m_per_s", profile.handSpeed},
                        {"first_mass_speed_m_per_s", profile.firstSpeed},
@@ -162,9 +165,8 @@ void showTrial(const record::RunLog& log, const record::RecordedTrial& trial, bo
 
 void show(const Options& options) {
   if (!options.figure.empty() && options.trial == 0) throw FaultError(Fault{"--figure", "draws one trial", "beside --trial N"});
-  std::vector<record::RunLog> logs;
-  for (const std::string& path : record::findLogs(options.what)) logs.push_back(record::RunLog::open(path));
-  if (logs.empty()) throw FaultError(Fault{{}, "holds no recordings", "a dataset, a session's folder or a log", FilePlace{options.what}});
+  const ReadableLogs readable = openReadableLogs(options.what);
+  const std::vector<record::RunLog>& logs = readable.runs;
   if (options.trial > 0) {
     const record::RecordedTrial& trial = trialOf(logs, options.trial);
     if (!options.figure.empty()) atOption("--figure", [&] { figure::writeFigure(drawTrial(logs[0], trial), options.figure); });
@@ -175,10 +177,11 @@ void show(const Options& options) {
     Json runs = Json::array();
     for (const record::RunLog& log : logs) runs.push_back(runJson(log));
     fmt::print("{}\n", runs.dump(2));
-    return;
+  } else {
+    fmt::print("{}", runsTable(logs));
+    if (logs.size() == 1) fmt::print("\n{}", trialsTable(logs[0]));
   }
-  fmt::print("{}", runsTable(logs));
-  if (logs.size() == 1) fmt::print("\n{}", trialsTable(logs[0]));
+  readable.tellUnreadable();
 }
 
 }  // namespace

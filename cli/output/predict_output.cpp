@@ -142,7 +142,7 @@ figure::Figure drawSweep(const predict::Sweep& sweep, const std::vector<predict:
                  cost = makeSeries("");
   figure::Series count = makeSeries("peaks of the hand"),
                  reversal = makeSeries("hand reverses", figure::palette::kVermilion, figure::Dash::Solid, 0);
-  reversal.marker = figure::Marker::Cross;
+  reversal.marker = figure::MarkerShape::Cross;
   for (const predict::SweepRow& row : rows) {
     const predict::Prediction* p = row.prediction.get();
     for (figure::Series* s : {&hand, &object, &cost, &count, &reversal}) s->x.push_back(row.value);

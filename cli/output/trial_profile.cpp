@@ -36,10 +36,10 @@ figure::Rule mark(double at, std::string label) {
 
 }  // namespace
 
-TrialProfile profileOf(const record::RunLog& log, const record::RecordedTrial& trial) {
+ShownTrial profileOf(const record::RunLog& log, const record::RecordedTrial& trial) {
   const record::ChannelTable& table = log.configuration().table;
   const record::SampleRows rows = log.rows(trial);
-  TrialProfile profile;
+  ShownTrial profile;
   profile.sinceOnset = trial.result.onsetTick > 0;
   const std::uint64_t begin = profile.sinceOnset ? trial.result.onsetTick : trial.startTick;
   for (const std::uint64_t tick : rows.ticks) profile.time.push_back(secondsBetween(begin, tick));
@@ -51,7 +51,7 @@ TrialProfile profileOf(const record::RunLog& log, const record::RecordedTrial& t
 }
 
 figure::Figure drawTrial(const record::RunLog& log, const record::RecordedTrial& trial) {
-  const TrialProfile profile = profileOf(log, trial);
+  const ShownTrial profile = profileOf(log, trial);
   const int masses = log.configuration().table.massCount;
   figure::Panel speed, force;
   speed.title = "(a) Speed";

@@ -8,7 +8,7 @@
 namespace reachlab::cli {
 
 /// What a recorded trial looked like at its samples, from where it was put up to its end.
-struct TrialProfile {
+struct ShownTrial {
   std::vector<double> time;        // [s] since onset; since the trial was put up where the hand never set off
   std::vector<double> handSpeed;   // [m/s]
   std::vector<double> firstSpeed;  // [m/s] of the driven mass
@@ -18,7 +18,7 @@ struct TrialProfile {
 };
 
 /// Reads the trial's rows; throws FaultError if the log has changed meanwhile.
-TrialProfile profileOf(const record::RunLog& log, const record::RecordedTrial& trial);
+ShownTrial profileOf(const record::RunLog& log, const record::RecordedTrial& trial);
 /// Speeds with the task's T and T ± dT, and the coupling force, over time.
 figure::Figure drawTrial(const record::RunLog& log, const record::RecordedTrial& trial);
 

@@ -71,6 +71,21 @@ TEST(Show, DrawsATrial) {
   EXPECT_NE(contentOf(figure).find("<svg"), std::string::npos);
 }
 
+// The readable logs are told or exported. What is left out is named, and a script sees it.
+TEST(Show, AndExportNameALogThatCannotBeRead) {
+  const Recorded recorded;
+  const std::string other = recorded.data + "/sourcedata/sub-02_ses-01_task-chainmoderate_run-01_log.reach";
+  std::ofstream(other) << "no log";
+  for (const std::string command : {"show ", "show --json ", "export --format csv "}) {
+    const Ended ended = reach(command + recorded.data);
+    EXPECT_EQ(ended.exitCode, 3) << command;
+    EXPECT_NE(ended.err.find(other), std::string::npos) << command << ended.err;
+    EXPECT_NE(ended.err.find("1 of 2 logs"), std::string::npos) << command << ended.err;
+    EXPECT_NE(ended.out, "") << command;
+  }
+  EXPECT_EQ(reach("show " + other).exitCode, 2) << "alone it is a bad file";
+}
+
 TEST(Show, RefusesWhatIsNotThere) {
   const Recorded recorded;
   const Ended number = reach("show --trial 4 " + recorded.log);

@@ -18,7 +18,7 @@ constexpr const char* kStudy = R"({
   "schema_version": 1, "name": "small", "seed": 3, "experiment": "chain-moderate", "subjects": 5, "trials": 3, "chunk_trials": 6,
   "subject": { "kind": "plan" }, "profiles": true,
   "vary": { "coupling.stiffness_n_per_m": [500, 600], "subject.noise": { "uniform": [0.5, 1.5], "n": 2 }, "subject.criterion": ["min-hand-jerk", "min-crackle"] },
-  "measures": ["movement_time_s", "by", "mass", "peak_hand_speed_m_per_s", "hand_path_m", "mean_force_n", "reaction_time_s", "duration_s", "epsilon"],
+  "measures": ["movement_time_s", "by", "mass", "peak_hand_speed_m_per_s", "hand_path_m", "mean_force_n", "task_reaction_time_s", "reaction_time_s", "duration_s", "epsilon"],
   "criteria": ["min-hand-jerk", "min-crackle"]
 })";
 
@@ -120,9 +120,9 @@ TEST_F(Study, ATrialIsTheSameToTheBitAsThatOfARecordedRun) {
     EXPECT_EQ(table.at(first + trial, "point"), 5);
     EXPECT_EQ(table.rows[first + trial][table.column("subject")], subject);
     for (const char* column :
-         {"trial", "outcome", "movement_time_s", "by", "mass", "peak_hand_speed_m_per_s", "hand_path_m", "mean_force_n", "reaction_time_s"})
+         {"trial", "outcome", "movement_time_s", "by", "mass", "peak_hand_speed_m_per_s", "hand_path_m", "mean_force_n", "task_reaction_time_s"})
       EXPECT_EQ(table.rows[first + trial][table.column(column)], recorded.rows.at(trial)[recorded.column(column)]) << column;
-    for (const char* column : {"duration_s", "epsilon_hand_min_hand_jerk_m_per_s", "epsilon_object_min_crackle_m_per_s"})
+    for (const char* column : {"reaction_time_s", "duration_s", "epsilon_hand_min_hand_jerk_m_per_s", "epsilon_object_min_crackle_m_per_s"})
       EXPECT_EQ(table.rows[first + trial][table.column(column)], analysed.rows.at(trial)[analysed.column(column)]) << column;
   }
 }
@@ -148,7 +148,7 @@ TEST_F(Study, GoesThroughAPlanAsASessionDoes) {
   });
   ASSERT_EQ(recorded.rows.size(), rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i)
-    for (const char* column : {"block", "condition", "trial", "outcome", "peak_hand_speed_m_per_s", "reaction_time_s"})
+    for (const char* column : {"block", "condition", "trial", "outcome", "peak_hand_speed_m_per_s", "task_reaction_time_s"})
       EXPECT_EQ(table.rows[rows[i]][table.column(column)], recorded.rows[i][recorded.column(column)]) << column;
 }
 
@@ -262,7 +262,7 @@ TEST_F(Study, MeasuresTheSameWhateverElseItMeasures) {
     return tableOf(at(name));
   };
   const std::vector<std::string> names = split(
-      "by,movement_time_s,reaction_time_s,peak_hand_speed_m_per_s,hand_path_m,peak_force_n,mean_force_n,onset_s,offset_s,duration_s,"
+      "by,movement_time_s,task_reaction_time_s,reaction_time_s,peak_hand_speed_m_per_s,hand_path_m,peak_force_n,mean_force_n,onset_s,offset_s,duration_s,"
       "peak_speed_m_per_s,time_to_peak_s,time_to_peak_percent,symmetry_ratio,path_length_m,speed_peaks,hand_endpoint_error_m,"
       "object_endpoint_error_m,hand_overshoot_m,object_overshoot_m,sparc,ldlj",
       ',');

@@ -41,10 +41,10 @@ record::RunLog recorded(const record::TemporaryFolder& folder, bool moves) {
   return record::RunLog::open(path);
 }
 
-TEST(TrialProfile, IsOfTheSamplesSinceTheOnset) {
+TEST(ShownTrial, IsOfTheSamplesSinceTheOnset) {
   const record::TemporaryFolder folder("profile");
   const record::RunLog log = recorded(folder, true);
-  const TrialProfile profile = profileOf(log, log.trials()[0]);
+  const ShownTrial profile = profileOf(log, log.trials()[0]);
   EXPECT_TRUE(profile.sinceOnset);
   ASSERT_EQ(profile.time.size(), 10u) << "ticks 10, 20 … 100";
   for (std::size_t i = 0; i < 10; ++i) {
@@ -57,16 +57,16 @@ TEST(TrialProfile, IsOfTheSamplesSinceTheOnset) {
   }
 }
 
-TEST(TrialProfile, OfAHandThatNeverSetOffIsSinceTheTrialWasPutUp) {
+TEST(ShownTrial, OfAHandThatNeverSetOffIsSinceTheTrialWasPutUp) {
   const record::TemporaryFolder folder("profile");
   const record::RunLog log = recorded(folder, false);
-  const TrialProfile profile = profileOf(log, log.trials()[0]);
+  const ShownTrial profile = profileOf(log, log.trials()[0]);
   EXPECT_FALSE(profile.sinceOnset);
   EXPECT_EQ(profile.time.front(), 0);
   EXPECT_EQ(profile.time.back(), 0.09);
 }
 
-TEST(TrialProfile, IsDrawnWithTheTasksTimes) {
+TEST(ShownTrial, IsDrawnWithTheTasksTimes) {
   const record::TemporaryFolder folder("profile");
   const record::RunLog moved = recorded(folder, true);
   const figure::Figure drawn = drawTrial(moved, moved.trials()[0]);
