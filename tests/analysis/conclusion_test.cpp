@@ -62,16 +62,6 @@ TEST(Conclusion, OfASmallDifferenceIsNoneHoweverSignificant) {
   EXPECT_EQ(concludePeople(many, kCandidates, kReference).reason, Obstacle::NotToldApart);
 }
 
-TEST(Conclusion, OfTwoToFourPeopleIsNeverDecided) {
-  for (std::size_t n = 2; n <= 4; ++n) {
-    const Conclusion c = concludePeople(people(n, 1, 5), kCandidates, kReference);
-    EXPECT_FALSE(c.decided());
-    EXPECT_EQ(c.reason, Obstacle::TooFewSubjects);
-    EXPECT_TRUE(c.overSubjects);
-    for (const auto& each : c.each) EXPECT_EQ(each, 1u);
-  }
-}
-
 TEST(Conclusion, OfFivePeopleWhoAgreeIsDecided) {
   const Conclusion c = concludePeople(people(5, 2, 0.8), kCandidates, kReference);
   EXPECT_EQ(c.follows, 2u);
@@ -94,12 +84,6 @@ TEST(Conclusion, ThatTheReferenceIsAsNearIsNone) {
   EXPECT_EQ(concludePeople(people(5, kReference, 1), kCandidates, kReference).reason, Obstacle::Reference);
   EXPECT_EQ(concludePeople(people(1, kReference, 1), kCandidates, kReference).reason, Obstacle::Reference);
   EXPECT_EQ(concludePeople(people(1, 0, 0.02), kCandidates, kReference).reason, Obstacle::Reference);
-}
-
-TEST(Conclusion, ThatDescribesBadlyIsNone) {
-  std::vector<PersonScores> all = people(5, 0, 0.8);
-  for (PersonScores& p : all) p.conditions[0].r2.assign(kCandidates, 0.8);
-  EXPECT_EQ(concludePeople(all, kCandidates, kReference).reason, Obstacle::Poor);
 }
 
 TEST(Conclusion, OfNobodyIsTooFewTrials) {
@@ -295,20 +279,6 @@ TEST(Conclusion, NamesItsObstacles) {
                                                          {Obstacle::Poor, "poor"},
                                                          {Obstacle::NothingToCompare, "nothing_to_compare"}};
   for (const auto& [obstacle, name] : names) EXPECT_EQ(nameOf(obstacle), name);
-}
-
-TEST(Conclusion, GoesByThePublishedLevels) {
-  EXPECT_EQ(kTrialsLevel, 0.01);
-  EXPECT_EQ(kSubjectsLevel, 0.05);
-  EXPECT_EQ(kMinExceedance, 0.85);
-  EXPECT_EQ(kPoor, 0.1);
-  EXPECT_EQ(kFewestSubjects, 5u);
-  EXPECT_EQ(kFewestForSignFlip, 6u);
-  const Conclusion none = concludePeople({}, kCandidates, kReference);
-  EXPECT_TRUE(none.p == 1 && none.referenceP == 1 && !none.referenceFirst && !none.overSubjects && none.trials == 0 && none.level == 0.01);
-  EXPECT_TRUE(none.r2 == 0 && none.ceiling == 0 && !none.best && !none.rival && none.score.empty());
-  const ConditionScores usual;
-  EXPECT_TRUE(usual.effectiveSamples == 10 && usual.ceiling == 1 && usual.condition == 0);
 }
 
 TEST(Conclusion, LeavesOutPeopleWithoutConditions) {

@@ -27,32 +27,12 @@ TEST(LowPass, AgreesWithAnIndependentImplementation) {
   for (const auto& [i, value] : expected) EXPECT_NEAR(y[i], value, 1e-13) << i;  // rounding of a few dozen operations
 }
 
-TEST(LowPass, PassesAConstantUnchanged) {
-  for (const double v : lowPass(std::vector<double>(50, 0.37), 100, 10)) EXPECT_NEAR(v, 0.37, 1e-14);
-}
-
 TEST(LowPass, HalvesTheAmplitudeAtTheCutOffAndDelaysNothing) {
   for (const double cutoff : {5.0, 10.0, 20.0}) {
     const std::vector<double> x = tone(cutoff, 1000, 4000), y = lowPass(x, 1000, cutoff);
     // Away from the ends, where the extension is not a sine. Each pass has 1/sqrt 2, so together 1/2, in phase.
     for (std::size_t i = 1500; i < 2500; ++i) EXPECT_NEAR(y[i], 0.5 * x[i], 1e-9);
   }
-}
-
-TEST(LowPass, IsTheSameForwardsAndBackwards) {
-  std::vector<double> x = tone(3, 100, 120);
-  for (std::size_t i = 0; i < x.size(); ++i) x[i] += 1e-3 * static_cast<double>((i * 7919) % 101);
-  const std::vector<double> forward = lowPass(x, 100, 8);
-  const std::vector<double> backward = lowPass(std::vector<double>(x.rbegin(), x.rend()), 100, 8);
-  // Not exactly: the pass that comes second starts from what the first left at the end. Away from the ends it has died out.
-  for (std::size_t i = 40; i < 80; ++i) EXPECT_NEAR(forward[i], backward[x.size() - 1 - i], 1e-7);
-}
-
-TEST(LowPass, RefusesACutOffBeyondHalfTheRate) {
-  const std::vector<double> x(20, 0.0);
-  EXPECT_THROW(lowPass(x, 100, 50), FaultError);
-  EXPECT_THROW(lowPass(x, 100, -1), FaultError);
-  EXPECT_EQ(lowPass(x, 100, 0), x);
 }
 
 TEST(LowPass, BearsSignalsOfAnyLength) {

@@ -102,7 +102,6 @@ TEST(MovementFit, IsBetterThanAllItsNeighbours) {
   const MovementFit none = fitMovement(window, profile, startFrom(momentsOf(window), momentsOf(profile)), FitEffort{0, 0});
   EXPECT_DOUBLE_EQ(none.duration, startFrom(momentsOf(window), momentsOf(profile)).duration) << "no step, no change";
   EXPECT_TRUE(kRoughFit.steps == 6 && kRoughFit.improvement == 1e-3);
-  EXPECT_TRUE(FitEffort{}.steps == 40 && FitEffort{}.improvement == 1e-9);
 }
 
 TEST(MovementFit, OfNoStartIsNone) {
@@ -117,7 +116,6 @@ TEST(MovementFit, OfNoStartIsNone) {
   EXPECT_NEAR(beside.cost, restCost(window), 1e-12);
   const MovementFit fresh;
   EXPECT_TRUE(fresh.onset == 0 && fresh.duration == 0 && fresh.amplitude == 0 && fresh.cost == 0 && !fresh.found);
-  EXPECT_TRUE(FitWindow{}.rate == 100 && FitWindow{}.begin == 0);
   const Profile tiny{0, 0.2, {0, 1, 2, 1, 0}, {}};
   EXPECT_EQ(fitMovement(window, tiny, far).amplitude, 0) << "too few samples for a piece";
 }
@@ -170,7 +168,6 @@ TEST(ProfileFamily, InterpolatesOverDurationsAndTellsTheirChange) {
   EXPECT_FALSE(family.at(std::nan(""), profile));
   EXPECT_EQ(family.errorAt(2.95), 1);
   EXPECT_EQ(family.errorAt(5), 1);
-  EXPECT_TRUE(ProfileFamily::Grid{}.parts == 400 && ProfileFamily::Grid{}.shortest == 0.1 && ProfileFamily::Grid{}.spacing == 0.01);
 }
 
 TEST(ProfileFamily, TellsTheErrorOfWhatItInterpolates) {

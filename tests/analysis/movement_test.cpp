@@ -39,12 +39,6 @@ TEST(FindMovement, FindsTheCrossingsOfABell) {
   }
 }
 
-TEST(FindMovement, SkipsATwitchBeforeTheMovement) {
-  std::vector<double> v = bell(0.5, 1.0, 0.7);
-  v[10] = v[11] = 0.1;  // 20 ms
-  EXPECT_NEAR(findMovement(v, kRate, {}).onset, 0.5 + crossing(0.05), 1e-3);
-}
-
 TEST(FindMovement, SearchesBackFromThePeakSoThatADriftBeginsNothing) {
   // A slow drift at 8 % of the peak, which ends 0.2 s before the reach: the first upward crossing is the drift's.
   std::vector<double> v = bell(0.8, 1.0, 0.7);
@@ -108,17 +102,6 @@ TEST(ScaleVelocity, KeepsTheDistance) {
   };
   const double d = distance(normaliseTime(v, kRate, 0.5, 1.5), 1.0);
   for (const double duration : {0.5, 1.0, 2.26}) EXPECT_NEAR(distance(scaleVelocity(v, kRate, 0.5, 1.5, duration), duration), d, 1e-12);
-}
-
-TEST(SmoothValue, FollowsACurveBetterThanTheChord) {
-  std::vector<double> v;
-  for (int i = 0; i < 100; ++i) v.push_back(std::sin(0.1 * i));
-  double chord = 0, smooth = 0;
-  for (double t = 0.1; t < 0.9; t += 0.0037) {
-    chord = std::max(chord, std::abs(valueAt(v, kRate, t) - std::sin(10 * t)));
-    smooth = std::max(smooth, std::abs(smoothValueAt(v, kRate, t) - std::sin(10 * t)));
-  }
-  EXPECT_LT(smooth, chord / 10);
 }
 
 TEST(Onset, OfSimulatedTrialsIsWhereItWasPutWithSmallBiasAndSpread) {
@@ -196,13 +179,6 @@ TEST(FindMovement, NeedsAPeakAboveTheThreshold) {
   EXPECT_TRUE(findMovement(std::vector<double>{0, 2, 0}, 10, {}).found);
 }
 
-TEST(FindMovement, TakesTheFirstOfEqualPeaksAndNoneBeyondTheEnds) {
-  EXPECT_EQ(findMovement(std::vector<double>{0, 1, 3, 1, 3, 1, 0}, 1, {}).peakTime, 2);
-  EXPECT_EQ(findMovement(std::vector<double>{3, 2, 0, 0}, 1, {}).peakTime, 0) << "no neighbour, no parabola";
-  EXPECT_EQ(findMovement(std::vector<double>{0, 0, 2, 3}, 1, {}).peakTime, 3);
-  EXPECT_EQ(findMovement(std::vector<double>{0, 3, 3, 0}, 1, {}).peakTime, 1.5);
-}
-
 // 40 ms at 100 Hz are four samples above the threshold; the movement itself may be shorter.
 TEST(FindMovement, EndsAfterTheLastStretchThatIsHeld) {
   const auto offsetWith = [](std::size_t samples, double hold) {
@@ -232,27 +208,6 @@ TEST(FindMovement, BeginsWithTheFirstHumpOfHalfThePeak) {
 TEST(FindMovement, AtAThresholdAboveHalfThePeakBeginsWhereItIsPassed) {
   const std::vector<double> v = tent(40, 4, 14, 34, 2);
   EXPECT_NEAR(findMovement(v, 50, above(1.5)).onset, 11.5 / 50, 1e-12);
-}
-
-TEST(FindMovement, GoesByFivePercentOrACentimetreASecondHeldFor40Milliseconds) {
-  const OnsetOptions usual;
-  EXPECT_EQ(usual.rule, OnsetRule::Percent);
-  EXPECT_EQ(usual.percent, 5);
-  EXPECT_EQ(usual.speed, 0.01);
-  EXPECT_EQ(usual.holdSeconds, 0.04);
-  const Movement none;
-  EXPECT_TRUE(!none.found && none.onset == 0 && none.offset == 0 && none.peak == 0 && none.peakTime == 0);
-  EXPECT_EQ(nameOf(OnsetRule::Percent), "percent");
-  EXPECT_EQ(nameOf(OnsetRule::Absolute), "absolute");
-  EXPECT_EQ(nameOf(OnsetRule::Task), "task");
-}
-
-TEST(FindMovement, SaysOnlyWhatIsCut) {
-  const std::vector<double> v = tent(40, -5, 14, 34);
-  const Movement begun = findMovement(v, kRate, above(0.2));
-  EXPECT_EQ(begun.onset, 0);
-  const Movement unfinished = findMovement(std::vector<double>(v.rbegin(), v.rend()), kRate, above(0.2));
-  EXPECT_DOUBLE_EQ(unfinished.offset, 0.39);
 }
 
 TEST(MovementWithin, LooksForThePeakInsideTheWindowAlone) {

@@ -14,7 +14,7 @@ TEST(BinomialInterval, HasItsTextbookValues) {
     double low, high;
   } cases[] = {{81, 263, 0.2527, 0.3676}, {15, 148, 0.0578, 0.1617}, {0, 20, 0.0000, 0.1684}, {1, 29, 0.0009, 0.1776}};
   for (const auto& c : cases) {
-    const Interval i = computeBinomialInterval(c.r, c.n);
+    const Bounds i = computeBinomialInterval(c.r, c.n);
     EXPECT_NEAR(i.low, c.low, 5e-5);
     EXPECT_NEAR(i.high, c.high, 5e-5);
   }
@@ -23,7 +23,7 @@ TEST(BinomialInterval, HasItsTextbookValues) {
 TEST(BinomialInterval, HoldsTheShareAndStaysInside) {
   for (std::size_t n = 0; n <= 40; ++n)
     for (std::size_t k = 0; k <= n; ++k) {
-      const Interval i = computeBinomialInterval(k, n);
+      const Bounds i = computeBinomialInterval(k, n);
       EXPECT_GE(i.low, 0);
       EXPECT_LE(i.high, 1);
       if (n > 0) {
@@ -48,7 +48,7 @@ TEST(BinomialInterval, OfNoneOrAllIsARootOfTheLevel) {
   for (const double level : {0.95, 0.8})
     for (const std::size_t n : {1u, 7u, 20u}) {
       const double root = std::pow((1 - level) / 2, 1.0 / static_cast<double>(n));
-      const Interval none = computeBinomialInterval(0, n, level), all = computeBinomialInterval(n, n, level);
+      const Bounds none = computeBinomialInterval(0, n, level), all = computeBinomialInterval(n, n, level);
       EXPECT_EQ(none.low, 0);
       EXPECT_NEAR(none.high, 1 - root, 1e-12);
       EXPECT_NEAR(all.low, root, 1e-12);
@@ -60,7 +60,7 @@ TEST(BinomialInterval, OfNoneOrAllIsARootOfTheLevel) {
 
 TEST(BinomialInterval, OfFailuresIsTheMirrorOfSuccesses) {
   for (std::size_t k = 0; k <= 9; ++k) {
-    const Interval successes = computeBinomialInterval(k, 9), failures = computeBinomialInterval(9 - k, 9);
+    const Bounds successes = computeBinomialInterval(k, 9), failures = computeBinomialInterval(9 - k, 9);
     EXPECT_NEAR(successes.low, 1 - failures.high, 1e-12);
     EXPECT_EQ(computeBinomialInterval(k, 9, 0.95).low, successes.low) << "0.95 is the usual level";
   }

@@ -33,14 +33,14 @@ Band area(const Color& color) {
   band.color = color;
   return band;
 }
-Series points(std::vector<double> x, std::vector<double> y, const Color& color, Marker marker = Marker::Square, double size = 6) {
+Series points(std::vector<double> x, std::vector<double> y, const Color& color, MarkerShape marker = MarkerShape::Square, double size = 6) {
   Series s;
   s.x = std::move(x), s.y = std::move(y);
   s.color = color, s.marker = marker, s.markerSize = size, s.width = 0;
   return s;
 }
 Series line(std::vector<double> x, std::vector<double> y, const Color& color, double width = 2) {
-  Series s = points(std::move(x), std::move(y), color, Marker::None);
+  Series s = points(std::move(x), std::move(y), color, MarkerShape::None);
   s.width = width;
   return s;
 }
@@ -68,7 +68,7 @@ TEST(Picture, OfAPanelIsAsLargeAsAskedFor) {
 
 TEST(Picture, OfAPointIsWhereItsValuesAre) {
   Panel panel = plain();
-  panel.series = {points({4, 10}, {3, 0}, kRed), points({2, 12}, {-1, 4}, kBlue, Marker::Square, 1)};
+  panel.series = {points({4, 10}, {3, 0}, kRed), points({2, 12}, {-1, 4}, kBlue, MarkerShape::Square, 1)};
   const Box in = areaOf(plain());
   const Picture picture(figureOf(panel));
   const Box left = picture.find(kRed, {in.left, in.top, in.x(), in.bottom}),
@@ -115,46 +115,6 @@ TEST(Picture, OfALinearAxisThatPassesNoughtHasALineThere) {
   }
 }
 
-TEST(Picture, OfMarkersHasTheirShapes) {
-  const auto boxOf = [](Marker marker) {
-    Panel panel = plain();
-    panel.series = {points({7}, {1.5}, kRed, marker, 20)};
-    return Picture(figureOf(panel)).find(kRed);
-  };
-  const Box in = areaOf(plain());
-  const struct {
-    Marker marker;
-    double width, up, down;
-  } shapes[] = {
-      {Marker::Circle, 20, 10, 10}, {Marker::Square, 17.6, 8.8, 8.8}, {Marker::Triangle, 20, 11.5, 7.5}, {Marker::Diamond, 24, 12, 12}};
-  for (const auto& shape : shapes) {
-    const Box box = boxOf(shape.marker);
-    EXPECT_NEAR(box.width(), shape.width, 2 * kNear);
-    EXPECT_NEAR(box.x() - in.x(), 0, kNear);
-    EXPECT_NEAR(in.y() - box.top, shape.up, 2 * kNear);
-    EXPECT_NEAR(box.bottom - in.y(), shape.down, 2 * kNear);
-  }
-  EXPECT_TRUE(boxOf(Marker::None).empty());
-  Panel panel = plain();
-  panel.series = {points({7}, {1.5}, kRed, Marker::Cross, 20)};
-  const Picture cross(figureOf(panel));
-  for (const double far : {-8.0, 0.0, 8.0})
-    for (const double side : {-1.0, 1.0}) EXPECT_TRUE(cross.isAt(in.x() + far, in.y() + side * far, kRed)) << far;
-  EXPECT_TRUE(cross.isAt(in.x() + 8, in.y(), kWhite));
-  const auto arm = cross.along(true, in.y() + 6, kRed, in.x(), in.right);
-  ASSERT_EQ(arm.size(), 1u);
-  EXPECT_NEAR(arm[0].second - arm[0].first, 5 * std::sqrt(2.0), 2 * kNear) << "a quarter of its size thick, seen askew";
-  panel.series[0].marker = Marker::Circle;
-  const Picture circle(figureOf(panel));
-  EXPECT_TRUE(circle.isAt(in.x() + 6.5, in.y() - 6.5, kRed));
-  EXPECT_TRUE(circle.isAt(in.x() + 7.7, in.y() - 7.7, kWhite));
-  panel.series[0].marker = Marker::Triangle;
-  const Picture triangle(figureOf(panel));
-  EXPECT_TRUE(triangle.isAt(in.x() - 8.5, in.y() + 6.5, kRed));
-  EXPECT_TRUE(triangle.isAt(in.x() + 8.5, in.y() + 6.5, kRed));
-  EXPECT_TRUE(triangle.isAt(in.x() + 6, in.y() - 6, kWhite));
-}
-
 TEST(Picture, OfLinesHasTheirWidthAndTheirGaps) {
   Panel panel = plain();
   panel.series = {line({2, 12}, {1.5, 1.5}, kRed, 4)};
@@ -191,7 +151,7 @@ TEST(Picture, OfASeriesWithAHoleHasAGap) {
 
 TEST(Picture, OfErrorBarsReachesFromEndToEndWithCaps) {
   Panel panel = plain();
-  Series s = points({6}, {1}, kRed, Marker::None, 10);
+  Series s = points({6}, {1}, kRed, MarkerShape::None, 10);
   s.errorLow = {0}, s.errorHigh = {3};
   panel.series = {s};
   const Box in = areaOf(plain());
@@ -252,27 +212,6 @@ TEST(Picture, OfRulesCrossesThePanelWithAWordAtTheEnd) {
   EXPECT_NEAR(picture.find(kBlue, {in.left + 5, in.top, in.right - 5, in.bottom}).y(), in.top + 0.2 * kHigh, kNear);
 }
 
-// A blank line between them, and the pair keeps its middle.
-TEST(Picture, OfRulesThatLieCloseHasTheirWordsApart) {
-  Panel panel = plain();
-  panel.rules = {{3, false, "H", kRed}, {3.1, false, "H", kBlue}, {0, false, "H", kPink}};
-  const Box in = areaOf(panel);
-  const Picture picture(figureOf(panel));
-  const Box outside{in.right + 2, 0, 1e6, 1e6};
-  const Box red = picture.find(kRed, outside), blue = picture.find(kBlue, outside), pink = picture.find(kPink, outside);
-  EXPECT_NEAR(red.y() - blue.y(), 7, kNear) << "the higher one above";
-  EXPECT_NEAR((red.y() + blue.y()) / 2, in.top + 0.19 * kHigh, 0.6);
-  EXPECT_NEAR(pink.y(), in.top + 0.8 * kHigh, 0.6) << "what is apart stays";
-}
-
-TEST(Picture, OfAWordIsCentredOnItsPlace) {
-  Panel panel = plain();
-  panel.words = {{9.5, 2, "H", kRed}};
-  const Box in = areaOf(plain()), word = Picture(figureOf(panel)).find(kRed);
-  EXPECT_NEAR(word.x() - in.left, 0.75 * kWide, 2 * kNear);
-  EXPECT_NEAR(word.y() - in.top, 0.4 * kHigh, 2 * kNear);
-}
-
 TEST(Picture, OfAxesHasTicksOutsideAtTheirPlaces) {
   Panel panel = plain();
   panel.y.from = 0.0;
@@ -306,68 +245,6 @@ TEST(Picture, OfAxesHasTicksOutsideAtTheirPlaces) {
   EXPECT_NEAR((floor[0].second + floor[0].first) / 2, in.bottom, kNear);
 }
 
-TEST(Picture, OfMinorTicksIsShorter) {
-  Panel panel = plain();
-  panel.x.scale = panel.y.scale = Scale::Log;
-  panel.x.from = panel.y.from = 1.0, panel.x.to = 1000.0, panel.y.to = 100.0;
-  const Box in = areaOf(panel);
-  const Picture picture(figureOf(panel));
-  const auto count = [&](bool below, double out) {
-    // Thin lines hardly ever cover a pixel whole: anything dark counts.
-    int n = 0;
-    bool inside = false;
-    const double from = below ? in.left + 2 : in.top - 1, to = below ? in.right + 2 : in.bottom - 2;
-    for (double at = from; at < to; at += 0.125) {
-      const bool dark = (below ? picture.at(at, in.bottom + out) : picture.at(in.left - out, at)).red < 0.8;
-      n += dark && !inside;
-      inside = dark;
-    }
-    return n;
-  };
-  EXPECT_EQ(count(true, 1), 27) << "8 between each pair of the 3 decades, and the 3 that follow the first";
-  EXPECT_EQ(count(false, 1), 18) << "two decades";
-  EXPECT_EQ(count(true, 2.4), 3);
-  EXPECT_EQ(count(false, 2.4), 2);
-}
-
-TEST(Picture, OfItsWordsStandsAroundThePanel) {
-  Panel panel = plain();
-  panel.title = "H", panel.x.label = "H", panel.y.label = "H";
-  panel.x.ticks = panel.y.ticks = {{100, "none"}};
-  const Box in = areaOf(panel);
-  const Picture picture(figureOf(panel));
-  const Box title = picture.find(kInk, {in.left - 1, 0, in.right, in.top - 2}),
-            below = picture.find(kInk, {in.left + 2, in.bottom + 2, in.right, 1e6}),
-            left = picture.find(kInk, {0, in.top, in.left - 2, in.bottom});
-  EXPECT_NEAR(title.left, in.left, 1.2);
-  EXPECT_NEAR(title.height(), 0.73 * 8.5, 0.4);
-  EXPECT_NEAR(title.bottom, in.top - 7, 0.4) << "15.5 pt are above, 8.5 of them its own";
-  EXPECT_NEAR(below.x(), in.x(), 2 * kNear);
-  EXPECT_NEAR(below.height(), 0.73 * 8, 0.4);
-  EXPECT_NEAR(below.bottom, in.bottom + 3 + 3 + 7 + 8 + 2, 0.4);
-  EXPECT_NEAR(left.y(), in.y(), 2 * kNear);
-  EXPECT_NEAR(left.width(), 0.73 * 8, 0.4) << "it reads upwards";
-  EXPECT_NEAR(left.right, in.left - 3 - 3 - 6, 0.4) << "no tick has a width";
-  EXPECT_NEAR(in.left, 4 + 3 + 3 + 8 + 5, kNear) << "4 pt around everything";
-  EXPECT_NEAR(in.top, 4 + 8.5 + 7, kNear);
-  EXPECT_NEAR(picture.height() - in.bottom, 4 + 3 + 3 + 7 + 8 + 4, kNear);
-  EXPECT_NEAR(picture.width() - in.right, 4 + 4, kNear);
-}
-
-TEST(Picture, WithoutWordsHasNoRoomForThem) {
-  Panel panel = plain();
-  panel.x.ticks = panel.y.ticks = {{100, "none"}};
-  const Box in = areaOf(panel);
-  const Picture picture(figureOf(panel));
-  EXPECT_NEAR(in.left, 4 + 3 + 3, kNear);
-  EXPECT_NEAR(in.top, 4 + 4, kNear);
-  EXPECT_NEAR(picture.height() - in.bottom, 4 + 3 + 3 + 7, kNear);
-  panel.rules = {{5, true, "H", kRed}};
-  EXPECT_NEAR(areaOf(panel).top, 4 + 7 + 4, kNear);
-  panel.title = "H";
-  EXPECT_NEAR(areaOf(panel).top, 4 + 8.5 + 4 + 7 + 4, kNear);
-}
-
 /// One labelled red line: the sample in its legend is red and lies outside the series, which has no points.
 Panel withLegend(LegendPlace place) {
   Panel panel = plain();
@@ -378,36 +255,6 @@ Panel withLegend(LegendPlace place) {
   return panel;
 }
 
-TEST(Picture, OfALegendStandsWhereItIsPut) {
-  const Box in = areaOf(plain());
-  const auto sampleAt = [](LegendPlace place) { return Picture(figureOf(withLegend(place))).find(kRed); };
-  const Box topLeft = sampleAt(LegendPlace::TopLeft), bottomLeft = sampleAt(LegendPlace::BottomLeft),
-            topRight = sampleAt(LegendPlace::TopRight), bottomRight = sampleAt(LegendPlace::BottomRight);
-  EXPECT_NEAR(topLeft.width(), 20, kNear);
-  EXPECT_NEAR(topLeft.left, in.left + 4 + 4, kNear);
-  EXPECT_NEAR(topLeft.y(), in.top + 2 + 4 + 6 - 0.33 * 7, kNear);
-  EXPECT_NEAR(bottomLeft.left, topLeft.left, kNear);
-  // It is as high as a line of 10.5 pt and 6 pt around it, and 2 pt from the border.
-  EXPECT_NEAR(bottomLeft.y() - topLeft.y(), kHigh - 16.5 - 4, kNear);
-  EXPECT_NEAR(topRight.y(), topLeft.y(), kNear);
-  EXPECT_NEAR(bottomRight.y(), bottomLeft.y(), kNear);
-  EXPECT_NEAR(bottomRight.left, topRight.left, kNear);
-  // 20 of the sample, 3, the word, 4 on either side.
-  Panel word = plain();
-  word.words = {{7, 1.5, "HHHHHHHHHHHHHHHHHHHH", kRed}};
-  const double letters = (Picture(figureOf(word)).find(kRed).width() + 1) / 10;  // of two, with their margins
-  EXPECT_NEAR(topRight.left, in.right - (20 + 3 + letters + 8) + 4, 0.6);
-  EXPECT_TRUE(sampleAt(LegendPlace::None).empty());
-  const Box right = sampleAt(LegendPlace::Right), below = sampleAt(LegendPlace::Below);
-  EXPECT_NEAR(right.left, in.right + 6 + 4, kNear);
-  EXPECT_NEAR(right.y(), topLeft.y(), kNear);
-  EXPECT_NEAR(below.left, in.x() - (20 + 3 + letters + 8) / 2 + 4, 0.6);
-  EXPECT_NEAR(below.y(), in.bottom + 3 + 3 + 7 + 2 + 4 + 6 - 0.33 * 7, kNear);
-  const auto sizeOf = [](LegendPlace place) { return Picture(figureOf(withLegend(place))); };
-  EXPECT_NEAR(sizeOf(LegendPlace::Below).height() - sizeOf(LegendPlace::None).height(), 16.5 + 2, kNear);
-  EXPECT_NEAR(sizeOf(LegendPlace::Right).width() - sizeOf(LegendPlace::None).width(), 20 + 3 + letters + 8 + 4, 0.6);
-}
-
 TEST(Picture, OfALegendHasALineForEachAndSamplesAsTheyAreDrawn) {
   Panel panel = withLegend(LegendPlace::TopLeft);
   Band band;
@@ -416,7 +263,7 @@ TEST(Picture, OfALegendHasALineForEachAndSamplesAsTheyAreDrawn) {
   Series faded = line({}, {}, {0, 0, 1, 0.1});
   faded.label = "H";
   panel.series.push_back(faded);
-  Series marked = points({}, {}, kPink, Marker::Square, 10);
+  Series marked = points({}, {}, kPink, MarkerShape::Square, 10);
   marked.label = "H";
   panel.series.push_back(marked);
   panel.series.push_back(line({}, {}, {0, 0.5, 0}));  // without a name
@@ -460,41 +307,6 @@ TEST(Picture, OfALegendKeepsOutOfTheData) {
   banded.bands = {area(kBlue)};
   banded.bands[0].low = {0.5, 0.5}, banded.bands[0].high = {3.9, 3.9};
   EXPECT_TRUE(isAt(Picture(figureOf(banded)).find(kRed), true, true));
-}
-
-TEST(Picture, OfALegendBelowStandsInColumns) {
-  Panel panel = plain();
-  panel.legend = LegendPlace::Below;
-  const Color colors[] = {kRed, kBlue, kPink, {0, 0.5, 0}, {0.5, 0, 0}};
-  for (const Color& color : colors) {
-    Series s = line({}, {}, color);
-    s.label = "HHHH";
-    panel.series.push_back(s);
-  }
-  const Picture picture(figureOf(panel));
-  std::vector<Box> samples;
-  for (const Color& color : colors) samples.push_back(picture.find(color));
-  // A column takes 23 pt and the word of some 21, with 8 between: four fit into 240 pt.
-  EXPECT_NEAR(samples[0].y(), samples[3].y(), kNear);
-  EXPECT_NEAR(samples[4].y() - samples[0].y(), 10.5, kNear);
-  EXPECT_NEAR(samples[4].left, samples[0].left, kNear);
-  const double apart = samples[1].left - samples[0].left;
-  EXPECT_NEAR(samples[3].left - samples[0].left, 3 * apart, kNear);
-  EXPECT_GT(apart, 23 + 8 + 18);
-  EXPECT_LT(apart, 23 + 8 + 24);
-}
-
-TEST(Picture, OfAMarkedSeriesLeavesRoomForItsMarkers) {
-  Panel panel;
-  panel.series = {points({0, 100}, {0, 100}, kRed)};
-  const auto shareOf = [](const Panel& p) {
-    const Picture picture(figureOf(p));
-    return picture.find(kRed).width() / kWide;
-  };
-  // 4 % at either end, and up to the quarter of a tick: 0 to 100 is drawn from -5 to 105.
-  EXPECT_NEAR(shareOf(panel), (100.0 / 110) + 0.88 * 6 / kWide, 0.005);
-  panel.series[0].marker = Marker::None, panel.series[0].width = 2;
-  EXPECT_NEAR(shareOf(panel), 1, 0.015);
 }
 
 // Two columns: margins of a column and of a row are shared, 10 pt lie between.
@@ -542,36 +354,6 @@ TEST(Picture, OfAPanelIsDrawnWhateverItHas) {
   EXPECT_TRUE(Picture(figureOf(nothing)).find(kInk).empty());
 }
 
-TEST(Picture, HasAsManyDotsAsAskedFor) {
-  const auto widthAt = [](const std::string& png) {
-    unsigned value = 0;
-    for (std::size_t i = 16; i < 20; ++i) value = 256 * value + static_cast<unsigned char>(png[i]);
-    return value;
-  };
-  const Figure figure = figureOf(plain());
-  const std::string svg = renderSvg(figure);
-  const double points = std::stod(svg.substr(svg.find("width=\"") + 7));
-  EXPECT_EQ(widthAt(renderPng(figure)), static_cast<unsigned>(points * 150 / 72 + 0.999));
-  EXPECT_EQ(widthAt(renderPng(figure, 300)), static_cast<unsigned>(points * 300 / 72 + 0.999));
-}
-
-// Okabe and Ito 2008: their colours of 0 to 255.
-TEST(Palette, IsOkabesAndItos) {
-  const std::pair<Color, std::array<double, 3>> known[] = {{palette::kBlack, {0, 0, 0}},        {palette::kOrange, {230, 159, 0}},
-                                                           {palette::kSky, {86, 180, 233}},     {palette::kGreen, {0, 158, 115}},
-                                                           {palette::kYellow, {240, 228, 66}},  {palette::kBlue, {0, 114, 178}},
-                                                           {palette::kVermilion, {213, 94, 0}}, {palette::kPurple, {204, 121, 167}}};
-  for (const auto& [color, rgb] : known) {
-    EXPECT_NEAR(color.red * 255, rgb[0], 0.5);
-    EXPECT_NEAR(color.green * 255, rgb[1], 0.5);
-    EXPECT_NEAR(color.blue * 255, rgb[2], 0.5);
-    EXPECT_EQ(color.alpha, 1);
-  }
-  EXPECT_TRUE(palette::kGrey.red == 0.45 && palette::kGrey.green == 0.45 && palette::kGrey.blue == 0.45);
-  const Color faded = palette::faded(palette::kBlue, 0.3);
-  EXPECT_TRUE(faded.blue == palette::kBlue.blue && faded.green == palette::kBlue.green && faded.red == 0 && faded.alpha == 0.3);
-}
-
 TEST(Palette, RepeatsAfterSevenColoursAndFiveMarkers) {
   for (int i = 0; i < 7; ++i) {
     EXPECT_EQ(palette::series(i + 7).red, palette::series(i).red);
@@ -580,25 +362,9 @@ TEST(Palette, RepeatsAfterSevenColoursAndFiveMarkers) {
   }
   for (int i = 0; i < 5; ++i) {
     EXPECT_EQ(markerOf(i + 5), markerOf(i));
-    EXPECT_NE(markerOf(i), Marker::None);
+    EXPECT_NE(markerOf(i), MarkerShape::None);
     for (int k = 0; k < i; ++k) EXPECT_NE(markerOf(i), markerOf(k));
   }
-}
-
-TEST(Figure, HasItsUsualLooks) {
-  const Series series;
-  EXPECT_TRUE(series.width == 1 && series.markerSize == 4 && series.marker == Marker::None && series.dash == Dash::Solid);
-  EXPECT_TRUE(kThin == 0.45 && kNormal == 1 && kThick == 2);
-  const Rule rule;
-  EXPECT_TRUE(rule.at == 0 && rule.vertical && rule.dash == Dash::Dotted && rule.color.red == 0.45);
-  const Word word;
-  EXPECT_TRUE(word.x == 0 && word.y == 0 && word.color.red == 0);
-  const Band band;
-  EXPECT_TRUE(band.color.red == 0.45 && band.color.green == 0.45 && band.color.blue == 0.45 && band.color.alpha == 0.25);
-  const Panel panel;
-  EXPECT_TRUE(panel.legend == LegendPlace::Auto && panel.x.scale == Scale::Linear);
-  const Color color;
-  EXPECT_TRUE(color.red == 0 && color.green == 0 && color.blue == 0 && color.alpha == 1);
 }
 
 }  // namespace

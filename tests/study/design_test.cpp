@@ -24,18 +24,6 @@ void expectIn(const std::string& text, const std::string& part) {
   EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
 }
 
-TEST(StudyDesign, HasItsDefaults) {
-  const Design d = designOf("");
-  EXPECT_EQ(d.name, "some") << "its file's";
-  EXPECT_TRUE(d.seed == 0 && d.subjects == 3 && d.trials == 1 && d.samples == 1 && d.chunkTrials == 0 && !d.profiles);
-  EXPECT_TRUE(d.axes.empty() && d.measures.empty() && d.criteria.empty() && d.subject.empty() && d.plan.empty());
-  EXPECT_EQ(d.experimentTexts.size(), 1u);
-  EXPECT_FALSE(d.experimentTexts.at("chain-moderate").empty());
-  const Design fresh;
-  EXPECT_TRUE(fresh.seed == 0 && fresh.subjects == 1 && fresh.trials == 1 && fresh.samples == 1 && !fresh.profiles &&
-              fresh.chunkTrials == 0);
-}
-
 TEST(StudyDesign, TakesEveryMember) {
   const Design d = designOf(R"(, "name": "n", "description": "d", "seed": 9007199254740992, "trials": 1000000, "profiles": true,
     "chunk_trials": 7, "subject": { "kind": "plan", "noise": 0.5 }, "measures": ["by", "score"], "criteria": ["min-crackle"])");
