@@ -102,7 +102,7 @@ trial::Outcome outcomeFrom(const std::string& text) {
 }
 
 trial::Reason reasonFrom(const std::string& text) {
-  for (int i = 0; i < 64; ++i)  // names of reasons that there are none of are empty
+  for (int i = 0; i <= static_cast<int>(trial::kLastReason); ++i)
     if (!text.empty() && nameOf(static_cast<trial::Reason>(i)) == text) return static_cast<trial::Reason>(i);
   return trial::Reason::None;
 }
@@ -143,7 +143,14 @@ RunSource readRun(const fs::path& motion) {
   for (const char* key : {"onset", "duration", "trial_type", "trial", "block", "phase", "condition", "outcome", "reason", "mass", "by",
                           "movement_time", "armed", "go", "peak_force", "mean_force", "day"})
     column(key);
-  const double begin = rows->size() == 0 ? 0 : secondsOf(rows->ticks.front());  // events count from the first row, as BIDS asks
+  // Events count from the first row, as BIDS asks.
+  double begin = rows->size() == 0 ? 0 : secondsOf(rows->ticks.front());
+  // Tick 0 means never, so the first row lies a sample behind it, as in a log. Only times between ticks are used.
+  if (rows->size() > 0 && rows->ticks.front() < c.sampleEveryTicks) {
+    const std::uint64_t later = c.sampleEveryTicks - rows->ticks.front();
+    for (std::uint64_t& tick : rows->ticks) tick += later;
+    begin += secondsOf(later);
+  }
   for (const auto& row : events.rows) {
     const auto number = [&](const char* key) { return numberOf(row.at(column(key))); };
     const auto tick = [&](const char* key) { return tickOf(number(key) + begin); };

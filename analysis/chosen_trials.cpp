@@ -7,8 +7,8 @@
 
 namespace reachlab::analysis {
 
-StudyInput readChosen(std::span<const ChosenTrials> chosen, const std::function<bool()>& goOn) {
-  StudyInput input;
+AnalysisInput readChosen(std::span<const ChosenTrials> chosen, const std::function<bool()>& goOn) {
+  AnalysisInput input;
   DatasetIndex index;
   std::map<std::pair<std::string, std::string>, experiment::CompiledExperiment> parsed;
   for (const ChosenTrials& some : chosen) {
@@ -17,8 +17,7 @@ StudyInput readChosen(std::span<const ChosenTrials> chosen, const std::function<
     const record::RunConfiguration& c = log.configuration();
     auto known = parsed.find({c.experimentText, c.definitionText});
     if (known == parsed.end()) known = parsed.emplace(std::pair{c.experimentText, c.definitionText}, record::recordedExperiment(c)).first;
-    RunSource run{
-        c, {}, [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, record::readMarks(some.log)};
+    RunSource run{c, {}, [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, record::readMarks(log)};
     for (const int number : some.trials) {
       const auto trial = std::find_if(log.trials().begin(), log.trials().end(), [&](const auto& t) { return t.trial == number; });
       if (trial != log.trials().end()) run.trials.push_back(*trial);

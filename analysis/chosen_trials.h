@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/study.h"
+#include "analysis/analysis.h"
 
 namespace reachlab::analysis {
 
@@ -17,6 +17,6 @@ struct ChosenTrials {
 /// The chosen trials as `readDataset` would have given them, marks and all, in the order of the choice; trials that a log does not have,
 /// and those of an experiment without a task, are left out. `goOn` is asked before each log: false leaves out the rest. Throws what reading a
 /// log throws.
-StudyInput readChosen(std::span<const ChosenTrials> chosen, const std::function<bool()>& goOn = {});
+AnalysisInput readChosen(std::span<const ChosenTrials> chosen, const std::function<bool()>& goOn = {});
 
 }  // namespace reachlab::analysis

@@ -2,7 +2,7 @@
 
 namespace reachlab::analysis {
 
-void countTrial(const StudyTrial& trial, ConditionResult& result) {
+void countTrial(const AnalyzedTrial& trial, ConditionResult& result) {
   if (!trial.exclusion.empty()) ++result.exclusions[trial.exclusion];
   if (trial.catchTrial) {
     ++result.counts.catchTrials;
@@ -19,7 +19,7 @@ void countTrial(const StudyTrial& trial, ConditionResult& result) {
   }
   if (trial.result.outcome != trial::Outcome::Success && trial.result.reason != trial::Reason::None)
     ++result.reasons[std::string(nameOf(trial.result.reason))];
-  if (trial.result.outcome == trial::Outcome::Interrupted && nameOf(trial.result.reason) == "timing") ++result.counts.invalidTiming;
+  if (trial.result.outcome == trial::Outcome::Interrupted && trial.result.reason == trial::Reason::Timing) ++result.counts.invalidTiming;
   if (trial.measures.beforeGo) ++result.counts.beforeGo;
   if (trial.otherWay) ++result.counts.otherWay;
 }

@@ -1,11 +1,11 @@
 #pragma once
 #include <vector>
 
-#include "analysis/study.h"
+#include "analysis/analysis.h"
 
 namespace reachlab::analysis {
 
 /// Enters one trial into its condition's counts.
-void countTrial(const StudyTrial& trial, ConditionResult& result);
+void countTrial(const AnalyzedTrial& trial, ConditionResult& result);
 
 }  // namespace reachlab::analysis

@@ -34,7 +34,7 @@ std::string nameApart(const std::string& name, const std::vector<std::string>& d
 std::size_t conditionIndex(DatasetIndex& dataset, const std::string& name, const experiment::CompiledExperiment& compiled) {
   const experiment::Experiment& experiment = compiled.experiment();
   auto& conditions = dataset.conditions;
-  const auto first = std::find_if(conditions.begin(), conditions.end(), [&](const StudyCondition& c) { return c.name == name; });
+  const auto first = std::find_if(conditions.begin(), conditions.end(), [&](const Condition& c) { return c.name == name; });
   if (first == conditions.end()) {
     conditions.push_back({name, compiled});
     return conditions.size() - 1;
@@ -46,7 +46,7 @@ std::size_t conditionIndex(DatasetIndex& dataset, const std::string& name, const
   std::string own = base;
   for (int number = 2;; ++number) {  // two may share the differences that are named; −9.81 and 9.81 would share a figure's file
     const auto known =
-        std::find_if(conditions.begin(), conditions.end(), [&](const StudyCondition& c) { return fileNameOf(c.name) == fileNameOf(own); });
+        std::find_if(conditions.begin(), conditions.end(), [&](const Condition& c) { return fileNameOf(c.name) == fileNameOf(own); });
     if (known == conditions.end()) break;
     if (differences(known->experiment(), experiment).empty()) return static_cast<std::size_t>(known - conditions.begin());
     own = fmt::format("{} {}", base, number);
@@ -151,17 +151,7 @@ class WholeRun {
   bool handing_ = false;
 };
 
-}  // namespace
-
-DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const std::string& experimentFile,
-                         const DatasetProgress& progress) {
-  DatasetIndex dataset;
-  std::vector<std::string> logs;
-  try {
-    logs = record::findLogs(folder);
-  } catch (const FaultError&) {
-    // No logs: the exported files may still be there.
-  }
+void readLogs(const std::vector<std::string>& logs, DatasetIndex& dataset, const TrialSink& sink, const DatasetProgress& progress) {
   std::map<std::pair<std::string, std::string>, experiment::CompiledExperiment> parsed;
   EqualRuns equalRuns;
   for (std::size_t i = 0; i < logs.size(); ++i) {
@@ -186,7 +176,7 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
         dataset.notes.push_back(
             fmt::format("{}: {} of {} trials repeat an earlier one exactly (a hand without noise, or a reach replayed again); they count",
                         logs[i], repeats, log.trials().size()));
-      const record::RunMarks marks = record::readMarks(logs[i]);
+      const record::RunMarks marks = record::readMarks(log);
       whole.add({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, marks}, known->second);
       dataset.runs.back().file = logs[i];
       dataset.runs.back().healthy = log.healthy();
@@ -199,25 +189,43 @@ DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const
       leaveOut(error);
     }
   }
-  if (logs.empty()) {
-    bool foreign = false;  // an experiment that may not be the recorded one
-    const std::vector<std::string> runs = findBidsRuns(folder);
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-      if (progress) progress(i, runs.size(), runs[i]);
-      const RunSource run = readBidsRun(runs[i]);
-      const std::string own = folder + "/" + record::experimentPath(run.configuration);
-      std::error_code error;
-      const bool hasOwn = experimentFile.empty() && std::filesystem::exists(own, error);
-      if (!hasOwn) foreign = true;
-      addRun(run,
-             hasOwn ? record::experimentFromJson(record::readWholeFile(own), own)
-                    : experiment::openExperiment(experimentFile.empty() ? run.configuration.experimentName : experimentFile),
-             dataset, sink);
-      dataset.runs.back().file = runs[i];
-    }
-    dataset.notes.push_back(std::string("no logs in sourcedata/: read from the BIDS files, with the experiments ") +
-                            (foreign ? "as they are shipped or given now" : "in code/experiments/"));
+}
+
+/// A dataset without logs, from its BIDS files.
+void readExported(const std::string& folder, DatasetIndex& dataset, const TrialSink& sink, const std::string& experimentFile,
+                  const DatasetProgress& progress) {
+  bool foreign = false;  // an experiment that may not be the recorded one
+  const std::vector<std::string> runs = findBidsRuns(folder);
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    if (progress) progress(i, runs.size(), runs[i]);
+    const RunSource run = readBidsRun(runs[i]);
+    const std::string own = folder + "/" + record::experimentPath(run.configuration);
+    std::error_code error;
+    const bool hasOwn = experimentFile.empty() && std::filesystem::exists(own, error);
+    if (!hasOwn) foreign = true;
+    addRun(run,
+           hasOwn ? record::experimentFromJson(record::readWholeFile(own), own)
+                  : experiment::openExperiment(experimentFile.empty() ? run.configuration.experimentName : experimentFile),
+           dataset, sink);
+    dataset.runs.back().file = runs[i];
   }
+  dataset.notes.push_back(std::string("no logs in sourcedata/: read from the BIDS files, with the experiments ") +
+                          (foreign ? "as they are shipped or given now" : "in code/experiments/"));
+}
+
+}  // namespace
+
+DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const std::string& experimentFile,
+                         const DatasetProgress& progress) {
+  DatasetIndex dataset;
+  std::vector<std::string> logs;
+  try {
+    logs = record::findLogs(folder);
+  } catch (const FaultError&) {
+    // No logs: the exported files may still be there.
+  }
+  if (logs.empty()) readExported(folder, dataset, sink, experimentFile, progress);
+  else readLogs(logs, dataset, sink, progress);
   if (dataset.runs.empty()) {
     std::vector<Fault> why{{{}, "nothing to analyse", {}, FilePlace{folder}}};
     for (const std::string& note : dataset.notes) why.push_back({.what = note});

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/study.h"
+#include "analysis/analysis.h"
 #include "sim/record/log/run_log.h"
 #include "sim/record/trial_marks.h"
 
@@ -24,7 +24,7 @@ struct RunProvenance {
 
 /// What a dataset is made of, but for its trials.
 struct DatasetIndex {
-  std::vector<StudyCondition> conditions;
+  std::vector<Condition> conditions;
   std::vector<RunProvenance> runs;
   std::vector<std::string> notes;       // what was left out or mended, one sentence each
   std::vector<std::string> unreadable;  // of those the runs that the disk did not give

@@ -6,12 +6,12 @@
 
 namespace reachlab::analysis {
 
-EpsilonTable makeEpsilonTable(std::span<const StudyTrial> trials, std::size_t criteria, bool object) {
+EpsilonTable makeEpsilonTable(std::span<const AnalyzedTrial> trials, std::size_t criteria, bool object) {
   EpsilonTable table;
   std::vector<double> squares(criteria, 0.0);
   std::map<std::string, std::pair<std::vector<double>, double>> people;
   double count = 0;
-  for (const StudyTrial& trial : trials) {
+  for (const AnalyzedTrial& trial : trials) {
     if (!trial.used() || trial.paperError.empty()) continue;
     auto& [own, n] = people[trial.key.subject];
     own.resize(criteria);

@@ -6,11 +6,10 @@
 #include <cmath>
 #include <limits>
 
+#include "analysis/table_columns.h"
 #include "base/table_text.h"
 #include "base/ticks.h"
 #include "sim/experiment/experiment.h"
-#include "sim/record/export/column_dictionary.h"
-#include "sim/record/log/append_file.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -105,26 +104,6 @@ void addRun(const record::RunLog& run, TableText& table) {
   }
 }
 
-const std::vector<std::string> kColumns{"subject",
-                                        "session",
-                                        "run",
-                                        "trial",
-                                        "condition",
-                                        "outcome",
-                                        "hand",
-                                        "device",
-                                        "peak_speed_m_per_s",
-                                        "path_m",
-                                        "peak_force_n",
-                                        "mean_force_n",
-                                        "work_j",
-                                        "positive_work_j",
-                                        "share_of_positive_work",
-                                        "lag_s",
-                                        "lag_correlation",
-                                        "internal_force_rms_n",
-                                        "internal_force_peak_n"};
-
 }  // namespace
 
 TogetherMeasures measureTogether(const std::vector<HandSignals>& hands, double rate) {
@@ -166,7 +145,8 @@ TogetherMeasures measureTogether(const std::vector<HandSignals>& hands, double r
 
 std::string handsTable(const std::vector<record::RunLog>& runs) {
   TableText table(',', "");
-  table.row(kColumns);
+  for (const record::ColumnMeaning& column : tableColumns("hands.csv")) table.cell(column.column);
+  table.endRow();
   bool any = false;
   for (const record::RunLog& run : runs) {
     if (run.configuration().table.hands < 2) continue;
@@ -176,21 +156,14 @@ std::string handsTable(const std::vector<record::RunLog>& runs) {
   return any ? table.text() : std::string();
 }
 
-std::vector<std::string> writeHandsTable(const DatasetIndex& dataset, const std::string& out) {
+std::string handsTable(const DatasetIndex& dataset) {
   const bool several = std::any_of(dataset.conditions.begin(), dataset.conditions.end(),
-                                   [](const StudyCondition& condition) { return condition.experiment().hands.size() > 1; });
+                                   [](const Condition& condition) { return condition.experiment().hands.size() > 1; });
   if (!several) return {};
   std::vector<record::RunLog> runs;
-  for (const RunProvenance& run : dataset.runs) {
-    if (!run.file.ends_with("_log.reach")) continue;  // read from the tables of a dataset without logs
-    record::RunLog log = record::RunLog::open(run.file);
-    if (log.configuration().table.hands > 1) runs.push_back(std::move(log));
-  }
-  const std::string text = handsTable(runs);
-  if (text.empty()) return {};
-  const std::string path = out + "/hands.csv";
-  record::writeFileAtomically(path, text);
-  return {path};
+  for (const RunProvenance& run : dataset.runs)
+    if (run.file.ends_with("_log.reach")) runs.push_back(record::RunLog::open(run.file));  // else read from a dataset without logs
+  return handsTable(runs);
 }
 
 }  // namespace reachlab::analysis

@@ -14,7 +14,7 @@ struct HandMeasures {
   double peakSpeed = 0;                 // [m/s]
   double path = 0;                      // [m]
   double peakForce = 0, meanForce = 0;  // [N] coupling force on the object
-  double work = 0;                      // [J] done on the object from arming to the trial's end: about 0 from rest to rest
+  double work = 0;                      // [J] done on the object from arming to the trial's end
   double positiveWork = 0;              // [J] the sum of what it has put in, without what it has taken out, over the movement
   double share = 0;                     // of the positive work of all; NaN where there is none
   // [s] behind the first hand, by the largest correlation of their speeds within half a second; NaN: none
@@ -37,8 +37,7 @@ TogetherMeasures measureTogether(const std::vector<HandSignals>& hands, double r
 
 /// A row for each hand of each trial with a movement, of those runs in which several hold the object; empty where there is none.
 std::string handsTable(const std::vector<record::RunLog>& runs);
-/// The same of the runs that were analysed, into `out`/hands.csv; what was written, or nothing. Logs are opened again only where several
-/// hands were recorded. Throws ResourceError.
-std::vector<std::string> writeHandsTable(const DatasetIndex& dataset, const std::string& out);
+/// The same of the runs that were analysed. Logs are opened again only where several hands were recorded. Throws ResourceError.
+std::string handsTable(const DatasetIndex& dataset);
 
 }  // namespace reachlab::analysis

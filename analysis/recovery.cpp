@@ -8,6 +8,7 @@
 
 #include "analysis/tables.h"
 #include "base/math/seeded.h"
+#include "analysis/table_columns.h"
 #include "base/table_text.h"
 
 namespace reachlab::analysis {
@@ -26,14 +27,14 @@ class Draws {
 
 /// A person's trials as they would look if they followed `shape`: each recorded trial's own onset, duration and amplitude, and the scatter of
 /// another one drawn at random, turned over or not.
-std::vector<FitWindow> simulatePerson(const StudyResult& study, const PersonResult& person, const ProfileFamily& family,
+std::vector<FitWindow> simulatePerson(const Analysis& analysis, const PersonResult& person, const ProfileFamily& family,
                                       const ShapeChoice& choice, const CandidateFit& asFitted, Draws& draws) {
   std::vector<FitWindow> windows;
   Profile profile;
   const PersonTemplate& own = person.fit.own;
   std::size_t place = 0;
   for (std::size_t i = person.firstTrial; place < person.trials; ++i) {
-    const StudyTrial& trial = study.trials[i];
+    const AnalyzedTrial& trial = analysis.trials[i];
     if (!trial.used() || trial.window.size == 0) continue;
     FitWindow window;
     window.rate = trial.windowRate;
@@ -62,23 +63,23 @@ std::vector<FitWindow> simulatePerson(const StudyResult& study, const PersonResu
 
 }  // namespace
 
-Recovery recover(const StudyResult& study, int studies, std::uint64_t seed, unsigned threads, const RecoveryProgress& progress) {
-  Recovery out;
+TruthRecovery recover(const Analysis& analysis, int studies, std::uint64_t seed, unsigned threads, const RecoveryProgress& progress) {
+  TruthRecovery out;
   out.studies = studies;
   out.seed = seed;
-  out.candidates = study.common;
+  out.candidates = analysis.common;
   std::vector<const PersonResult*> people;
-  for (const PersonResult& p : study.people)
-    if (p.fitted && std::find(study.together.begin(), study.together.end(), p.condition) != study.together.end())
+  for (const PersonResult& p : analysis.people)
+    if (p.fitted && std::find(analysis.together.begin(), analysis.together.end(), p.condition) != analysis.together.end())
       people.push_back(&p), out.trials += p.trials;
-  const std::size_t truths = study.common.size();
+  const std::size_t truths = analysis.common.size();
   out.counts.assign(truths, std::vector<std::size_t>(truths + 1, 0));
   if (people.empty() || studies < 1) return out;
 
   const auto candidateOf = [&](std::size_t condition, std::size_t truth) {
-    const auto& all = study.results[condition].candidates.candidates;
+    const auto& all = analysis.results[condition].candidates.candidates;
     std::size_t k = 0;
-    while (all[k].criteria != study.common[truth]) ++k;
+    while (all[k].criteria != analysis.common[truth]) ++k;
     return k;
   };
   const auto nameOne = [&](std::size_t truth, int number) {
@@ -86,11 +87,11 @@ Recovery recover(const StudyResult& study, int studies, std::uint64_t seed, unsi
     std::map<std::string, std::size_t> index;
     Draws draws(seededBits(seededBits(seed, truth), static_cast<std::uint64_t>(number)));
     for (const PersonResult* person : people) {
-      const CandidateSet& set = study.results[person->condition].candidates;
+      const CandidateSet& set = analysis.results[person->condition].candidates;
       const std::size_t k = candidateOf(person->condition, truth);
       const CandidateFit& fit = person->fit.candidates[k];
       std::vector<FitWindow> windows =
-          simulatePerson(study, *person, *set.candidates[k].families[fit.choice.family], fit.choice, fit, draws);
+          simulatePerson(analysis, *person, *set.candidates[k].families[fit.choice.family], fit.choice, fit, draws);
       std::vector<double> durations;
       for (const MovementFit& laid : person->fit.own.place) durations.push_back(laid.duration);
       PersonResult simulated;
@@ -136,9 +137,10 @@ Recovery recover(const StudyResult& study, int studies, std::uint64_t seed, unsi
   return out;
 }
 
-std::string recoveryTable(const Recovery& recovery) {
+std::string recoveryTable(const TruthRecovery& recovery) {
   TableText table(',', "");
-  table.row({"truth", "named", "studies"});
+  for (const record::ColumnMeaning& column : tableColumns("recovery.csv")) table.cell(column.column);
+  table.endRow();
   for (std::size_t t = 0; t < recovery.counts.size(); ++t)
     for (std::size_t n = 0; n < recovery.counts[t].size(); ++n) {
       table.cell(nameOfCandidate(recovery.candidates[t]))

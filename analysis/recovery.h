@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "analysis/study.h"
+#include "analysis/analysis.h"
 
 namespace reachlab::analysis {
 
 /// How often this very design names the truth: people who follow a candidate are simulated with the recorded people's number, trials,
 /// durations and scatter, and judged by the same code as the recorded ones.
-struct Recovery {
+struct TruthRecovery {
   std::size_t trials = 0;  // recorded ones whose count, durations and scatter were taken
   int studies = 0;         // simulated for each truth
   std::uint64_t seed = 1;
@@ -20,10 +20,11 @@ struct Recovery {
 using RecoveryProgress = std::function<void(std::size_t done, std::size_t of)>;
 
 /// `studies` for each truth, `seed` on: the same numbers whatever the number of threads. 0 threads: one a processor. The study must have
-/// been made with StudyOptions::keepScatter. Empty counts where nothing could be fitted.
-Recovery recover(const StudyResult& study, int studies, std::uint64_t seed, unsigned threads = 0, const RecoveryProgress& progress = {});
+/// been made with AnalysisOptions::keepScatter. Empty counts where nothing could be fitted.
+TruthRecovery recover(const Analysis& analysis, int studies, std::uint64_t seed, unsigned threads = 0,
+                      const RecoveryProgress& progress = {});
 
 /// recovery.csv: truth, named, count.
-std::string recoveryTable(const Recovery& recovery);
+std::string recoveryTable(const TruthRecovery& recovery);
 
 }  // namespace reachlab::analysis

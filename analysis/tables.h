@@ -5,19 +5,16 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/study.h"
+#include "analysis/analysis.h"
 
 namespace reachlab::analysis {
 
 /// Takes a piece of the file of that name; the pieces of one file come in order.
 using TableWriter = std::function<void(const std::string& name, std::string_view piece)>;
 
-/// The study as tidy CSV files (docs/analysis.md has their columns). Every number of a figure or of the report is in one. Numbers read back
+/// The analysis as tidy CSV files, with the columns of tableColumns. Every number of a figure or of the report is in one. Numbers read back
 /// equal; an empty cell is what could not be measured.
-void writeTables(const StudyResult& study, const TableWriter& write);
-
-/// What each column of one of these files is, in words, with its unit; empty for a file that is none of them. `header` is its first line.
-std::string tableDictionary(const std::string& name, const std::string& header);
+void writeTables(const Analysis& analysis, const TableWriter& write);
 
 /// One row of fits.csv, and of `fits` in JSON.
 struct FitRow {
@@ -32,7 +29,7 @@ struct FitRow {
   std::size_t trials = 0;
   bool decided = false;
 };
-std::vector<FitRow> fitRows(const StudyResult& study);
+std::vector<FitRow> fitRows(const Analysis& analysis);
 
 /// A prediction as it is, neither cut nor stretched: velocities at equal steps from its beginning to T, time counted from where the onset
 /// rule would find it, as for trials.

@@ -180,7 +180,7 @@ void addIntervals(LearningFit& fit, const AdaptationSeries& series, int measured
     }
   }
   for (auto& values : found) std::sort(values.begin(), values.end());
-  const auto interval = [](const std::vector<double>& sorted) { return Interval{quantileOfSorted(sorted, 0.025), quantileOfSorted(sorted, 0.975)}; };
+  const auto interval = [](const std::vector<double>& sorted) { return Bounds{quantileOfSorted(sorted, 0.025), quantileOfSorted(sorted, 0.975)}; };
   for (std::size_t k = 0; k < fit.states.size(); ++k) fit.intervals.push_back({interval(found[2 * k]), interval(found[2 * k + 1])});
 }
 

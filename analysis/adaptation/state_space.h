@@ -27,7 +27,7 @@ struct LearningFit {
   std::vector<LearningState> states;  // fast, slow; or the single one
   double meanSquare = 0;              // of the residuals, in the square of the responses' unit
   double bic = 0;                     // Bayesian information criterion: n ln(mean square) + k ln n
-  std::vector<std::array<Interval, 2>> intervals;  // of each state's retention and learning rate: 95 %
+  std::vector<std::array<Bounds, 2>> intervals;  // of each state's retention and learning rate: 95 %
 };
 
 /// What the series says about the number of states. Undecided: the criteria differ by less than 6 (Kass & Raftery 1995: less than strong).

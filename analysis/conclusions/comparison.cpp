@@ -87,7 +87,7 @@ TTest combineTTests(std::span<const TTest> conditions) {
   return testOf(out.mean, out.error * out.error * count, count);
 }
 
-Interval computeMeanInterval(std::span<const double> values, double level) {
+Bounds computeMeanInterval(std::span<const double> values, double level) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const TTest test = computeTTest(values);
   if (values.size() < 2) return {-kInfinity, kInfinity};

@@ -30,12 +30,12 @@ TTest combineTTests(std::span<const TTest> conditions);
 /// p never smaller, than those variances alone make it (normal distribution). Else two people whose shares agree by chance were certain.
 struct PeopleMean {
   TTest test;
-  Interval interval;  // infinite for fewer than two people
+  Bounds interval;  // infinite for fewer than two people
 };
 PeopleMean computePeopleMean(std::span<const double> values, std::span<const double> variance, double level = 0.95);
 
 /// mean -+ t * standard error at `level`; infinite for fewer than two values.
-Interval computeMeanInterval(std::span<const double> values, double level = 0.95);
+Bounds computeMeanInterval(std::span<const double> values, double level = 0.95);
 
 /// Two-sided p of the mean under exchange of signs: every one of the 2^n up to n = 20. Nothing is assumed but symmetry.
 double computeSignFlipP(std::span<const double> values);

@@ -22,7 +22,7 @@ struct SuccessCell {
   std::string subject;
   int day = 0;
   std::size_t condition = 0, successes = 0, trials = 0;
-  Interval interval;  // Clopper and Pearson's exact one, of this person's share
+  Bounds interval;  // Clopper and Pearson's exact one, of this person's share
   double share() const { return static_cast<double>(successes) / static_cast<double>(trials); }
 };
 /// Table 2: successes by subject, day and condition. Attempts sorted by condition, then subject.
@@ -33,7 +33,7 @@ struct LearningPoint {
   std::size_t condition = 0;
   int firstTrial = 0, lastTrial = 0;  // counted through all the subject's sessions of this condition, from 1
   std::size_t successes = 0, trials = 0;
-  Interval interval;  // exact
+  Bounds interval;  // exact
 };
 /// Success over consecutive groups of `bin` attempts of one subject and condition; a group never spans two sessions.
 std::vector<LearningPoint> learningCurves(const std::vector<Attempt>& attempts, int bin);
@@ -41,7 +41,7 @@ std::vector<LearningPoint> learningCurves(const std::vector<Attempt>& attempts, 
 /// A mean over people with its 95 % interval.
 struct MeanInterval {
   double mean = 0;
-  Interval interval;
+  Bounds interval;
   std::size_t people = 0;
 };
 /// The share of a typical person in one condition, on one day or on all: the mean over people of the empirical logits ln((s + 1/2) / (f + 1/2)),
@@ -57,9 +57,9 @@ struct Effect {
   int from = 0, to = 0;
   std::size_t people = 0;
   TTest points;  // in percentage points
-  Interval pointsInterval;
+  Bounds pointsInterval;
   TTest logit;
-  Interval logitInterval;
+  Bounds logitInterval;
   double p = 1;  // of the logit, Holm-corrected over all effects of days, or of conditions
 };
 std::vector<Effect> effectsOf(const std::vector<SuccessCell>& cells, std::size_t conditions);
@@ -68,7 +68,7 @@ std::vector<Effect> effectsOf(const std::vector<SuccessCell>& cells, std::size_t
 struct LearningSlope {
   std::size_t condition = 0, people = 0;
   double perHundred = 0;  // [percentage points / 100 trials]
-  Interval interval;      // infinite for one person
+  Bounds interval;        // infinite for one person
   double p = 1;
 };
 std::vector<LearningSlope> learningSlopes(const std::vector<Attempt>& attempts, std::size_t conditions);

@@ -71,25 +71,25 @@ void Canvas::fillBox(double x, double y, double width, double height) {
   cairo_fill(context_);
 }
 
-void Canvas::marker(Marker marker, double x, double y, double size, const Color& color) {
+void Canvas::marker(MarkerShape marker, double x, double y, double size, const Color& color) {
   const double r = size / 2;
   setColor(color);
   switch (marker) {
-    case Marker::None: return;
-    case Marker::Circle: cairo_arc(context_, x, y, r, 0, 2 * std::numbers::pi); break;
-    case Marker::Square: cairo_rectangle(context_, x - 0.88 * r, y - 0.88 * r, 1.76 * r, 1.76 * r); break;
-    case Marker::Triangle:
+    case MarkerShape::None: return;
+    case MarkerShape::Circle: cairo_arc(context_, x, y, r, 0, 2 * std::numbers::pi); break;
+    case MarkerShape::Square: cairo_rectangle(context_, x - 0.88 * r, y - 0.88 * r, 1.76 * r, 1.76 * r); break;
+    case MarkerShape::Triangle:
       cairo_move_to(context_, x, y - 1.15 * r);
       cairo_line_to(context_, x + r, y + 0.75 * r);
       cairo_line_to(context_, x - r, y + 0.75 * r);
       break;
-    case Marker::Diamond:
+    case MarkerShape::Diamond:
       cairo_move_to(context_, x, y - 1.2 * r);
       cairo_line_to(context_, x + 1.2 * r, y);
       cairo_line_to(context_, x, y + 1.2 * r);
       cairo_line_to(context_, x - 1.2 * r, y);
       break;
-    case Marker::Cross:
+    case MarkerShape::Cross:
       setStroke(color, std::max(0.8, size / 4));
       line(x - r, y - r, x + r, y + r);
       line(x - r, y + r, x + r, y - r);

@@ -26,7 +26,7 @@ class Canvas {
 
   void line(double x0, double y0, double x1, double y1);
   void fillBox(double x, double y, double width, double height);
-  void marker(Marker marker, double x, double y, double size, const Color& color);
+  void marker(MarkerShape marker, double x, double y, double size, const Color& color);
 
   cairo_t* context() const { return context_; }
 

@@ -24,9 +24,9 @@ constexpr Color faded(Color c, double alpha) { return {c.red, c.green, c.blue, a
 }  // namespace palette
 
 enum class Dash { Solid, Dashed, Dotted, DashDot };
-enum class Marker { None, Circle, Square, Triangle, Diamond, Cross };
+enum class MarkerShape { None, Circle, Square, Triangle, Diamond, Cross };
 /// The i-th marker for series of equal standing; never None.
-Marker markerOf(int i);
+MarkerShape markerOf(int i);
 
 /// Usual widths: one trial among many, an ordinary line, what the eye should find first.
 inline constexpr double kThin = 0.45, kNormal = 1.0, kThick = 2.0;  // [pt]
@@ -38,7 +38,7 @@ struct Series {
   Color color = palette::kBlack;
   double width = kNormal;  // [pt]; 0: no line
   Dash dash = Dash::Solid;
-  Marker marker = Marker::None;
+  MarkerShape marker = MarkerShape::None;
   double markerSize = 4;                      // [pt] diameter
   std::vector<double> errorLow, errorHigh;    // vertical error bars from … to, in y's units; empty: none
   std::vector<double> errorLeft, errorRight;  // the same along x

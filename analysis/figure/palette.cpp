@@ -10,8 +10,9 @@ Color palette::series(int i) {
   return kOrder[static_cast<std::size_t>(i) % kOrder.size()];
 }
 
-Marker markerOf(int i) {
-  static constexpr std::array<Marker, 5> kOrder{Marker::Circle, Marker::Square, Marker::Triangle, Marker::Diamond, Marker::Cross};
+MarkerShape markerOf(int i) {
+  static constexpr std::array<MarkerShape, 5> kOrder{MarkerShape::Circle, MarkerShape::Square, MarkerShape::Triangle, MarkerShape::Diamond,
+                                                     MarkerShape::Cross};
   return kOrder[static_cast<std::size_t>(i) % kOrder.size()];
 }
 

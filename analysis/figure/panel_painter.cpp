@@ -58,7 +58,8 @@ void PanelPainter::chooseRanges() {
     y.include(b.high, panel_.y.scale);
   }
   for (const Rule& r : panel_.rules) (r.vertical ? x : y).include({r.at}, (r.vertical ? panel_.x : panel_.y).scale);
-  const bool markers = std::any_of(panel_.series.begin(), panel_.series.end(), [](const Series& s) { return s.marker != Marker::None; });
+  const bool markers =
+      std::any_of(panel_.series.begin(), panel_.series.end(), [](const Series& s) { return s.marker != MarkerShape::None; });
   if (markers) x.pad(panel_.x.scale), y.pad(panel_.y.scale);
   x_ = chooseTicks(panel_.x, x.low, x.high, width_);
   y_ = chooseTicks(panel_.y, y.low, y.high, height_);
@@ -275,7 +276,7 @@ void PanelPainter::drawSeries(const Series& s) {
       for (const double end : {s.errorLeft[i], s.errorRight[i]}) canvas_.line(px(end), py(s.y[i]) - cap, px(end), py(s.y[i]) + cap);
     }
   }
-  if (s.marker != Marker::None)
+  if (s.marker != MarkerShape::None)
     for (std::size_t i = 0; i < n; ++i)
       if (good(s.x[i], s.y[i])) canvas_.marker(s.marker, px(s.x[i]), py(s.y[i]), s.markerSize, s.color);
 }

@@ -11,6 +11,37 @@
 namespace reachlab::analysis {
 namespace {
 
+constexpr Measure kMeasures[] = {
+    {"reaction_time_s", "From the go signal to onset_s; empty where the hand left before it", &TrialMeasures::reactionTime,
+     "reaction time (s)"},
+    {"onset_s", "Movement onset by the rule for onset, since arming", &TrialMeasures::onset, "onset since arming (s)"},
+    {"offset_s", "Movement offset by the same rule, since arming", &TrialMeasures::offset, "offset since arming (s)"},
+    {"duration_s", "From onset to offset", &TrialMeasures::duration, "duration, onset to offset (s)"},
+    {"movement_time_s", "The task's own: from its onset to the end, or to where the trial was broken off", &TrialMeasures::movementTime,
+     "movement time of the task (s)"},
+    {"peak_speed_m_per_s", "Largest speed of the hand, of the filtered samples", &TrialMeasures::peakSpeed, "peak speed (m/s)"},
+    {"time_to_peak_s", "From onset to the largest speed", &TrialMeasures::timeToPeak, "time to peak (s)"},
+    {"time_to_peak_percent", "The same as a share of duration_s", &TrialMeasures::timeToPeakPercent, "time to peak (%)", 1, 1},
+    {"symmetry_ratio", "Time to the peak over time from the peak to offset", &TrialMeasures::symmetryRatio, "symmetry ratio", 1, 2},
+    {"path_length_m", "Length of the hand's path from onset to offset", &TrialMeasures::pathLength, "path length (mm)", 1e3, 1},
+    {"speed_peaks", "Number of local maxima of the speed with a prominence of 5 % of the peak or more", &TrialMeasures::speedPeaks,
+     "speed peaks", 1, 2},
+    {"hand_endpoint_error_m", "Hand's displacement at offset against target minus start", &TrialMeasures::handEndpointError,
+     "end-point error, hand (mm)", 1e3, 1},
+    {"object_endpoint_error_m", "Distance of the last mass from the target at the trial's end", &TrialMeasures::objectEndpointError,
+     "end-point error, object (mm)", 1e3, 1},
+    {"hand_overshoot_m", "Farthest that the hand went beyond the target along the line, 0 or more; empty on bent constraints",
+     &TrialMeasures::handOvershoot, "overshoot, hand (mm)", 1e3, 1},
+    {"object_overshoot_m", "Farthest that the last mass went beyond the target along the line, 0 or more; empty on bent constraints",
+     &TrialMeasures::objectOvershoot, "overshoot, object (mm)", 1e3, 1},
+    {"sparc", "Spectral arc length of the speed, without unit (Balasubramanian et al. 2015)", &TrialMeasures::sparc, "SPARC"},
+    {"ldlj", "Log dimensionless jerk, without unit (Balasubramanian et al. 2015)", &TrialMeasures::ldlj, "log dimensionless jerk", 1, 2},
+    {"peak_force_n", "Largest coupling force over every tick of the movement; without logs, over its samples", &TrialMeasures::peakForce,
+     "peak force (N)", 1, 2},
+    {"mean_force_n", "Mean coupling force over every tick of the movement; without logs, over its samples", &TrialMeasures::meanForce,
+     "mean force (N)", 1, 2},
+};
+
 double component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 
 std::vector<Vec3> filteredVelocity(const std::vector<Vec3>& position, double rate, double cutoff) {
@@ -77,6 +108,8 @@ void useMarks(const TrialData& trial, TrialSignals& signals) {
 }
 
 }  // namespace
+
+std::span<const Measure> measures() { return kMeasures; }
 
 TrialSignals computeSignals(const TrialData& trial, const MeasureOptions& options) {
   TrialSignals signals;

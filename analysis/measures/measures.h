@@ -1,4 +1,7 @@
 #pragma once
+#include <span>
+#include <string_view>
+
 #include "analysis/measures/movement.h"
 #include "analysis/trials/trial_data.h"
 
@@ -9,7 +12,7 @@ struct MeasureOptions {
   double cutoff = 10;  // [Hz] of the zero-lag Butterworth on the hand's velocity; 0: none
 };
 
-/// Everything that docs/analysis.md defines for one trial; NaN where it does not exist (no movement, no go signal …).
+/// What one trial measured; NaN where it does not exist (no movement, no go signal …). `measures` says what each number is.
 struct TrialMeasures {
   bool beforeGo = false;                                                // the hand left before the go signal
   double reactionTime = kNotMeasured;                                   // [s] go signal to onset; none where the hand left before it
@@ -28,6 +31,18 @@ struct TrialMeasures {
   double sparc = kNotMeasured, ldlj = kNotMeasured;
   double peakForce = kNotMeasured, meanForce = kNotMeasured;  // [N] coupling force
 };
+
+/// One measure of a trial. Tables, their dictionaries, studies and the report follow from `measures`. What the haptic ticks measured stands in
+/// sim/record/log/trial_measures.h, under other names.
+struct Measure {
+  std::string_view name;         // with its unit, as in every table
+  std::string_view sentence;     // of every dictionary
+  double TrialMeasures::*value;  // in the unit of the name
+  std::string_view label;        // of the report, with the unit that it is shown in
+  double scale = 1;              // from the name's unit to the label's
+  int digits = 3;                // behind the point, in the report
+};
+std::span<const Measure> measures();
 
 /// A trial's filtered signals; what profiles and errors are made of.
 struct TrialSignals {

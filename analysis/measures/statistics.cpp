@@ -22,7 +22,7 @@ MeanSd computeMeanSd(std::span<const double> values) {
   return out;
 }
 
-Interval computeBinomialInterval(std::size_t successes, std::size_t trials, double level) {
+Bounds computeBinomialInterval(std::size_t successes, std::size_t trials, double level) {
   if (trials == 0) return {0, 1};
   using Binomial = boost::math::binomial_distribution<double>;
   const double n = static_cast<double>(trials), s = static_cast<double>(successes), outside = (1 - level) / 2;

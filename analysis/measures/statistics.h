@@ -1,4 +1,5 @@
 #pragma once
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -13,11 +14,12 @@ struct MeanSd {
 };
 MeanSd computeMeanSd(std::span<const double> values);
 
-struct Interval {
+struct Bounds {
   double low = 0, high = 0;
+  bool finite() const { return std::isfinite(low) && std::isfinite(high); }  // false: there is no interval
 };
 
 /// Clopper and Pearson's exact interval of a binomial share (1934): covers at least `level` whatever the share. [0, 1] for no trials.
-Interval computeBinomialInterval(std::size_t successes, std::size_t trials, double level = 0.95);
+Bounds computeBinomialInterval(std::size_t successes, std::size_t trials, double level = 0.95);
 
 }  // namespace reachlab::analysis

@@ -11,7 +11,7 @@ namespace {
 
 namespace palette = figure::palette;
 using figure::LegendPlace;
-using figure::Marker;
+using figure::MarkerShape;
 using figure::Panel;
 using figure::Series;
 
@@ -24,7 +24,7 @@ struct PersonRow {
   double ceiling = 0;
 };
 
-Panel scorePanel(const StudyResult& study, const std::string& title, const Names& names, const std::vector<PersonRow>& rows,
+Panel scorePanel(const Analysis& analysis, const std::string& title, const Names& names, const std::vector<PersonRow>& rows,
                  const std::optional<std::size_t>& follows, bool legend) {
   Panel panel;
   panel.title = shortened(title);
@@ -34,7 +34,7 @@ Panel scorePanel(const StudyResult& study, const std::string& title, const Names
   addCandidates(panel.x, std::span(names).first(shown));
   double ceiling = 0;
   for (const PersonRow& row : rows) {
-    Series s = subjectSeries(study, row.subject);
+    Series s = subjectSeries(analysis, row.subject);
     if (!legend) s.label.clear();
     for (std::size_t k = 0; k < shown; ++k) s.x.push_back(static_cast<double>(k + 1)), s.y.push_back(row.score[k] - row.score.back());
     s.width = 0.8;
@@ -50,7 +50,7 @@ Panel scorePanel(const StudyResult& study, const std::string& title, const Names
 
 }  // namespace
 
-NamedFigure scoreFigure(const StudyResult& study) {
+NamedFigure scoreFigure(const Analysis& analysis) {
   NamedFigure out;
   out.name = "scores";
   out.caption =
@@ -58,20 +58,21 @@ NamedFigure scoreFigure(const StudyResult& study) {
       "ignores the object. A line joins one subject. Dashed: that reference. Dotted: what the mean of a subject's own other trials "
       "reaches, "
       "below which nothing can be expected.";
-  Names all = study.common;
+  Names all = analysis.common;
   std::vector<PersonRow> overall;
   bool legend = true;
-  for (std::size_t c = 0; c < study.results.size(); ++c) {
-    const Names names = candidatesOf(study.results[c]);
+  for (std::size_t c = 0; c < analysis.results.size(); ++c) {
+    const Names names = candidatesOf(analysis.results[c]);
     std::vector<PersonRow> rows;
-    for (const PersonResult& person : study.people) {
+    for (const PersonResult& person : analysis.people) {
       if (person.condition != c || !person.fitted) continue;
       PersonRow row{person.subject, {}, person.fit.own.ceilingScore};
       for (const CandidateFit& fit : person.fit.candidates) row.score.push_back(fit.meanScore);
       rows.push_back(std::move(row));
     }
     if (rows.empty()) continue;
-    out.figure.panels.push_back(scorePanel(study, study.conditions[c].name, names, rows, study.results[c].conclusion.follows, legend));
+    out.figure.panels.push_back(
+        scorePanel(analysis, analysis.conditions[c].name, names, rows, analysis.results[c].conclusion.follows, legend));
     legend = false;
   }
   out.figure.columns = out.figure.panels.size() > 1 ? 2 : 1;
@@ -80,7 +81,7 @@ NamedFigure scoreFigure(const StudyResult& study) {
   return out;
 }
 
-NamedFigure posteriorFigure(const StudyResult& study) {
+NamedFigure posteriorFigure(const Analysis& analysis) {
   NamedFigure out;
   out.name = "posterior";
   out.caption = fmt::format(
@@ -107,16 +108,16 @@ NamedFigure posteriorFigure(const StudyResult& study) {
     panel.rules.push_back({kMinExceedance, false, "", palette::kGrey, figure::Dash::Dashed});
     out.figure.panels.push_back(std::move(panel));
   };
-  for (std::size_t c = 0; c < study.results.size(); ++c)
-    add(study.conditions[c].name, study.results[c].conclusion, candidatesOf(study.results[c]));
-  if (study.results.size() > 1) add("All conditions", study.overall, study.common);
+  for (std::size_t c = 0; c < analysis.results.size(); ++c)
+    add(analysis.conditions[c].name, analysis.results[c].conclusion, candidatesOf(analysis.results[c]));
+  if (analysis.results.size() > 1) add("All conditions", analysis.overall, analysis.common);
   out.figure.columns = static_cast<int>(std::clamp<std::size_t>(out.figure.panels.size(), 1, 2));
   out.figure.panelWidth = 62;
   out.figure.panelHeight = 32;
   return out;
 }
 
-NamedFigure recoveryFigure(const Recovery& recovery) {
+NamedFigure recoveryFigure(const TruthRecovery& recovery) {
   NamedFigure out;
   out.name = "recovery";
   out.caption = fmt::format(

@@ -34,12 +34,12 @@ std::string shortNameOf(const std::vector<Criterion>& criteria) {
   return text + ")";
 }
 
-int subjectIndex(const StudyResult& study, const std::string& subject) {
-  return static_cast<int>(std::find(study.subjects.begin(), study.subjects.end(), subject) - study.subjects.begin());
+int subjectIndex(const Analysis& analysis, const std::string& subject) {
+  return static_cast<int>(std::find(analysis.subjects.begin(), analysis.subjects.end(), subject) - analysis.subjects.begin());
 }
 
-figure::Series subjectSeries(const StudyResult& study, const std::string& subject) {
-  const int i = subjectIndex(study, subject);
+figure::Series subjectSeries(const Analysis& analysis, const std::string& subject) {
+  const int i = subjectIndex(analysis, subject);
   figure::Series series;
   series.label = "subject " + subject;
   series.color = palette::series(i);
@@ -55,18 +55,18 @@ void addCandidates(figure::Axis& axis, std::span<const std::vector<Criterion>> c
 
 std::string shortened(const std::string& text, std::size_t most) { return text.size() <= most ? text : text.substr(0, most - 1) + "…"; }
 
-std::vector<NamedFigure> makeFigures(const StudyResult& study, const std::optional<Recovery>& recovery) {
+std::vector<NamedFigure> makeFigures(const Analysis& analysis, const std::optional<TruthRecovery>& recovery) {
   std::vector<NamedFigure> out;
-  for (NamedFigure figure : {scoreFigure(study), posteriorFigure(study)})
+  for (NamedFigure figure : {scoreFigure(analysis), posteriorFigure(analysis)})
     if (!figure.figure.panels.empty()) out.push_back(std::move(figure));
   if (recovery && !recovery->counts.empty()) out.push_back(recoveryFigure(*recovery));
-  for (std::size_t c = 0; c < study.conditions.size(); ++c) {
-    if (study.results[c].used == 0 && study.results[c].signals.empty()) continue;
-    out.push_back(paperFigure(study, c));
-    for (NamedFigure figure : {lastFiveFigure(study, c), peopleFigure(study, c)})
+  for (std::size_t c = 0; c < analysis.conditions.size(); ++c) {
+    if (analysis.results[c].used == 0 && analysis.results[c].signals.empty()) continue;
+    out.push_back(paperFigure(analysis, c));
+    for (NamedFigure figure : {lastFiveFigure(analysis, c), peopleFigure(analysis, c)})
       if (!figure.figure.panels.empty()) out.push_back(std::move(figure));
   }
-  if (NamedFigure figure = learningFigure(study); !figure.figure.panels.empty()) out.push_back(std::move(figure));
+  if (NamedFigure figure = learningFigure(analysis); !figure.figure.panels.empty()) out.push_back(std::move(figure));
   return out;
 }
 

@@ -41,10 +41,10 @@ std::optional<std::size_t> placeOf(const ConditionResult& r, Criterion criterion
   return std::nullopt;
 }
 
-void addThin(Panel& panel, const StudyResult& study, const std::vector<const StudyTrial*>& trials, double duration, bool object,
+void addThin(Panel& panel, const Analysis& analysis, const std::vector<const AnalyzedTrial*>& trials, double duration, bool object,
              const std::string& label) {
   for (std::size_t i = 0; i < trials.size(); ++i) {
-    const TrialProfile profile = study.profileOf(*trials[i]);
+    const TrialProfile profile = analysis.profileOf(*trials[i]);
     Series s;
     if (i == 0) s.label = label;
     s.x = timeAxis(duration);
@@ -70,74 +70,75 @@ void addPrediction(Panel& panel, const ConditionResult& r, Criterion criterion, 
   panel.series.push_back(std::move(s));
 }
 
-std::vector<const StudyTrial*> usedTrials(const StudyResult& study, std::size_t condition) {
-  std::vector<const StudyTrial*> used;
-  for (const StudyTrial& t : study.trials)
+std::vector<const AnalyzedTrial*> usedTrials(const Analysis& analysis, std::size_t condition) {
+  std::vector<const AnalyzedTrial*> used;
+  for (const AnalyzedTrial& t : analysis.trials)
     if (t.condition == condition && t.used() && t.profile.size > 0) used.push_back(&t);
   return used;
 }
 
 }  // namespace
 
-NamedFigure paperFigure(const StudyResult& study, std::size_t condition) {
-  const ConditionResult& r = study.results[condition];
+NamedFigure paperFigure(const Analysis& analysis, std::size_t condition) {
+  const ConditionResult& r = analysis.results[condition];
   NamedFigure out;
-  out.name = "velocity_" + fileNameOf(study.conditions[condition].name);
+  out.name = "velocity_" + fileNameOf(analysis.conditions[condition].name);
   Panel hand = velocityPanel("(a) Hand", "Hand velocity (m/s)"), object = velocityPanel("(b) Object (last mass)", "Object velocity (m/s)");
-  const std::vector<const StudyTrial*> used = usedTrials(study, condition);
+  const std::vector<const AnalyzedTrial*> used = usedTrials(analysis, condition);
   const std::size_t shown = std::min(used.size(), kMaxTrialsDrawn);
-  std::vector<const StudyTrial*> some;
+  std::vector<const AnalyzedTrial*> some;
   for (std::size_t i = 0; i < shown; ++i) some.push_back(used[i * used.size() / shown]);
   const std::string what = fmt::format("{}trial{}", r.onlyFailures ? "failed " : "", used.size() == 1 ? "" : "s");
   const std::string label = shown == used.size() ? fmt::format("{} {}", shown, what) : fmt::format("{} of {} {}", shown, used.size(), what);
   for (Panel* panel : {&hand, &object}) {
     const bool isObject = panel == &object;
-    addThin(*panel, study, some, r.duration.mean, isObject, label);
+    addThin(*panel, analysis, some, r.duration.mean, isObject, label);
     addPrediction(*panel, r, Criterion::MinHandJerk, isObject, palette::kBlack, Dash::Solid, figure::kThick);
     addPrediction(*panel, r, Criterion::MinCrackle, isObject, palette::kVermilion, Dash::Dashed, figure::kThick);
   }
   out.figure.columns = 2;
   out.figure.panels = {hand, object};
   out.caption =
-      r.used > 0 ? fmt::format(
-                       "{}, as in Figs. 5 and 6: velocity of hand and object. Thin: {} {}trial{}, time-scaled to their average of {:.3f} "
-                       "s. Thick: "
-                       "criterion (1) solid, (3) dashed, for the task's T, neither cut nor stretched; they begin before the onset by as "
-                       "much as the onset rule would leave out of them.",
-                       study.conditions[condition].name, r.used, r.onlyFailures ? "failed " : "", r.used == 1 ? "" : "s", r.duration.mean)
-                 : fmt::format("{}: no movement to show; predictions only.", study.conditions[condition].name);
-  if (r.used > 0 && study.options.predictFor == PredictionDuration::Moved)
+      r.used > 0
+          ? fmt::format(
+                "{}, as in Figs. 5 and 6: velocity of hand and object. Thin: {} {}trial{}, time-scaled to their average of {:.3f} "
+                "s. Thick: "
+                "criterion (1) solid, (3) dashed, for the task's T, neither cut nor stretched; they begin before the onset by as "
+                "much as the onset rule would leave out of them.",
+                analysis.conditions[condition].name, r.used, r.onlyFailures ? "failed " : "", r.used == 1 ? "" : "s", r.duration.mean)
+          : fmt::format("{}: no movement to show; predictions only.", analysis.conditions[condition].name);
+  if (r.used > 0 && analysis.options.predictFor == PredictionDuration::Moved)
     out.caption = fmt::format(
         "{}: velocity of hand and object. Thin: {} trials, time-scaled to their average of {:.3f} s. Thick: criterion (1) solid, (3) "
         "dashed, for the T whose movement lasts as long.",
-        study.conditions[condition].name, r.used, r.duration.mean);
+        analysis.conditions[condition].name, r.used, r.duration.mean);
   return out;
 }
 
-NamedFigure lastFiveFigure(const StudyResult& study, std::size_t condition) {
+NamedFigure lastFiveFigure(const Analysis& analysis, std::size_t condition) {
   constexpr std::size_t kLast = 5;
-  const ConditionResult& r = study.results[condition];
+  const ConditionResult& r = analysis.results[condition];
   NamedFigure out;
-  out.name = "last_five_" + fileNameOf(study.conditions[condition].name);
-  std::vector<const StudyTrial*> used = usedTrials(study, condition);
+  out.name = "last_five_" + fileNameOf(analysis.conditions[condition].name);
+  std::vector<const AnalyzedTrial*> used = usedTrials(analysis, condition);
   if (used.empty() || r.onlyFailures) return out;
   const std::string subject = used.front()->key.subject;
-  std::erase_if(used, [&](const StudyTrial* t) { return t->key.subject != subject; });
+  std::erase_if(used, [&](const AnalyzedTrial* t) { return t->key.subject != subject; });
   double duration = 0;
-  for (const StudyTrial* t : used) duration += t->measures.duration / static_cast<double>(used.size());
-  const std::vector<const StudyTrial*> last(used.end() - static_cast<std::ptrdiff_t>(std::min(kLast, used.size())), used.end());
+  for (const AnalyzedTrial* t : used) duration += t->measures.duration / static_cast<double>(used.size());
+  const std::vector<const AnalyzedTrial*> last(used.end() - static_cast<std::ptrdiff_t>(std::min(kLast, used.size())), used.end());
   Panel hand = velocityPanel("(a) Hand", "Hand velocity (m/s)"), object = velocityPanel("(b) Object (last mass)", "Object velocity (m/s)");
   for (Panel* panel : {&hand, &object}) {
     const bool isObject = panel == &object;
-    addThin(*panel, study, last, duration, isObject, fmt::format("last {} successful", last.size()));
+    addThin(*panel, analysis, last, duration, isObject, fmt::format("last {} successful", last.size()));
     for (Series& s : panel->series) s.color = palette::kGrey, s.width = 0.7;
     addPrediction(*panel, r, Criterion::MinHandJerk, isObject, {0.62, 0.62, 0.62}, Dash::Solid, 2.8);
     Series mean;
     mean.label = fmt::format("average of {}", used.size());
     mean.x = timeAxis(duration);
     mean.y.assign(kProfilePoints, 0.0);
-    for (const StudyTrial* t : used) {
-      const TrialProfile profile = study.profileOf(*t);
+    for (const AnalyzedTrial* t : used) {
+      const TrialProfile profile = analysis.profileOf(*t);
       for (std::size_t i = 0; i < kProfilePoints; ++i)
         mean.y[i] += (isObject ? profile.object : profile.hand)[i] * profile.duration / duration / static_cast<double>(used.size());
     }
@@ -149,74 +150,82 @@ NamedFigure lastFiveFigure(const StudyResult& study, std::size_t condition) {
   out.caption = fmt::format(
       "{}, subject {}, as in Figs. 9 and 10: the last {} successful trials (thin), criterion (1) for the task's T (thick grey) and the "
       "average of all {} successful trials (thick black), time-scaled to their average.",
-      study.conditions[condition].name, subject, last.size(), used.size());
+      analysis.conditions[condition].name, subject, last.size(), used.size());
   return out;
 }
 
-NamedFigure peopleFigure(const StudyResult& study, std::size_t condition) {
+namespace {
+
+/// A person's mean with the fits of the closest candidates and of the reference, and what they leave.
+std::pair<Panel, Panel> panelsOf(const PersonResult& person, const ConditionResult& r) {
+  const PersonTemplate& own = person.fit.own;
+  std::vector<std::size_t> order;
+  for (std::size_t k = 0; k + 1 < person.fit.candidates.size(); ++k) order.push_back(k);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return person.fit.candidates[a].meanScore < person.fit.candidates[b].meanScore; });
+  order.resize(std::min<std::size_t>(2, order.size()));
+  order.push_back(person.fit.candidates.size() - 1);
+  Panel panel, rest;
+  panel.title = fmt::format("Subject {}, {} trials", person.subject, person.trials);
+  panel.y.label = "Hand velocity (m/s)";
+  rest.x.label = "Part of the movement";
+  rest.y.label = "Residual (m/s)";
+  Band band;
+  band.label = "± SD";
+  Series mean;
+  mean.label = "mean";
+  mean.width = 2.6;
+  Band zero = band;
+  zero.label = "";
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < own.mean.value.size(); i += 3) {
+    const double s = own.mean.first + own.mean.step * static_cast<double>(i);
+    if (s >= -0.15 && s <= 1.15) shown.push_back(i), mean.x.push_back(s);
+  }
+  for (const std::size_t i : shown) {
+    mean.y.push_back(own.mean.value[i]);
+    band.low.push_back(own.mean.value[i] - own.scatter[i]);
+    band.high.push_back(own.mean.value[i] + own.scatter[i]);
+    zero.low.push_back(-own.scatter[i]);
+    zero.high.push_back(own.scatter[i]);
+  }
+  band.x = zero.x = mean.x;
+  panel.bands.push_back(band);
+  rest.bands.push_back(zero);
+  panel.series.push_back(mean);
+  for (const std::size_t k : order) {
+    const auto& criteria = r.candidates.candidates[k].criteria;
+    Series s;
+    s.label = criteria.empty() ? "reference" : shortNameOf(criteria);
+    s.x = mean.x;
+    for (const std::size_t i : shown) s.y.push_back(person.fit.candidates[k].mean[i]);
+    s.color = lookOf(criteria).color;
+    s.dash = lookOf(criteria).dash;
+    s.width = 1.2;
+    Series apart = s;
+    for (std::size_t i = 0; i < apart.y.size(); ++i) apart.y[i] = mean.y[i] - s.y[i];
+    panel.series.push_back(std::move(s));
+    rest.series.push_back(std::move(apart));
+  }
+  panel.legend = LegendPlace::Below;
+  rest.legend = LegendPlace::None;
+  return {std::move(panel), std::move(rest)};
+}
+
+}  // namespace
+
+NamedFigure peopleFigure(const Analysis& analysis, std::size_t condition) {
   NamedFigure out;
-  out.name = "people_" + fileNameOf(study.conditions[condition].name);
-  const ConditionResult& r = study.results[condition];
-  bool legend = true;
+  out.name = "people_" + fileNameOf(analysis.conditions[condition].name);
+  const ConditionResult& r = analysis.results[condition];
   std::vector<Panel> fits, residuals;
-  for (const PersonResult& person : study.people) {
+  for (const PersonResult& person : analysis.people) {
     if (person.condition != condition || !person.fitted) continue;
-    const PersonTemplate& own = person.fit.own;
-    std::vector<std::size_t> order;
-    for (std::size_t k = 0; k + 1 < person.fit.candidates.size(); ++k) order.push_back(k);
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t a, std::size_t b) { return person.fit.candidates[a].meanScore < person.fit.candidates[b].meanScore; });
-    order.resize(std::min<std::size_t>(2, order.size()));
-    order.push_back(person.fit.candidates.size() - 1);
-    Panel panel, rest;
-    panel.title = fmt::format("Subject {}, {} trials", person.subject, person.trials);
-    panel.y.label = "Hand velocity (m/s)";
-    rest.x.label = "Part of the movement";
-    rest.y.label = "Residual (m/s)";
-    Band band;
-    band.label = "± SD";
-    Series mean;
-    mean.label = "mean";
-    mean.width = 2.6;
-    Band zero = band;
-    zero.label = "";
-    std::vector<std::size_t> shown;
-    for (std::size_t i = 0; i < own.mean.value.size(); i += 3) {
-      const double s = own.mean.first + own.mean.step * static_cast<double>(i);
-      if (s >= -0.15 && s <= 1.15) shown.push_back(i), mean.x.push_back(s);
-    }
-    for (const std::size_t i : shown) {
-      mean.y.push_back(own.mean.value[i]);
-      band.low.push_back(own.mean.value[i] - own.scatter[i]);
-      band.high.push_back(own.mean.value[i] + own.scatter[i]);
-      zero.low.push_back(-own.scatter[i]);
-      zero.high.push_back(own.scatter[i]);
-    }
-    band.x = zero.x = mean.x;
-    panel.bands.push_back(band);
-    rest.bands.push_back(zero);
-    panel.series.push_back(mean);
-    for (const std::size_t k : order) {
-      const auto& criteria = r.candidates.candidates[k].criteria;
-      Series s;
-      s.label = criteria.empty() ? "reference" : shortNameOf(criteria);
-      s.x = mean.x;
-      for (const std::size_t i : shown) s.y.push_back(person.fit.candidates[k].mean[i]);
-      s.color = lookOf(criteria).color;
-      s.dash = lookOf(criteria).dash;
-      s.width = 1.2;
-      Series apart = s;
-      for (std::size_t i = 0; i < apart.y.size(); ++i) apart.y[i] = mean.y[i] - s.y[i];
-      panel.series.push_back(std::move(s));
-      rest.series.push_back(std::move(apart));
-    }
-    panel.legend = LegendPlace::Below;
-    rest.legend = LegendPlace::None;
+    auto [panel, rest] = panelsOf(person, r);
     fits.push_back(std::move(panel));
     residuals.push_back(std::move(rest));
-    legend = false;
   }
-  if (legend) return out;
+  if (fits.empty()) return out;
   const std::size_t columns = std::min<std::size_t>(3, fits.size());
   // A row of fits, then the row of their residuals.
   for (std::size_t first = 0; first < fits.size(); first += columns) {
@@ -231,7 +240,7 @@ NamedFigure peopleFigure(const StudyResult& study, std::size_t condition) {
   out.caption = fmt::format(
       "{}: each subject's mean hand velocity (trials laid over one another by onset, duration and amplitude) ± SD, with the fitted "
       "mean of the two closest criteria and of the reference; below, what they leave.",
-      study.conditions[condition].name);
+      analysis.conditions[condition].name);
   return out;
 }
 

@@ -12,14 +12,14 @@ namespace {
 constexpr std::size_t kFewPeople = 2;  // with more, bars of each would cover one another
 
 /// The share of a typical person in each group of trials, where two or more made the same ones.
-figure::Series typicalCourse(const StudyResult& study, std::size_t condition) {
+figure::Series typicalCourse(const Analysis& analysis, std::size_t condition) {
   std::map<std::pair<int, int>, std::vector<SuccessCell>> groups;
-  for (const LearningPoint& p : study.learning)
+  for (const LearningPoint& p : analysis.learning)
     if (p.condition == condition) groups[{p.firstTrial, p.lastTrial}].push_back({p.subject, 0, condition, p.successes, p.trials, {}});
   figure::Series s;
   s.label = "a typical subject";
   s.width = figure::kThick;
-  s.marker = figure::Marker::Circle;
+  s.marker = figure::MarkerShape::Circle;
   for (const auto& [trials, cells] : groups) {
     const auto typical = typicalShare(cells, condition);
     if (!typical) continue;
@@ -33,18 +33,18 @@ figure::Series typicalCourse(const StudyResult& study, std::size_t condition) {
 
 }  // namespace
 
-NamedFigure learningFigure(const StudyResult& study) {
+NamedFigure learningFigure(const Analysis& analysis) {
   NamedFigure out;
   out.name = "learning";
-  const bool few = study.subjects.size() <= kFewPeople;
+  const bool few = analysis.subjects.size() <= kFewPeople;
   out.caption =
-      fmt::format("Success in groups of {} trials, in the order they were made{} A gap parts sessions.", study.options.learningBin,
+      fmt::format("Success in groups of {} trials, in the order they were made{} A gap parts sessions.", analysis.options.learningBin,
                   few ? ", with exact 95 % intervals of each subject's share (Clopper and Pearson)."
                       : ": thin, each subject (its exact intervals are in learning.csv); thick, a typical subject (mean of the "
                         "subjects' logits) with its 95 % interval over subjects.");
-  for (std::size_t c = 0; c < study.conditions.size(); ++c) {
+  for (std::size_t c = 0; c < analysis.conditions.size(); ++c) {
     figure::Panel panel;
-    panel.title = shortened(study.conditions[c].name);
+    panel.title = shortened(analysis.conditions[c].name);
     panel.x.label = "Trial";
     panel.y.label = "Success (%)";
     panel.y.from = 0.0;
@@ -52,25 +52,25 @@ NamedFigure learningFigure(const StudyResult& study) {
     panel.x.from = 0.0;
     std::map<std::string, figure::Series> bySubject;
     std::map<std::string, std::string> session;
-    for (const LearningPoint& p : study.learning) {
+    for (const LearningPoint& p : analysis.learning) {
       if (p.condition != c) continue;
-      figure::Series& s = bySubject.try_emplace(p.subject, subjectSeries(study, p.subject)).first->second;
+      figure::Series& s = bySubject.try_emplace(p.subject, subjectSeries(analysis, p.subject)).first->second;
       const bool newSession = !s.x.empty() && session[p.subject] != p.session;
       session[p.subject] = p.session;
-      if (!few) s.width = figure::kThin, s.marker = figure::Marker::None;
+      if (!few) s.width = figure::kThin, s.marker = figure::MarkerShape::None;
       const auto add = [&](double x, double y, double low, double high) {
         s.x.push_back(x), s.y.push_back(y);
         if (few) s.errorLow.push_back(low), s.errorHigh.push_back(high);
       };
       if (newSession) add(kNotMeasured, kNotMeasured, kNotMeasured, kNotMeasured);
       // Subjects stand a little beside one another, so that their bars do not cover each other.
-      const double beside =
-          0.12 * study.options.learningBin * (subjectIndex(study, p.subject) - 0.5 * static_cast<double>(study.subjects.size() - 1));
+      const double beside = 0.12 * analysis.options.learningBin *
+                            (subjectIndex(analysis, p.subject) - 0.5 * static_cast<double>(analysis.subjects.size() - 1));
       add(0.5 * (p.firstTrial + p.lastTrial) + (few ? beside : 0), 100.0 * static_cast<double>(p.successes) / static_cast<double>(p.trials),
           100 * p.interval.low, 100 * p.interval.high);
     }
     for (auto& [subject, series] : bySubject) panel.series.push_back(std::move(series));
-    if (!few && !panel.series.empty()) panel.series.push_back(typicalCourse(study, c));
+    if (!few && !panel.series.empty()) panel.series.push_back(typicalCourse(analysis, c));
     panel.legend = c == 0 ? figure::LegendPlace::Below : figure::LegendPlace::None;
     if (!panel.series.empty()) out.figure.panels.push_back(std::move(panel));
   }

@@ -67,7 +67,7 @@ std::string signedPercent(double points) {
   return text == "+0" || text == "-0" ? "0" : real(text);
 }
 
-std::string percentInterval(double mean, const Interval& i) {
+std::string percentInterval(double mean, const Bounds& i) {
   std::string text = real(fmt::format("{:.0f}", mean));
   // On a line of its own, so that nine columns fit a page.
   if (std::isfinite(i.low) && std::isfinite(i.high)) text += real(fmt::format("<br>[{:.0f}, {:.0f}]", i.low, i.high));
@@ -75,32 +75,32 @@ std::string percentInterval(double mean, const Interval& i) {
 }
 
 /// Table 2: conditions in order, their days side by side, and the last day less the first, per person and over people.
-void addSuccessTable(Html& html, const StudyResult& study) {
-  if (study.success.empty()) return;
+void addSuccessTable(Html& html, const Analysis& analysis) {
+  if (analysis.success.empty()) return;
   std::set<int> days;
-  for (const SuccessCell& cell : study.success) days.insert(cell.day);
+  for (const SuccessCell& cell : analysis.success) days.insert(cell.day);
   const bool progress = days.size() == 2;
   html.heading(2, "Success (%), as in Table 2");
   html.add("<table><thead><tr><th rowspan=\"2\">Subject</th>");
-  for (const StudyCondition& condition : study.conditions)
+  for (const Condition& condition : analysis.conditions)
     html.add(
         fmt::format("<th colspan=\"{}\" style=\"text-align:center\">{}</th>", days.size() + (progress ? 1 : 0), escaped(condition.name)));
   html.add("</tr><tr>");
-  for (std::size_t c = 0; c < study.conditions.size(); ++c) {
+  for (std::size_t c = 0; c < analysis.conditions.size(); ++c) {
     for (const int day : days) html.add(fmt::format("<th>D{}</th>", day));
     if (progress) html.add(fmt::format("<th>D{} − D{}</th>", *days.rbegin(), *days.begin()));
   }
   html.add("</tr></thead><tbody>");
   const auto cellOf = [&](const std::string& subject, std::size_t c, int day) {
-    return std::find_if(study.success.begin(), study.success.end(),
+    return std::find_if(analysis.success.begin(), analysis.success.end(),
                         [&](const SuccessCell& s) { return s.subject == subject && s.condition == c && s.day == day; });
   };
-  for (const std::string& subject : study.subjects) {
+  for (const std::string& subject : analysis.subjects) {
     html.add("<tr><td>" + escaped(subject) + "</td>");
-    for (std::size_t c = 0; c < study.conditions.size(); ++c) {
+    for (std::size_t c = 0; c < analysis.conditions.size(); ++c) {
       for (const int day : days) {
         const auto cell = cellOf(subject, c, day);
-        if (cell == study.success.end()) {
+        if (cell == analysis.success.end()) {
           html.add("<td>–</td>");
           continue;
         }
@@ -110,26 +110,26 @@ void addSuccessTable(Html& html, const StudyResult& study) {
       }
       if (!progress) continue;
       const auto first = cellOf(subject, c, *days.begin()), last = cellOf(subject, c, *days.rbegin());
-      html.add(first == study.success.end() || last == study.success.end()
+      html.add(first == analysis.success.end() || last == analysis.success.end()
                    ? "<td>–</td>"
                    : fmt::format("<td>{}</td>", signedPercent(100 * (last->share() - first->share()))));
     }
     html.add("</tr>");
   }
-  if (study.subjects.size() > 1) {
+  if (analysis.subjects.size() > 1) {
     html.add("<tr class=\"first\"><td>typical</td>");
-    for (std::size_t c = 0; c < study.conditions.size(); ++c) {
+    for (std::size_t c = 0; c < analysis.conditions.size(); ++c) {
       for (const int day : days) {
-        const auto typical = typicalShare(study.success, c, day);
+        const auto typical = typicalShare(analysis.success, c, day);
         html.add(!typical ? "<td>–</td>"
                           : "<td>" + percentInterval(100 * typical->mean, {100 * typical->interval.low, 100 * typical->interval.high}) +
                                 "</td>");
       }
       if (!progress) continue;
       const auto effect =
-          std::find_if(study.effects.begin(), study.effects.end(), [&](const Effect& e) { return e.ofDay && e.condition == c; });
-      html.add(effect == study.effects.end() ? "<td>–</td>"
-                                             : "<td>" + percentInterval(effect->points.mean, effect->pointsInterval) + "</td>");
+          std::find_if(analysis.effects.begin(), analysis.effects.end(), [&](const Effect& e) { return e.ofDay && e.condition == c; });
+      html.add(effect == analysis.effects.end() ? "<td>–</td>"
+                                                : "<td>" + percentInterval(effect->points.mean, effect->pointsInterval) + "</td>");
     }
     html.add("</tr>");
   }
@@ -142,12 +142,12 @@ void addSuccessTable(Html& html, const StudyResult& study) {
       "quiet");
 }
 
-void addProgress(Html& html, const StudyResult& study, const std::vector<NamedFigure>& figures) {
+void addProgress(Html& html, const Analysis& analysis, const std::vector<NamedFigure>& figures) {
   html.heading(2, "Learning");
   addFigure(html, figures, "learning");
   html.add("<ul>");
-  for (const Effect& effect : study.effects) html.add("<li>" + escaped(describeEffect(study, effect)) + "</li>");
-  for (const LearningSlope& slope : study.slopes) html.add("<li>Slope of success: " + escaped(describeSlope(study, slope)) + "</li>");
+  for (const Effect& effect : analysis.effects) html.add("<li>" + escaped(describeEffect(analysis, effect)) + "</li>");
+  for (const LearningSlope& slope : analysis.slopes) html.add("<li>Slope of success: " + escaped(describeSlope(analysis, slope)) + "</li>");
   html.add("</ul>");
   html.paragraph(
       "Differences are paired over subjects; p by the logits, corrected for all days, or all pairs of conditions, by Holm's method.",
@@ -175,8 +175,8 @@ void addScores(Html& html, const Conclusion& c, const std::vector<std::vector<pr
 }
 
 /// A condition's fits, averaged over its subjects, and the paper's epsilon beside them.
-void addFits(Html& html, const StudyResult& study, std::size_t condition) {
-  const ConditionResult& r = study.results[condition];
+void addFits(Html& html, const Analysis& analysis, std::size_t condition) {
+  const ConditionResult& r = analysis.results[condition];
   if (r.handEpsilon.empty()) return;
   html.add(
       "<table><thead><tr><th>Criterion</th><th>paper’s ε (m/s)</th><th>95 % over subjects</th><th>object’s ε (m/s)</th><th>fitted ε "
@@ -184,7 +184,7 @@ void addFits(Html& html, const StudyResult& study, std::size_t condition) {
   const auto& candidates = r.candidates.candidates;
   const auto row = [&](const std::string& name, const EpsilonPlace* hand, const EpsilonPlace* object, std::optional<std::size_t> k) {
     double epsilon = 0, duration = 0, r2 = 0, people = 0;
-    for (const PersonResult& person : study.people) {
+    for (const PersonResult& person : analysis.people) {
       if (person.condition != condition || !person.fitted || !k) continue;
       const CandidateFit& fit = person.fit.candidates[*k];
       epsilon += fit.epsilonOfAll, duration += fit.duration, r2 += fit.r2, people += 1;
@@ -214,7 +214,7 @@ void addFits(Html& html, const StudyResult& study, std::size_t condition) {
       "quiet");
 }
 
-void addRecovery(Html& html, const Recovery& recovery, const std::vector<NamedFigure>& figures) {
+void addRecovery(Html& html, const TruthRecovery& recovery, const std::vector<NamedFigure>& figures) {
   if (recovery.counts.empty()) return;
   html.heading(3, "What this design can tell");
   addFigure(html, figures, "recovery");
@@ -230,60 +230,35 @@ void addRecovery(Html& html, const Recovery& recovery, const std::vector<NamedFi
                   right, wrong, all - right - wrong));
 }
 
-void addMeasures(Html& html, const StudyResult& study, std::size_t condition) {
-  struct Line {
-    const char* name;
-    double TrialMeasures::*value;
-    double scale;
-    const char* format;
-  };
-  static constexpr Line kLines[] = {
-      {"reaction time (s)", &TrialMeasures::reactionTime, 1, "{:.3f} ± {:.3f}"},
-      {"duration, onset to offset (s)", &TrialMeasures::duration, 1, "{:.3f} ± {:.3f}"},
-      {"movement time of the task (s)", &TrialMeasures::movementTime, 1, "{:.3f} ± {:.3f}"},
-      {"peak speed (m/s)", &TrialMeasures::peakSpeed, 1, "{:.3f} ± {:.3f}"},
-      {"time to peak (%)", &TrialMeasures::timeToPeakPercent, 1, "{:.1f} ± {:.1f}"},
-      {"symmetry ratio", &TrialMeasures::symmetryRatio, 1, "{:.2f} ± {:.2f}"},
-      {"path length (mm)", &TrialMeasures::pathLength, 1e3, "{:.1f} ± {:.1f}"},
-      {"speed peaks", &TrialMeasures::speedPeaks, 1, "{:.2f} ± {:.2f}"},
-      {"end-point error, hand (mm)", &TrialMeasures::handEndpointError, 1e3, "{:.1f} ± {:.1f}"},
-      {"end-point error, object (mm)", &TrialMeasures::objectEndpointError, 1e3, "{:.1f} ± {:.1f}"},
-      {"overshoot, hand (mm)", &TrialMeasures::handOvershoot, 1e3, "{:.1f} ± {:.1f}"},
-      {"overshoot, object (mm)", &TrialMeasures::objectOvershoot, 1e3, "{:.1f} ± {:.1f}"},
-      {"SPARC", &TrialMeasures::sparc, 1, "{:.3f} ± {:.3f}"},
-      {"log dimensionless jerk", &TrialMeasures::ldlj, 1, "{:.2f} ± {:.2f}"},
-      {"peak force (N)", &TrialMeasures::peakForce, 1, "{:.2f} ± {:.2f}"},
-      {"mean force (N)", &TrialMeasures::meanForce, 1, "{:.2f} ± {:.2f}"},
-  };
-  const auto summary = [&](const Line& line, bool success) -> std::string {
+void addMeasures(Html& html, const Analysis& analysis, std::size_t condition) {
+  const auto summary = [&](const Measure& measure, bool success) -> std::string {
     std::vector<double> values;
-    for (const StudyTrial& t : study.trials)
+    for (const AnalyzedTrial& t : analysis.trials)
       if (t.condition == condition && t.counted && (t.result.outcome == trial::Outcome::Success) == success)
-        values.push_back(line.scale * t.measures.*line.value);
+        values.push_back(measure.scale * t.measures.*measure.value);
     const MeanSd s = computeMeanSd(values);
     if (s.count == 0) return "–";
-    std::string text = std::isfinite(s.sd) ? fmt::format(fmt::runtime(line.format), s.mean, s.sd) : fmt::format("{:.4g}", s.mean);
-    for (std::size_t at; (at = text.find('-')) != std::string::npos;) text.replace(at, 1, "−");
-    return text;
+    return real(std::isfinite(s.sd) ? fmt::format("{:.{}f} ± {:.{}f}", s.mean, measure.digits, s.sd, measure.digits)
+                                    : fmt::format("{:.4g}", s.mean));
   };
   html.add("<table><thead><tr><th>Measure (mean ± SD over trials)</th><th>successes</th><th>failures</th></tr></thead><tbody>");
-  for (const Line& line : kLines)
-    html.add(fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>", line.name, summary(line, true), summary(line, false)));
+  for (const Measure& measure : measures())
+    html.add(fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>", measure.label, summary(measure, true), summary(measure, false)));
   html.add("</tbody></table>");
 }
 
-void addCondition(Html& html, const StudyResult& study, std::size_t c, const std::vector<NamedFigure>& figures) {
-  const ConditionResult& r = study.results[c];
-  const std::string file = fileNameOf(study.conditions[c].name);
-  html.heading(2, study.conditions[c].name);
-  html.paragraph("Moved: " + experiment::describe(study.conditions[c].experiment()) + ".");
+void addCondition(Html& html, const Analysis& analysis, std::size_t c, const std::vector<NamedFigure>& figures) {
+  const ConditionResult& r = analysis.results[c];
+  const std::string file = fileNameOf(analysis.conditions[c].name);
+  html.heading(2, analysis.conditions[c].name);
+  html.paragraph("Moved: " + experiment::describe(analysis.conditions[c].experiment()) + ".");
   html.paragraph(describeCounts(r));
   if (r.onlyFailures)
     html.paragraph(
         "No trial succeeded. Profiles and errors below are of the failed trials, for description only; the paper's error is of successful "
         "ones, and nothing is concluded.",
         "warning");
-  if (study.conditions.size() > 1) {
+  if (analysis.conditions.size() > 1) {
     html.paragraph(describeConclusion(r.conclusion, candidatesOf(r)), "finding");
     if (r.conclusion.best) {
       html.paragraph(describeEvidence(r.conclusion, candidatesOf(r)));
@@ -293,7 +268,7 @@ void addCondition(Html& html, const StudyResult& study, std::size_t c, const std
   addFigure(html, figures, "people_" + file);
   addFigure(html, figures, "velocity_" + file);
   addFigure(html, figures, "last_five_" + file);
-  addFits(html, study, c);
+  addFits(html, analysis, c);
   if (!r.refusals.empty()) {
     html.add("<p class=\"quiet\">Not predicted here:</p><ul class=\"quiet\">");
     for (const std::string& refusal : r.refusals) html.add("<li>" + escaped(refusal) + "</li>");
@@ -303,7 +278,7 @@ void addCondition(Html& html, const StudyResult& study, std::size_t c, const std
   for (const PredictedSignal& p : r.signals)
     for (const std::string& w : p.warnings) warnings.insert(numberedName(p.criterion) + ": " + w);
   for (const std::string& w : warnings) html.paragraph(w, "warning");
-  addMeasures(html, study, c);
+  addMeasures(html, analysis, c);
 }
 
 void addProvenance(Html& html, const std::vector<RunProvenance>& runs, const std::vector<std::string>& notes) {
@@ -339,9 +314,9 @@ std::string escaped(const std::string& text) {
   return out;
 }
 
-std::string makeReport(const ReportHeader& header, const StudyResult& study, const std::vector<NamedFigure>& figures,
+std::string makeReport(const ReportHeader& header, const Analysis& analysis, const std::vector<NamedFigure>& figures,
                        const std::vector<RunProvenance>& runs, const std::vector<std::string>& notes,
-                       const std::optional<Recovery>& recovery) {
+                       const std::optional<TruthRecovery>& recovery) {
   Html html;
   html.add(
       "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<meta name=\"viewport\" content=\"width=device-width\">");
@@ -349,29 +324,30 @@ std::string makeReport(const ReportHeader& header, const StudyResult& study, con
   html.heading(1, "Reaching movements: " + header.dataset);
   std::size_t trials = 0;
   for (const RunProvenance& run : runs) trials += run.trials;
-  html.paragraph(fmt::format("{}, {}, {} recorded, {}. Reachlab {}.", plural(study.subjects.size(), "subject"), plural(runs.size(), "run"),
-                             plural(trials, "trial"), plural(study.conditions.size(), "condition"), header.version),
-                 "quiet");
-  const std::string sentence = describeConclusion(study.overall, study.common);
-  html.paragraph((study.conditions.size() > 1 ? "All conditions together: " : "") + sentence, "answer finding");
+  html.paragraph(
+      fmt::format("{}, {}, {} recorded, {}. Reachlab {}.", plural(analysis.subjects.size(), "subject"), plural(runs.size(), "run"),
+                  plural(trials, "trial"), plural(analysis.conditions.size(), "condition"), header.version),
+      "quiet");
+  const std::string sentence = describeConclusion(analysis.overall, analysis.common);
+  html.paragraph((analysis.conditions.size() > 1 ? "All conditions together: " : "") + sentence, "answer finding");
   addFigure(html, figures, "scores");
-  if (study.overall.best) {
-    html.paragraph(describeEvidence(study.overall, study.common));
-    if (const std::string over = describeTogether(study); !over.empty()) html.paragraph(over);
-    html.paragraph(describeChoices(study, study.together, study.common[*study.overall.best]));
-    addScores(html, study.overall, study.common);
+  if (analysis.overall.best) {
+    html.paragraph(describeEvidence(analysis.overall, analysis.common));
+    if (const std::string over = describeTogether(analysis); !over.empty()) html.paragraph(over);
+    html.paragraph(describeChoices(analysis, analysis.together, analysis.common[*analysis.overall.best]));
+    addScores(html, analysis.overall, analysis.common);
     addFigure(html, figures, "posterior");
-  } else if (std::none_of(study.results.begin(), study.results.end(),
+  } else if (std::none_of(analysis.results.begin(), analysis.results.end(),
                           [](const ConditionResult& r) { return r.used > 0 && !r.onlyFailures; })) {
     html.paragraph("No trial succeeded. What the failed ones were like is described below, condition by condition.", "warning");
   }
   if (recovery) addRecovery(html, *recovery, figures);
-  addSuccessTable(html, study);
-  if (!study.success.empty()) addProgress(html, study, figures);
-  for (std::size_t c = 0; c < study.conditions.size(); ++c) addCondition(html, study, c, figures);
+  addSuccessTable(html, analysis);
+  if (!analysis.success.empty()) addProgress(html, analysis, figures);
+  for (std::size_t c = 0; c < analysis.conditions.size(); ++c) addCondition(html, analysis, c, figures);
   html.heading(2, "Methods");
-  html.paragraph(describeMethods(study));
-  html.paragraph(describeLimits(study));
+  html.paragraph(describeMethods(analysis));
+  html.paragraph(describeLimits(analysis));
   html.paragraph(
       "Definitions of all measures and columns: docs/analysis.md of Reachlab. Every number of a figure is in a CSV file beside this page.");
   html.paragraph("Command: " + header.command, "quiet");

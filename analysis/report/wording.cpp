@@ -22,7 +22,7 @@ std::string joined(const std::vector<std::string>& parts) {
 std::string plural(std::size_t n, const std::string& noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
 
 /// "[5, 37]"; empty where there is none.
-std::string intervalText(const Interval& i) {
+std::string intervalText(const Bounds& i) {
   return std::isfinite(i.low) && std::isfinite(i.high) ? fmt::format("[{}, {}]", shortNumber(i.low), shortNumber(i.high)) : "";
 }
 
@@ -71,7 +71,9 @@ Names candidatesOf(const ConditionResult& result) {
   return names;
 }
 
-std::string describeConclusion(const Conclusion& c, const Names& names) {
+namespace {
+
+std::string describeOutcome(const Conclusion& c, const Names& names) {
   const std::string best = c.best && *c.best < names.size() ? describeCandidate(names[*c.best]) : "";
   if (c.decided())
     return fmt::format(
@@ -109,6 +111,19 @@ std::string describeConclusion(const Conclusion& c, const Names& names) {
   return {};
 }
 
+}  // namespace
+
+std::string describeConclusion(const Conclusion& c, const Names& names) {
+  const std::string outcome = describeOutcome(c, names);
+  if (!c.best) return outcome;
+  std::vector<std::string> compared;
+  for (const auto& criteria : names)
+    if (criteria.empty()) compared.push_back(describeCandidate(criteria));
+    else
+      for (const predict::Criterion criterion : criteria) compared.push_back(numberedName(criterion));
+  return outcome + " Compared were " + joined(compared) + ".";
+}
+
 std::string describeEvidence(const Conclusion& c, const Names& names) {
   if (!c.best || !c.rival) return {};
   std::string text =
@@ -123,24 +138,25 @@ std::string describeEvidence(const Conclusion& c, const Names& names) {
   return text;
 }
 
-std::string describeTogether(const StudyResult& study) {
-  if (study.conditions.size() < 2 || study.together.empty()) return {};
+std::string describeTogether(const Analysis& analysis) {
+  if (analysis.conditions.size() < 2 || analysis.together.empty()) return {};
   std::vector<std::string> in, out;
-  for (std::size_t c = 0; c < study.conditions.size(); ++c)
-    (std::find(study.together.begin(), study.together.end(), c) != study.together.end() ? in : out).push_back(study.conditions[c].name);
+  for (std::size_t c = 0; c < analysis.conditions.size(); ++c)
+    (std::find(analysis.together.begin(), analysis.together.end(), c) != analysis.together.end() ? in : out)
+        .push_back(analysis.conditions[c].name);
   std::string text = "Over " + joined(in) + ".";
   if (!out.empty()) text += fmt::format(" Left out: {}, where not every subject has {} successful trials.", joined(out), kFewestTrials);
   return text;
 }
 
-std::string describeChoices(const StudyResult& study, const std::vector<std::size_t>& conditions,
+std::string describeChoices(const Analysis& analysis, const std::vector<std::size_t>& conditions,
                             const std::vector<predict::Criterion>& criteria) {
   std::map<std::string, std::size_t> masses, laws;
   std::vector<double> tried;
   bool given = false;
-  for (const PersonResult& person : study.people) {
+  for (const PersonResult& person : analysis.people) {
     if (!person.fitted || std::find(conditions.begin(), conditions.end(), person.condition) == conditions.end()) continue;
-    const CandidateSet& set = study.results[person.condition].candidates;
+    const CandidateSet& set = analysis.results[person.condition].candidates;
     tried = set.masses;
     given = set.massGiven;
     for (std::size_t k = 0; k < set.candidates.size(); ++k) {
@@ -166,8 +182,8 @@ std::string describeChoices(const StudyResult& study, const std::vector<std::siz
   return text;
 }
 
-std::string describeMethods(const StudyResult& study) {
-  const StudyOptions& o = study.options;
+std::string describeMethods(const Analysis& analysis) {
+  const AnalysisOptions& o = analysis.options;
   const OnsetOptions& onset = o.measure.onset;
   std::string rule;
   switch (onset.rule) {
@@ -231,7 +247,7 @@ std::string describeMethods(const StudyResult& study) {
       o.predictFor == PredictionDuration::Task ? "the task's duration" : "the duration that was moved");
 }
 
-std::string describeLimits(const StudyResult&) {
+std::string describeLimits(const Analysis&) {
   return "Limits: closest among the candidates is not proved; a criterion that was not compared may be nearer. Only hand velocity along "
          "the "
          "path decides, and only of successful trials: tolerances that let few trials through choose which movements are seen. Criteria "
@@ -274,10 +290,10 @@ std::string describeCounts(const ConditionResult& r) {
   return text;
 }
 
-std::string describeEffect(const StudyResult& study, const Effect& e) {
-  const std::string what = e.ofDay ? fmt::format("{}, D{} − D{}", study.conditions[e.condition].name, e.to, e.from)
-                                   : fmt::format("{} − {}", study.conditions[static_cast<std::size_t>(e.to)].name,
-                                                 study.conditions[static_cast<std::size_t>(e.from)].name);
+std::string describeEffect(const Analysis& analysis, const Effect& e) {
+  const std::string what = e.ofDay ? fmt::format("{}, D{} − D{}", analysis.conditions[e.condition].name, e.to, e.from)
+                                   : fmt::format("{} − {}", analysis.conditions[static_cast<std::size_t>(e.to)].name,
+                                                 analysis.conditions[static_cast<std::size_t>(e.from)].name);
   std::string text = fmt::format("{}: {}{} percentage points", what, e.points.mean >= 0 ? "+" : "", shortNumber(e.points.mean));
   if (e.people < 2) return text + " (one subject: no interval).";
   return text + fmt::format(" {}, odds ratio {} {}, {} ({}).", intervalText(e.pointsInterval), shortNumber(std::exp(e.logit.mean)),
@@ -285,8 +301,8 @@ std::string describeEffect(const StudyResult& study, const Effect& e) {
                             plural(e.people, "subject"));
 }
 
-std::string describeSlope(const StudyResult& study, const LearningSlope& s) {
-  std::string text = fmt::format("{}: {}{} percentage points in 100 trials", study.conditions[s.condition].name,
+std::string describeSlope(const Analysis& analysis, const LearningSlope& s) {
+  std::string text = fmt::format("{}: {}{} percentage points in 100 trials", analysis.conditions[s.condition].name,
                                  s.perHundred >= 0 ? "+" : "", shortNumber(s.perHundred));
   if (s.people < 2) return text + " (one subject: no interval).";
   return text + fmt::format(" {}, {} ({}).", intervalText(s.interval), pText(s.p), plural(s.people, "subject"));

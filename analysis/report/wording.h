@@ -2,7 +2,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/study.h"
+#include "analysis/analysis.h"
 
 namespace reachlab::analysis {
 
@@ -19,20 +19,20 @@ std::string describeConclusion(const Conclusion& conclusion, const std::vector<s
 /// What always stands beside it: trials, nearest rival, exceedance, R^2 and its ceiling.
 std::string describeEvidence(const Conclusion& conclusion, const std::vector<std::vector<predict::Criterion>>& candidates);
 /// Which conditions the overall conclusion is over, and which are left out; empty with one condition.
-std::string describeTogether(const StudyResult& study);
+std::string describeTogether(const Analysis& analysis);
 /// Hand masses and time laws that were tried, and how often each was chosen for the candidate that is closest.
-std::string describeChoices(const StudyResult& study, const std::vector<std::size_t>& conditions,
+std::string describeChoices(const Analysis& analysis, const std::vector<std::size_t>& conditions,
                             const std::vector<predict::Criterion>& criteria);
 
 /// The methods paragraph, ready to be pasted: every option that changes numbers.
-std::string describeMethods(const StudyResult& study);
+std::string describeMethods(const Analysis& analysis);
 /// What none of this can show.
-std::string describeLimits(const StudyResult& study);
+std::string describeLimits(const Analysis& analysis);
 /// What went into a condition and what did not: "18 of 20 trials succeeded …".
 std::string describeCounts(const ConditionResult& result);
 /// An effect on success: "D2 − D1, chain-slow: +21 points [5, 37] …".
-std::string describeEffect(const StudyResult& study, const Effect& effect);
-std::string describeSlope(const StudyResult& study, const LearningSlope& slope);
+std::string describeEffect(const Analysis& analysis, const Effect& effect);
+std::string describeSlope(const Analysis& analysis, const LearningSlope& slope);
 
 /// A number with three significant digits and a real minus sign.
 std::string shortNumber(double value);

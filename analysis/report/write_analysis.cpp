@@ -1,64 +1,57 @@
 #include "analysis/report/write_analysis.h"
 
-#include <cstdio>
-#include <fstream>
-#include <map>
+#include <list>
 
+#include "analysis/hands.h"
+#include "analysis/table_columns.h"
 #include "analysis/tables.h"
-#include "base/error.h"
-#include "sim/record/export/column_dictionary.h"
 #include "sim/record/log/append_file.h"
+#include "sim/record/export/column_dictionary.h"
 
 namespace reachlab::analysis {
 namespace {
 
-/// Tables on their way to their files: written piece by piece under another name, put in place at the end.
+/// Tables on their way to their files: taken piece by piece, put in place at the end.
 class TableFiles {
  public:
   explicit TableFiles(const std::string& folder) : folder_(folder) {}
   void write(const std::string& name, std::string_view piece) {
-    auto& [file, header] = open_[name];
-    if (!file.is_open()) {
-      order_.push_back(name);
-      header = std::string(piece.substr(0, piece.find('\n')));
-      file.open(folder_ + "/" + name + ".part", std::ios::binary | std::ios::trunc);
-    }
-    file.write(piece.data(), static_cast<std::streamsize>(piece.size()));
-    if (!file) fail(name);
+    if (open_.empty() || open_.back().name != name) open_.emplace_back(name, folder_ + "/" + name, piece.substr(0, piece.find('\n')));
+    open_.back().file.append(piece);
   }
   std::vector<std::string> close() {
     std::vector<std::string> written;
-    for (const std::string& name : order_) {
-      auto& [file, header] = open_[name];
-      const std::string path = folder_ + "/" + name;
-      file.close();
-      if (!file || std::rename((path + ".part").c_str(), path.c_str()) != 0) fail(name);
-      record::writeFileAtomically(record::dictionaryPathOf(path), tableDictionary(name, header));
+    for (Table& table : open_) {
+      table.file.commit();
+      const std::string path = folder_ + "/" + table.name;
+      record::writeFileAtomically(record::dictionaryPathOf(path), tableDictionary(table.name, table.header));
       written.push_back(path);
     }
     return written;
   }
 
  private:
-  [[noreturn]] void fail(const std::string& name) const {
-    throw ResourceError(folder_ + "/" + name + ": cannot be written; is the disk full?");
-  }
+  struct Table {
+    Table(std::string n, const std::string& path, std::string_view line) : name(std::move(n)), header(line), file(path) {}
+    std::string name, header;
+    record::AtomicFile file;
+  };
   std::string folder_;
-  std::vector<std::string> order_;
-  std::map<std::string, std::pair<std::ofstream, std::string>> open_;
+  std::list<Table> open_;
 };
 
 }  // namespace
 
-AnalysisFiles writeAnalysis(const StudyResult& study, const DatasetIndex& dataset, const ReportHeader& header, const std::string& folder,
-                            const std::optional<Recovery>& recovery) {
+AnalysisFiles writeAnalysis(const Analysis& analysis, const DatasetIndex& dataset, const ReportHeader& header, const std::string& folder,
+                            const std::optional<TruthRecovery>& recovery) {
   AnalysisFiles files;
-  record::makeFolders(folder + "/figures");
+  const record::FolderHold hold(folder);  // all that is written here belongs to one analysis
   TableFiles tables(folder);
-  writeTables(study, [&](const std::string& name, std::string_view piece) { tables.write(name, piece); });
+  writeTables(analysis, [&](const std::string& name, std::string_view piece) { tables.write(name, piece); });
   if (recovery) tables.write("recovery.csv", recoveryTable(*recovery));
+  if (const std::string hands = handsTable(dataset); !hands.empty()) tables.write("hands.csv", hands);
   files.tables = tables.close();
-  const std::vector<NamedFigure> figures = makeFigures(study, recovery);
+  const std::vector<NamedFigure> figures = makeFigures(analysis, recovery);
   for (const NamedFigure& figure : figures) {
     const std::string path = folder + "/figures/" + figure.name;
     record::writeFileAtomically(path + ".svg", figure::renderSvg(figure.figure));
@@ -67,7 +60,7 @@ AnalysisFiles writeAnalysis(const StudyResult& study, const DatasetIndex& datase
     files.figures.push_back(path + ".pdf");
   }
   files.report = folder + "/report.html";
-  record::writeFileAtomically(files.report, makeReport(header, study, figures, dataset.runs, dataset.notes, recovery));
+  record::writeFileAtomically(files.report, makeReport(header, analysis, figures, dataset.runs, dataset.notes, recovery));
   return files;
 }
 

@@ -15,7 +15,7 @@ struct AnalysisFiles {
 
 /// Writes tables (CSV, each with the dictionary of its columns beside it as JSON), figures (SVG and PDF, in figures/) and report.html into
 /// `folder`; each file replaced in one step. The same study gives the same bytes. Throws ResourceError.
-AnalysisFiles writeAnalysis(const StudyResult& study, const DatasetIndex& dataset, const ReportHeader& header, const std::string& folder,
-                            const std::optional<Recovery>& recovery = {});
+AnalysisFiles writeAnalysis(const Analysis& analysis, const DatasetIndex& dataset, const ReportHeader& header, const std::string& folder,
+                            const std::optional<TruthRecovery>& recovery = {});
 
 }  // namespace reachlab::analysis

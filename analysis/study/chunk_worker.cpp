@@ -97,7 +97,7 @@ void ChunkWorker::computeSubject(std::int64_t subject, std::vector<MeasuredTrial
   const std::size_t firstAxis = identity_ - design_.axes.size(), trialColumn = firstAxis - 2;
   for (std::size_t k = 0; k < design_.axes.size(); ++k) {
     const Column& column = columns_[firstAxis + k];
-    const Axis& axis = design_.axes[k];
+    const VariedKey& axis = design_.axes[k];
     who[firstAxis + k] = column.words.empty() ? std::strtod(point_->ofAxes[k].value.c_str(), nullptr)
                                               : static_cast<double>(placeOf(axis.values, point_->ofAxes[k].value));
   }

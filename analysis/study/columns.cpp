@@ -6,53 +6,41 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/study/trial_row.h"
-#include "analysis/tables.h"
+#include "analysis/table_columns.h"
 #include "base/number_range.h"
 #include "sim/predict/prediction/criterion.h"
 #include "sim/record/export/column_dictionary.h"
-#include "sim/record/export/tidy_csv.h"
 #include "sim/record/log/trial_measures.h"
 #include "sim/session/plan.h"
 
 namespace reachlab::study {
 namespace {
 
-struct Measure {
-  const char* name;
-  bool samples;  // of the analysis, else as `reach export` has it
-  double (*of)(const MeasuredTrial&);
+/// A measure of a study: one of the ticks, or one of the analysis, which needs the samples.
+struct StudyMeasure {
+  std::string_view name, sentence;
+  const record::TickMeasure* ofTicks = nullptr;
+  const analysis::Measure* ofSamples = nullptr;
+  double of(const MeasuredTrial& t) const { return ofTicks != nullptr ? ofTicks->of(t.recorded) : t.measures.*ofSamples->value; }
 };
 
-constexpr Measure kMeasures[] = {
-    {"mass", false, [](const MeasuredTrial& t) { return static_cast<double>(t.recorded.result.mass); }},
-    {"by", false, [](const MeasuredTrial& t) { return t.recorded.result.by; }},
-    {"movement_time_s", false, [](const MeasuredTrial& t) { return record::movementTimeOf(t.recorded); }},
-    {"reaction_time_s", false, [](const MeasuredTrial& t) { return record::timesOf(t.recorded).reaction; }},
-    {"peak_hand_speed_m_per_s", false, [](const MeasuredTrial& t) { return t.recorded.peakHandSpeed; }},
-    {"hand_path_m", false, [](const MeasuredTrial& t) { return t.recorded.handPathLength; }},
-    {"peak_force_n", false, [](const MeasuredTrial& t) { return t.recorded.peakForce; }},
-    {"mean_force_n", false, [](const MeasuredTrial& t) { return t.recorded.meanForce; }},
-    {"clamped_ticks", false, [](const MeasuredTrial& t) { return static_cast<double>(t.recorded.clampedTicks); }},
-    {"onset_s", true, [](const MeasuredTrial& t) { return t.measures.onset; }},
-    {"offset_s", true, [](const MeasuredTrial& t) { return t.measures.offset; }},
-    {"duration_s", true, [](const MeasuredTrial& t) { return t.measures.duration; }},
-    {"peak_speed_m_per_s", true, [](const MeasuredTrial& t) { return t.measures.peakSpeed; }},
-    {"time_to_peak_s", true, [](const MeasuredTrial& t) { return t.measures.timeToPeak; }},
-    {"time_to_peak_percent", true, [](const MeasuredTrial& t) { return t.measures.timeToPeakPercent; }},
-    {"symmetry_ratio", true, [](const MeasuredTrial& t) { return t.measures.symmetryRatio; }},
-    {"path_length_m", true, [](const MeasuredTrial& t) { return t.measures.pathLength; }},
-    {"speed_peaks", true, [](const MeasuredTrial& t) { return t.measures.speedPeaks; }},
-    {"hand_endpoint_error_m", true, [](const MeasuredTrial& t) { return t.measures.handEndpointError; }},
-    {"object_endpoint_error_m", true, [](const MeasuredTrial& t) { return t.measures.objectEndpointError; }},
-    {"hand_overshoot_m", true, [](const MeasuredTrial& t) { return t.measures.handOvershoot; }},
-    {"object_overshoot_m", true, [](const MeasuredTrial& t) { return t.measures.objectOvershoot; }},
-    {"sparc", true, [](const MeasuredTrial& t) { return t.measures.sparc; }},
-    {"ldlj", true, [](const MeasuredTrial& t) { return t.measures.ldlj; }},
-};
+/// The ticks' measures go first: what has one name is one quantity, and theirs needs no samples.
+const std::vector<StudyMeasure>& studyMeasures() {
+  static const auto kMeasures = [] {
+    std::vector<StudyMeasure> all;
+    for (const record::TickMeasure& m : record::tickMeasures())
+      if (!m.ofComputer) all.push_back({m.name, m.sentence, &m, nullptr});
+    for (const analysis::Measure& m : analysis::measures())
+      if (std::none_of(all.begin(), all.end(), [&](const StudyMeasure& known) { return known.name == m.name; }))
+        all.push_back({m.name, m.sentence, nullptr, &m});
+    return all;
+  }();
+  return kMeasures;
+}
 
-const Measure* findMeasure(const std::string& name) {
-  const auto at = std::find_if(std::begin(kMeasures), std::end(kMeasures), [&](const Measure& m) { return name == m.name; });
-  return at == std::end(kMeasures) ? nullptr : &*at;
+const StudyMeasure* findMeasure(std::string_view name) {
+  const auto at = std::find_if(studyMeasures().begin(), studyMeasures().end(), [&](const StudyMeasure& m) { return name == m.name; });
+  return at == studyMeasures().end() ? nullptr : &*at;
 }
 
 const std::vector<std::string>& measuresOf(const Design& design) {
@@ -73,7 +61,7 @@ constexpr int kOutcomes = static_cast<int>(trial::Outcome::Interrupted) + 1, kRe
 
 std::string plainWord(const std::string& json) { return json.size() > 1 && json.front() == '"' ? json.substr(1, json.size() - 2) : json; }
 
-Column columnOf(const Axis& axis) {
+Column columnOf(const VariedKey& axis) {
   Column column{axis.path, {}};
   const bool numbers = std::all_of(axis.values.begin(), axis.values.end(),
                                    [](const std::string& v) { return v.find_first_of("\"[{tfn") == std::string::npos; });
@@ -99,7 +87,7 @@ Needs needsOf(const Design& design) {
   needs.fits = asksFor(design, "score");
   needs.samples = needs.errors || needs.fits || design.profiles;
   for (const std::string& name : design.measures)
-    if (const Measure* measure = findMeasure(name); measure != nullptr && measure->samples) needs.samples = true;
+    if (const StudyMeasure* measure = findMeasure(name); measure != nullptr && measure->ofSamples != nullptr) needs.samples = true;
   return needs;
 }
 
@@ -123,7 +111,7 @@ std::vector<Column> columnsOf(const Design& design) {
   }
   columns.push_back({"trial", {}});
   columns.push_back({"seed", {}});
-  for (const Axis& axis : design.axes) columns.push_back(columnOf(axis));
+  for (const VariedKey& axis : design.axes) columns.push_back(columnOf(axis));
   Column outcome{"outcome", {}}, reason{"reason", {}};
   for (int i = 0; i < kOutcomes; ++i) outcome.words.emplace_back(trial::nameOf(static_cast<trial::Outcome>(i)));
   for (int i = 0; i < kReasons; ++i) reason.words.emplace_back(i == 0 ? "" : trial::nameOf(static_cast<trial::Reason>(i)));
@@ -163,16 +151,14 @@ void putMeasures(const Design& design, const MeasuredTrial& trial, std::span<dou
 
 std::vector<std::string> measureNames() {
   std::vector<std::string> names;
-  for (const Measure& measure : kMeasures) names.emplace_back(measure.name);
+  for (const StudyMeasure& measure : studyMeasures()) names.emplace_back(measure.name);
   names.insert(names.end(), {"epsilon", "score"});
   return names;
 }
 
 std::vector<std::string> usualMeasures() {
-  std::vector<std::string> names;
-  for (const Measure& measure : kMeasures)
-    if (!measure.samples) names.emplace_back(measure.name);
-  return names;
+  return {"mass",        "by",           "movement_time_s", "task_reaction_time_s", "peak_hand_speed_m_per_s",
+          "hand_path_m", "peak_force_n", "mean_force_n",    "clamped_ticks"};
 }
 
 std::vector<Fault> measureProblems(const Design& design) {
@@ -194,32 +180,26 @@ std::vector<Fault> measureProblems(const Design& design) {
 }
 
 std::string dictionaryOf(const Design& design) {
-  using Json = nlohmann::ordered_json;
   std::string header;
   for (const Column& column : columnsOf(design)) header += (header.empty() ? "" : ",") + column.name;
-  header += "\n";
-  static constexpr record::ColumnMeaning kOwn[] = {
-      {"point", "Point of the study, from 0: one combination of what is varied"},
-      {"subject", "Virtual subject of the point, from 1"},
-      {"session", "Session of the plan: its day"},
-      {"practice", "1: a practice block"},
-      {"seed", "Seed of the subject's session: a recorded run of the point's experiment with it repeats the trials"},
-      {"trials", "Trials of each subject, varied"},
-      {"score_*", "ln S of the candidate that the column names, held out: lower is nearer. The reference ignores the object"},
-      {"fit_effective_samples", "Independent samples in a trial of this subject and block, by its residuals' correlation"},
-      {"fit_poorness", "R^2 of the mean of the subject's other trials less that of the subject's nearest candidate"},
-      {"by", "Excess over the tolerance that was missed: m where reason is position, m/s where velocity, s where time_short"}};
-  Json dictionary = Json::parse(record::columnDictionary(header, kOwn));
-  const Json analysis = Json::parse(analysis::tableDictionary("trials.csv", header)), tidy = Json::parse(record::trialsDictionary(header));
+  std::vector<record::ColumnMeaning> meanings;  // the first of a name holds
+  for (const VariedKey& key : design.axes) meanings.push_back({key.path, "Varied by the study"});
+  meanings.insert(meanings.end(),
+                  {{"point", "Point of the study, from 0: one combination of what is varied"},
+                   {"subject", "Virtual subject of the point, from 1"},
+                   {"session", "Session of the plan: its day"},
+                   {"practice", "1: a practice block"},
+                   {"seed", "Seed of the subject's session: a recorded run of the point's experiment with it repeats the trials"},
+                   {"score_*", "ln S of the candidate that the column names, held out: lower is nearer. The reference ignores the object"},
+                   {"fit_effective_samples", "Independent samples in a trial of this subject and block, by its residuals' correlation"},
+                   {"fit_poorness", "R^2 of the mean of the subject's other trials less that of the subject's nearest candidate"}});
+  for (const StudyMeasure& measure : studyMeasures()) meanings.push_back({measure.name, measure.sentence});
+  const std::span<const record::ColumnMeaning> trials = analysis::tableColumns("trials.csv");
+  meanings.insert(meanings.end(), trials.begin(), trials.end());
+  auto dictionary = nlohmann::ordered_json::parse(record::columnDictionary(header, meanings));
   for (auto& [name, entry] : dictionary.items()) {
-    const Measure* measure = findMeasure(name);
-    const bool ofAnalysis = (measure != nullptr && measure->samples) || name.starts_with("epsilon_");
-    std::string& text = entry["Description"].get_ref<std::string&>();
-    if (text.empty()) text = (ofAnalysis ? analysis : tidy)[name]["Description"].get<std::string>();
-    for (const Axis& axis : design.axes)
-      if (axis.path == name) text = "Varied by the study";
-    if (name == "subject") entry.erase("Format");
-    if (name.starts_with("score_") || name == "by") entry.erase("Units");
+    if (name == "subject") entry.erase("Format");  // a number here
+    if (name.starts_with("score_")) entry.erase("Units");
   }
   return dictionary.dump(2) + "\n";
 }

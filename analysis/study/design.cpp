@@ -45,7 +45,7 @@ void readNames(ObjectReader& reader, const std::string& key, std::vector<std::st
 }
 
 // {from, to, step}: both ends, the last where the steps meet it to a millionth of one.
-void readSteps(ObjectReader& axis, Axis& out) {
+void readSteps(ObjectReader& axis, VariedKey& out) {
   double from = 0, to = 0, step = 0;
   const bool all = axis.requiredNumber("from", anyNumber(), from) & axis.requiredNumber("to", anyNumber(), to) &
                    axis.requiredNumber("step", positive(""), step);
@@ -57,7 +57,7 @@ void readSteps(ObjectReader& axis, Axis& out) {
     out.values.push_back(fmt::format("{}", from + static_cast<double>(i) * step));
 }
 
-std::int64_t readUniform(ObjectReader& axis, Axis& out) {
+std::int64_t readUniform(ObjectReader& axis, VariedKey& out) {
   int n = 0;
   std::vector<double> range;
   if (const JsonNode* node = axis.required("uniform", "[from, to]")) axis.numbers(*node, "uniform", 2, anyNumber(), range);
@@ -74,7 +74,7 @@ void readAxes(ObjectReader& reader, Design& design) {
   if (node->kind != JsonNode::Kind::Object) return reader.faults().add(*node, "vary", "is no object", "keys with their values");
   std::optional<std::int64_t> samples;
   for (const auto& [path, value] : node->members) {
-    Axis axis;
+    VariedKey axis;
     axis.path = path;
     const std::string key = "vary." + path;
     if (value.kind == JsonNode::Kind::Array) {
@@ -117,7 +117,7 @@ void readExperiments(const JsonNode& root, Design& design, FaultList& faults) {
   };
   if (!design.experiment.empty())
     take(*root.find("experiment"), "experiment", design.experiment, besideStudy(design.file, design.experiment));
-  for (const Axis& axis : design.axes) {
+  for (const VariedKey& axis : design.axes) {
     if (axis.path != "experiment") continue;
     const JsonNode& node = *root.find("vary")->find("experiment");
     for (const JsonNode& item : node.items)
@@ -176,7 +176,7 @@ Design parseDesign(const std::string& text, const std::string& file, const std::
     faults.add(root, "experiment", "needs exactly one of experiment and plan", "one of the two");
   if (!design.plan.empty() && root.find("trials") != nullptr)
     faults.add(*root.find("trials"), "trials", "a plan says how many", "none beside a plan");
-  for (const Axis& axis : design.axes)
+  for (const VariedKey& axis : design.axes)
     if (!design.plan.empty() && (axis.path == "experiment" || axis.path == "trials"))
       faults.add(*root.find("vary")->find(axis.path), "vary." + axis.path, "stands beside a plan, which has its own", "plan.KEY");
   for (const Fault& fault : measureProblems(design)) faults.addOfValue(root, fault);
@@ -189,7 +189,7 @@ Design parseDesign(const std::string& text, const std::string& file, const std::
   }
   faults.throwIfAny();
   double points = static_cast<double>(design.samples);
-  for (const Axis& axis : design.axes)
+  for (const VariedKey& axis : design.axes)
     if (!axis.uniform) points *= static_cast<double>(axis.values.size());
   if (!(points <= static_cast<double>(kMaxPoints)))
     faults.add(root, "vary", fmt::format("makes {:.0f} points", points), fmt::format("up to {}", kMaxPoints));

@@ -12,7 +12,7 @@
 namespace reachlab::study {
 
 /// What is varied: a key of the experiment, `subject.KEY`, `plan.KEY`, `experiment` (names) or `trials`.
-struct Axis {
+struct VariedKey {
   std::string path;
   std::vector<std::string> values;                   // as JSON; of a grid
   std::optional<std::pair<double, double>> uniform;  // drawn between these instead, one value a sample
@@ -29,7 +29,7 @@ struct Design {
   std::vector<std::pair<std::string, std::string>> subject;  // options of the simulated device, in order
   std::int64_t subjects = 1;                                 // at each point
   int trials = 1;                                            // of a subject; a plan has its own
-  std::vector<Axis> axes;
+  std::vector<VariedKey> axes;
   std::int64_t samples = 1;  // draws of the axes with `uniform`; 1 where there are none
   std::vector<std::string> measures;
   std::vector<std::string> criteria;  // compared with where measures ask for it; empty: all

@@ -83,7 +83,7 @@ std::vector<int> daysOf(const session::Plan& plan) {
 
 std::int64_t pointCount(const Design& design) {
   std::int64_t count = design.samples;
-  for (const Axis& axis : design.axes)
+  for (const VariedKey& axis : design.axes)
     if (!axis.uniform) count *= static_cast<std::int64_t>(axis.values.size());
   return count;
 }
@@ -97,7 +97,7 @@ Point pointAt(const Design& design, std::int64_t index) {
   const std::int64_t sample = index % design.samples;
   std::int64_t rest = index / design.samples;
   for (std::size_t k = design.axes.size(); k-- > 0;) {
-    const Axis& axis = design.axes[k];
+    const VariedKey& axis = design.axes[k];
     point.ofAxes[k].path = axis.path;
     if (axis.uniform) {
       const auto drawn = philox(
@@ -166,7 +166,7 @@ std::int64_t mostTrialsOfSubject(const Design& design) {
     return trials;
   }
   std::int64_t most = 0;
-  for (const Axis& axis : design.axes)
+  for (const VariedKey& axis : design.axes)
     if (axis.path == "trials")
       for (const std::string& value : axis.values) most = std::max<std::int64_t>(most, std::strtoll(value.c_str(), nullptr, 10));
   return most > 0 ? most : design.trials;

@@ -40,7 +40,7 @@ struct SmallestDesign {
 struct Confusion {
   std::string cell;
   std::size_t subjects = 0, trials = 0;
-  analysis::Recovery named;
+  analysis::TruthRecovery named;
 };
 
 struct StudyReport {

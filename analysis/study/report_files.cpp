@@ -47,7 +47,7 @@ std::string successTable(const StudyReport& report) {
   TableText table(',', "");
   table.row({"key", "value", "successes", "trials", "success_percent", "low_percent", "high_percent"});
   for (const SuccessAt& at : report.success) {
-    const analysis::Interval interval = analysis::computeBinomialInterval(at.successes, at.trials);
+    const analysis::Bounds interval = analysis::computeBinomialInterval(at.successes, at.trials);
     table.cell(at.key).cell(at.value).whole(static_cast<long long>(at.successes)).whole(static_cast<long long>(at.trials));
     table.number(percentOf(at.successes, at.trials)).number(100 * interval.low).number(100 * interval.high).endRow();
   }
@@ -58,7 +58,7 @@ std::string learningTable(const StudyReport& report) {
   TableText table(',', "");
   table.row({"block", "first_trial", "last_trial", "successes", "trials", "success_percent", "low_percent", "high_percent"});
   for (const LearningAt& at : report.learning) {
-    const analysis::Interval interval = analysis::computeBinomialInterval(at.successes, at.trials);
+    const analysis::Bounds interval = analysis::computeBinomialInterval(at.successes, at.trials);
     table.cell(at.block);
     for (const std::size_t n : {at.firstTrial, at.lastTrial, at.successes, at.trials}) table.whole(static_cast<long long>(n));
     table.number(percentOf(at.successes, at.trials)).number(100 * interval.low).number(100 * interval.high).endRow();
@@ -117,12 +117,12 @@ figure::Figure successFigure(const StudyReport& report) {
     panel.y.to = 100.0;
     figure::Series series;
     series.color = palette::kBlue;
-    series.marker = figure::Marker::Circle;
+    series.marker = figure::MarkerShape::Circle;
     for (const SuccessAt& at : report.success) {
       if (at.key != key) continue;
       const bool number = at.value == fmt::format("{}", at.number);
       if (!number) panel.x.ticks.emplace_back(at.number, at.value);
-      const analysis::Interval interval = analysis::computeBinomialInterval(at.successes, at.trials);
+      const analysis::Bounds interval = analysis::computeBinomialInterval(at.successes, at.trials);
       series.x.push_back(at.number);
       series.y.push_back(percentOf(at.successes, at.trials));
       series.errorLow.push_back(100 * interval.low);
@@ -213,7 +213,7 @@ std::string textOf(const StudyReport& report, const std::vector<std::string>& fi
   if (!report.success.empty()) {
     text += "\n## Success\n\n| key | value | success % | 95 % interval | trials |\n|---|---|---|---|---|\n";
     for (const SuccessAt& at : report.success) {
-      const analysis::Interval interval = analysis::computeBinomialInterval(at.successes, at.trials);
+      const analysis::Bounds interval = analysis::computeBinomialInterval(at.successes, at.trials);
       text += fmt::format("| {} | {} | {:.1f} | {:.1f} to {:.1f} | {} |\n", at.key, at.value, percentOf(at.successes, at.trials),
                           100 * interval.low, 100 * interval.high, at.trials);
     }

@@ -6,15 +6,14 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "analysis/hands.h"
-#include "analysis/report/wording.h"
-#include "analysis/report/write_analysis.h"
-#include "analysis/tables.h"
+#include "cli/terminal/at_option.h"
+#include "cli/commands/commands.h"
+#include "cli/terminal/criterion_option.h"
 #include "base/error.h"
 #include "base/fault.h"
-#include "cli/commands/commands.h"
-#include "cli/terminal/at_option.h"
-#include "cli/terminal/criterion_option.h"
+#include "analysis/tables.h"
+#include "analysis/report/wording.h"
+#include "analysis/report/write_analysis.h"
 #include "sim/record/export/derivative.h"
 
 namespace reachlab::cli {
@@ -44,8 +43,8 @@ std::vector<double> parseMasses(const std::string& text) {
   return masses;
 }
 
-analysis::StudyOptions studyOptions(const AnalyzeOptions& o) {
-  analysis::StudyOptions s;
+analysis::AnalysisOptions analysisOptions(const AnalyzeOptions& o) {
+  analysis::AnalysisOptions s;
   s.measure.cutoff = o.cutoff;
   s.measure.onset.percent = o.percent;
   s.measure.onset.speed = o.speed;
@@ -59,14 +58,14 @@ analysis::StudyOptions studyOptions(const AnalyzeOptions& o) {
   if (!o.masses.empty()) s.handMasses = parseMasses(o.masses);
   s.handDamping = o.handDamping;
   s.keepScatter = o.recovery > 0;
-  for (const std::string& name : o.criteria) s.criteria.push_back(parseCriterion(name));
+  for (const std::string& name : o.criteria) s.drawn.push_back(parseCriterion(name));
   return s;
 }
 
 using Names = std::vector<std::vector<predict::Criterion>>;
 using Json = nlohmann::ordered_json;
 
-Json jsonOf(const analysis::Interval& i) { return std::isfinite(i.low) && std::isfinite(i.high) ? Json{i.low, i.high} : Json(nullptr); }
+Json jsonOf(const analysis::Bounds& i) { return std::isfinite(i.low) && std::isfinite(i.high) ? Json{i.low, i.high} : Json(nullptr); }
 
 /// The paper's epsilon of one signal, as a description.
 Json jsonOf(const analysis::EpsilonTable& table, const analysis::ConditionResult& result, bool decided) {
@@ -124,9 +123,9 @@ Json jsonOf(const analysis::Conclusion& c, const Names& names, const std::vector
           {"sentence", analysis::describeConclusion(c, names)}};
 }
 
-Json jsonOfFits(const analysis::StudyResult& study) {
+Json jsonOfFits(const analysis::Analysis& analysis) {
   auto fits = Json::array();
-  for (const analysis::FitRow& f : analysis::fitRows(study))
+  for (const analysis::FitRow& f : analysis::fitRows(analysis))
     fits.push_back({{"subject", f.subject},
                     {"condition", f.condition},
                     {"criterion", f.criterion},
@@ -144,7 +143,7 @@ Json jsonOfFits(const analysis::StudyResult& study) {
   return fits;
 }
 
-Json jsonOf(const analysis::Recovery& r) {
+Json jsonOf(const analysis::TruthRecovery& r) {
   auto names = Json::array();
   for (const auto& criteria : r.candidates) names.push_back(analysis::nameOfCandidate(criteria));
   auto named = names;
@@ -152,22 +151,22 @@ Json jsonOf(const analysis::Recovery& r) {
   return {{"trials", r.trials}, {"seeds", r.studies}, {"truths", names}, {"named", named}, {"counts", r.counts}};
 }
 
-Json jsonOf(const analysis::StudyResult& study, const analysis::Effect& e) {
-  const auto place = [&](int i) { return e.ofDay ? fmt::format("D{}", i) : study.conditions[static_cast<std::size_t>(i)].name; };
+Json jsonOf(const analysis::Analysis& analysis, const analysis::Effect& e) {
+  const auto place = [&](int i) { return e.ofDay ? fmt::format("D{}", i) : analysis.conditions[static_cast<std::size_t>(i)].name; };
   return {{"effect", e.ofDay ? "day" : "condition"},
-          {"condition", e.ofDay ? Json(study.conditions[e.condition].name) : Json(nullptr)},
+          {"condition", e.ofDay ? Json(analysis.conditions[e.condition].name) : Json(nullptr)},
           {"from", place(e.from)},
           {"to", place(e.to)},
           {"subjects", e.people},
           {"difference_percent", e.points.mean},
           {"difference_interval_percent", jsonOf(e.pointsInterval)},
           {"odds_ratio", std::exp(e.logit.mean)},
-          {"odds_ratio_interval", jsonOf(analysis::Interval{std::exp(e.logitInterval.low), std::exp(e.logitInterval.high)})},
+          {"odds_ratio_interval", jsonOf(analysis::Bounds{std::exp(e.logitInterval.low), std::exp(e.logitInterval.high)})},
           {"p", e.people > 1 ? Json(e.p) : Json(nullptr)}};
 }
 
-std::string summaryJson(const analysis::StudyResult& study, const analysis::DatasetIndex& dataset, const analysis::AnalysisFiles& files,
-                        const std::optional<analysis::Recovery>& recovery) {
+std::string summaryJson(const analysis::Analysis& analysis, const analysis::DatasetIndex& dataset, const analysis::AnalysisFiles& files,
+                        const std::optional<analysis::TruthRecovery>& recovery) {
   Json j = Json::object();
   j["report"] = files.report;
   j["tables"] = files.tables;
@@ -175,17 +174,17 @@ std::string summaryJson(const analysis::StudyResult& study, const analysis::Data
   j["runs"] = dataset.runs.size();
   j["notes"] = dataset.notes;
   std::vector<double> masses;
-  for (const analysis::ConditionResult& r : study.results)
+  for (const analysis::ConditionResult& r : analysis.results)
     if (masses.empty()) masses = r.candidates.masses;
-  j["conclusion"] = jsonOf(study.overall, study.common, masses);
+  j["conclusion"] = jsonOf(analysis.overall, analysis.common, masses);
   j["conclusion"]["conditions"] = Json::array();
-  for (const std::size_t c : study.together) j["conclusion"]["conditions"].push_back(study.conditions[c].name);
+  for (const std::size_t c : analysis.together) j["conclusion"]["conditions"].push_back(analysis.conditions[c].name);
   j["conditions"] = Json::array();
-  for (std::size_t c = 0; c < study.conditions.size(); ++c) {
-    const analysis::ConditionResult& r = study.results[c];
-    Json condition{{"name", study.conditions[c].name}, {"success", r.counts.success},         {"failure", r.counts.failure},
-                   {"aborted", r.counts.aborted},      {"interrupted", r.counts.interrupted}, {"invalid_timing", r.counts.invalidTiming},
-                   {"before_go", r.counts.beforeGo},   {"other_way", r.counts.otherWay},      {"used", r.used}};
+  for (std::size_t c = 0; c < analysis.conditions.size(); ++c) {
+    const analysis::ConditionResult& r = analysis.results[c];
+    Json condition{{"name", analysis.conditions[c].name}, {"success", r.counts.success},         {"failure", r.counts.failure},
+                   {"aborted", r.counts.aborted},         {"interrupted", r.counts.interrupted}, {"invalid_timing", r.counts.invalidTiming},
+                   {"before_go", r.counts.beforeGo},      {"other_way", r.counts.otherWay},      {"used", r.used}};
     if (r.used > 0) {
       condition["mean_duration_s"] = r.duration.mean;
       condition["movement_time_s"] = {{"mean", r.movementTime.mean}, {"min", r.movementRange.low}, {"max", r.movementRange.high}};
@@ -193,18 +192,18 @@ std::string summaryJson(const analysis::StudyResult& study, const analysis::Data
     if (r.success)
       condition["success_percent"] = {
           {"typical", 100 * r.success->mean},
-          {"interval", jsonOf(analysis::Interval{100 * r.success->interval.low, 100 * r.success->interval.high})}};
+          {"interval", jsonOf(analysis::Bounds{100 * r.success->interval.low, 100 * r.success->interval.high})}};
     condition["conclusion"] = jsonOf(r.conclusion, analysis::candidatesOf(r), r.candidates.masses);
     condition["hand_ranking"] = jsonOf(r.handEpsilon, r, r.conclusion.decided());
     condition["object_ranking"] = jsonOf(r.objectEpsilon, r, false);
     j["conditions"].push_back(condition);
   }
-  j["fits"] = jsonOfFits(study);
+  j["fits"] = jsonOfFits(analysis);
   j["effects"] = Json::array();
-  for (const analysis::Effect& e : study.effects) j["effects"].push_back(jsonOf(study, e));
+  for (const analysis::Effect& e : analysis.effects) j["effects"].push_back(jsonOf(analysis, e));
   j["learning"] = Json::array();
-  for (const analysis::LearningSlope& s : study.slopes)
-    j["learning"].push_back({{"condition", study.conditions[s.condition].name},
+  for (const analysis::LearningSlope& s : analysis.slopes)
+    j["learning"].push_back({{"condition", analysis.conditions[s.condition].name},
                              {"subjects", s.people},
                              {"slope_percent_per_100_trials", s.perHundred},
                              {"interval", jsonOf(s.interval)},
@@ -213,7 +212,7 @@ std::string summaryJson(const analysis::StudyResult& study, const analysis::Data
   return j.dump(2) + "\n";
 }
 
-void printRecovery(const analysis::Recovery& recovery) {
+void printRecovery(const analysis::TruthRecovery& recovery) {
   fmt::print("recovery: {} simulated studies a truth\n", recovery.studies);
   for (std::size_t t = 0; t < recovery.counts.size(); ++t) {
     fmt::print("  truth {}:", analysis::nameOfCandidate(recovery.candidates[t]));
@@ -225,16 +224,17 @@ void printRecovery(const analysis::Recovery& recovery) {
   }
 }
 
-void printSummary(const analysis::StudyResult& study, const analysis::DatasetIndex& dataset, const analysis::AnalysisFiles& files,
-                  const std::optional<analysis::Recovery>& recovery) {
+void printSummary(const analysis::Analysis& analysis, const analysis::DatasetIndex& dataset, const analysis::AnalysisFiles& files,
+                  const std::optional<analysis::TruthRecovery>& recovery) {
   for (const std::string& note : dataset.notes) fmt::print(stderr, "note: {}\n", note);
-  fmt::print("{}\n", analysis::describeConclusion(study.overall, study.common));
-  if (const std::string evidence = analysis::describeEvidence(study.overall, study.common); !evidence.empty()) fmt::print("{}\n", evidence);
-  if (const std::string over = analysis::describeTogether(study); !over.empty()) fmt::print("{}\n", over);
-  for (std::size_t c = 0; c < study.conditions.size(); ++c) {
-    const analysis::ConditionResult& r = study.results[c];
-    fmt::print("{}: {}\n", study.conditions[c].name, analysis::describeCounts(r));
-    if (study.conditions.size() > 1) fmt::print("  {}\n", analysis::describeConclusion(r.conclusion, analysis::candidatesOf(r)));
+  fmt::print("{}\n", analysis::describeConclusion(analysis.overall, analysis.common));
+  if (const std::string evidence = analysis::describeEvidence(analysis.overall, analysis.common); !evidence.empty())
+    fmt::print("{}\n", evidence);
+  if (const std::string over = analysis::describeTogether(analysis); !over.empty()) fmt::print("{}\n", over);
+  for (std::size_t c = 0; c < analysis.conditions.size(); ++c) {
+    const analysis::ConditionResult& r = analysis.results[c];
+    fmt::print("{}: {}\n", analysis.conditions[c].name, analysis::describeCounts(r));
+    if (analysis.conditions.size() > 1) fmt::print("  {}\n", analysis::describeConclusion(r.conclusion, analysis::candidatesOf(r)));
   }
   if (recovery) printRecovery(*recovery);
   fmt::print("{} tables, {} figures and {}\n", files.tables.size(), files.figures.size(), files.report);
@@ -263,33 +263,32 @@ std::string commandOf(const AnalyzeOptions& o) {
 }
 
 void run(const AnalyzeOptions& o) {
-  const analysis::StudyOptions options = studyOptions(o);  // refused before hours of reading
+  const analysis::AnalysisOptions options = analysisOptions(o);  // refused before hours of reading
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const auto progress = [terminal](const char* what, std::size_t done, std::size_t of) {
     if (terminal && of > 0) fmt::print(stderr, "\r{} {} of {} \033[K{}", what, done, of, done == of ? "\n" : "");
   };
-  analysis::StudyBuilder builder(options);
+  analysis::AnalysisBuilder builder(options);
   const analysis::DatasetIndex dataset = analysis::readDataset(
       o.dataset,
       {[&](analysis::TrialData&& trial, std::size_t condition) { builder.add(std::move(trial), condition); },
        [&](std::size_t count) { builder.takeBack(count); }},
       o.experiment, [&](std::size_t done, std::size_t of, const std::string&) { progress("reading run", done + 1, of); });
-  const analysis::StudyResult study =
+  const analysis::Analysis analysis =
       builder.finish(dataset.conditions, [&](std::size_t done, std::size_t of) { progress("fitting trial", done, of); });
-  std::optional<analysis::Recovery> recovery;
+  std::optional<analysis::TruthRecovery> recovery;
   if (o.recovery > 0)
-    recovery = analysis::recover(study, o.recovery, o.seed, static_cast<unsigned>(std::max(0, o.jobs)),
-                                [&](std::size_t done, std::size_t of) { progress("simulated study", done, of); });
+    recovery = analysis::recover(analysis, o.recovery, o.seed, static_cast<unsigned>(std::max(0, o.jobs)),
+                                 [&](std::size_t done, std::size_t of) { progress("simulated study", done, of); });
   std::string folder = o.dataset;
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
   const analysis::ReportHeader header{folder, REACHLAB_VERSION, commandOf(o)};
   const std::string out = o.out.empty() ? folder + "/derivatives/reachlab" : o.out;
-  analysis::AnalysisFiles files = atOption("--out", [&] { return analysis::writeAnalysis(study, dataset, header, out, recovery); });
-  for (std::string& table : atOption("--out", [&] { return analysis::writeHandsTable(dataset, out); }))
-    files.tables.push_back(std::move(table));
+  const analysis::AnalysisFiles files =
+      atOption("--out", [&] { return analysis::writeAnalysis(analysis, dataset, header, out, recovery); });
   if (o.out.empty()) record::describeDerivative(out, "Analysis of reaching movements", "reachlab " REACHLAB_VERSION);
-  if (o.json) fmt::print("{}", summaryJson(study, dataset, files, recovery));
-  else printSummary(study, dataset, files, recovery);
+  if (o.json) fmt::print("{}", summaryJson(analysis, dataset, files, recovery));
+  else printSummary(analysis, dataset, files, recovery);
   if (!dataset.unreadable.empty())
     throw ResourceError(fmt::format("{} of {} runs could not be read and are not in these results: {}", dataset.unreadable.size(),
                                     dataset.unreadable.size() + dataset.runs.size(), fmt::join(dataset.unreadable, "; ")));
@@ -303,7 +302,7 @@ void addAnalyzeCommand(CLI::App& app, int&) {
   command->add_option("dataset", o->dataset, "Data folder of `reach run`, a session's folder in it, or one log")->required();
   command->add_option("--out", o->out, "Folder to write to (default: DATASET/derivatives/reachlab)");
   command
-      ->add_option("--criterion", o->criteria, "Criterion to compare with; repeat for more (default: all that are defined for the object)")
+      ->add_option("--criterion", o->criteria, "Draw this criterion and tell its ε; repeat for more. Every criterion is compared all the same [default: all]")
       ->allow_extra_args(false);
   command->add_option("--hand-mass", o->handMass, "Mass of the hand in the predictions [kg] (default: the experiment's)")
       ->check(CLI::NonNegativeNumber);

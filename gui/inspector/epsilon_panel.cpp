@@ -18,8 +18,8 @@ enum Column { kName, kPaper, kFitted, kColumns };
 
 }  // namespace
 
-std::optional<double> fittedEpsilon(const analysis::StudyResult& study, std::size_t condition, predict::Criterion criterion) {
-  const auto& candidates = study.results[condition].candidates.candidates;
+std::optional<double> fittedEpsilon(const analysis::Analysis& analysis, std::size_t condition, predict::Criterion criterion) {
+  const auto& candidates = analysis.results[condition].candidates.candidates;
   const auto place = std::find_if(candidates.begin(), candidates.end(), [&](const analysis::Candidate& c) {
     return std::find(c.criteria.begin(), c.criteria.end(), criterion) != c.criteria.end();
   });
@@ -27,7 +27,7 @@ std::optional<double> fittedEpsilon(const analysis::StudyResult& study, std::siz
   const auto k = static_cast<std::size_t>(place - candidates.begin());
   double sum = 0;
   int people = 0;
-  for (const analysis::PersonResult& person : study.people) {
+  for (const analysis::PersonResult& person : analysis.people) {
     if (person.condition != condition || !person.fitted) continue;
     sum += person.fit.candidates[k].epsilonOfAll;
     ++people;
@@ -81,9 +81,9 @@ EpsilonPanel::EpsilonPanel(QWidget* parent) : QWidget(parent) {
   clear(tr("Choose trials in the table."));
 }
 
-void EpsilonPanel::show(const analysis::StudyResult& study, std::size_t condition) {
+void EpsilonPanel::show(const analysis::Analysis& analysis, std::size_t condition) {
   const QSignalBlocker quiet(table_);
-  const analysis::ConditionResult& r = study.results[condition];
+  const analysis::ConditionResult& r = analysis.results[condition];
   int best[kColumns] = {-1, -1, -1};
   double least[kColumns] = {0, 1e300, 1e300};
   for (int i = 0; i < predict::kCriterionCount; ++i) {
@@ -96,7 +96,7 @@ void EpsilonPanel::show(const analysis::StudyResult& study, std::size_t conditio
       if (value && *value < least[column]) least[column] = *value, best[column] = i;
     };
     put(kPaper, paper);
-    put(kFitted, fittedEpsilon(study, condition, criterion));
+    put(kFitted, fittedEpsilon(analysis, condition, criterion));
   }
   for (int i = 0; i < predict::kCriterionCount; ++i)
     for (const int column : {kPaper, kFitted}) {
@@ -104,7 +104,7 @@ void EpsilonPanel::show(const analysis::StudyResult& study, std::size_t conditio
       font.setBold(i == best[column]);
       table_->item(i, column)->setFont(font);
     }
-  QString words = tr("%1: %2 of the chosen trials count").arg(QString::fromStdString(study.conditions[condition].name)).arg(r.used);
+  QString words = tr("%1: %2 of the chosen trials count").arg(QString::fromStdString(analysis.conditions[condition].name)).arg(r.used);
   QStringList out;
   for (const auto& [why, count] : r.exclusions) out << tr("%1 × %2").arg(count).arg(QString::fromStdString(why));
   if (!out.isEmpty()) words += tr("; not: %1").arg(out.join(QStringLiteral(", ")));

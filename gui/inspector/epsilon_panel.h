@@ -2,7 +2,7 @@
 #include <QWidget>
 #include <vector>
 
-#include "analysis/study.h"
+#include "analysis/analysis.h"
 
 class QLabel;
 class QTableWidget;
@@ -16,7 +16,7 @@ class EpsilonPanel : public QWidget {
  public:
   explicit EpsilonPanel(QWidget* parent = nullptr);
   /// Of this condition of the study.
-  void show(const analysis::StudyResult& study, std::size_t condition);
+  void show(const analysis::Analysis& analysis, std::size_t condition);
   /// Nothing is known (yet): why.
   void clear(const QString& why);
   std::vector<predict::Criterion> chosen() const;
@@ -33,6 +33,6 @@ class EpsilonPanel : public QWidget {
 };
 
 /// The fitted epsilon of a candidate that stands for `criterion`, over all samples of the condition's people who were fitted. [m/s]
-std::optional<double> fittedEpsilon(const analysis::StudyResult& study, std::size_t condition, predict::Criterion criterion);
+std::optional<double> fittedEpsilon(const analysis::Analysis& analysis, std::size_t condition, predict::Criterion criterion);
 
 }  // namespace reachlab::gui::inspector

@@ -72,7 +72,7 @@ void Inspector::begin(std::vector<analysis::ChosenTrials> chosen) {
     tell(turn, [this, found = std::shared_ptr<const Inspection>(std::make_shared<Inspection>(*found))] { Q_EMIT read(found); });
     if (found->input.trials.empty()) return;
     const int count = static_cast<int>(found->input.trials.size());
-    found->study = std::make_shared<analysis::StudyResult>(analysis::analyzeStudy(found->input, {}, [&](std::size_t done, std::size_t) {
+    found->analysis = std::make_shared<analysis::Analysis>(analysis::analyzeTrials(found->input, {}, [&](std::size_t done, std::size_t) {
       goOnUnless(stop);
       tell(turn, [this, done, count] { Q_EMIT progressed(tr("fitting"), static_cast<int>(done), count); });
     }));
@@ -87,27 +87,27 @@ void Inspector::report(const QString& path) {
       goOnUnless(stop);
       tell(turn, [this, what, done, of] { Q_EMIT progressed(what, static_cast<int>(done), static_cast<int>(of)); });
     };
-    analysis::StudyBuilder builder({});
+    analysis::AnalysisBuilder builder({});
     const analysis::DatasetIndex dataset =
         analysis::readDataset(path,
-                             {[&](analysis::TrialData&& trial, std::size_t condition) {
-                                goOnUnless(stop);
-                                builder.add(std::move(trial), condition);
-                              },
-                              [&](std::size_t count) { builder.takeBack(count); }},
-                             "", [&](std::size_t done, std::size_t of, const std::string&) { told(tr("reading run"), done, of); });
-    const analysis::StudyResult study =
+                              {[&](analysis::TrialData&& trial, std::size_t condition) {
+                                 goOnUnless(stop);
+                                 builder.add(std::move(trial), condition);
+                               },
+                               [&](std::size_t count) { builder.takeBack(count); }},
+                              "", [&](std::size_t done, std::size_t of, const std::string&) { told(tr("reading run"), done, of); });
+    const analysis::Analysis analysis =
         builder.finish(dataset.conditions, [&](std::size_t done, std::size_t of) { told(tr("fitting trial"), done, of); });
     std::string folder = path;
     while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
     const std::string out = reportFolderOf(folder);
     const analysis::AnalysisFiles files =
-        analysis::writeAnalysis(study, dataset, {folder, REACHLAB_VERSION, "reach analyze " + folder + " --out " + out}, out);
+        analysis::writeAnalysis(analysis, dataset, {folder, REACHLAB_VERSION, "reach analyze " + folder + " --out " + out}, out);
     tell(turn, [this, file = QString::fromStdString(files.report)] { Q_EMIT reported(file); });
   });
 }
 
-std::shared_ptr<Inspection> measure(analysis::StudyInput input) {
+std::shared_ptr<Inspection> measure(analysis::AnalysisInput input) {
   auto inspection = std::make_shared<Inspection>();
   inspection->input = std::move(input);
   for (const analysis::TrialData& trial : inspection->input.trials) inspection->signals.push_back(analysis::computeSignals(trial, {}));

@@ -13,9 +13,9 @@ namespace reachlab::gui::inspector {
 
 /// Chosen trials as the analysis sees them: read, measured and, a little later, judged.
 struct Inspection {
-  analysis::StudyInput input;
+  analysis::AnalysisInput input;
   std::vector<analysis::TrialSignals> signals;         // one a trial
-  std::shared_ptr<const analysis::StudyResult> study;  // null until judged
+  std::shared_ptr<const analysis::Analysis> analysis;  // null until judged
 };
 
 /// Reads and judges beside the window: the newest request wins, and what it replaces is given up. All signals come on the window's thread.
@@ -56,6 +56,6 @@ class Inspector : public QObject {
 std::string reportFolderOf(const std::string& path);
 
 /// Onset, end and velocities of trials, by the rules of the analysis.
-std::shared_ptr<Inspection> measure(analysis::StudyInput input);
+std::shared_ptr<Inspection> measure(analysis::AnalysisInput input);
 
 }  // namespace reachlab::gui::inspector

@@ -20,7 +20,7 @@
 #include "gui/inspector/marks_panel.h"
 #include "gui/inspector/profile_plot.h"
 #include "gui/inspector/replay_view.h"
-#include "gui/inspector/study_lines.h"
+#include "gui/inspector/analysis_lines.h"
 
 namespace reachlab::gui::inspector {
 namespace {
@@ -188,12 +188,12 @@ void InspectorPage::inspect() {
 }
 
 std::size_t InspectorPage::condition() const {
-  if (!inspection_ || !inspection_->study) return 0;
+  if (!inspection_ || !inspection_->analysis) return 0;
   // The picked trial's; the study has its conditions in an order of its own.
   if (const auto line = lineOf(picked_)) {
     const std::string& name = inspection_->input.trials[*line].key.condition;
-    for (std::size_t c = 0; c < inspection_->study->conditions.size(); ++c)
-      if (inspection_->study->conditions[c].name == name) return c;
+    for (std::size_t c = 0; c < inspection_->analysis->conditions.size(); ++c)
+      if (inspection_->analysis->conditions[c].name == name) return c;
   }
   return 0;
 }
@@ -223,16 +223,16 @@ void InspectorPage::showRead() {
 }
 
 void InspectorPage::showJudged() {
-  const analysis::StudyResult& study = *inspection_->study;
+  const analysis::Analysis& analysis = *inspection_->analysis;
   std::map<std::pair<std::size_t, std::string>, std::size_t> place;  // of a person's next fitted trial
-  for (const analysis::StudyTrial& trial : study.trials) {
+  for (const analysis::AnalyzedTrial& trial : analysis.trials) {
     TrialErrors errors;
-    const analysis::ConditionResult& r = study.results[trial.condition];
+    const analysis::ConditionResult& r = analysis.results[trial.condition];
     for (std::size_t k = 0; k < r.signals.size() && k < trial.paperError.size(); ++k)
       if (std::isfinite(trial.paperError[k])) errors.paper[static_cast<std::size_t>(r.signals[k].criterion)] = trial.paperError[k];
     if (trial.used() && trial.window.size > 0 && !r.onlyFailures) {
       const std::size_t i = place[{trial.condition, trial.key.subject}]++;
-      for (const analysis::PersonResult& person : study.people) {
+      for (const analysis::PersonResult& person : analysis.people) {
         if (person.condition != trial.condition || person.subject != trial.key.subject || !person.fitted) continue;
         for (std::size_t k = 0; k < person.fit.candidates.size(); ++k)
           for (const predict::Criterion c : r.candidates.candidates[k].criteria)
@@ -265,17 +265,17 @@ void InspectorPage::draw() {
   plot_->setLines(linesOf(*inspection_, signal, axis));
   std::vector<ProfilePlot::Prediction> predictions;
   MeanLine mean;
-  if (inspection_->study && !inspection_->study->conditions.empty()) {
-    const analysis::StudyResult& study = *inspection_->study;
+  if (inspection_->analysis && !inspection_->analysis->conditions.empty()) {
+    const analysis::Analysis& analysis = *inspection_->analysis;
     const std::size_t c = condition();
-    if (inspection_->input.trials.size() > 1) mean = meanOf(study, c, signal);
+    if (inspection_->input.trials.size() > 1) mean = meanOf(analysis, c, signal);
     const std::vector<predict::Criterion> chosen = epsilons_->chosen();
     for (const bool fitted : {false, true}) {
       if (!(fitted ? fitted_ : predicted_)->isChecked()) continue;
-      const auto some = predictionsOf(study, c, signal, chosen, fitted);
+      const auto some = predictionsOf(analysis, c, signal, chosen, fitted);
       predictions.insert(predictions.end(), some.begin(), some.end());
     }
-    epsilons_->show(study, c);
+    epsilons_->show(analysis, c);
   }
   plot_->setMean(mean.x, mean.mean, mean.sd);
   plot_->setPredictions(predictions);

@@ -8,7 +8,7 @@
 #include "base/system/ending.h"
 #include "gui/inspector/epsilon_panel.h"
 #include "gui/inspector/inspector.h"
-#include "gui/inspector/study_lines.h"
+#include "gui/inspector/analysis_lines.h"
 #include "sim/record/log/append_file.h"
 
 namespace reachlab::gui::inspector {

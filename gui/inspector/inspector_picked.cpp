@@ -9,7 +9,7 @@
 #include "gui/inspector/marks_panel.h"
 #include "gui/inspector/profile_plot.h"
 #include "gui/inspector/replay_view.h"
-#include "gui/inspector/study_lines.h"
+#include "gui/inspector/analysis_lines.h"
 
 namespace reachlab::gui::inspector {
 namespace {
@@ -50,7 +50,7 @@ void InspectorPage::showPicked() {
   try {
     const auto trackOf = [&](std::size_t i) {
       const int row = inspectedRows_[i];
-      return ReplayView::Track{Replay(logOf(table_->run(row).path), table_->trial(row)), zeroOf(*inspection_, i)};
+      return ReplayView::Track{TrialReplay(logOf(table_->run(row).path), table_->trial(row)), zeroOf(*inspection_, i)};
     };
     const record::RunLog& log = logOf(table_->run(picked_).path);
     std::vector<ReplayView::Track> ghosts;

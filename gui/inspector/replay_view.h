@@ -3,7 +3,7 @@
 #include <QWidget>
 #include <vector>
 
-#include "gui/inspector/replay.h"
+#include "gui/inspector/trial_replay.h"
 #include "gui/model/model_reader.h"
 #include "sim/experiment/compiled_experiment.h"
 
@@ -29,7 +29,7 @@ class ReplayView : public QWidget {
 
   /// `zero`: where in the replay's time the plot's time is 0 (the onset); `moment`: what is looked at first, on the plot's time. [s]
   struct Track {
-    Replay replay;
+    TrialReplay replay;
     double zero = 0;
   };
   /// `folder`: where a scene file stands that the experiment names without a folder.

@@ -12,6 +12,10 @@
 namespace reachlab::gui::inspector {
 namespace {
 
+// What the columns t and peak show. The analysis' own peak needs the samples of every trial, which the table does not read.
+const record::TickMeasure& kMovementTime = record::tickMeasure("movement_time_s");
+const record::TickMeasure& kPeakSpeed = record::tickMeasure("peak_hand_speed_m_per_s");
+
 QString from(const std::string& text) { return QString::fromStdString(text); }
 
 QString outcomeWords(const trial::TrialResult& result) {
@@ -112,8 +116,8 @@ QString TrialTable::text(int row, int column) const {
     case kRun: return QString::number(r.run);
     case kTrial: return QString::number(t.trial);
     case kOutcome: return outcomeWords(t.result);
-    case kTime: return number(record::movementTimeOf(t), 3);
-    case kPeak: return t.result.onsetTick > 0 ? number(t.peakHandSpeed, 3) : QString();
+    case kTime: return number(kMovementTime.of(t), 3);
+    case kPeak: return t.result.onsetTick > 0 ? number(kPeakSpeed.of(t), 3) : QString();
     case kPaper: return optional(error(row, false));
     case kFitted: return optional(error(row, true));
     case kMark: try { return markWords(mark(row));
@@ -131,8 +135,8 @@ QVariant TrialTable::sortKey(int row, int column) const {
   switch (column) {
     case kRun: return run(row).run;
     case kTrial: return t.trial;
-    case kTime: return known(record::movementTimeOf(t));
-    case kPeak: return t.result.onsetTick > 0 ? known(t.peakHandSpeed) : none;
+    case kTime: return known(kMovementTime.of(t));
+    case kPeak: return t.result.onsetTick > 0 ? known(kPeakSpeed.of(t)) : none;
     case kPaper: return error(row, false).value_or(none);
     case kFitted: return error(row, true).value_or(none);
     default: return text(row, column);
@@ -181,8 +185,8 @@ QVariant TrialTable::headerData(int section, Qt::Orientation orientation, int ro
     }
   }
   if (role != Qt::ToolTipRole) return {};
-  if (section == kTime) return tr("from the hand's onset to the end, as the task judged it [s]");
-  if (section == kPeak) return tr("largest speed of the hand [m/s]");
+  if (section == kTime) return from(std::string(kMovementTime.sentence) + " [s]");
+  if (section == kPeak) return from(std::string(kPeakSpeed.sentence) + " [m/s]");
   if (section == kPaper) return tr("the paper's epsilon of the hand beside %1, of trials that were looked at [m/s]").arg(criterion);
   if (section == kFitted) return tr("the fitted epsilon beside %1: onset, duration and amplitude fitted to the trial [m/s]").arg(criterion);
   return {};
@@ -223,8 +227,8 @@ bool TrialFilter::filterAcceptsRow(int row, const QModelIndex&) const {
 
 std::string toCsv(const TrialTable& table, const std::vector<int>& rows) {
   TableText out(',', "");
-  out.row({"subject", "session", "condition", "practice", "run", "block", "trial", "outcome", "reason", "movement_time_s",
-           "peak_speed_m_per_s", "epsilon_hand_m_per_s", "epsilon_fit_m_per_s", "flagged", "excluded", "note"});
+  out.row({"subject", "session", "condition", "practice", "run", "block", "trial", "outcome", "reason", std::string(kMovementTime.name),
+           std::string(kPeakSpeed.name), "epsilon_hand_m_per_s", "epsilon_fit_m_per_s", "flagged", "excluded", "note"});
   for (const int row : rows) {
     const record::IndexedRun& r = table.run(row);
     const record::RecordedTrial& t = table.trial(row);

@@ -14,8 +14,8 @@ namespace {
 
 std::string logIn(const TemporaryFolder& folder) { return folder.path() + "/sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach"; }
 
-StudyOptions quick() {
-  StudyOptions options;
+AnalysisOptions quick() {
+  AnalysisOptions options;
   options.criteria = {predict::Criterion::MinHandJerk};
   return options;
 }
@@ -25,14 +25,14 @@ TEST(ChosenTrials, AreTheTrialsOfTheDatasetAsTheAnalysisReadsThem) {
   const TemporaryFolder folder;
   recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 12});
   const Dataset all = openDataset(folder.path());
-  const StudyInput some = readChosen(std::vector<ChosenTrials>{{logIn(folder), {2, 5, 99}}});
+  const AnalysisInput some = readChosen(std::vector<ChosenTrials>{{logIn(folder), {2, 5, 99}}});
   ASSERT_EQ(some.trials.size(), 2u) << "there is no trial 99";
   EXPECT_EQ(some.trials[1].key.trial, 5);
   EXPECT_EQ(some.trials[1].hand, all.input.trials[4].hand);
   EXPECT_EQ(some.trials[1].first, all.input.trials[4].first);
   ChosenTrials every{logIn(folder), {}};
   for (int t = 1; t <= 12; ++t) every.trials.push_back(t);
-  const StudyResult a = analyzeStudy(readChosen(std::vector{every}), {}), b = analyzeStudy(all.input, {});
+  const Analysis a = analyzeTrials(readChosen(std::vector{every}), {}), b = analyzeTrials(all.input, {});
   ASSERT_EQ(a.people.size(), 1u);
   ASSERT_EQ(a.people[0].fitted, b.people[0].fitted);
   ASSERT_EQ(a.results[0].handEpsilon.size(), b.results[0].handEpsilon.size());
@@ -46,7 +46,7 @@ TEST(Marks, ExcludeATrialWithItsReasonAndMoveOnsetAndEnd) {
   const TemporaryFolder folder;
   recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 3});
   const Dataset before = openDataset(folder.path());
-  const StudyResult plain = analyzeStudy(before.input, quick());
+  const Analysis plain = analyzeTrials(before.input, quick());
   const double onset = plain.trials[1].measures.onset, offset = plain.trials[1].measures.offset;
   record::RunMarks marks;
   marks.set({.trial = 1, .excluded = "talked"});
@@ -54,15 +54,15 @@ TEST(Marks, ExcludeATrialWithItsReasonAndMoveOnsetAndEnd) {
   marks.set({.trial = 3, .flagged = true, .note = "look again"});
   record::writeMarks(logIn(folder), marks);
   const Dataset after = openDataset(folder.path());
-  const StudyResult study = analyzeStudy(after.input, quick());
-  EXPECT_EQ(study.trials[0].exclusion, "excluded: talked");
-  EXPECT_FALSE(study.trials[0].counted) << "neither success nor failure";
-  EXPECT_EQ(study.results[0].exclusions.at("excluded: talked"), 1u);
-  const auto judged = [](const StudyResult& s) { return s.results[0].counts.success + s.results[0].counts.failure; };
-  EXPECT_EQ(judged(study) + 1, judged(plain));
-  EXPECT_DOUBLE_EQ(study.trials[1].measures.onset, onset + 0.05);
-  EXPECT_DOUBLE_EQ(study.trials[1].measures.offset, offset - 0.1);
-  EXPECT_DOUBLE_EQ(study.trials[2].measures.onset, plain.trials[2].measures.onset) << "a flag changes no number";
+  const Analysis analysis = analyzeTrials(after.input, quick());
+  EXPECT_EQ(analysis.trials[0].exclusion, "excluded: talked");
+  EXPECT_FALSE(analysis.trials[0].counted) << "neither success nor failure";
+  EXPECT_EQ(analysis.results[0].exclusions.at("excluded: talked"), 1u);
+  const auto judged = [](const Analysis& s) { return s.results[0].counts.success + s.results[0].counts.failure; };
+  EXPECT_EQ(judged(analysis) + 1, judged(plain));
+  EXPECT_DOUBLE_EQ(analysis.trials[1].measures.onset, onset + 0.05);
+  EXPECT_DOUBLE_EQ(analysis.trials[1].measures.offset, offset - 0.1);
+  EXPECT_DOUBLE_EQ(analysis.trials[2].measures.onset, plain.trials[2].measures.onset) << "a flag changes no number";
 }
 
 TEST(Marks, ThatCannotBeReadLeaveTheirRunOut) {

@@ -17,7 +17,7 @@ TEST(TTest, OfStudentsSleepIsTheTextbooks) {
   const TTest t = computeTTest(kSleep);
   EXPECT_NEAR(t.t, 4.0621, 5e-5);
   EXPECT_NEAR(t.p, 0.002833, 5e-7);
-  const Interval i = computeMeanInterval(kSleep);
+  const Bounds i = computeMeanInterval(kSleep);
   EXPECT_NEAR(i.low, 0.7001142, 5e-7);
   EXPECT_NEAR(i.high, 2.4598858, 5e-7);
 }
@@ -141,7 +141,7 @@ TEST(TTest, OfNothingOrOneJudgesNothing) {
 // Two values have one degree of freedom: the quantile is tan(pi level / 2).
 TEST(MeanInterval, OfTwoValuesIsCauchys) {
   for (const double level : {0.5, 0.9, 0.95}) {
-    const Interval i = computeMeanInterval(std::vector<double>{1, 4}, level);
+    const Bounds i = computeMeanInterval(std::vector<double>{1, 4}, level);
     const double half = std::tan(3.14159265358979324 * level / 2) * 1.5;
     EXPECT_NEAR(i.low, 2.5 - half, 1e-9);
     EXPECT_NEAR(i.high, 2.5 + half, 1e-9);

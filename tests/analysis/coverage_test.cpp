@@ -21,7 +21,7 @@ int studyCount() {
 
 class Tally {
  public:
-  void add(const std::string& interval, const Interval& i, double truth) {
+  void add(const std::string& interval, const Bounds& i, double truth) {
     auto& [held, all] = counts_[interval];
     held += i.low <= truth && truth <= i.high;
     ++all;
@@ -75,7 +75,7 @@ Tally successOf(const Design& d) {
     squares += x * x;
   }
   slope *= 1e4 / squares;
-  for (int study = 0; study < studyCount(); ++study) {
+  for (int analysis = 0; analysis < studyCount(); ++analysis) {
     std::vector<Attempt> days, learning;
     std::vector<double> own(static_cast<std::size_t>(d.people));
     for (int p = 0; p < d.people; ++p) {
@@ -126,13 +126,13 @@ Tally epsilonOf(int people, double apart) {
   const auto meanOf = [&](std::size_t c) { return (kFirst + (c > 0 ? apart : 0)) * std::exp(kPeople * kPeople / 2); };
   // A person's own epsilon is the root of the mean square of trials, which is lognormal too: E e^2 = e^(2 s^2).
   const double rootMeanSquare = std::exp(kTrial * kTrial);
-  for (int study = 0; study < studyCount(); ++study) {
-    std::vector<StudyTrial> trials;
+  for (int analysis = 0; analysis < studyCount(); ++analysis) {
+    std::vector<AnalyzedTrial> trials;
     for (int p = 0; p < people; ++p) {
       std::array<double, kCriteria> own{};
       for (std::size_t c = 0; c < kCriteria; ++c) own[c] = (kFirst + (c > 0 ? apart : 0)) * std::exp(kPeople * normal(random));
       for (int i = 0; i < kTrials; ++i) {
-        StudyTrial trial;
+        AnalyzedTrial trial;
         trial.key.subject = std::string(1, static_cast<char>('a' + p));
         trial.paperError.assign(2 * kCriteria, 0.0);
         const double scatter = std::exp(kTrial * normal(random));

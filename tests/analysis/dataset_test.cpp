@@ -1,5 +1,6 @@
 #include "analysis/dataset.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -7,6 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <regex>
 #include <set>
+#include <thread>
 #include <sstream>
 
 #include "analysis/report/wording.h"
@@ -28,8 +30,8 @@ namespace {
 
 constexpr const char* kQuiet = "simulated:noise=0";
 
-StudyOptions quick() {
-  StudyOptions options;
+AnalysisOptions quick() {
+  AnalysisOptions options;
   options.criteria = {predict::Criterion::MinHandJerk, predict::Criterion::MinCrackle};
   return options;
 }
@@ -66,11 +68,11 @@ TEST(Dataset, OfLogsHasEveryTrialWithItsResult) {
     }
   }
   EXPECT_TRUE(dataset.input.trials[4].practice);
-  StudyOptions options = quick();
+  AnalysisOptions options = quick();
   options.includePractice = true;
-  const StudyResult study = analyzeStudy(dataset.input, options);  // where the plan gave none, sessions are days
-  EXPECT_EQ(study.trials[0].key.day, 1);
-  for (const StudyTrial& trial : study.trials) EXPECT_EQ(trial.key.day, trial.key.session == "02" ? 2 : 1);
+  const Analysis analysis = analyzeTrials(dataset.input, options);  // where the plan gave none, sessions are days
+  EXPECT_EQ(analysis.trials[0].key.day, 1);
+  for (const AnalyzedTrial& trial : analysis.trials) EXPECT_EQ(trial.key.day, trial.key.session == "02" ? 2 : 1);
 }
 
 TEST(Dataset, ExperimentsOfOneNameAreToldApartByWhatDiffers) {
@@ -114,8 +116,8 @@ TEST(Differences, AreOfWhatIsAskedAndNotOfHowItIsWritten) {
 TEST(Dataset, OfTheQuietSubjectFollowsItsPlan) {
   const TemporaryFolder folder;
   recordRun(folder.path(), {.experiment = "chain-moderate", .device = kQuiet, .trials = 2});
-  const StudyResult study = analyzeStudy(openDataset(folder.path()).input, quick());
-  const ConditionResult& r = study.results[0];
+  const Analysis analysis = analyzeTrials(openDataset(folder.path()).input, quick());
+  const ConditionResult& r = analysis.results[0];
   ASSERT_EQ(r.used, 2u);
   ASSERT_EQ(r.handEpsilon.front().criterion, 0u);
   EXPECT_LT(r.handEpsilon[0].epsilon, 0.1 * r.handEpsilon[1].epsilon);
@@ -124,31 +126,31 @@ TEST(Dataset, OfTheQuietSubjectFollowsItsPlan) {
 TEST(Dataset, WithoutLogsIsReadFromItsBidsFiles) {
   const TemporaryFolder folder;
   const std::string log = recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 12});
-  const StudyResult fromLog = analyzeStudy(openDataset(folder.path()).input, quick());
+  const Analysis fromLog = analyzeTrials(openDataset(folder.path()).input, quick());
   writeDatasetWithoutLogs(folder.path(), log);
   const Dataset dataset = openDataset(folder.path());
   ASSERT_EQ(dataset.notes.size(), 1u);
   EXPECT_NE(dataset.notes[0].find("code/experiments"), std::string::npos) << "not the experiment that is shipped now: " << dataset.notes[0];
-  const StudyResult fromBids = analyzeStudy(dataset.input, quick());
+  const Analysis fromBids = analyzeTrials(dataset.input, quick());
   ASSERT_EQ(fromBids.trials.size(), fromLog.trials.size());
   // Every number the same to the last bit: the rows are the same, and events say when each trial was armed, left and ended.
   std::string tables[2];
   int which = 0;
-  for (const StudyResult* study : {&fromLog, &fromBids})
-    writeTables(*study, [&, at = which++](const std::string&, std::string_view piece) { tables[at] += piece; });
+  for (const Analysis* analysis : {&fromLog, &fromBids})
+    writeTables(*analysis, [&, at = which++](const std::string&, std::string_view piece) { tables[at] += piece; });
   EXPECT_EQ(tables[0], tables[1]);
 }
 
 TEST(Dataset, WhoseEventsAreNoTableOfEventsIsRefusedAndNotARunWithoutTrials) {
   const TemporaryFolder folder;
   writeDatasetWithoutLogs(folder.path(), recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2}));
-  ASSERT_EQ(analyzeStudy(openDataset(folder.path()).input, quick()).trials.size(), 2u);
+  ASSERT_EQ(analyzeTrials(openDataset(folder.path()).input, quick()).trials.size(), 2u);
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
     if (entry.path().filename().string().ends_with("_events.tsv"))
       for (const std::string& text :
            {std::string(), std::string(2000, '\xff'), std::string(2000, '\0'), std::string("onset\tduration\n")}) {
         std::ofstream(entry.path(), std::ios::binary) << text;
-        EXPECT_THROW(analyzeStudy(openDataset(folder.path()).input, quick()), FaultError) << text.substr(0, 40);
+        EXPECT_THROW(analyzeTrials(openDataset(folder.path()).input, quick()), FaultError) << text.substr(0, 40);
       }
 }
 
@@ -208,17 +210,17 @@ TEST(Dataset, WithADamagedLogKeepsWhatIsGoodAndSaysSo) {
   const Dataset dataset = openDataset(folder.path());
   EXPECT_FALSE(dataset.input.trials.empty());
   EXPECT_EQ(dataset.notes.size(), 1u);
-  EXPECT_NO_THROW(analyzeStudy(dataset.input, quick()));
+  EXPECT_NO_THROW(analyzeTrials(dataset.input, quick()));
 }
 
 TEST(Analysis, WritesTheSameBytesEachTimeAndEveryNumberOfAFigure) {
   const TemporaryFolder folder;
   recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 5, .seed = 3});
   Dataset dataset = openDataset(folder.path());
-  const StudyResult study = analyzeStudy(dataset.input, quick());
+  const Analysis analysis = analyzeTrials(dataset.input, quick());
   const ReportHeader header{"dataset", "0.1.0", "reach analyze dataset"};
-  const AnalysisFiles first = writeAnalysis(study, dataset, header, folder.path() + "/one");
-  const AnalysisFiles second = writeAnalysis(study, dataset, header, folder.path() + "/two");
+  const AnalysisFiles first = writeAnalysis(analysis, dataset, header, folder.path() + "/one");
+  const AnalysisFiles second = writeAnalysis(analysis, dataset, header, folder.path() + "/two");
   ASSERT_EQ(first.tables.size(), second.tables.size());
   for (std::size_t i = 0; i < first.tables.size(); ++i)
     EXPECT_EQ(record::readWholeFile(first.tables[i]), record::readWholeFile(second.tables[i]));
@@ -237,15 +239,44 @@ TEST(Analysis, WritesTheSameBytesEachTimeAndEveryNumberOfAFigure) {
     EXPECT_TRUE(ids.insert((*it)[1]).second) << (*it)[1];
 
   const std::string profiles = record::readWholeFile(folder.path() + "/one/profiles.csv");
-  EXPECT_EQ(static_cast<std::size_t>(std::count(profiles.begin(), profiles.end(), '\n')), 1 + 101 * study.results[0].used);
+  EXPECT_EQ(static_cast<std::size_t>(std::count(profiles.begin(), profiles.end(), '\n')), 1 + 101 * analysis.results[0].used);
+}
+
+// Programs that write the same results at the same moment: each ends well, and the tables that are left belong together.
+TEST(Analysis, WrittenByThreeAtOnceIsOneOfThem) {
+  const TemporaryFolder folder;
+  recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2});
+  const Dataset dataset = openDataset(folder.path());
+  std::vector<Analysis> analyses;
+  for (const double cutoff : {6.0, 8.0, 10.0}) {
+    AnalysisOptions options = quick();
+    options.measure.cutoff = cutoff;
+    analyses.push_back(analyzeTrials(dataset.input, options));
+  }
+  const std::string out = folder.path() + "/out";
+  for (int round = 0; round < 3; ++round) {
+    {
+      std::vector<std::jthread> programs;
+      for (const Analysis& analysis : analyses)
+        programs.emplace_back([&] { EXPECT_NO_THROW(writeAnalysis(analysis, dataset, {"d", "0", "c"}, out)); });
+    }
+    std::vector<std::string> methods;
+    for (const double cutoff : {6.0, 8.0, 10.0}) {
+      const std::string words = fmt::format("{} Hz in each pass", cutoff);
+      if (record::readWholeFile(out + "/report.html").find(words) == std::string::npos) continue;
+      EXPECT_NE(record::readWholeFile(out + "/conditions.csv").find(fmt::format(",0.01,{},", cutoff)), std::string::npos) << cutoff;
+      methods.push_back(words);
+    }
+    EXPECT_EQ(methods.size(), 1u);
+  }
 }
 
 TEST(Analysis, ExplainsEveryColumnOfEveryTable) {
   const TemporaryFolder folder;
   recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2});
   const Dataset dataset = openDataset(folder.path());
-  const StudyResult study = analyzeStudy(dataset.input, quick());
-  for (const std::string& table : writeAnalysis(study, dataset, {"d", "0", "c"}, folder.path() + "/out").tables) {
+  const Analysis analysis = analyzeTrials(dataset.input, quick());
+  for (const std::string& table : writeAnalysis(analysis, dataset, {"d", "0", "c"}, folder.path() + "/out").tables) {
     const std::string csv = record::readWholeFile(table);
     const auto dictionary = nlohmann::json::parse(record::readWholeFile(record::dictionaryPathOf(table)));
     EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.begin() + static_cast<std::ptrdiff_t>(csv.find('\n')), ',')) + 1,
@@ -260,40 +291,9 @@ TEST(Analysis, OfNoSuccessIsStillAReport) {
   recordRun(folder.path(), {.experiment = "chain-moderate", .device = "replay:" + experiment::resourceFolder() + "/reaches", .trials = 2});
   Dataset dataset = openDataset(folder.path());
   for (TrialData& trial : dataset.input.trials) trial.result.outcome = trial::Outcome::Failure;
-  const StudyResult study = analyzeStudy(dataset.input, quick());
-  const AnalysisFiles files = writeAnalysis(study, dataset, {"d", "0", "c"}, folder.path() + "/out");
+  const Analysis analysis = analyzeTrials(dataset.input, quick());
+  const AnalysisFiles files = writeAnalysis(analysis, dataset, {"d", "0", "c"}, folder.path() + "/out");
   EXPECT_NE(record::readWholeFile(files.report).find("No trial succeeded"), std::string::npos);
-}
-
-TEST(Wording, SaysHowSureTheShareOfSuccessIs) {
-  ConditionResult result;
-  result.counts.success = 30;
-  result.counts.failure = 20;
-  result.success = MeanInterval{0.62, {0.41, 0.79}, 5};
-  EXPECT_EQ(describeCounts(result),
-            "30 of 50 trials succeeded (60 %); a typical one of the 5 subjects 62 % [41, 79]. 0 trials in profiles and errors.");
-}
-
-TEST(Wording, SaysWhatCannotBeToldApart) {
-  Conclusion c;
-  c.reason = Obstacle::NotToldApart;
-  c.best = 1;
-  c.rival = 0;
-  c.against.resize(3);
-  c.against[0].p = 0.3;
-  c.against[2].p = 1e-9;
-  c.against[2].mean = 1;
-  c.p = 0.3;
-  const std::string text = describeConclusion(c, {{predict::Criterion::MinHandJerk}, {predict::Criterion::MinCrackle}, {}});
-  EXPECT_EQ(text,
-            "Nothing can be concluded: (3) min-crackle is the closest candidate, but cannot be told from (1) min-hand-jerk (p = 0.3).");
-  c.against[0] = {.mean = 0.04, .p = 0.001};
-  c.against[2].mean = 1;
-  c.p = 0.001;
-  EXPECT_EQ(describeConclusion(c, {{predict::Criterion::MinHandJerk}, {predict::Criterion::MinCrackle}, {}}),
-            "Nothing can be concluded: (3) min-crackle is the closest candidate, but cannot be told from (1) min-hand-jerk (their squared "
-            "errors differ by less than 10 %).");
-  EXPECT_NE(describeConclusion({}, {}).find("no subject has 10 successful trials"), std::string::npos);
 }
 
 }  // namespace

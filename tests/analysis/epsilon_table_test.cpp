@@ -7,15 +7,15 @@
 namespace reachlab::analysis {
 namespace {
 
-StudyTrial trialOf(const std::string& subject, std::vector<double> errors) {
-  StudyTrial trial;
+AnalyzedTrial trialOf(const std::string& subject, std::vector<double> errors) {
+  AnalyzedTrial trial;
   trial.key.subject = subject;
   trial.paperError = std::move(errors);
   return trial;
 }
 
 TEST(EpsilonTable, IsTheRootOfTheMeanOfSquaresLeastFirst) {
-  std::vector<StudyTrial> trials{trialOf("a", {3, 1, 9, 8}), trialOf("a", {4, 7, 1, 2}), trialOf("a", {100, 0, 0, 0})};
+  std::vector<AnalyzedTrial> trials{trialOf("a", {3, 1, 9, 8}), trialOf("a", {4, 7, 1, 2}), trialOf("a", {100, 0, 0, 0})};
   trials[2].exclusion = "practice";
   trials.push_back(trialOf("a", {}));
   const EpsilonTable hand = makeEpsilonTable(trials, 2, false), object = makeEpsilonTable(trials, 2, true);
@@ -40,8 +40,8 @@ TEST(EpsilonTable, OfNoTrialIsEmpty) {
 
 // Three people with unlike numbers of trials: a person's own root mean square counts once.
 TEST(EpsilonTable, ComparesOverPeople) {
-  const std::vector<StudyTrial> trials{trialOf("a", {1, 5, 3}), trialOf("a", {7, 5, 3}), trialOf("b", {3, 9, 3.5}),
-                                       trialOf("c", {4, 12, 4})};
+  const std::vector<AnalyzedTrial> trials{trialOf("a", {1, 5, 3}), trialOf("a", {7, 5, 3}), trialOf("b", {3, 9, 3.5}),
+                                          trialOf("c", {4, 12, 4})};
   const EpsilonTable table = makeEpsilonTable(trials, 3, false);
   ASSERT_EQ(table.size(), 3u);
   EXPECT_EQ(table[0].criterion, 2u);
@@ -49,7 +49,7 @@ TEST(EpsilonTable, ComparesOverPeople) {
   EXPECT_EQ(table[2].criterion, 1u);
   EXPECT_DOUBLE_EQ(table[2].epsilon, std::sqrt((25 + 25 + 81 + 144) / 4.0));
   const std::vector<double> people{5, 9, 12}, apart{2, 5.5, 8};
-  const Interval own = computeMeanInterval(people), difference = computeMeanInterval(apart, 0.975);
+  const Bounds own = computeMeanInterval(people), difference = computeMeanInterval(apart, 0.975);
   EXPECT_NEAR(table[2].interval->low, own.low, 1e-12);
   EXPECT_NEAR(table[2].interval->high, own.high, 1e-12);
   EXPECT_NEAR(table[2].difference, 15.5 / 3, 1e-12);
@@ -63,7 +63,7 @@ TEST(EpsilonTable, ComparesOverPeople) {
 }
 
 TEST(EpsilonTable, SaysWhichAreApartFromTheFirst) {
-  std::vector<StudyTrial> trials;
+  std::vector<AnalyzedTrial> trials;
   for (int i = 0; i < 4; ++i)
     trials.push_back(trialOf(std::string(1, static_cast<char>('a' + i)), {2 + 0.1 * i, 5 + 0.11 * i, 2.1 - 0.1 * i}));
   const EpsilonTable table = makeEpsilonTable(trials, 3, false);

@@ -161,16 +161,6 @@ TEST(Signals, AreTheHandsSpeedAndTheVelocitiesAlongThePath) {
   EXPECT_NEAR(curve.handVelocity[600], -speedAt(0.875), kClose);
 }
 
-TEST(Signals, AreFilteredAtTenHertzUnlessToldOtherwise) {
-  EXPECT_EQ(MeasureOptions{}.cutoff, 10);
-  TrialData trial = reach();
-  for (std::size_t i = 0; i < trial.hand.size(); ++i)
-    trial.hand[i].x += 1e-3 * std::sin(2 * 3.14159265358979 * 50 * static_cast<double>(i) / kRate);
-  const double noise = 1e-3 * 2 * 3.14159265358979 * 50;
-  EXPECT_GT(std::abs(computeSignals(trial, unfiltered()).handVelocity[100]), 0.3 * noise);
-  EXPECT_LT(std::abs(computeSignals(trial, {}).handVelocity[101]), 0.003 * noise) << "1 / (1 + 5^4) of it are left";
-}
-
 // A closed curve leads to its target either way round: the way that the hand went is forwards.
 TEST(Signals, OfAClosedCurveAreAlongTheWayThatTheHandWent) {
   TrialData trial = reach();

@@ -5,7 +5,7 @@
 #include <memory>
 #include <random>
 
-#include "analysis/study.h"
+#include "analysis/analysis.h"
 #include "sim/experiment/experiment.h"
 
 /// Trials made of a prediction with the usual human scatter, so that the truth is known.
@@ -96,9 +96,9 @@ inline TrialData followPlan(const predict::Prediction& plan, const Scatter& scat
 using PlanOf = std::function<std::unique_ptr<predict::Prediction>(const experiment::Experiment&)>;
 
 /// `subjects` x `days` x conditions, `trials` each, every movement planned by `criterion`.
-inline StudyInput simulatedStudy(const std::vector<StudyCondition>& conditions, const PlanOf& planOf, int subjects, int days, int trials,
-                                 std::uint64_t seed, const Scatter& scatter = {}) {
-  StudyInput input;
+inline AnalysisInput simulatedTrials(const std::vector<Condition>& conditions, const PlanOf& planOf, int subjects, int days, int trials,
+                                     std::uint64_t seed, const Scatter& scatter = {}) {
+  AnalysisInput input;
   input.conditions = conditions;
   std::mt19937_64 random(seed);
   for (std::size_t c = 0; c < conditions.size(); ++c) {
@@ -118,14 +118,14 @@ inline StudyInput simulatedStudy(const std::vector<StudyCondition>& conditions, 
   }
   return input;
 }
-inline StudyInput simulatedStudy(const std::vector<StudyCondition>& conditions, predict::Criterion criterion, double handMass, int subjects,
-                                 int days, int trials, std::uint64_t seed, const Scatter& scatter = {}) {
+inline AnalysisInput simulatedTrials(const std::vector<Condition>& conditions, predict::Criterion criterion, double handMass, int subjects,
+                                     int days, int trials, std::uint64_t seed, const Scatter& scatter = {}) {
   const auto planOf = [&](const experiment::Experiment& e) {
     predict::PredictOptions how;
     how.handMass = handMass;
     return predict::predict(e, criterion, how);
   };
-  return simulatedStudy(conditions, planOf, subjects, days, trials, seed, scatter);
+  return simulatedTrials(conditions, planOf, subjects, days, trials, seed, scatter);
 }
 
 }  // namespace reachlab::analysis

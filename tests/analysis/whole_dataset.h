@@ -8,12 +8,12 @@ namespace reachlab::analysis {
 
 /// A dataset with every trial kept in memory.
 struct Dataset : DatasetIndex {
-  StudyInput input;
+  AnalysisInput input;
 };
 
 inline Dataset openDataset(const std::string& folder, const std::string& experimentFile = "") {
   Dataset dataset;
-  StudyInput& input = dataset.input;
+  AnalysisInput& input = dataset.input;
   static_cast<DatasetIndex&>(dataset) = readDataset(folder,
                                                     {[&](TrialData&& trial, std::size_t condition) {
                                                        input.trials.push_back(std::move(trial));

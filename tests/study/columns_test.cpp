@@ -8,6 +8,7 @@
 
 #include "analysis/study/run_study.h"
 #include "analysis/study/trial_row.h"
+#include "sim/record/log/trial_measures.h"
 
 namespace reachlab::study {
 namespace {
@@ -85,47 +86,28 @@ TEST(StudyColumns, PutEachMeasureUnderItsName) {
   design.measures = measureNames();
   design.criteria = {"min-hand-jerk", "min-crackle"};
   MeasuredTrial trial;
-  trial.recorded.result.outcome = trial::Outcome::Failure;
-  trial.recorded.result.reason = trial::Reason::Velocity;
-  trial.recorded.result.mass = 3, trial.recorded.result.by = 0.5, trial.recorded.clampedTicks = 17;
+  trial.recorded.result = {trial::Outcome::Failure, trial::Reason::Velocity, 3, 0.5, 1.25, 1500, 2750};
+  trial.recorded.goTick = 1000, trial.recorded.clampedTicks = 17;
   trial.recorded.peakHandSpeed = 0.6, trial.recorded.handPathLength = 0.7, trial.recorded.peakForce = 0.8, trial.recorded.meanForce = 0.9;
-  analysis::TrialMeasures& m = trial.measures;
-  const std::pair<const char*, double*> measures[] = {{"onset_s", &m.onset},
-                                                      {"offset_s", &m.offset},
-                                                      {"duration_s", &m.duration},
-                                                      {"peak_speed_m_per_s", &m.peakSpeed},
-                                                      {"time_to_peak_s", &m.timeToPeak},
-                                                      {"time_to_peak_percent", &m.timeToPeakPercent},
-                                                      {"symmetry_ratio", &m.symmetryRatio},
-                                                      {"path_length_m", &m.pathLength},
-                                                      {"speed_peaks", &m.speedPeaks},
-                                                      {"hand_endpoint_error_m", &m.handEndpointError},
-                                                      {"object_endpoint_error_m", &m.objectEndpointError},
-                                                      {"hand_overshoot_m", &m.handOvershoot},
-                                                      {"object_overshoot_m", &m.objectOvershoot},
-                                                      {"sparc", &m.sparc},
-                                                      {"ldlj", &m.ldlj}};
   double value = 100;
-  for (const auto& [name, at] : measures) *at = ++value;
+  for (const analysis::Measure& measure : analysis::measures()) trial.measures.*measure.value = ++value;
   trial.epsilonHand = {0.01, 0.02}, trial.epsilonObject = {0.03};
   trial.score = {-1, -2, -3, 12, 0.04};
   const std::vector<std::string> names = namesOf(design);
   std::vector<double> row(names.size(), -7);
   putMeasures(design, trial, row);
-  const auto at = [&](const std::string& name) {
+  const auto at = [&](std::string_view name) {
     return row[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
   };
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(row[i], -7) << "who it was is put by others";
   EXPECT_EQ(at("outcome"), 2);
   EXPECT_EQ(at("reason"), 2);
-  EXPECT_EQ(at("mass"), 3);
-  EXPECT_EQ(at("by"), 0.5);
   EXPECT_EQ(at("clamped_ticks"), 17);
   EXPECT_EQ(at("peak_hand_speed_m_per_s"), 0.6);
-  EXPECT_EQ(at("hand_path_m"), 0.7);
-  EXPECT_EQ(at("peak_force_n"), 0.8);
-  EXPECT_EQ(at("mean_force_n"), 0.9);
-  for (const auto& [name, of] : measures) EXPECT_EQ(at(name), *of) << name;
+  EXPECT_EQ(at("task_reaction_time_s"), 0.5);
+  EXPECT_EQ(at("movement_time_s"), 1.25) << "of the ticks, which every study has";
+  EXPECT_EQ(at("reaction_time_s"), trial.measures.reactionTime) << "of the samples";
+  EXPECT_EQ(at("peak_speed_m_per_s"), trial.measures.peakSpeed);
   EXPECT_EQ(at("epsilon_hand_min_crackle_m_per_s"), 0.02);
   EXPECT_EQ(at("epsilon_object_min_hand_jerk_m_per_s"), 0.03);
   EXPECT_TRUE(std::isnan(at("epsilon_object_min_crackle_m_per_s"))) << "none was computed";
@@ -135,10 +117,18 @@ TEST(StudyColumns, PutEachMeasureUnderItsName) {
   EXPECT_EQ(at("fit_poorness"), 0.04);
 }
 
+// Both tables hold three quantities that are the same by either way. Every other name is of one table alone.
+TEST(StudyColumns, OfOneNameAreOneQuantity) {
+  std::vector<std::string_view> shared;
+  for (const analysis::Measure& measure : analysis::measures())
+    for (const record::TickMeasure& tick : record::tickMeasures())
+      if (measure.name == tick.name) shared.push_back(tick.name);
+  EXPECT_EQ(shared, (std::vector<std::string_view>{"movement_time_s", "peak_force_n", "mean_force_n"}));
+}
+
 TEST(StudyColumns, RefuseMeasuresThatThereAreNoneOfOrTwice) {
   EXPECT_TRUE(measureProblems(asking({"by", "score", "epsilon"})).empty());
-  EXPECT_EQ(usualMeasures().size(), 9u);
-  EXPECT_EQ(measureNames().size(), 26u);
+  for (const std::string& usual : usualMeasures()) EXPECT_TRUE(measureProblems(asking({usual})).empty()) << usual;
   const std::vector<Fault> twice = measureProblems(asking({"by", "mass", "by"}));
   ASSERT_EQ(twice.size(), 1u);
   EXPECT_EQ(twice[0].key, "measures[2]");

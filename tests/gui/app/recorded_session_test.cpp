@@ -323,7 +323,7 @@ TEST_F(RecordingWindow, TheFittedEpsilonOfTheRunIsThatOfTheAnalysis) {
   for (int i = 0; i < 16; ++i) doTrial();
   const auto* table = window_->findChild<QTableWidget*>(QStringLiteral("criteria"));
   ASSERT_NE(table, nullptr);
-  const auto analysed = analysis::analyzeStudy(analysis::openDataset(session().run()->logPath()).input, {});
+  const auto analysed = analysis::analyzeTrials(analysis::openDataset(session().run()->logPath()).input, {});
   const auto rows = analysis::fitRows(analysed);
   ASSERT_FALSE(rows.empty()) << "the simulated hand succeeds ten times of sixteen with this seed";
   const auto shows = [&] {

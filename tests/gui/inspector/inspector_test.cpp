@@ -89,7 +89,7 @@ class Inspecting : public ::testing::Test {
 
 TEST_F(Inspecting, TheNumbersAreThoseOfTheAnalysis) {
   choose(0, 23);
-  const analysis::StudyResult study = analysis::analyzeStudy(analysis::openDataset(log()).input, {});
+  const analysis::Analysis study = analysis::analyzeTrials(analysis::openDataset(log()).input, {});
   const auto* table = find<QTableWidget>("inspectedCriteria");
   const auto rows = analysis::fitRows(study);
   ASSERT_FALSE(rows.empty());
@@ -105,7 +105,7 @@ TEST_F(Inspecting, TheNumbersAreThoseOfTheAnalysis) {
   for (const analysis::EpsilonPlace& place : r.handEpsilon)
     EXPECT_EQ(table->item(static_cast<int>(r.signals[place.criterion].criterion), 1)->text(), QString::number(place.epsilon, 'f', 4));
   // And of each trial in the table.
-  for (const analysis::StudyTrial& trial : study.trials) {
+  for (const analysis::AnalyzedTrial& trial : study.trials) {
     const int row = page_.table().rowOf(log(), trial.key.trial);
     const QString shown = page_.table().index(row, TrialTable::kPaper).data().toString();
     EXPECT_EQ(shown, trial.used() ? QString::number(trial.paperError[0], 'f', 4) : QString());

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <malloc.h>
 
-#include "analysis/study.h"
+#include "analysis/analysis.h"
 #include "tests/analysis/synthetic.h"
 
 namespace reachlab::analysis {
@@ -14,9 +14,9 @@ double held() {
 }
 
 // One person's ten trials, recorded again and again.
-double heldBy(std::size_t trials, const StudyInput& person) {
+double heldBy(std::size_t trials, const AnalysisInput& person) {
   const double before = held();
-  StudyBuilder builder(StudyOptions{});
+  AnalysisBuilder builder(AnalysisOptions{});
   for (std::size_t i = 0; i < trials; ++i) {
     TrialData trial = person.trials[i % person.trials.size()];
     trial.key.trial = static_cast<int>(i) + 1;
@@ -30,10 +30,10 @@ TEST(StudyMemory, IsWhatIsSaidOfATrialAndNotItsSignals) {
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
   GTEST_SKIP() << "a sanitizer keeps a heap of its own";
 #endif
-  const StudyInput person = simulatedStudy({{"moderate", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 10, 1);
+  const AnalysisInput person = simulatedTrials({{"moderate", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 10, 1);
   const double few = heldBy(200, person), many = heldBy(1000, person);
   const double bytesATrial = (many - few) / 800;
-  EXPECT_GT(bytesATrial, sizeof(StudyTrial) / 2.0) << "something is kept, or nothing was measured";
+  EXPECT_GT(bytesATrial, sizeof(AnalyzedTrial) / 2.0) << "something is kept, or nothing was measured";
   EXPECT_LT(bytesATrial, 2000);
   RecordProperty("bytes_a_trial", static_cast<int>(bytesATrial));
 }

@@ -7,11 +7,11 @@
 namespace reachlab::gui::inspector {
 
 /// The recorded states of one trial, to be looked at at any time: what the rows hold, straight lines between them. Nothing is simulated.
-class Replay {
+class TrialReplay {
  public:
-  Replay() = default;
+  TrialReplay() = default;
   /// Reads the trial's rows from its arming to its end. Throws what RunLog::rows throws.
-  Replay(const record::RunLog& log, const record::RecordedTrial& trial);
+  TrialReplay(const record::RunLog& log, const record::RecordedTrial& trial);
   bool empty() const { return rows_.size() == 0; }
   /// Of the first and the last row. [s] since arming
   double begin() const { return empty() ? 0 : timeOf(0); }

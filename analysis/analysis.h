@@ -21,10 +21,11 @@ namespace reachlab::analysis {
 /// The fits choose their own durations and do not ask.
 enum class PredictionDuration { Task, Moved };
 
-struct StudyOptions {
+struct AnalysisOptions {
   MeasureOptions measure;
   bool includePractice = false;
-  std::vector<predict::Criterion> criteria;      // empty: all that are defined for the object
+  std::vector<predict::Criterion> criteria;      // that are compared; empty: all that are defined for the object
+  std::vector<predict::Criterion> drawn;         // of the figures, predictions and the paper's epsilon; empty: those that are compared
   std::optional<double> handMass;                // [kg] of the predictions; nullopt: the experiment's
   std::vector<double> handMasses{0, 0.5, 1, 2};  // [kg] that the fits of (4) to (6) try where no mass is given
   double handDamping = 0;                        // [N s/m]
@@ -34,21 +35,21 @@ struct StudyOptions {
 };
 
 /// What a condition asks, and the experiment it was recorded with.
-struct StudyCondition {
+struct Condition {
   std::string name;
   experiment::CompiledExperiment compiled;
   const experiment::Experiment& experiment() const { return compiled.experiment(); }
 };
 
-/// A recorded study: trials in any order, each of a condition (index). of a whole dataset or of those that somebody chose.
-struct StudyInput {
-  std::vector<StudyCondition> conditions;
+/// Recorded trials in any order, each of a condition (index): of a whole dataset or of those that somebody chose.
+struct AnalysisInput {
+  std::vector<Condition> conditions;
   std::vector<TrialData> trials;
   std::vector<std::size_t> conditionOf;  // one a trial
 };
 
 /// One trial after measurement; its signals are in the study's store.
-struct StudyTrial {
+struct AnalyzedTrial {
   TrialKey key;
   std::size_t condition = 0;
   trial::TrialResult result;
@@ -70,7 +71,7 @@ struct MeanProfile {
   std::vector<double> mean, sd;
 };
 
-struct OutcomeCounts {
+struct ConditionCounts {
   std::size_t success = 0, failure = 0, aborted = 0, interrupted = 0, practice = 0, catchTrials = 0;
   std::size_t invalidTiming = 0;  // of the interrupted ones
   std::size_t beforeGo = 0;       // the hand left before the go signal
@@ -79,12 +80,12 @@ struct OutcomeCounts {
 
 /// A criterion's paper's epsilon in one condition, over all samples of the used trials; the interval is over people.
 struct EpsilonPlace {
-  std::size_t criterion = 0;                   // index into ConditionResult::signals
-  double epsilon = 0;                          // [m/s]
-  std::optional<Interval> interval;            // of the mean of people's epsilons
-  double difference = 0;                       // mean over people of epsilon - that of the first
-  std::optional<Interval> differenceInterval;  // Bonferroni-corrected for the number of criteria compared with the first
-  bool apart = false;                          // that interval excludes 0
+  std::size_t criterion = 0;                 // index into ConditionResult::signals
+  double epsilon = 0;                        // [m/s]
+  std::optional<Bounds> interval;            // of the mean of people's epsilons
+  double difference = 0;                     // mean over people of epsilon - that of the first
+  std::optional<Bounds> differenceInterval;  // Bonferroni-corrected for the number of criteria compared with the first
+  bool apart = false;                        // that interval excludes 0
 };
 using EpsilonTable = std::vector<EpsilonPlace>;  // least first
 
@@ -92,7 +93,7 @@ using EpsilonTable = std::vector<EpsilonPlace>;  // least first
 struct PersonResult {
   std::string subject;
   std::size_t condition = 0;
-  std::size_t firstTrial = 0, trials = 0;  // range of the used trials in StudyResult::trials
+  std::size_t firstTrial = 0, trials = 0;  // range of the used trials in Analysis::trials
   double duration = 0;                     // [s] mean by the onset rule
   bool fitted = false;                     // kFewestTrials or more
   PersonFit fit;
@@ -101,13 +102,13 @@ struct PersonResult {
 };
 
 struct ConditionResult {
-  OutcomeCounts counts;
+  ConditionCounts counts;
   std::map<std::string, std::size_t> reasons;  // of failures and aborts, by machine-readable name
   std::map<std::string, std::size_t> exclusions;
   std::size_t used = 0;
   bool onlyFailures = false;      // no trial succeeded: what is used are the failed ones, for description
   MeanSd duration, movementTime;  // [s] over the used trials: by the onset rule, by the task
-  Interval movementRange;         // [s] least and largest movement time of the used trials
+  Bounds movementRange;           // [s] least and largest movement time of the used trials
   MeanProfile hand, object;
   double endLevel = 0;                                            // mean of the used trials
   std::vector<PredictedSignal> signals;                           // one a prediction of the paper's epsilon
@@ -126,11 +127,11 @@ struct SeriesResult {
   std::vector<double> handError, objectError;  // [m/s] one a criterion
 };
 
-struct StudyResult {
-  StudyOptions options;
-  std::vector<StudyCondition> conditions;
+struct Analysis {
+  AnalysisOptions options;
+  std::vector<Condition> conditions;
   std::vector<ConditionResult> results;  // one a condition
-  std::vector<StudyTrial> trials;        // sorted by condition, subject, session, run, trial
+  std::vector<AnalyzedTrial> trials;     // sorted by condition, subject, session, run, trial
   std::vector<SeriesResult> series;
   std::vector<PersonResult> people;                     // by condition, then subject
   std::vector<std::vector<predict::Criterion>> common;  // candidates of the overall conclusion; an empty one is the reference
@@ -143,26 +144,26 @@ struct StudyResult {
   std::vector<LearningSlope> slopes;  // of success against trial number, over people
   std::shared_ptr<const SignalStore> signals;
 
-  TrialProfile profileOf(const StudyTrial& trial) const;  // as measured; empty without a movement
+  TrialProfile profileOf(const AnalyzedTrial& trial) const;  // as measured; empty without a movement
 };
 
-using StudyProgress = std::function<void(std::size_t done, std::size_t of)>;
+using FittingProgress = std::function<void(std::size_t done, std::size_t of)>;
 
 /// Takes the trials one by one and forgets their signals, then judges. Throws FaultError for options out of range.
-class StudyBuilder {
+class AnalysisBuilder {
  public:
-  explicit StudyBuilder(const StudyOptions& options);
+  explicit AnalysisBuilder(const AnalysisOptions& options);
   void add(TrialData&& trial, std::size_t condition);
   /// Forgets the last so many trials.
   void takeBack(std::size_t count);
-  StudyResult finish(std::vector<StudyCondition> conditions, const StudyProgress& fitting = {});
+  Analysis finish(std::vector<Condition> conditions, const FittingProgress& fitting = {});
 
  private:
-  StudyResult study_;
+  Analysis analysis_;
   std::shared_ptr<SignalStore> signals_;
 };
 
-StudyResult analyzeStudy(StudyInput input, const StudyOptions& options, const StudyProgress& progress = {});
+Analysis analyzeTrials(AnalysisInput input, const AnalysisOptions& options, const FittingProgress& progress = {});
 
 /// The conclusion of one condition, or of several together, from people's fits; also what recovery judges by.
 Conclusion concludeCondition(const std::vector<PersonResult>& people, std::size_t condition, const CandidateSet& candidates);

@@ -11,7 +11,7 @@
 #include "analysis/trials/experiment_difference.h"
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
-#include "tests/analysis/made_study.h"
+#include "tests/analysis/made_analysis.h"
 
 // What a study is made of, each by itself: counts, options, differences, candidates, signals of predictions, recovery.
 namespace reachlab::analysis {
@@ -23,7 +23,7 @@ TEST(Counts, PutEachTrialWhereItBelongs) {
   ConditionResult r;
   const auto count = [&](trial::Outcome outcome, trial::Reason reason, const std::string& exclusion, bool practice = false,
                          bool caught = false) {
-    StudyTrial t;
+    AnalyzedTrial t;
     t.result.outcome = outcome, t.result.reason = reason, t.exclusion = exclusion, t.practice = practice, t.catchTrial = caught;
     countTrial(t, r);
   };
@@ -38,7 +38,7 @@ TEST(Counts, PutEachTrialWhereItBelongs) {
   count(trial::Outcome::Success, trial::Reason::None, "", true);  // practice that is included
   count(trial::Outcome::Failure, trial::Reason::Velocity, "excluded: talked");
   count(trial::Outcome::Success, trial::Reason::None, "catch trial", true, true);
-  StudyTrial odd;
+  AnalyzedTrial odd;
   odd.result.outcome = trial::Outcome::Success, odd.measures.beforeGo = odd.otherWay = true;
   countTrial(odd, r);
   EXPECT_EQ(r.counts.success, 4u);
@@ -56,18 +56,18 @@ TEST(Counts, PutEachTrialWhereItBelongs) {
   EXPECT_EQ(r.exclusions.count(""), 0u);
 }
 
-TEST(StudyOptions, AreRefusedJustOutsideTheirBounds) {
-  const auto refusal = [](const std::function<void(StudyOptions&)>& change) -> std::string {
-    StudyOptions options;
+TEST(AnalysisOptions, AreRefusedJustOutsideTheirBounds) {
+  const auto refusal = [](const std::function<void(AnalysisOptions&)>& change) -> std::string {
+    AnalysisOptions options;
     change(options);
     try {
-      StudyBuilder builder(options);
+      AnalysisBuilder builder(options);
     } catch (const FaultError& e) {
       return e.what();
     }
     return "";
   };
-  using O = StudyOptions;
+  using O = AnalysisOptions;
   EXPECT_EQ(refusal([](O&) {}), "");
   for (const double percent : {1e-9, 99.9}) EXPECT_EQ(refusal([&](O& o) { o.measure.onset.percent = percent; }), "");
   for (const double percent : {0.0, 100.0, std::nan("")})
@@ -83,13 +83,6 @@ TEST(StudyOptions, AreRefusedJustOutsideTheirBounds) {
   EXPECT_EQ(refusal([](O& o) { o.handMasses = {0}; }), "");
   for (const double mass : {-0.1, std::numeric_limits<double>::infinity(), std::nan("")})
     EXPECT_NE(refusal([&](O& o) { o.handMasses = {1, mass}; }).find("hand_masses"), std::string::npos);
-  const StudyOptions usual;
-  EXPECT_EQ(usual.handMasses, (std::vector<double>{0, 0.5, 1, 2}));
-  EXPECT_TRUE(usual.learningBin == 10 && usual.handDamping == 0 && !usual.includePractice && !usual.keepScatter && !usual.handMass);
-  EXPECT_EQ(usual.predictFor, PredictionDuration::Task);
-  const CandidateOptions candidates;
-  EXPECT_EQ(candidates.handMasses, usual.handMasses);
-  EXPECT_TRUE(candidates.cutoff == 10 && candidates.rate == 100 && candidates.handDamping == 0);
 }
 
 TEST(Differences, NameValuesThatFitIntoASentence) {
@@ -220,14 +213,14 @@ TEST(Candidates, AreOneWhereTheyPredictTheSameAndEndWithTheReference) {
 }
 
 // People planned by minimum hand jerk, with a little scatter: each truth is named by most studies of it, by any number of threads.
-TEST(Recovery, NamesTheTruthsAndDoesNotHangOnTheThreads) {
-  StudyOptions options;
+TEST(TruthRecovery, NamesTheTruthsAndDoesNotHangOnTheThreads) {
+  AnalysisOptions options;
   options.criteria = {Criterion::MinHandJerk, Criterion::MinCrackle};
   options.keepScatter = true;
-  const StudyResult study =
-      analyzeStudy(simulatedStudy({{"moderate", compiledChain(1.35)}}, Criterion::MinHandJerk, 0, 1, 1, 20, 3), options);
+  const Analysis analysis =
+      analyzeTrials(simulatedTrials({{"moderate", compiledChain(1.35)}}, Criterion::MinHandJerk, 0, 1, 1, 20, 3), options);
   std::size_t told = 0;
-  const Recovery one = recover(study, 3, 7, 1, [&](std::size_t done, std::size_t of) {
+  const TruthRecovery one = recover(analysis, 3, 7, 1, [&](std::size_t done, std::size_t of) {
     EXPECT_EQ(done, ++told);
     EXPECT_EQ(of, 9u);
   });
@@ -243,31 +236,30 @@ TEST(Recovery, NamesTheTruthsAndDoesNotHangOnTheThreads) {
   EXPECT_EQ(one.counts[0][0], 3u);
   EXPECT_EQ(one.counts[1][1], 3u);
   EXPECT_EQ(one.counts[2][3], 3u) << "the reference is never named";
-  EXPECT_EQ(recover(study, 3, 7, 3).counts, one.counts);
+  EXPECT_EQ(recover(analysis, 3, 7, 3).counts, one.counts);
   EXPECT_EQ(recoveryTable(one).substr(0, 54), "truth,named,studies\nmin-hand-jerk,min-hand-jerk,3\nmin-");
   EXPECT_NE(recoveryTable(one).find("reference,undecided,3\n"), std::string::npos);
-  for (const auto& row : recover(study, 1, 7, 1).counts) EXPECT_EQ(row[0] + row[1] + row[2] + row[3], 1u) << "one study is enough";
-  for (const int none : {0, -1}) EXPECT_EQ(recover(study, none, 7, 1).counts, std::vector<std::vector<std::size_t>>(3, {0, 0, 0, 0}));
-  EXPECT_TRUE(Recovery{}.trials == 0 && Recovery{}.studies == 0 && Recovery{}.seed == 1);
+  for (const auto& row : recover(analysis, 1, 7, 1).counts) EXPECT_EQ(row[0] + row[1] + row[2] + row[3], 1u) << "one study is enough";
+  for (const int none : {0, -1}) EXPECT_EQ(recover(analysis, none, 7, 1).counts, std::vector<std::vector<std::size_t>>(3, {0, 0, 0, 0}));
 }
 
 // What the fits try is what the options say, and each condition tells it.
-TEST(StudyOptions, GoToTheCandidates) {
-  StudyOptions options;
+TEST(AnalysisOptions, GoToTheCandidates) {
+  AnalysisOptions options;
   options.criteria = {Criterion::MinHandJerk, Criterion::MinHandForce};
   options.handMasses = {0.25, 3};
   options.measure.cutoff = 8;
-  const StudyInput input = simulatedStudy({{"m", compiledChain(1.35)}}, Criterion::MinHandJerk, 0, 1, 1, 13, 3);
-  StudyResult study = analyzeStudy(input, options);
-  EXPECT_EQ(study.results[0].candidates.masses, (std::vector<double>{0.25, 3}));
-  EXPECT_FALSE(study.results[0].candidates.massGiven);
-  EXPECT_EQ(study.results[0].signals.size(), 2u);
-  EXPECT_EQ(study.people.at(0).rest.size(), study.people[0].trials);
-  EXPECT_GT(study.people[0].fit.candidates[0].r2, 0.99) << "predictions are filtered as the recording is";
+  const AnalysisInput input = simulatedTrials({{"m", compiledChain(1.35)}}, Criterion::MinHandJerk, 0, 1, 1, 13, 3);
+  Analysis analysis = analyzeTrials(input, options);
+  EXPECT_EQ(analysis.results[0].candidates.masses, (std::vector<double>{0.25, 3}));
+  EXPECT_FALSE(analysis.results[0].candidates.massGiven);
+  EXPECT_EQ(analysis.results[0].signals.size(), 2u);
+  EXPECT_EQ(analysis.people.at(0).rest.size(), analysis.people[0].trials);
+  EXPECT_GT(analysis.people[0].fit.candidates[0].r2, 0.99) << "predictions are filtered as the recording is";
   options.handMass = 0.5;
-  study = analyzeStudy(input, options);
-  EXPECT_EQ(study.results[0].candidates.masses, std::vector<double>{0.5});
-  EXPECT_TRUE(study.results[0].candidates.massGiven);
+  analysis = analyzeTrials(input, options);
+  EXPECT_EQ(analysis.results[0].candidates.masses, std::vector<double>{0.5});
+  EXPECT_TRUE(analysis.results[0].candidates.massGiven);
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "gui/inspector/study_lines.h"
+#include "gui/inspector/analysis_lines.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,17 +58,17 @@ double zeroOf(const Inspection& inspection, std::size_t trial) {
   return inspection.input.trials[trial].first + (move.found ? move.onset : 0);
 }
 
-MeanLine meanOf(const analysis::StudyResult& study, std::size_t condition, Signal signal) {
-  const analysis::ConditionResult& r = study.results[condition];
+MeanLine meanOf(const analysis::Analysis& analysis, std::size_t condition, Signal signal) {
+  const analysis::ConditionResult& r = analysis.results[condition];
   const analysis::MeanProfile& profile = signal == Signal::Hand ? r.hand : r.object;
   if (r.used == 0) return {};
   return {toVector(evenly(r.duration.mean, analysis::kProfilePoints)), toVector(profile.mean), toVector(profile.sd)};
 }
 
-std::vector<ProfilePlot::Prediction> predictionsOf(const analysis::StudyResult& study, std::size_t condition, Signal signal,
+std::vector<ProfilePlot::Prediction> predictionsOf(const analysis::Analysis& analysis, std::size_t condition, Signal signal,
                                                    const std::vector<predict::Criterion>& criteria, bool fitted) {
   std::vector<ProfilePlot::Prediction> out;
-  const analysis::ConditionResult& r = study.results[condition];
+  const analysis::ConditionResult& r = analysis.results[condition];
   for (const predict::Criterion criterion : criteria) {
     for (std::size_t k = 0; !fitted && k < r.signals.size(); ++k) {
       if (r.signals[k].criterion != criterion) continue;
@@ -77,7 +77,7 @@ std::vector<ProfilePlot::Prediction> predictionsOf(const analysis::StudyResult& 
                      toVector(signal == Signal::Hand ? curve.hand : curve.object)});
     }
     if (!fitted || signal != Signal::Hand) continue;
-    for (const analysis::PersonResult& person : study.people) {
+    for (const analysis::PersonResult& person : analysis.people) {
       if (person.condition != condition || !person.fitted) continue;
       for (std::size_t k = 0; k < person.fit.candidates.size(); ++k) {
         const auto& named = r.candidates.candidates[k].criteria;
@@ -117,8 +117,8 @@ figure::Figure figureOf(const Inspection& inspection, std::size_t condition, Tim
       s.width = lines.size() == 1 ? figure::kNormal : figure::kThin;
       panel.series.push_back(std::move(s));
     }
-    if (inspection.study) {
-      if (const MeanLine mean = meanOf(*inspection.study, condition, signal); lines.size() > 1 && !mean.x.isEmpty()) {
+    if (inspection.analysis) {
+      if (const MeanLine mean = meanOf(*inspection.analysis, condition, signal); lines.size() > 1 && !mean.x.isEmpty()) {
         figure::Band band;
         band.label = "± SD";
         figure::Series s;
@@ -134,7 +134,7 @@ figure::Figure figureOf(const Inspection& inspection, std::size_t condition, Tim
       int colour = 0;
       for (const bool fitted : {false, true}) {
         colour = 0;
-        for (const ProfilePlot::Prediction& p : predictionsOf(*inspection.study, condition, signal, criteria, fitted)) {
+        for (const ProfilePlot::Prediction& p : predictionsOf(*inspection.analysis, condition, signal, criteria, fitted)) {
           figure::Series s;
           s.label = p.title.toStdString();
           s.x = take(p.x);

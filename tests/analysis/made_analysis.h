@@ -1,5 +1,5 @@
 #pragma once
-#include "analysis/study.h"
+#include "analysis/analysis.h"
 #include "tests/analysis/synthetic.h"
 
 /// A study whose every number is another, put together by hand: nothing is fitted, so that what is said of it is known.
@@ -40,13 +40,13 @@ inline CandidateFit madeFit(double base, std::size_t trials, std::size_t points)
 }
 
 /// Two conditions, two subjects. The first condition has predictions of (3) and (1), candidates (1), (4 and 6) with masses, the reference.
-inline StudyResult madeStudy() {
-  StudyResult study;
+inline Analysis madeStudy() {
+  Analysis analysis;
   const auto signals = std::make_shared<SignalStore>();
-  study.conditions = {{"slow pace", compiledChain(2.25)}, {"quick", compiledChain(0.75)}};
-  study.subjects = {"A", "B"};
-  study.results.resize(2);
-  ConditionResult& r = study.results[0];
+  analysis.conditions = {{"slow pace", compiledChain(2.25)}, {"quick", compiledChain(0.75)}};
+  analysis.subjects = {"A", "B"};
+  analysis.results.resize(2);
+  ConditionResult& r = analysis.results[0];
   r.counts = {11, 12, 13, 14, 15, 16, 3, 17, 18};
   r.used = 3;
   r.duration = {1.6, 0.06, 3};
@@ -64,9 +64,8 @@ inline StudyResult madeStudy() {
     signal.begin = 0.3, signal.onset = 0.42;
     r.signals.push_back(signal);
   }
-  r.handEpsilon = {{1, 0.021, Interval{0.011, 0.031}, 0, {}, false},
-                   {0, 0.041, Interval{0.015, 0.055}, 0.02, Interval{0.004, 0.036}, true}};
-  r.objectEpsilon = {{0, 0.07, {}, 0, {}, false}, {1, 0.09, Interval{0.05, 0.13}, 0.02, Interval{-0.01, 0.05}, false}};
+  r.handEpsilon = {{1, 0.021, Bounds{0.011, 0.031}, 0, {}, false}, {0, 0.041, Bounds{0.015, 0.055}, 0.02, Bounds{0.004, 0.036}, true}};
+  r.objectEpsilon = {{0, 0.07, {}, 0, {}, false}, {1, 0.09, Bounds{0.05, 0.13}, 0.02, Bounds{-0.01, 0.05}, false}};
   const auto candidate = [](std::vector<predict::Criterion> criteria, std::vector<double> masses) {
     Candidate made;
     made.criteria = std::move(criteria), made.masses = std::move(masses);
@@ -85,10 +84,10 @@ inline StudyResult madeStudy() {
   c.posterior = {0.91, 0.06, 0.03};
   c.level = 0.05, c.p = 0.03, c.referenceP = 0.02, c.subjects = 2, c.trials = 31;
   c.r2 = 0.962, c.ceiling = 0.981;
-  study.results[1].counts.failure = 1;
+  analysis.results[1].counts.failure = 1;
 
   const auto add = [&](const char* subject, const char* session, int day, int run, int number, const char* exclusion, double base) {
-    StudyTrial t;
+    AnalyzedTrial t;
     t.key = {subject, session, "slow pace", day, run, 40 + number, number};
     t.result.outcome = trial::Outcome::Success;
     t.exclusion = exclusion;
@@ -104,18 +103,19 @@ inline StudyResult madeStudy() {
     for (int i = 0; i < 202; ++i) both.push_back(base + i);
     t.profile = signals->put(both);
     if (t.used()) t.window = signals->put(std::vector<double>(4, base)), t.paperError = {base + 0.1, base + 0.2, base + 0.3, base + 0.4};
-    study.trials.push_back(t);
+    analysis.trials.push_back(t);
   };
   add("A", "01", 1, 2, 1, "", 10);
   add("A", "01", 1, 2, 2, "practice", 20);
   add("A", "02", 2, 3, 3, "", 30);
   add("B", "01", 1, 4, 4, "", 50);
-  StudyTrial& odd = study.trials[1];
+  AnalyzedTrial& odd = analysis.trials[1];
   odd.practice = odd.otherWay = odd.measures.beforeGo = true;
   odd.result = {trial::Outcome::Failure, trial::Reason::Velocity, 2, 0.015};
   odd.measures.sparc = kNotMeasured;
 
-  study.series = {{study.trials[0].key, 0, 1, {0.5, 0.25}, {0.75, 0.125}}, {study.trials[3].key, 0, 2, {0.6, 0.35}, {0.85, 0.225}}};
+  analysis.series = {{analysis.trials[0].key, 0, 1, {0.5, 0.25}, {0.75, 0.125}},
+                     {analysis.trials[3].key, 0, 2, {0.6, 0.35}, {0.85, 0.225}}};
   PersonResult a;
   a.subject = "A";
   a.trials = 2;
@@ -130,25 +130,25 @@ inline StudyResult madeStudy() {
   a.fit.candidates[0].choice = {TimeLaw::OnePlan, 1.45, 0};
   a.fit.candidates[1].choice = {TimeLaw::Anew, 0, 1};
   a.fit.candidates[2].trials[1].found = false;
-  study.people.push_back(a);
+  analysis.people.push_back(a);
   PersonResult b;
   b.subject = "B";
   b.firstTrial = 3;
   b.trials = 1;
-  study.people.push_back(b);
-  study.common = {{predict::Criterion::MinHandJerk}, {}};
-  study.together = {0};
-  study.overall = c;
-  study.overall.overSubjects = false;
-  study.overall.follows.reset();
-  study.overall.reason = Obstacle::Poor;
-  study.overall.score = {-1.5, -2.5};
-  study.overall.against = {{1, 0.2, 5, 1, 0.04}, {}};
-  study.overall.best = 1, study.overall.rival = 0;
-  study.overall.posterior.clear();
+  analysis.people.push_back(b);
+  analysis.common = {{predict::Criterion::MinHandJerk}, {}};
+  analysis.together = {0};
+  analysis.overall = c;
+  analysis.overall.overSubjects = false;
+  analysis.overall.follows.reset();
+  analysis.overall.reason = Obstacle::Poor;
+  analysis.overall.score = {-1.5, -2.5};
+  analysis.overall.against = {{1, 0.2, 5, 1, 0.04}, {}};
+  analysis.overall.best = 1, analysis.overall.rival = 0;
+  analysis.overall.posterior.clear();
 
-  study.success = {{"A", 1, 0, 3, 8, {0.085, 0.755}}, {"B", 2, 1, 1, 4, {0.006, 0.806}}};
-  study.learning = {
+  analysis.success = {{"A", 1, 0, 3, 8, {0.085, 0.755}}, {"B", 2, 1, 1, 4, {0.006, 0.806}}};
+  analysis.learning = {
       {"A", "01", 0, 1, 10, 3, 8, {0.1, 0.7}}, {"A", "02", 0, 11, 14, 3, 4, {0.2, 0.99}}, {"B", "01", 0, 1, 10, 5, 10, {0.19, 0.81}}};
   Effect day;
   day.ofDay = true, day.condition = 1, day.from = 1, day.to = 2, day.people = 2, day.p = 0.012;
@@ -157,10 +157,10 @@ inline StudyResult madeStudy() {
   Effect pace;
   pace.from = 0, pace.to = 1, pace.people = 1, pace.points.mean = -12.5, pace.pointsInterval = {-INFINITY, INFINITY};
   pace.logit.mean = std::log(0.5), pace.logitInterval = {-INFINITY, INFINITY};
-  study.effects = {day, pace};
-  study.slopes = {{1, 2, 7.5, {-2.5, 17.5}, 0.2}, {0, 1, -3, {-INFINITY, INFINITY}, 1}};
-  study.signals = signals;
-  return study;
+  analysis.effects = {day, pace};
+  analysis.slopes = {{1, 2, 7.5, {-2.5, 17.5}, 0.2}, {0, 1, -3, {-INFINITY, INFINITY}, 1}};
+  analysis.signals = signals;
+  return analysis;
 }
 
 }  // namespace reachlab::analysis

@@ -1,4 +1,4 @@
-#include "gui/inspector/replay.h"
+#include "gui/inspector/trial_replay.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,7 @@
 
 namespace reachlab::gui::inspector {
 
-Replay::Replay(const record::RunLog& log, const record::RecordedTrial& trial) {
+TrialReplay::TrialReplay(const record::RunLog& log, const record::RecordedTrial& trial) {
   const record::ChannelTable& table = log.configuration().table;
   zero_ = trial.armedTick > 0 ? trial.armedTick : trial.startTick;
   rows_ = log.rows(zero_, std::max(zero_, trial.result.endTick > 0 ? trial.result.endTick : trial.lastTick));
@@ -21,12 +21,12 @@ Replay::Replay(const record::RunLog& log, const record::RecordedTrial& trial) {
   if (isBody_) body_ = table.indexOf("body_quat_w");
 }
 
-double Replay::timeOf(std::size_t row) const {
+double TrialReplay::timeOf(std::size_t row) const {
   const std::uint64_t tick = rows_.ticks[row];
   return tick < zero_ ? -secondsBetween(tick, zero_) : secondsBetween(zero_, tick);
 }
 
-std::size_t Replay::rowBefore(double time) const {
+std::size_t TrialReplay::rowBefore(double time) const {
   std::size_t low = 0, high = rows_.size();
   while (high - low > 1) {
     const std::size_t middle = (low + high) / 2;
@@ -35,13 +35,13 @@ std::size_t Replay::rowBefore(double time) const {
   return low;
 }
 
-double Replay::neighbour(double time, int rows) const {
+double TrialReplay::neighbour(double time, int rows) const {
   if (empty()) return 0;
   const auto at = static_cast<std::ptrdiff_t>(rowBefore(time + 1e-9)) + rows;
   return timeOf(static_cast<std::size_t>(std::clamp<std::ptrdiff_t>(at, 0, static_cast<std::ptrdiff_t>(rows_.size()) - 1)));
 }
 
-scene::SceneFrame Replay::frameAt(double time) const {
+scene::SceneFrame TrialReplay::frameAt(double time) const {
   scene::SceneFrame frame;
   if (empty()) return frame;
   const std::size_t a = rowBefore(time), b = std::min(a + 1, rows_.size() - 1);
@@ -64,7 +64,7 @@ scene::SceneFrame Replay::frameAt(double time) const {
   return frame;
 }
 
-double Replay::forceAt(double time) const {
+double TrialReplay::forceAt(double time) const {
   if (empty()) return 0;
   const std::size_t row = rowBefore(time);
   return norm(Vec3{rows_.at(row, force_), rows_.at(row, force_ + 1), rows_.at(row, force_ + 2)});

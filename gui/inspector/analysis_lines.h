@@ -22,11 +22,11 @@ struct MeanLine {
   QVector<double> x, mean, sd;
 };
 /// Over the trials of the condition that count; empty where none does.
-MeanLine meanOf(const analysis::StudyResult& study, std::size_t condition, Signal signal);
+MeanLine meanOf(const analysis::Analysis& analysis, std::size_t condition, Signal signal);
 
 /// The predictions of these criteria: for the task's T, dashed, or where the chosen trials of a person were fitted the mean of the fitted
 /// movements, dotted.
-std::vector<ProfilePlot::Prediction> predictionsOf(const analysis::StudyResult& study, std::size_t condition, Signal signal,
+std::vector<ProfilePlot::Prediction> predictionsOf(const analysis::Analysis& analysis, std::size_t condition, Signal signal,
                                                    const std::vector<predict::Criterion>& criteria, bool fitted);
 
 /// All of it for print.

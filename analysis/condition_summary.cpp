@@ -1,0 +1,125 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "analysis/epsilon_table.h"
+#include "analysis/steps.h"
+#include "base/error.h"
+#include "sim/experiment/experiment.h"
+
+namespace reachlab::analysis {
+namespace {
+
+std::vector<predict::Criterion> drawnCriteria(const AnalysisOptions& options) {
+  if (!options.drawn.empty()) return options.drawn;
+  if (!options.criteria.empty()) return options.criteria;
+  std::vector<predict::Criterion> all;
+  for (int i = 0; i < predict::kCriterionCount; ++i) all.push_back(static_cast<predict::Criterion>(i));
+  return all;
+}
+
+/// The prediction whose movement, measured like a trial's, lasts `measured`: fixed-point steps on its duration.
+std::unique_ptr<predict::Prediction> predictLasting(const Condition& condition, predict::Criterion criterion, predict::PredictOptions how,
+                                                    const AnalysisOptions& options, const ConditionResult& result) {
+  how.duration = condition.experiment().task->duration;
+  std::unique_ptr<predict::Prediction> prediction;
+  for (int step = 0; step < 8; ++step) {
+    prediction = predict::predict(condition.compiled, criterion, how);
+    const PredictedSignal signal = recordPrediction(*prediction, options.measure, *condition.experiment().task);
+    const double ratio = result.duration.mean / durationUntil(signal, result.endLevel);
+    if (std::abs(ratio - 1) < 1e-6) break;
+    how.duration *= ratio;
+  }
+  return prediction;
+}
+
+void addPredictions(const Condition& condition, const AnalysisOptions& options, ConditionResult& result) {
+  if (!condition.experiment().task) {
+    result.refusals.push_back("the experiment has no task to predict");
+    return;
+  }
+  predict::PredictOptions how;
+  how.handMass = options.handMass;
+  how.handDamping = options.handDamping;
+  for (const predict::Criterion criterion : drawnCriteria(options)) {
+    try {
+      std::unique_ptr<predict::Prediction> prediction = options.predictFor == PredictionDuration::Moved && result.used > 0
+                                                            ? predictLasting(condition, criterion, how, options, result)
+                                                            : predict::predict(condition.compiled, criterion, how);
+      result.signals.push_back(recordPrediction(*prediction, options.measure, *condition.experiment().task));
+      result.predictions.push_back(std::move(prediction));
+    } catch (const Error& error) {
+      const std::string what = error.what();
+      result.refusals.push_back(what.starts_with(nameOf(criterion)) ? what : fmt::format("{}: {}", nameOf(criterion), what));
+    }
+  }
+}
+
+/// Welford's running mean and sum of squares, a point each.
+struct RunningProfile {
+  std::vector<double> mean = std::vector<double>(kProfilePoints, 0.0), squares = mean;
+  double count = 0;
+  void add(const std::vector<double>& profile, double factor) {
+    count += 1;
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+      const double apart = factor * profile[i] - mean[i];
+      mean[i] += apart / count;
+      squares[i] += apart * (factor * profile[i] - mean[i]);
+    }
+  }
+  MeanProfile result() const {
+    MeanProfile out;
+    if (count == 0) return out;
+    out.mean = mean;
+    for (const double s : squares) out.sd.push_back(count > 1 ? std::sqrt(s / (count - 1)) : kNotMeasured);
+    return out;
+  }
+};
+
+}  // namespace
+
+void summarise(Analysis& analysis, std::size_t condition) {
+  ConditionResult& result = analysis.results[condition];
+  const std::span<AnalyzedTrial> trials = trialsOf(analysis, condition);
+  std::vector<double> durations, times, levels;
+  for (const AnalyzedTrial& trial : trials) {
+    if (!trial.used()) continue;
+    durations.push_back(trial.measures.duration);
+    times.push_back(trial.measures.movementTime);
+    levels.push_back(trial.endLevel);
+  }
+  result.used = durations.size();
+  result.endLevel = levels.empty() ? analysis.options.measure.onset.percent / 100 : computeMeanSd(levels).mean;
+  result.duration = computeMeanSd(durations);
+  result.movementTime = computeMeanSd(times);
+  if (!times.empty()) result.movementRange = {*std::min_element(times.begin(), times.end()), *std::max_element(times.begin(), times.end())};
+  addPredictions(analysis.conditions[condition], analysis.options, result);
+  RunningProfile hand, object;
+  for (AnalyzedTrial& trial : trials) {
+    if (!trial.used()) continue;
+    const TrialProfile profile = analysis.profileOf(trial);
+    hand.add(profile.hand, profile.duration / result.duration.mean);
+    object.add(profile.object, profile.duration / result.duration.mean);
+    const std::size_t criteria = result.signals.size();
+    trial.paperError.resize(2 * criteria);
+    for (std::size_t c = 0; c < criteria; ++c) {
+      const PaperError error = computePaperError(profile, result.signals[c]);
+      trial.paperError[c] = error.hand;
+      trial.paperError[criteria + c] = error.object;
+    }
+  }
+  result.hand = hand.result();
+  result.object = object.result();
+  result.handEpsilon = makeEpsilonTable(trials, result.signals.size(), false);
+  result.objectEpsilon = makeEpsilonTable(trials, result.signals.size(), true);
+}
+
+std::span<AnalyzedTrial> trialsOf(Analysis& analysis, std::size_t condition) {
+  const auto first =
+      std::find_if(analysis.trials.begin(), analysis.trials.end(), [&](const AnalyzedTrial& t) { return t.condition >= condition; });
+  const auto last = std::find_if(first, analysis.trials.end(), [&](const AnalyzedTrial& t) { return t.condition > condition; });
+  return {first, last};
+}
+
+}  // namespace reachlab::analysis

@@ -1,0 +1,133 @@
+#include <algorithm>
+#include <set>
+
+#include "analysis/conclusions/fit_window.h"
+#include "analysis/steps.h"
+
+namespace reachlab::analysis {
+namespace {
+
+FitWindow windowOf(const Analysis& analysis, const AnalyzedTrial& trial) {
+  FitWindow window;
+  window.rate = trial.windowRate;
+  window.begin = trial.windowBegin;
+  window.velocity = analysis.signals->get(trial.window);
+  window.weight.assign(window.velocity.size(), 1.0);
+  return window;
+}
+
+}  // namespace
+
+void fitPeople(Analysis& analysis, std::size_t condition, const FittingProgress& progress) {
+  ConditionResult& result = analysis.results[condition];
+  const std::span<AnalyzedTrial> trials = trialsOf(analysis, condition);
+  const auto offset = static_cast<std::size_t>(trials.data() - analysis.trials.data());
+  for (std::size_t first = 0; first < trials.size();) {
+    std::size_t end = first;
+    while (end < trials.size() && trials[end].key.subject == trials[first].key.subject) ++end;
+    PersonResult person;
+    person.subject = trials[first].key.subject;
+    person.condition = condition;
+    person.firstTrial = offset + first;
+    std::vector<FitWindow> windows;
+    std::vector<double> durations;
+    for (std::size_t i = first; i < end; ++i) {
+      if (!trials[i].used() || trials[i].window.size == 0 || result.onlyFailures) continue;
+      windows.push_back(windowOf(analysis, trials[i]));
+      durations.push_back(trials[i].measures.duration);
+    }
+    person.trials = windows.size();
+    person.duration = durations.empty() ? kNotMeasured : computeMeanSd(durations).mean;
+    if (windows.size() >= kFewestTrials) {
+      if (result.candidates.candidates.empty()) {
+        CandidateOptions how;
+        how.criteria = analysis.options.criteria;
+        how.handMasses = analysis.options.handMasses;
+        how.handMass = analysis.options.handMass;
+        how.handDamping = analysis.options.handDamping;
+        how.cutoff = analysis.options.measure.cutoff;
+        how.rate = windows.front().rate;
+        result.candidates = makeCandidates(analysis.conditions[condition].compiled, how);
+      }
+      person.fit = fitPerson(windows, durations, result.candidates, analysis.options.keepScatter);
+      person.fitted = true;
+      for (const FitWindow& w : windows) person.rest.push_back(restCost(w));
+      PersonScores scores = scoresOf(person);
+      const std::size_t candidates = result.candidates.candidates.size();
+      person.follows = concludePerson(scores, candidates, candidates - 1).follows;
+    }
+    analysis.people.push_back(std::move(person));
+    if (progress) progress(offset + end, analysis.trials.size());
+    first = end;
+  }
+  result.conclusion = concludeCondition(analysis.people, condition, result.candidates);
+}
+
+void concludeTogether(Analysis& analysis) {
+  // A subject who lacks a condition would differ from the others for that alone, so only conditions that all have are averaged.
+  std::set<std::string> anywhere;
+  std::vector<std::size_t> fitted(analysis.results.size(), 0);
+  for (const PersonResult& person : analysis.people)
+    if (person.fitted) anywhere.insert(person.subject), ++fitted[person.condition];
+  std::vector<std::size_t>& judged = analysis.together;
+  for (std::size_t c = 0; c < analysis.results.size(); ++c)
+    if (fitted[c] > 0 && fitted[c] == anywhere.size()) judged.push_back(c);
+  for (std::size_t c = 0; judged.empty() && c < analysis.results.size(); ++c)  // none: the one that most have
+    if (fitted[c] > 0 && fitted[c] == *std::max_element(fitted.begin(), fitted.end())) judged = {c};
+  if (judged.empty()) {
+    analysis.overall.subjects = 0;
+    return;
+  }
+  for (const Candidate& candidate : analysis.results[judged.front()].candidates.candidates) {
+    const bool everywhere = std::all_of(judged.begin(), judged.end(), [&](std::size_t c) {
+      const auto& others = analysis.results[c].candidates.candidates;
+      return std::any_of(others.begin(), others.end(), [&](const Candidate& o) { return o.criteria == candidate.criteria; });
+    });
+    if (everywhere) analysis.common.push_back(candidate.criteria);
+  }
+  std::vector<PersonScores> people;
+  for (const std::string& subject : analysis.subjects) {
+    PersonScores person;
+    person.subject = subject;
+    for (const PersonResult& own : analysis.people) {
+      if (own.subject != subject || !own.fitted || std::find(judged.begin(), judged.end(), own.condition) == judged.end()) continue;
+      const auto& candidates = analysis.results[own.condition].candidates.candidates;
+      const PersonScores here = scoresOf(own);
+      ConditionScores scores = here.conditions.front();
+      scores.score.clear();
+      scores.r2.clear();
+      for (const auto& criteria : analysis.common)
+        for (std::size_t k = 0; k < candidates.size(); ++k)
+          if (candidates[k].criteria == criteria) {
+            scores.score.push_back(here.conditions.front().score[k]);
+            scores.r2.push_back(here.conditions.front().r2[k]);
+          }
+      person.conditions.push_back(std::move(scores));
+    }
+    people.push_back(std::move(person));
+  }
+  analysis.overall = concludePeople(people, analysis.common.size(), analysis.common.size() - 1);
+}
+
+PersonScores scoresOf(const PersonResult& person) {
+  PersonScores out;
+  out.subject = person.subject;
+  if (!person.fitted) return out;
+  ConditionScores scores;
+  scores.condition = person.condition;
+  scores.effectiveSamples = person.fit.own.effectiveSamples;
+  scores.ceiling = person.fit.own.ceiling;
+  for (const CandidateFit& fit : person.fit.candidates) scores.score.push_back(fit.score), scores.r2.push_back(fit.r2);
+  out.conditions.push_back(std::move(scores));
+  return out;
+}
+
+Conclusion concludeCondition(const std::vector<PersonResult>& people, std::size_t condition, const CandidateSet& set) {
+  std::vector<PersonScores> scores;
+  for (const PersonResult& person : people)
+    if (person.condition == condition) scores.push_back(scoresOf(person));
+  const std::size_t candidates = set.candidates.size();
+  return concludePeople(scores, candidates, candidates - 1);
+}
+
+}  // namespace reachlab::analysis

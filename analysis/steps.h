@@ -1,0 +1,18 @@
+#pragma once
+#include <span>
+
+#include "analysis/analysis.h"
+
+namespace reachlab::analysis {
+
+// The steps of AnalysisBuilder::finish, in their order. The trials lie sorted by condition and subject.
+
+std::span<AnalyzedTrial> trialsOf(Analysis& analysis, std::size_t condition);
+/// Means, predictions and the paper's epsilon of a condition.
+void summarise(Analysis& analysis, std::size_t condition);
+/// Fits each person's trials of a condition, and concludes from them.
+void fitPeople(Analysis& analysis, std::size_t condition, const FittingProgress& progress);
+/// Over all conditions: the candidates that every condition with fits has.
+void concludeTogether(Analysis& analysis);
+
+}  // namespace reachlab::analysis

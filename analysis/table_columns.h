@@ -1,0 +1,18 @@
+#pragma once
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "sim/record/export/column_dictionary.h"
+
+namespace reachlab::analysis {
+
+/// The columns of one of the files that an analysis writes, in order, each with its sentence; empty for another file. A name that ends in `*`
+/// stands for a column a criterion. Header and dictionary of a file both follow from this.
+std::span<const record::ColumnMeaning> tableColumns(std::string_view file);
+
+/// The dictionary of such a file, as JSON. `header` is its first line.
+std::string tableDictionary(std::string_view file, std::string_view header);
+
+}  // namespace reachlab::analysis

@@ -1,0 +1,278 @@
+#include "analysis/analysis.h"
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <sstream>
+
+#include "analysis/report/figures.h"
+#include "analysis/report/wording.h"
+#include "analysis/tables.h"
+#include "base/fault.h"
+#include "tests/analysis/synthetic.h"
+
+namespace reachlab::analysis {
+namespace {
+
+AnalysisOptions quickOptions() {
+  AnalysisOptions options;
+  options.criteria = {predict::Criterion::MinHandJerk, predict::Criterion::MinHandForce, predict::Criterion::MinHandForceChange,
+                      predict::Criterion::MinComAcceleration, predict::Criterion::MinHandCrackle};
+  return options;
+}
+
+std::string followed(const Conclusion& c, const std::vector<std::vector<predict::Criterion>>& names) {
+  return c.follows ? nameOfCandidate(names[*c.follows]) : "undecided: " + std::string(nameOf(c.reason));
+}
+
+TEST(Study, OfFiveSubjectsPlannedByMinimumHandJerkIsDecidedForIt) {
+  const std::vector<Condition> paces{{"slow", compiledChain(2.26)}, {"moderate", compiledChain(1.35)}};
+  const Analysis analysis = analyzeTrials(simulatedTrials(paces, predict::Criterion::MinHandJerk, 0, 5, 1, 15, 1), quickOptions());
+  EXPECT_EQ(followed(analysis.overall, analysis.common), "min-hand-jerk") << describeConclusion(analysis.overall, analysis.common);
+  EXPECT_TRUE(analysis.overall.overSubjects);
+  EXPECT_EQ(analysis.overall.subjects, 5u);
+}
+
+TEST(Study, PlannedByForceChangeWithAHandMassIsDecidedForThatAndFindsTheMass) {
+  const Analysis analysis = analyzeTrials(
+      simulatedTrials({{"moderate", compiledChain(1.35)}}, predict::Criterion::MinHandForceChange, 1.0, 5, 1, 25, 2), quickOptions());
+  EXPECT_EQ(followed(analysis.overall, analysis.common), "min-hand-force-change") << describeConclusion(analysis.overall, analysis.common);
+  for (const FitRow& row : fitRows(analysis)) {
+    if (row.criterion == "min-hand-force-change") {
+      EXPECT_EQ(row.handMass, 1.0) << row.subject;
+    }
+  }
+}
+
+TEST(Study, NamesForceAndCentreOfMassTogetherBecauseTheyPredictTheSame) {
+  const Analysis analysis = analyzeTrials(simulatedTrials({{"parallel", experiment::CompiledExperiment(parallelExperiment(2.5))}},
+                                                          predict::Criterion::MinHandForce, 0.5, 1, 1, 15, 3),
+                                          quickOptions());
+  const auto names = candidatesOf(analysis.results[0]);
+  ASSERT_EQ(names.size(), 5u);  // (1), (4) and (6), (5), (3h), the reference
+  const std::vector<predict::Criterion> both{predict::Criterion::MinHandForce, predict::Criterion::MinComAcceleration};
+  EXPECT_NE(std::find(names.begin(), names.end(), both), names.end());
+  EXPECT_NE(describeCandidate(both).find("which predict the same"), std::string::npos);
+}
+
+TEST(Study, OfOneSubjectSaysNothingAboutOtherPeople) {
+  const Analysis analysis =
+      analyzeTrials(simulatedTrials({{"moderate", compiledChain(1.35)}}, predict::Criterion::MinHandForce, 1, 1, 1, 30, 3), quickOptions());
+  EXPECT_FALSE(analysis.overall.overSubjects);
+  EXPECT_EQ(followed(analysis.overall, analysis.common), "min-hand-force");
+  EXPECT_NE(describeConclusion(analysis.overall, analysis.common).find("nothing follows about other people"), std::string::npos);
+}
+
+// People whose hands ignore the object, and of whom it is not asked whether they succeeded.
+TEST(Study, OfHandsThatIgnoreTheObjectIsNeverConcludedUpon) {
+  const auto blind = [](const experiment::Experiment& e) {
+    return std::make_unique<ObjectBlindPlan>(e.task->duration, e.object.masses.size());
+  };
+  for (const auto& e :
+       {chainExperiment(1.35), parallelExperiment(2.5), lineExperiment(experiment::ObjectKind::Chain, {3}, {}, 120, 1.35)}) {
+    const Analysis analysis =
+        analyzeTrials(simulatedTrials({{"blind", experiment::CompiledExperiment(e)}}, blind, 5, 1, 15, 11), quickOptions());
+    EXPECT_EQ(followed(analysis.overall, analysis.common), "undecided: reference") << describeConclusion(analysis.overall, analysis.common);
+    EXPECT_TRUE(analysis.overall.referenceFirst);
+    for (const PersonResult& person : analysis.people) EXPECT_FALSE(person.follows) << person.subject;
+  }
+}
+
+TEST(Study, OfTwoCampsIsNeverDecided) {
+  const std::vector<Condition> moderate{{"moderate", compiledChain(1.35)}};
+  AnalysisInput camps = simulatedTrials(moderate, predict::Criterion::MinHandJerk, 0, 3, 1, 20, 1);
+  AnalysisInput others = simulatedTrials(moderate, predict::Criterion::MinHandForceChange, 1, 2, 1, 20, 2);
+  for (TrialData& trial : others.trials) {
+    trial.key.subject = "T" + trial.key.subject;
+    camps.trials.push_back(std::move(trial));
+    camps.conditionOf.push_back(0);
+  }
+  const Analysis analysis = analyzeTrials(std::move(camps), quickOptions());
+  EXPECT_EQ(analysis.overall.subjects, 5u);
+  EXPECT_FALSE(analysis.overall.decided()) << describeConclusion(analysis.overall, analysis.common);
+}
+
+TEST(Study, OfTooFewTrialsConcludesNothing) {
+  const Analysis analysis =
+      analyzeTrials(simulatedTrials({{"moderate", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 5, 1, 10, 3), quickOptions());
+  EXPECT_EQ(followed(analysis.overall, analysis.common), "undecided: too_few_trials");  // 8 successes each
+}
+
+TEST(Study, CountsSuccessByDayAndLeavesPracticeOut) {
+  AnalysisInput input = simulatedTrials({{"moderate", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 2, 2, 10, 4);
+  for (TrialData& trial : input.trials)
+    if (trial.key.trial == 1) trial.practice = true;
+  input.trials[3].result = {};
+  input.trials[3].result.outcome = trial::Outcome::Aborted;
+  input.trials[3].result.reason = trial::Reason::NoOnset;
+  const AnalysisInput copy = input;
+  const Analysis analysis = analyzeTrials(std::move(input), quickOptions());
+  ASSERT_EQ(analysis.success.size(), 4u);
+  EXPECT_EQ(analysis.success[0].subject, "S1");
+  EXPECT_EQ(analysis.success[0].day, 1);
+  EXPECT_EQ(analysis.success[0].trials, 8u);     // ten less one practice and one aborted
+  EXPECT_EQ(analysis.success[0].successes, 6u);  // trials 5 and 10 failed
+  EXPECT_EQ(analysis.results[0].counts.practice, 4u);
+  EXPECT_EQ(analysis.results[0].counts.aborted, 1u);
+  EXPECT_EQ(analysis.results[0].exclusions.at("practice"), 4u);
+
+  AnalysisOptions with = quickOptions();
+  with.includePractice = true;
+  EXPECT_EQ(analyzeTrials(copy, with).success[0].trials, 9u);
+}
+
+TEST(Study, LearningPointsNeverSpanTwoSessions) {
+  const Analysis analysis =
+      analyzeTrials(simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 2, 15, 5), quickOptions());
+  ASSERT_EQ(analysis.learning.size(), 4u);  // 10 + 5 trials on each of two days
+  EXPECT_EQ(analysis.learning[1].firstTrial, 11);
+  EXPECT_EQ(analysis.learning[1].lastTrial, 15);
+  EXPECT_EQ(analysis.learning[2].firstTrial, 16);
+  EXPECT_EQ(analysis.learning[2].session, "02");
+}
+
+TEST(Study, DrawsAGroupOfTrialsInItsMiddleAndSaysWhatTheAxesAre) {
+  for (const int subjects : {1, 3}) {  // three are drawn with what is typical of them
+    const Analysis analysis = analyzeTrials(
+        simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, subjects, 1, 15, 5), quickOptions());
+    const NamedFigure learning = learningFigure(analysis);
+    ASSERT_EQ(learning.figure.panels.size(), 1u);
+    const figure::Panel& panel = learning.figure.panels[0];
+    EXPECT_EQ(panel.x.label, "Trial");
+    EXPECT_EQ(panel.y.label, "Success (%)");
+    EXPECT_EQ(panel.series.size(), subjects == 1 ? 1u : 4u);
+    for (const figure::Series& series : panel.series) EXPECT_EQ(series.x, (std::vector<double>{5.5, 13})) << "of 1 to 10 and 11 to 15";
+  }
+}
+
+TEST(Study, WritesEachTableWithAsManyCellsInARowAsColumnsAndWhatItConcluded) {
+  const Analysis analysis =
+      analyzeTrials(simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 2, 2, 12, 1), quickOptions());
+  std::map<std::string, std::string> tables;
+  writeTables(analysis, [&](const std::string& name, std::string_view piece) { tables[name] += piece; });
+  std::map<std::string, std::vector<std::vector<std::string>>> rows;
+  for (const auto& [name, text] : tables) {
+    EXPECT_TRUE(text.ends_with('\n')) << name;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream cells(line + ',');
+      rows[name].emplace_back();
+      for (std::string cell; std::getline(cells, cell, ',');) rows[name].back().push_back(cell);
+      EXPECT_EQ(rows[name].back().size(), rows[name].front().size()) << name << ": " << line;
+    }
+  }
+  EXPECT_EQ(rows["trials.csv"].size(), 1 + analysis.trials.size());
+  EXPECT_EQ(rows["success_table.csv"].size(), 1 + analysis.success.size());
+  EXPECT_EQ(rows["learning.csv"].size(), 1 + analysis.learning.size());
+  ASSERT_TRUE(analysis.overall.best);
+  std::vector<std::string> best;
+  for (const auto& row : rows["conclusions.csv"])
+    if (row.at(0) == "all" && row.at(7) == "yes") best.push_back(row.at(2));
+  EXPECT_EQ(best, std::vector<std::string>{nameOfCandidate(analysis.common[*analysis.overall.best])});
+}
+
+TEST(Study, SeriesErrorIsTheRootOfTheMeanOverAllSamples) {
+  const Analysis analysis =
+      analyzeTrials(simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 2, 2, 10, 6), quickOptions());
+  ASSERT_EQ(analysis.series.size(), 4u);
+  double sum = 0;
+  int n = 0;
+  for (const AnalyzedTrial& t : analysis.trials)
+    if (t.used() && t.key.subject == "S1" && t.key.session == "01") sum += t.paperError[0] * t.paperError[0], ++n;
+  EXPECT_NEAR(analysis.series[0].handError[0], std::sqrt(sum / n), 1e-15);
+}
+
+TEST(Study, BearsOneTrialNoSuccessAndNoTrial) {
+  const std::vector<Condition> conditions{{"m", compiledChain(1.35)}};
+  AnalysisInput one = simulatedTrials(conditions, predict::Criterion::MinHandJerk, 0, 1, 1, 1, 7);
+  AnalysisInput failed = one;
+  failed.trials[0].result.outcome = trial::Outcome::Failure;
+  AnalysisInput empty;
+  empty.conditions = conditions;
+  AnalysisInput still = one;
+  for (Vec3& p : still.trials[0].hand) p = {};
+
+  EXPECT_EQ(analyzeTrials(one, quickOptions()).results[0].used, 1u);
+  const std::string caption = paperFigure(analyzeTrials(one, quickOptions()), 0).caption;
+  EXPECT_NE(caption.find("Thin: 1 trial, "), std::string::npos) << caption;
+  EXPECT_NE(paperFigure(analyzeTrials(empty, quickOptions()), 0).caption.find("predictions only"), std::string::npos);
+  EXPECT_FALSE(analyzeTrials(one, quickOptions()).overall.decided());
+  for (AnalysisInput* input : {&empty, &still}) {
+    const Analysis analysis = analyzeTrials(*input, quickOptions());
+    EXPECT_EQ(analysis.results[0].used, 0u);
+    EXPECT_FALSE(analysis.overall.best);
+    EXPECT_FALSE(analysis.results[0].predictions.empty());
+  }
+  // Failures alone are described, but decide nothing over all.
+  const Analysis analysis = analyzeTrials(failed, quickOptions());
+  EXPECT_TRUE(analysis.results[0].onlyFailures);
+  EXPECT_EQ(analysis.results[0].used, 1u);
+  EXPECT_FALSE(analysis.overall.best);
+}
+
+TEST(Study, RefusesOptionsOutOfRange) {
+  AnalysisOptions options = quickOptions();
+  options.measure.onset.percent = 0;
+  EXPECT_THROW(analyzeTrials({}, options), FaultError);
+  options = quickOptions();
+  options.handMasses = {};
+  EXPECT_THROW(analyzeTrials({}, options), FaultError);
+}
+
+TEST(Study, CountsInvalidTimingApartAndLeavesItOut) {
+  AnalysisInput input = simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 6, 4);
+  input.trials[0].result.reason = trial::Reason::Timing;
+  input.trials[0].result.outcome = trial::Outcome::Interrupted;
+  input.trials[1].goTime = 1.0;  // the hand leaves at 0.4 s
+  const Analysis analysis = analyzeTrials(std::move(input), quickOptions());
+  EXPECT_EQ(analysis.results[0].counts.invalidTiming, 1u);
+  EXPECT_EQ(analysis.results[0].counts.beforeGo, 1u);
+  EXPECT_EQ(analysis.trials[0].exclusion, "invalid timing");
+  EXPECT_TRUE(std::isnan(analysis.trials[1].measures.reactionTime));
+  const std::string words = describeCounts(analysis.results[0]);
+  EXPECT_NE(words.find("invalid timing"), std::string::npos) << words;
+  EXPECT_NE(words.find("before the go signal"), std::string::npos) << words;
+}
+
+TEST(Study, OfAClosedCurveTravelledTheOtherWayScoresTheWayThatTheHandWent) {
+  AnalysisInput input = simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 4, 4);
+  const AnalysisInput straight = input;
+  for (TrialData& trial : input.trials) {
+    trial.closed = true;
+    trial.along = {{-1, 0, 0}};  // what the task calls forward
+  }
+  const Analysis backwards = analyzeTrials(std::move(input), quickOptions()), forwards = analyzeTrials(straight, quickOptions());
+  EXPECT_EQ(backwards.results[0].counts.otherWay, 4u);
+  EXPECT_EQ(backwards.trials[0].paperError, forwards.trials[0].paperError);
+}
+
+TEST(Measures, OfAKnownMovementAreWhatTheyShouldBe) {
+  const auto plan = predict::predict(chainExperiment(1.35), predict::Criterion::MinHandJerk);
+  std::mt19937_64 random(1);
+  const TrialData trial = followPlan(*plan, {0, 0, 0}, random);
+  const TrialSignals signals = computeSignals(trial, {});
+  const TrialMeasures m = computeMeasures(trial, signals);
+  EXPECT_NEAR(m.peakSpeed, plan->handPeak, 0.003 * plan->handPeak);  // what the 10 Hz filter takes off the top
+  EXPECT_NEAR(m.timeToPeakPercent, 50, 0.5);
+  EXPECT_NEAR(m.symmetryRatio, 1, 0.02);
+  EXPECT_NEAR(m.pathLength, 0.2, 0.002);
+  EXPECT_EQ(m.speedPeaks, 1);
+  EXPECT_NEAR(m.movementTime, 1.35, 1e-12);
+  EXPECT_LT(m.objectEndpointError, 1e-9);
+  EXPECT_LT(m.objectOvershoot, 1e-9);
+  EXPECT_NEAR(m.reactionTime, m.onset - 0.1, 1e-12);
+  EXPECT_LT(m.handEndpointError, 0.002);  // offset is at 5 % of the peak, just before the end
+}
+
+// Where the recording does not say what the force was. One that grows by 1 N a second: its mean is what it is half-way.
+TEST(Measures, OfAForceAreOverTheMovementAlone) {
+  const auto plan = predict::predict(chainExperiment(1.35), predict::Criterion::MinHandJerk);
+  std::mt19937_64 random(1);
+  TrialData trial = followPlan(*plan, {0, 0, 0}, random);
+  for (std::size_t i = 0; i < trial.force.size(); ++i) trial.force[i] = static_cast<double>(i) / trial.rate;
+  const TrialMeasures m = computeMeasures(trial, computeSignals(trial, {}));
+  EXPECT_NEAR(m.meanForce, 0.5 * (m.onset + m.offset), 0.01) << "within a sample";
+}
+
+}  // namespace
+}  // namespace reachlab::analysis
