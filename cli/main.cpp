@@ -1,7 +1,6 @@
-#include <cctype>
 #include <clocale>
-#include <string>
 
+#include "base/command_words.h"
 #include "base/system/ending.h"
 #include "base/system/kept_memory.h"
 #include "base/system/os.h"
@@ -11,30 +10,24 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/latency_command.h"
 #include "cli/commands/merge_command.h"
+#include "cli/terminal/every_option.h"
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/standard_streams.h"
 
 namespace {
 
-/// No option takes "nan" or "inf" for a number: what reads like a default would be recorded.
-void refuseNonFinite(CLI::App& command) {
-  const CLI::Validator finite(
-      [](std::string& text) {
-        std::string word;
-        for (const char c : text)
-          if (c != '+' && c != '-') word += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-        return word.starts_with("nan") || word.starts_with("inf") ? "is " + text + "; allowed: a finite number" : std::string();
-      },
-      "");
-  for (CLI::Option* option : command.get_options())
-    if (option->get_type_name().find("FLOAT") != std::string::npos) option->check(finite);
-}
+/// The program's own line of commands.
+class Reach : public CLI::App {
+ public:
+  using CLI::App::App;
+  void pre_callback() override { reachlab::cli::checkOutputs(*this); }
+};
 
 int run(int argc, char** argv) {
   using namespace reachlab;
   using namespace reachlab::cli;
   int exitCode = 0;
-  CLI::App app{"reach: reaching experiments without a window", "reach"};
+  Reach app{"reach: reaching experiments without a window", "reach"};
   app.set_version_flag("--version", "reach " REACHLAB_VERSION);
   app.require_subcommand(1);
   app.footer("Example: reach run chain-moderate --device simulated --trials 20 --seed 1 --fast");
@@ -43,8 +36,9 @@ int run(int argc, char** argv) {
                     addRecoverCommand, addConstraintCommand, addBenchCommand,    addStationCommand,  addMergeCommand,
                     addPeersCommand,   addStabilityCommand,  addVelocityCommand, addLatencyCommand,  addStudyCommand,   addAdaptationCommand})
     add(app, exitCode);
-  for (CLI::App* command : app.get_subcommands({})) refuseNonFinite(*command);
+  checkEveryNumber(app);
   return exitCodeOf(app, [&] {
+    refuseEmptyWords(argc, argv);
     app.parse(argc, argv);
     return exitCode;
   });

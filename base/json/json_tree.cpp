@@ -59,8 +59,8 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
     node.boolean = value;
     return put(std::move(node), tokenStart());
   }
-  bool number_integer(number_integer_t value) override { return putNumber(static_cast<double>(value), true); }
-  bool number_unsigned(number_unsigned_t value) override { return putNumber(static_cast<double>(value), true); }
+  bool number_integer(number_integer_t value) override { return putWhole(value); }
+  bool number_unsigned(number_unsigned_t value) override { return putWhole(value); }
   bool number_float(number_float_t value, const string_t&) override { return putNumber(value, false); }
   bool string(string_t& value) override {
     JsonNode node;
@@ -134,6 +134,16 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
     };
     while (text_[at - 1] != '"' || isEscaped(at - 1)) --at;
     return at - 1;
+  }
+  // A double holds every whole number up to 2^53; one beyond would become its neighbour without a word.
+  template <class Whole>
+  bool putWhole(Whole value) {
+    constexpr double kMost = 9007199254740992;
+    const auto number = static_cast<double>(value);
+    if (std::abs(number) > kMost || (std::abs(number) == kMost && static_cast<Whole>(number) != value))
+      throw FaultError(
+          Fault{key_, fmt::format("is {}, which would be rounded", value), fmt::format("whole numbers up to {:.0f}", kMost), place(tokenStart())});
+    return putNumber(number, true);
   }
   bool putNumber(double value, bool integer) {
     JsonNode node;

@@ -16,6 +16,7 @@
 #include "base/system/os.h"
 #include "base/system/processor_level.h"
 #include "base/system/stop_signals.h"
+#include "base/command_words.h"
 #include "gui/app/display.h"
 #include "gui/app/experiment_files.h"
 #include "gui/app/main_window.h"
@@ -25,6 +26,7 @@
 #include "gui/widgets/themes.h"
 #include "network/station/station_options.h"
 #include "sim/experiment/resources.h"
+#include "sim/record/configuration/limits.h"
 
 namespace {
 
@@ -62,7 +64,7 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
       ->take_all();
   app.add_option("--backup", r.backup, "Second data folder: every finished run is copied there and verified");
   app.add_option("--trials", r.trials, "Trials of an experiment [20]; a plan has its own")->check(CLI::Range(1, 1000000));
-  app.add_option("--run", r.run, "Run number; default: the next free one. A taken one is refused")->check(CLI::Range(1, 9999));
+  app.add_option("--run", r.run, "Run number; default: the next free one. A taken one is refused")->check(CLI::Range(1, reachlab::record::kMaxRun));
   app.add_option("--subject", r.place.subject, "Subject's label, letters and digits [01]");
   app.add_option("--session", r.place.session, "Session's label, letters and digits [01]");
   app.add_option("--data", r.place.data, "Folder of the dataset [./data]");
@@ -91,6 +93,15 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
   app.footer(
       "Examples:\n  reachlab chain-moderate\n  reachlab paper --subject 03 --session 01\n  reachlab data\n  reachlab parallel --device simulated --trials "
       "5\n  reachlab chain-two-hands --station 1 --conductor --peers lab");
+  for (CLI::Option* option : app.get_options())
+    if (option->get_type_name().find("INT") != std::string::npos)
+      option->transform(CLI::Validator(
+          [](std::string& text) {
+            text = reachlab::withoutLeadingZeros(text);
+            return std::string();
+          },
+          ""));
+  reachlab::refuseEmptyWords(argc, argv);
   app.parse(argc, argv);
   parseStation(app, number, observes, *station, setup, a);
   return a;

@@ -1,0 +1,102 @@
+#include "cli/terminal/every_option.h"
+
+#include <algorithm>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/command_words.h"
+#include "base/fault.h"
+#include "sim/experiment/resources.h"
+#include "sim/session/programme.h"
+
+namespace reachlab::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isLog(const fs::path& path) {
+  if (path.filename().string().ends_with("_log.reach")) return true;
+  std::error_code error;
+  if (!fs::is_regular_file(path, error)) return false;
+  std::array<char, 8> start{};
+  std::ifstream(path, std::ios::binary).read(start.data(), start.size());
+  return std::string_view(start.data(), start.size()) == "REACHLOG";
+}
+
+bool liesInSourcedata(const fs::path& path) {
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(path, error);
+  const fs::path& known = error ? path : whole;
+  return std::find(known.begin(), known.end(), "sourcedata") != known.end();
+}
+
+struct Value {
+  std::string option, text;
+};
+
+// Texts of the command that was given and of those that it stands in: names, files and folders.
+std::vector<Value> givenValues(const CLI::App& app) {
+  std::vector<Value> values;
+  for (const CLI::App* command = &app;;) {
+    for (const CLI::Option* option : command->get_options()) {
+      if (option->get_type_name().find("TEXT") == std::string::npos) continue;
+      for (const std::string& text : option->results()) values.push_back({option->get_name(), text});
+    }
+    if (command->get_subcommands().empty()) return values;
+    command = command->get_subcommands().front();
+  }
+}
+
+bool isAnyOf(const std::string& option, std::initializer_list<std::string_view> names) {
+  return std::find(names.begin(), names.end(), option) != names.end();
+}
+
+// The file behind a name, too.
+bool isSameFile(const std::string& output, const std::string& input) {
+  std::error_code error;
+  if (fs::equivalent(output, input, error)) return true;
+  const auto shipped = experiment::shippedExperimentFile(input);
+  if (shipped && fs::equivalent(output, *shipped, error)) return true;
+  const auto plan = session::findPlan(input);
+  return plan && fs::equivalent(output, *plan, error);
+}
+
+void addChecks(CLI::App& command) {
+  for (CLI::Option* option : command.get_options()) {
+    const std::string type = option->get_type_name();
+    if (type.find("FLOAT") != std::string::npos) option->check(CLI::Validator([](std::string& text) { return finiteNumberFault(text); }, ""));
+    if (type.find("INT") == std::string::npos) continue;
+    const auto toDecimal = [](std::string& text) {
+      text = withoutLeadingZeros(text);
+      return std::string();
+    };
+    option->transform(CLI::Validator(toDecimal, ""));
+  }
+  for (CLI::App* sub : command.get_subcommands({})) addChecks(*sub);
+}
+
+}  // namespace
+
+void checkEveryNumber(CLI::App& app) { addChecks(app); }
+
+void checkOutputs(const CLI::App& app) {
+  const std::vector<Value> values = givenValues(app);
+  for (const Value& value : values) {
+    const auto refuse = [&](const char* what) {
+      throw FaultError(Fault{value.option, "is " + value.text + ", " + what, "a file or folder elsewhere: recordings and inputs are not written over"});
+    };
+    const bool isOutput = isAnyOf(value.option, {"--out", "--figure"});
+    if (!isOutput && !isAnyOf(value.option, {"--data", "--backup"})) continue;
+    if (liesInSourcedata(value.text)) refuse("which lies in a dataset's sourcedata");
+    if (!isOutput) continue;
+    if (isLog(value.text)) refuse("which is the name of a recording");
+    for (const Value& other : values)
+      if (&other != &value && isSameFile(value.text, other.text)) refuse("which this command reads");
+  }
+}
+
+}  // namespace reachlab::cli
