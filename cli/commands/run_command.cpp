@@ -7,6 +7,7 @@
 #include "devices/hands/several_hands.h"
 #include "devices/kept_mapping.h"
 #include "devices/make_device.h"
+#include "sim/record/configuration/limits.h"
 #include "sim/record/configuration/run_configuration.h"
 
 namespace reachlab::cli {
@@ -49,7 +50,7 @@ void addRunCommand(CLI::App& app, int& exitCode) {
       ->take_all();
   command->add_option("--trials", r->trials, "Trials of an experiment [one; each file of a replayed folder once]; a plan has its own")
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--run", r->run, "Run number; default: the next free one. A taken one is refused")->check(CLI::Range(1, 9999));
+  command->add_option("--run", r->run, "Run number; default: the next free one. A taken one is refused")->check(CLI::Range(1, record::kMaxRun));
   command->add_option("--subject", r->place.subject, "Subject's label, letters and digits [01]");
   command->add_option("--session", r->place.session, "Session's label, letters and digits [01]; a number is the plan's day");
   command->add_option("--data", r->place.data, "Folder of the dataset [./data]");

@@ -16,6 +16,7 @@
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 #include "sim/session/checked_programme.h"
+#include "sim/session/recordable.h"
 #include "sim/trial/task_check.h"
 #include "sim/trial/task_places.h"
 
@@ -109,6 +110,7 @@ void addValidateCommand(CLI::App& app, int& exitCode) {
     for (const std::string& file : r->files) {
       try {
         const auto programme = validateFile(file);
+        if (programme) session::checkRecordable(*programme);
         if (!r->json) fmt::print("{}: fine\n", file);
         if (!r->device.empty()) checkOnDevice(*r, programme ? *programme : session::readProgramme(file));
       } catch (const FaultError& e) {

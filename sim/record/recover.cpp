@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <optional>
 
 #include "base/error.h"
+#include "sim/record/configuration/limits.h"
 #include "sim/record/log/records.h"
 
 namespace reachlab::record {
@@ -44,10 +47,77 @@ void writeMended(const RunLog& log, const std::string& mended) {
   writer.sync();
 }
 
+// The configuration of a log whose labels are longer than file names allow, with short ones and as many bytes: what lies behind it stays
+// where it is. Nullopt: something else is wrong with it.
+std::optional<std::string> withShortLabels(const RecordView& record) {
+  using nlohmann::json;
+  json object = json::parse(record.payload.begin(), record.payload.end(), nullptr, false);
+  if (!object.is_object()) return std::nullopt;
+  bool changed = false;
+  for (const char* key : {"subject", "session", "task"}) {
+    if (!object.contains(key) || !object[key].is_string()) continue;
+    std::string label = object[key].get<std::string>();
+    if (label.size() <= kMaxLabelLength) continue;
+    object[key] = label.substr(0, kMaxLabelLength);
+    changed = true;
+  }
+  std::string text = object.dump(1, ' ', false, json::error_handler_t::replace);
+  if (!changed || text.size() > record.payload.size()) return std::nullopt;
+  text.resize(record.payload.size(), ' ');
+  return text;
+}
+
+std::optional<std::string> readableConfiguration(const std::string& path) {
+  LogReader reader(path);
+  RecordView record;
+  if (!reader.next(record) || record.type != RecordType::Configuration) return std::nullopt;
+  return withShortLabels(record);
+}
+
+void writeWithConfiguration(const std::string& path, const std::string& configuration, const std::string& mended) {
+  LogReader reader(path);
+  LogWriter writer = LogWriter::create(mended);
+  for (RecordView record; reader.next(record);)
+    if (record.type == RecordType::Configuration)
+      writer.append(record.type, {reinterpret_cast<const std::uint8_t*>(configuration.data()), configuration.size()});
+    else writer.append(record.type, record.payload);
+  writer.sync();
+}
+
+// A second name for the original first, so that at every moment both its bytes and a log under its own name are there.
+std::string replaceLog(const std::string& path, const std::string& mended) {
+  const std::string original = freeNameFor(path);
+  std::error_code error;
+  fs::create_hard_link(path, original, error);
+  if (error) {
+    error.clear();
+    fs::copy_file(path, original, error);
+  }
+  if (error) throw ResourceError(fmt::format("{}: the damaged original cannot be kept: {}", original, error.message()));
+  fs::rename(mended, path, error);
+  if (error) throw ResourceError(fmt::format("{}: cannot be replaced: {}", path, error.message()));
+  return original;
+}
+
 }  // namespace
 
 Recovery recoverLog(const std::string& path) {
   if (isBeingWritten(path)) throw ResourceError(path + ": is being recorded into; end that run first");
+  const std::string mended = path + ".mended";
+  std::error_code error;
+  fs::remove(mended, error);  // of a recovery that was itself cut short
+  if (const auto configuration = readableConfiguration(path)) {
+    writeWithConfiguration(path, *configuration, mended);
+    const RunLog log = RunLog::open(mended);  // nothing is replaced by what cannot be read either
+    const std::uint64_t lost = fs::file_size(path) - log.fileBytes();
+    const std::string original = replaceLog(path, mended);
+    Recovery recovery = recoverLog(path);
+    if (!recovery.mended) recovery.keptBytes = log.fileBytes();
+    recovery.mended = true;
+    recovery.lostBytes += lost;
+    recovery.damagedOriginal = original;
+    return recovery;
+  }
   const RunLog log = RunLog::open(path);
   Recovery recovery;
   recovery.keptBytes = log.goodBytes();
@@ -55,21 +125,8 @@ Recovery recoverLog(const std::string& path) {
   recovery.trials = static_cast<int>(log.trials().size());
   if (log.healthy()) return recovery;
   recovery.interruptedTrial = !log.trials().empty() && !log.trials().back().complete;
-  recovery.damagedOriginal = freeNameFor(path);
-
-  const std::string mended = path + ".mended";
-  std::error_code error;
-  fs::remove(mended, error);  // of a recovery that was itself cut short
   writeMended(log, mended);
-  // A second name for the original first, so that at every moment both its bytes and a log under its own name are there.
-  fs::create_hard_link(path, recovery.damagedOriginal, error);
-  if (error) {
-    error.clear();
-    fs::copy_file(path, recovery.damagedOriginal, error);
-  }
-  if (error) throw ResourceError(fmt::format("{}: the damaged original cannot be kept: {}", recovery.damagedOriginal, error.message()));
-  fs::rename(mended, path, error);
-  if (error) throw ResourceError(fmt::format("{}: cannot be replaced: {}", path, error.message()));
+  recovery.damagedOriginal = replaceLog(path, mended);
   recovery.mended = true;
   return recovery;
 }

@@ -18,6 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMaxTrials = 1'000'000, kMaxDay = 10'000;
+constexpr double kMaxPause = 86400;  // [s] longer ones are another session
 
 void readForeperiod(ObjectReader& reader, PlanBlock& block) {
   const JsonNode* node = reader.optional("foreperiod_s");
@@ -73,8 +74,8 @@ void checkBlock(const std::string& key, const PlanBlock& block, std::vector<Faul
     faults.push_back(
         {key + ".condition", "is not given where the experiment is changed", "a name that tells these trials from the others"});
   checkNumber(key + ".trials", block.trials, wholeNumber(1, kMaxTrials), faults);
-  checkNumber(key + ".pause_s", block.pauseSeconds, atLeastZero("s"), faults);
-  checkNumber(key + ".rest_s", block.restSeconds, atLeastZero("s"), faults);
+  checkNumber(key + ".pause_s", block.pauseSeconds, {0, kMaxPause, true, "0 to 86400 s"}, faults);
+  checkNumber(key + ".rest_s", block.restSeconds, {0, kMaxPause, true, "0 to 86400 s"}, faults);
   checkNumber(key + ".catch_share", block.catchShare, {0, 0.5, true, "a share from 0 to 0.5"}, faults);
   if (block.day != 0) checkNumber(key + ".day", block.day, wholeNumber(1, kMaxDay), faults);
   if (!(block.foreperiodMin >= 0 && block.foreperiodMin <= block.foreperiodMax && block.foreperiodMax <= 60))

@@ -9,6 +9,8 @@
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/log/append_file.h"
+#include "sim/record/log/run_writer.h"
+#include "sim/session/recordable.h"
 #include "sim/session/recorded_blocks.h"
 #include "sim/session/trial_order.h"
 #include "sim/trial/task_check.h"
@@ -86,6 +88,21 @@ record::RunConfiguration freshConfiguration(const SessionRequest& request, const
   return c;
 }
 
+// What a log will hold of a block, as far as it is known without a device, goes through the rules of its reader.
+void addUnreadable(record::RunConfiguration c, const experiment::CompiledExperiment& experiment, std::vector<Fault>& faults) {
+  const std::string& name = experiment.experiment().name;
+  if (const auto fault = record::labelFault(c.task, "task"))
+    return faults.push_back({"name", fmt::format("\"{}\" has {} letters and digits", name, c.task.size()),
+                             fault->allowed + ", of which the names of its recordings are made"});
+  c.table = record::makeChannelTable(experiment.experiment(), experiment.constraint().parameterCount());
+  c.otherHands.resize(static_cast<std::size_t>(c.table.hands - 1));
+  try {
+    (void)record::readableText(c, name);
+  } catch (const FaultError& error) {
+    faults.insert(faults.end(), error.faults.begin(), error.faults.end());
+  }
+}
+
 std::vector<trial::PlannedTrial> remainingTrials(const record::RunConfiguration& configuration, const std::set<int>& done) {
   std::vector<trial::PlannedTrial> trials;
   for (const trial::PlannedTrial& planned : configuration.trials)
@@ -113,6 +130,17 @@ void chooseSeed(const SessionRequest& request, const RecordedBlock* resumed, Ses
 
 }  // namespace
 
+void checkRecordable(const Programme& programme) {
+  std::vector<Fault> faults;
+  for (std::size_t k = 0; k < programme.experiments.size(); ++k) {
+    const PlanBlock& block = programme.plan.blocks.at(k);
+    record::RunConfiguration c = freshConfiguration({}, programme.plan, block, programme.experiments[k].experiment());
+    c.trials = planTrials(block, 0);
+    addUnreadable(std::move(c), programme.experiments[k], faults);
+  }
+  if (!faults.empty()) throw FaultError(std::move(faults));
+}
+
 int sessionDay(const SessionRequest& request, const Plan& plan) {
   const bool daysMatter = std::any_of(plan.blocks.begin(), plan.blocks.end(), [](const PlanBlock& block) { return block.day != 0; });
   if (!daysMatter) return 0;
@@ -124,6 +152,7 @@ int sessionDay(const SessionRequest& request, const Plan& plan) {
   else if (!number)
     throw FaultError(Fault{"session", fmt::format("\"{}\" is no number, and the plan {} has days", label, plan.name),
                            "01, 02 …, or a day asked for beside it"});
+  if (day < 1) throw FaultError(Fault{"session", fmt::format("\"{}\" is day 0, and the days of the plan {} begin with 1", label, plan.name), "01, 02 …"});
   return day;
 }
 
@@ -207,8 +236,10 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
     block.configuration.sampleEveryTicks = request.everyTick ? 1 : 10;
     block.configuration.samplingHz = request.everyTick ? 1000 : 100;
     block.logPath = logPath(request.place, block.configuration.task, run);
+    addUnreadable(block.configuration, block.experiment, faults);
     session.blocks.push_back(std::move(block));
   }
+  if (!faults.empty()) throw FaultError(std::move(faults));
   session.notice.unfinished = !request.resume && std::any_of(recorded.begin(), recorded.end(),
                                                              [](const RecordedBlock* b) { return b != nullptr && !b->complete(); });
   return session;

@@ -13,6 +13,7 @@
 
 #include "base/fault.h"
 #include "sim/record/log/append_file.h"
+#include "sim/record/configuration/limits.h"
 
 namespace reachlab::session {
 namespace {
@@ -60,7 +61,8 @@ std::vector<RunOnDisk> recordedRuns(const SessionPlace& place) {
 int chooseRun(const SessionPlace& place, std::optional<int> asked) {
   const std::vector<RunOnDisk> runs = recordedRuns(place);
   const int free = runs.empty() ? 1 : runs.back().run + 1;
-  if (!asked) return free;
+  if (!asked && free <= record::kMaxRun) return free;
+  if (!asked) throw FaultError(Fault{"session", fmt::format("{} has {} runs", place.session, record::kMaxRun), "another session"});
   const auto taken = std::find_if(runs.begin(), runs.end(), [&](const RunOnDisk& run) { return run.run == *asked; });
   if (taken != runs.end())
     throw FaultError(Fault{"run",

@@ -76,61 +76,6 @@ void expectBounds(const json& good, const Bounds& b, const std::vector<json>& in
     EXPECT_EQ(verdictWith(good, b.pointer, value), "a log: " + keyOf(b.pointer) + ": is " + value.dump() + "; allowed: " + b.allowed);
 }
 
-TEST(RunConfiguration, EveryWholeNumberReachesToItsBounds) {
-  const json good = madeJson(2);
-  ASSERT_EQ(verdictOn(good), "read");
-  for (const Bounds& b : {Bounds{"/run", 1, 9999, "a whole number from 1 to 9999"},
-                          {"/first_run", 1, 9999, "a whole number from 1 to 9999"},
-                          {"/first_trial", 1, 1e7, "a whole number from 1 to 10000000"},
-                          {"/block", 1, 1e7, "a whole number from 1 to 10000000"},
-                          {"/day", 0, 1e7, "a whole number from 0 to 10000000"},
-                          {"/sample_every_ticks", 1, 1e6, "a whole number from 1 to 1000000"},
-                          {"/trials/0/index", 0, 1e7, "a whole number from 0 to 10000000"},
-                          {"/trials/0/foreperiod_ms", 0, 1e9, "a whole number from 0 to 1000000000"},
-                          {"/timing/max_missed_ticks", 0, 1e7, "a whole number from 0 to 10000000"},
-                          {"/table/mass_count", 1, 512, "a whole number from 1 to 512"},
-                          {"/table/parameter_count", 0, 3, "a whole number from 0 to 3"},
-                          {"/table/hands", 1, 8, "a whole number from 1 to 8"}}) {
-    const auto least = static_cast<std::int64_t>(b.least), most = static_cast<std::int64_t>(b.most);
-    expectBounds(good, b, {least, most}, {least - 1, most + 1});
-  }
-}
-
-TEST(RunConfiguration, EveryNumberReachesToItsBounds) {
-  const json good = madeJson(2);
-  for (const Bounds& b : {Bounds{"/pause_s", 0, 1e6, "a number from 0 to 1000000"},
-                          {"/device_max_force_n", 0, 1e6, "a number from 0 to 1000000"},
-                          {"/device_continuous_force_n", 0, 1e6, "a number from 0 to 1000000"},
-                          {"/device_thermal_s", 1e-3, 1e6, "a number from 0.001 to 1000000"},
-                          {"/sampling_hz", 1e-3, 1e6, "a number from 0.001 to 1000000"},
-                          {"/participant/age_years", 0, 130, "a number from 0 to 130"},
-                          {"/timing/max_gap_s", 0.001, 7200, "a number from 0.001 to 7200"},
-                          {"/start_rest/rest_s", 0, 60, "a number from 0 to 60"},
-                          {"/start_rest/rest_speed_m_per_s", 0, 1e6, "a number from 0 to 1000000"},
-                          {"/guards/wall_radius_m", 0, 1000, "a number from 0 to 1000"},
-                          {"/guards/wall_stiffness_n_per_m", 0, 1e6, "a number from 0 to 1000000"},
-                          {"/guards/wall_damping_n_s_per_m", 0, 1e6, "a number from 0 to 1000000"},
-                          {"/other_hands/0/max_force_n", 0, 1e6, "a number from 0 to 1000000"},
-                          {"/other_hands/0/continuous_force_n", 0, 1e6, "a number from 0 to 1000000"},
-                          {"/other_hands/0/thermal_s", 1e-3, 1e6, "a number from 0.001 to 1000000"}})
-    expectBounds(good, b, {b.least, b.most}, {std::nextafter(b.least, -1e9), std::nextafter(b.most, 1e9)});
-}
-
-TEST(RunConfiguration, EveryListHasItsMost) {
-  const json good = madeJson();
-  const std::string list = "; allowed: a list of up to ";
-  EXPECT_EQ(verdictWith(good, "/trials", 7), "a log: configuration.trials: is 7" + list + "10000000");
-  EXPECT_EQ(verdictWith(good, "/other_hands", 7), "a log: configuration.other_hands: is 7" + list + "8");
-  EXPECT_EQ(verdictWith(good, "/table/channels", std::vector<int>(10'001)),
-            "a log: configuration.table.channels: is array" + list + "10000");
-  EXPECT_EQ(verdictWith(good, "/table/channels", std::vector<int>(10'000)).find(list), std::string::npos);
-  EXPECT_EQ(verdictWith(good, "/guards/wall_centre_m", json::array({1, 2, 3, 4})),
-            "a log: configuration.guards.wall_centre_m: is array" + list + "3");
-  for (const json& place : {json::array({1, 2}), json::array({1, "2", 3})})
-    EXPECT_EQ(verdictWith(good, "/guards/wall_centre_m", place), "a log: configuration.guards.wall_centre_m: is not three numbers");
-  EXPECT_EQ(verdictWith(good, "/guards", 5), "a log: configuration.guards: is no object");
-}
-
 TEST(RunConfiguration, EveryKeyMustBeThereButTheAge) {
   const json good = madeJson();
   for (const std::string where : {"", "/participant", "/table", "/table/channels/0", "/trials/0", "/timing", "/start_rest", "/guards"}) {
@@ -147,24 +92,6 @@ TEST(RunConfiguration, EveryKeyMustBeThereButTheAge) {
     without["other_hands"][0].erase(key);
     EXPECT_EQ(verdictOn(without), "a log: configuration.other_hands[0]." + key + ": is missing");
   }
-}
-
-TEST(RunConfiguration, BeginsAsTheFirstRunOfASessionWithoutAPlan) {
-  const RunConfiguration c;
-  EXPECT_EQ(c.subject + c.session + c.task, "0101reach");
-  for (const int one : {c.run, c.firstRun, c.firstTrial, c.block}) EXPECT_EQ(one, 1);
-  EXPECT_EQ(c.day, 0);
-  EXPECT_EQ(c.pauseSeconds, 0);
-  for (const bool no : {c.practice, c.repeatAborted, c.virtualHand, c.rendersForce}) EXPECT_FALSE(no);
-  for (const std::uint64_t seed : {c.seed, c.sessionSeed, c.orderSeed}) EXPECT_EQ(seed, 0u);
-  EXPECT_EQ(c.deviceMaxForce, 0);
-  EXPECT_EQ(c.clock, "steady");
-  EXPECT_EQ(c.samplingHz, 100);
-  EXPECT_EQ(c.sampleEveryTicks, 10u);
-  const HandDevice hand;
-  EXPECT_EQ(hand.maxForce + hand.continuousForce, 0);
-  EXPECT_EQ(hand.thermalSeconds, 10);
-  EXPECT_FALSE(hand.virtualHand || hand.rendersForce);
 }
 
 TEST(RunConfiguration, ALabelIsUpToSixtyLettersAndDigits) {

@@ -1,3 +1,4 @@
+#include "sim/record/configuration/limits.h"
 #include "sim/record/log/run_log.h"
 
 #include <gtest/gtest.h>
@@ -205,6 +206,44 @@ TEST(RecoverLog, RefusesALogWithoutItsConfiguration) {
   bytes[100] ^= 1;
   writeBytes(path, bytes);
   EXPECT_THROW(recoverLog(path), FaultError);
+}
+
+// As an earlier program wrote them, which no reader took.
+TEST(RecoverLog, ShortensALabelThatFileNamesDoNotHold) {
+  const TemporaryFolder folder("label");
+  const std::string good = folder / "good_log.reach", path = folder / "a_log.reach";
+  RunConfiguration configuration = madeConfiguration();
+  configuration.task = std::string(60, 'a');
+  writeMadeRun(good, 3, configuration);
+  configuration.task += "bcd";
+  {
+    LogReader reader(good);
+    LogWriter writer = LogWriter::create(path);
+    for (RecordView record; reader.next(record);) {
+      const std::string text = toJson(configuration);
+      if (record.type == RecordType::Configuration)
+        writer.append(record.type, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+      else writer.append(record.type, record.payload);
+    }
+  }
+  const std::string before = bytesOf(path);
+  EXPECT_THROW(RunLog::open(path), FaultError);
+  const Recovery recovery = recoverLog(path);
+  EXPECT_TRUE(recovery.mended);
+  EXPECT_EQ(recovery.trials, 3);
+  EXPECT_EQ(bytesOf(recovery.damagedOriginal), before);
+  const RunLog log = RunLog::open(path);
+  EXPECT_EQ(log.configuration().task, std::string(60, 'a'));
+  EXPECT_EQ(log.allRows().size(), RunLog::open(good).allRows().size());
+  EXPECT_FALSE(recoverLog(path).mended);
+}
+
+TEST(Recorder, CreatesNothingThatNobodyCouldRead) {
+  const TemporaryFolder folder("unreadable");
+  RunConfiguration configuration = madeConfiguration();
+  configuration.run = kMaxRun + 1;
+  EXPECT_THROW(Recorder(folder / "a_log.reach", configuration, {.threaded = false}), FaultError);
+  EXPECT_FALSE(std::filesystem::exists(folder / "a_log.reach"));
 }
 
 TEST(AppendFile, ASecondWriterIsToldThatThereIsOne) {

@@ -8,6 +8,7 @@
 #include "base/fault.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment.h"
+#include "sim/record/configuration/limits.h"
 #include "sim/record/configuration/run_fields.h"
 
 namespace reachlab::record {
@@ -71,7 +72,6 @@ void checkConfiguration(const RunConfiguration& c) {
 }
 
 std::optional<Fault> labelFault(const std::string& label, const std::string& key) {
-  constexpr std::size_t kMaxLabelLength = 60;  // file names join three of them and may have 255 bytes
   const bool good = !label.empty() && std::all_of(label.begin(), label.end(), [](unsigned char c) { return c < 128 && std::isalnum(c); });
   if (good && label.size() <= kMaxLabelLength) return std::nullopt;
   return Fault{key, fmt::format("\"{}\" is not a label", label), fmt::format("up to {} letters and digits", kMaxLabelLength)};

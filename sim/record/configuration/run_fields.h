@@ -1,7 +1,10 @@
 #pragma once
+#include <limits>
+
 #include "base/ticks.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/record/configuration/json_fields.h"
+#include "sim/record/configuration/limits.h"
 #include "sim/record/configuration/run_configuration.h"
 
 /// What a run's configuration holds, as its JSON has it: the one list for reading, writing and comparing. A new field is one member in
@@ -11,7 +14,8 @@ namespace reachlab::record {
 template <class T, class Of>
 concept MaybeConst = std::same_as<std::remove_const_t<T>, Of>;
 
-inline constexpr double kMaxRuns = 9999, kMaxTrials = 1e7, kMaxForeperiod = 1e9, kMaxChannels = 1e4, kMaxNewtons = 1e6;
+inline constexpr double kMaxTrials = 1e7, kMaxForeperiod = 1e9, kMaxChannels = 1e4, kMaxNewtons = 1e6;
+inline constexpr double kAny = std::numeric_limits<double>::max();  // what was asked for has no bound
 
 template <MaybeConst<Channel> T, class Visit>
 void visitFields(T& c, const Visit& visit) {
@@ -57,7 +61,7 @@ void visitFields(T& t, const Visit& visit) {
 template <MaybeConst<experiment::StartRest> T, class Visit>
 void visitFields(T& r, const Visit& visit) {
   visit(Field{"rest_s", 0, experiment::kMaxRestDuration}, r.seconds);
-  visit(Field{"rest_speed_m_per_s", 0, 1e6}, r.speed);
+  visit(Field{"rest_speed_m_per_s", 0, kAny}, r.speed);
 }
 
 template <MaybeConst<haptics::GuardSettings> T, class Visit>
@@ -88,14 +92,14 @@ void visitFields(T& c, const Visit& visit) {
   visit(Field{"subject"}, c.subject);
   visit(Field{"session"}, c.session);
   visit(Field{"task"}, c.task);
-  visit(Field{"run", 1, kMaxRuns}, c.run);
-  visit(Field{"first_run", 1, kMaxRuns}, c.firstRun);
+  visit(Field{"run", 1, kMaxRun}, c.run);
+  visit(Field{"first_run", 1, kMaxRun}, c.firstRun);
   visit(Field{"first_trial", 1, kMaxTrials}, c.firstTrial);
   visit(Field{"block", 1, kMaxTrials}, c.block);
   visit(Field{"practice"}, c.practice);
   visit(Field{"condition"}, c.condition);
   visit(Field{"day", 0, kMaxTrials}, c.day);
-  visit(Field{"pause_s", 0, 1e6}, c.pauseSeconds);
+  visit(Field{"pause_s", 0, kAny}, c.pauseSeconds);
   visit(Field{"repeat_aborted"}, c.repeatAborted);
   visit(Field{"experiment_name"}, c.experimentName);
   visit(Field{"experiment_text"}, c.experimentText);

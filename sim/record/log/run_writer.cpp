@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "base/system/os.h"
 
 namespace reachlab::record {
@@ -17,13 +18,28 @@ constexpr std::uint64_t kBytesPerDiskLook = 1 << 20;
 
 std::span<const std::uint8_t> bytesOf(const std::string& text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
 
+// Nothing is created for a run that nobody could read.
+LogWriter createLog(const std::string& path, const RunConfiguration& configuration) {
+  const std::string text = readableText(configuration, path);
+  LogWriter log = LogWriter::create(path);
+  log.append(RecordType::Configuration, bytesOf(text));
+  return log;
+}
+
 }  // namespace
 
+std::string readableText(const RunConfiguration& configuration, const std::string& origin) {
+  std::string text = toJson(configuration);
+  (void)configurationFromJson(text, origin);
+  if (text.size() <= kMaxPayloadBytes) return text;
+  throw FaultError(inFile(origin, {Fault{"configuration", fmt::format("has {} bytes", text.size()),
+                                         fmt::format("up to {}: plan fewer trials a run", kMaxPayloadBytes)}}));
+}
+
 RunWriter::RunWriter(const std::string& path, const RunConfiguration& configuration, std::uint64_t diskReserve, CutBy cutBy)
-    : cutBy_(cutBy), diskReserve_(diskReserve), log_(LogWriter::create(path)), samples_(configuration.table.size()),
+    : cutBy_(cutBy), diskReserve_(diskReserve), log_(createLog(path, configuration)), samples_(configuration.table.size()),
       tracker_(configuration.firstTrial) {
   for (int hand = 2; hand <= configuration.table.hands; ++hand) handBlocks_.emplace_back(hand);
-  log_.append(RecordType::Configuration, bytesOf(toJson(configuration)));
   log_.sync();
   lookedAt_ = log_.size();
   keepReserve();

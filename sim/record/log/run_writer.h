@@ -9,6 +9,9 @@
 
 namespace reachlab::record {
 
+/// The configuration as a log holds it, having gone through the rules of the log's reader. Throws FaultError with what is wrong.
+std::string readableText(const RunConfiguration& configuration, const std::string& origin);
+
 /// Why nothing more is written beside `path`: its disk has less than `diskReserve` [bytes] left, or than a twentieth of it where that is
 /// less. Empty while there is enough, or where nothing is known of the disk.
 std::string reserveFault(const std::string& path, const os::DiskSpace& disk, std::uint64_t diskReserve);

@@ -1,0 +1,11 @@
+#pragma once
+#include <cstddef>
+
+/// What a log's reader takes and its writer keeps to.
+namespace reachlab::record {
+
+inline constexpr int kMaxRun = 99'999;
+/// Of a label: file names join three of them, and have at most 255 bytes.
+inline constexpr std::size_t kMaxLabelLength = 60;
+
+}  // namespace reachlab::record
