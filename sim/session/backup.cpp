@@ -154,35 +154,72 @@ std::string copyVerified(const std::string& from, const std::string& to, std::ui
       fmt::format("{}: reads back with other bytes than were written; the copy was removed: that disk cannot be trusted", to));
 }
 
+// Links followed, so that a folder has one name.
+fs::path wholePath(const std::string& folder) {
+  std::error_code error;
+  fs::path whole = fs::weakly_canonical(fs::absolute(folder), error).lexically_normal();
+  if (error) whole = fs::absolute(folder).lexically_normal();
+  return whole.has_filename() ? whole : whole.parent_path();
+}
+
+bool isInside(const fs::path& folder, const fs::path& outer) {
+  std::error_code error;
+  for (fs::path at = folder;; at = at.parent_path()) {
+    if (at == outer || fs::equivalent(at, outer, error)) return true;
+    if (at == at.parent_path()) return false;
+  }
+}
+
 class Backup {
  public:
   Backup(const std::string& dataset, const std::string& backup)
-      : dataset_(fs::absolute(dataset).lexically_normal()), backup_(fs::absolute(backup).lexically_normal()), list_(readList(backup)) {
-    if (!dataset_.has_filename()) dataset_ = dataset_.parent_path();
-  }
+      : dataset_(wholePath(dataset)), backup_(wholePath(backup)), list_(readList(backup)) {}
 
   BackupReport run() {
-    const auto [end, rest] = std::mismatch(dataset_.begin(), dataset_.end(), backup_.begin(), backup_.end());
-    if (end == dataset_.end())
+    if (isInside(backup_, dataset_))
       throw FaultError(Fault{{}, "lies in the dataset itself", "a folder elsewhere, best on another disk", FilePlace{backup_.string()}});
     const std::vector<fs::path> files = filesOf(dataset_, backup_);
-    std::vector<RunName> open;
+    std::vector<RunName> left;  // runs that are not copied
+    std::string refused;
     for (const fs::path& file : files) {
       const std::string name = file.filename().string();
       if (!name.ends_with(kLogEnding)) continue;
-      if (record::isBeingWritten(file.string())) open.push_back(runNameOf(name));
-      else ++report_.runs;
+      const bool open = record::isBeingWritten(file.string());
+      const std::string fault = open ? std::string() : faultOf(file);
+      if (open) ++report_.pending;
+      else if (fault.empty()) ++report_.runs;
+      else refused += (refused.empty() ? "" : "\n") + fault;
+      if (open || !fault.empty()) left.push_back(runNameOf(name));
     }
-    report_.pending = open.size();
     for (const fs::path& file : files)
-      if (std::find(open.begin(), open.end(), runNameOf(file.filename().string())) == open.end() ||
+      if (std::find(left.begin(), left.end(), runNameOf(file.filename().string())) == left.end() ||
           runNameOf(file.filename().string()).run.empty())
         keep(file);
     if (report_.copiedFiles > 0) writeList(backup_.string(), list_);
+    if (!refused.empty()) throw ResourceError(refused);
     return report_;
   }
 
  private:
+  // Why a log that nobody writes is not copied; empty where it is, or is there already.
+  std::string faultOf(const fs::path& log) const {
+    const fs::path copy = backup_ / inDataset(log, dataset_);
+    std::error_code error;
+    if (fs::exists(copy, error)) {
+      const bool sameSize = fs::file_size(copy, error) == fs::file_size(log, error);
+      if (sameSize && (list_.contains(inDataset(log, dataset_)) || hashOf(log.string(), false) == hashOf(copy.string(), true))) return {};
+      return fmt::format("{}: is there already with other bytes; nothing is overwritten: move it away if the log was recovered since, or choose "
+                         "another folder",
+                         copy.string());
+    }
+    try {
+      if (record::RunLog::open(log.string(), record::LogCheck::Trials).healthy()) return {};
+      return fmt::format("{}: its run was not ended in order; mend it with: reach recover {}", log.string(), log.string());
+    } catch (const FaultError& fault) {
+      return fault.what();
+    }
+  }
+
   void keep(const fs::path& file) {
     const std::string name = inDataset(file, dataset_);
     if (name == kBackupList) return;
@@ -193,12 +230,8 @@ class Backup {
     const bool sameSize = fs::exists(copy, error) && fs::file_size(copy, error) == fs::file_size(file, error);
     // A closed log never changes; what is written again may, at the same length.
     if (listed != list_.end() && sameSize && (isLog || hashOf(file.string(), false) == listed->second)) return;
-    if (isLog && fs::exists(copy, error)) {
-      const std::string there = hashOf(copy.string(), true);
-      if (hashOf(file.string(), false) != there)
-        throw ResourceError(
-            fmt::format("{}: is there already with other bytes; nothing is overwritten: choose another folder", copy.string()));
-      list_[name] = there;
+    if (isLog && fs::exists(copy, error)) {  // with the same bytes, and in no list
+      list_[name] = hashOf(copy.string(), true);
       ++report_.copiedFiles;
       return;
     }

@@ -18,8 +18,8 @@ struct BackupReport {
 
 /// Brings a second data folder up to date: every closed run that is not in it yet is copied, its log and its files of the dataset, and the tables
 /// that the runs share; each copy is read back from the disk and its hash compared before its line goes into the list. A log that is there with
-/// other bytes is refused: nothing is overwritten. Throws ResourceError, FaultError (the backup is the dataset itself, or lies in it); what was
-/// copied before stays good.
+/// other bytes, or that was not ended in order, is left with its files and named when all others are copied: nothing is overwritten. Throws
+/// ResourceError, FaultError (the backup is the dataset itself, or lies in it); what was copied stays good.
 BackupReport backUp(const std::string& dataset, const std::string& backup);
 
 /// What is wrong with a backup, a sentence a file: missing, or other bytes than were copied. Reads every byte of it. Throws ResourceError when

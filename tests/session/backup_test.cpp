@@ -162,6 +162,28 @@ TEST_F(Backups, NeverOverwriteALogOfAnother) {
   EXPECT_EQ(contentOf(inBackup(logOf(1))), "another laboratory's only copy");
 }
 
+TEST_F(Backups, OfARecoveredLogNameItAndKeepAllOthers) {
+  (void)backUp(dataset_, backup_);
+  const std::string before = contentOf(inBackup(logOf(1)));
+  std::ofstream(logOf(1), std::ios::app) << "other bytes, as a recovery leaves them";
+  addRun(2);
+  EXPECT_NE(refusal().find(inBackup(logOf(1)) + ": is there already with other bytes"), std::string::npos);
+  EXPECT_EQ(contentOf(inBackup(logOf(1))), before);
+  EXPECT_EQ(contentOf(inBackup(logOf(2))), contentOf(logOf(2)));
+}
+
+TEST_F(Backups, CountNoRunThatWasNotEndedInOrder) {
+  record::writeMadeRun(logOf(2), 1, record::madeConfiguration(), false);
+  std::ofstream(logOf(3)) << "";
+  std::ofstream(logOf(4)) << std::string(5000, '\0');
+  const std::string said = refusal();
+  for (const int run : {2, 3, 4}) {
+    EXPECT_NE(said.find(logOf(run)), std::string::npos) << said;
+    EXPECT_FALSE(fs::exists(inBackup(logOf(run))));
+  }
+  EXPECT_TRUE(fs::exists(inBackup(logOf(1))));
+}
+
 // What the system still has in memory would be right on any disk.
 TEST_F(Backups, AreReadBackFromTheDisk) {
   const auto readFromDisk = [&] {
@@ -204,6 +226,9 @@ TEST_F(Backups, LeaveNoCopyThatReadsBackOtherwise) {
 TEST_F(Backups, LieElsewhere) {
   backup_ = dataset_;
   EXPECT_NE(refusal().find("lies in the dataset itself"), std::string::npos);
+  fs::create_directory_symlink(dataset_, folder_ / "link");
+  backup_ = folder_ / "link";
+  EXPECT_NE(refusal().find("lies in the dataset itself"), std::string::npos) << "by another name";
   backup_ = dataset_ + "/copy";
   EXPECT_NE(refusal().find("lies in the dataset itself"), std::string::npos);
   dataset_ += "/";
