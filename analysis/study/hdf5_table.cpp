@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/system/os.h"
+#include "sim/record/export/hdf5_file.h"
 #include "sim/record/log/append_file.h"
 
 #include <fcntl.h>
@@ -109,7 +110,7 @@ Hdf5Table::Hdf5Table(const std::string& path, const std::vector<Column>& columns
   p.temporary = fmt::format("{}/.{}.{}.reachlab-tmp", path.substr(0, slash), path.substr(slash + 1), ::getpid());
   p.columns = columns;
   p.profileNumbers = profileNumbers;
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // what fails is told by us
+  record::prepareHdf5();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path);
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
   const Handle making = plain(H5P_FILE_CREATE, path);

@@ -58,6 +58,7 @@ void listen(int signal, void (*handler)(int)) {
 }  // namespace
 
 void endOnSignals() {
+  std::signal(SIGXFSZ, SIG_IGN);  // a limit on a file's size is then a write that fails, as a full disk is
   listen(SIGALRM, onPatienceOver);
   for (const int signal : {SIGINT, SIGTERM}) listen(signal, onSignal);
   struct sigaction old {};

@@ -2,7 +2,6 @@
 // `tests/long/disk.sh` does the same with small, read-only and yanked tmpfs.
 #include <fcntl.h>
 #include <gtest/gtest.h>
-#include <signal.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -27,7 +26,6 @@ Ending runWithFileLimit(const std::string& data, const std::string& folder, rlim
   const std::string out = folder + ".out", err = folder + ".err";
   const pid_t child = ::fork();
   if (child == 0) {
-    ::signal(SIGXFSZ, SIG_IGN);
     const rlimit limit{bytes, bytes};
     ::dup2(::open(out.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), 1);
     ::dup2(::open(err.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644), 2);

@@ -90,7 +90,7 @@ int open(const char* path, int flags, ...) {
   REAL(open);
   va_list rest;
   va_start(rest, flags);
-  const mode_t mode = flags & O_CREAT ? va_arg(rest, mode_t) : 0;
+  const mode_t mode = (flags & O_CREAT) != 0 || (flags & O_TMPFILE) == O_TMPFILE ? va_arg(rest, mode_t) : 0;
   va_end(rest);
   return opens(path, flags) ? -1 : real(path, flags, mode);
 }
@@ -98,7 +98,7 @@ int open64(const char* path, int flags, ...) {
   REAL(open64);
   va_list rest;
   va_start(rest, flags);
-  const mode_t mode = flags & O_CREAT ? va_arg(rest, mode_t) : 0;
+  const mode_t mode = (flags & O_CREAT) != 0 || (flags & O_TMPFILE) == O_TMPFILE ? va_arg(rest, mode_t) : 0;
   va_end(rest);
   return opens(path, flags) ? -1 : real(path, flags, mode);
 }

@@ -118,8 +118,13 @@ void addRun(hid_t file, const RunLog& run) {
 
 }  // namespace
 
+void prepareHdf5() {
+  H5dont_atexit();
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
 std::vector<std::string> writeHdf5(const std::vector<RunLog>& runs, const std::string& folder) {
-  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // it would print its whole stack; we say one sentence
+  prepareHdf5();
   std::vector<std::string> written;
   for (const RunLog& run : runs) {
     const std::string path = folder + "/" + runName(run.configuration()) + ".h5";

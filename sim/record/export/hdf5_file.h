@@ -11,4 +11,8 @@ namespace reachlab::record {
 /// written. Throws ResourceError.
 std::vector<std::string> writeHdf5(const std::vector<RunLog>& runs, const std::string& folder);
 
+/// Before the first call of the HDF5 library, also by another one: it prints nothing (we say one sentence), and does not put in order at the
+/// program's end what a full disk has left open, which crashes.
+void prepareHdf5();
+
 }  // namespace reachlab::record

@@ -67,17 +67,52 @@ void lockExclusively(int descriptor, const std::string& path) {
 constexpr std::string_view kTemporaryEnding = ".reachlab-tmp";
 constexpr std::size_t kBytesAWrite = 1 << 16;
 
-// Beside `path`, with a name that nobody can have put there before.
-int openTemporary(const std::string& path, std::string& name) {
+// Beside `path`, under a name that nobody can have put there before; `make` says whether it could.
+template <class Make>
+int withFreeName(const std::string& path, std::string& name, Make&& make) {
   std::random_device entropy;
   for (int tries = 0; tries < 100; ++tries) {
     const std::filesystem::path whole(path);
     const std::uint64_t number = (static_cast<std::uint64_t>(entropy()) << 32) ^ entropy();
     name = (whole.parent_path() / fmt::format(".{:016x}{}", number, kTemporaryEnding)).string();
-    const int descriptor = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644);
-    if (descriptor >= 0 || errno != EEXIST) return os::aboveStandardDescriptors(descriptor);
+    const int made = make();
+    if (made >= 0 || errno != EEXIST) return made;
   }
   return -1;
+}
+
+std::string openFileOf(int descriptor) { return fmt::format("/proc/self/fd/{}", descriptor); }
+bool hasNoName(const std::string& name) { return name.starts_with("/proc/self/fd/"); }
+
+// A file without a name, which goes with the program however that ends; where the file system knows none, one with a name.
+int openTemporary(const std::string& path, std::string& name) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  const int nameless = os::aboveStandardDescriptors(::open(folder.empty() ? "." : folder.c_str(), O_TMPFILE | O_RDWR | O_CLOEXEC, 0644));
+  if (nameless >= 0) {
+    name = openFileOf(nameless);
+    return nameless;
+  }
+  return withFreeName(path, name, [&] {
+    return os::aboveStandardDescriptors(::open(name.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0644));
+  });
+}
+
+// Puts what was written in the place of `path`. A rename puts the new name in place of a link, never through it.
+bool putInPlace(const std::string& temporary, const std::string& path) {
+  std::string named = temporary;
+  if (hasNoName(temporary) && withFreeName(path, named, [&] {
+        return ::linkat(AT_FDCWD, temporary.c_str(), AT_FDCWD, named.c_str(), AT_SYMLINK_FOLLOW);
+      }) < 0)
+    return false;
+  if (::rename(named.c_str(), path.c_str()) == 0) return true;
+  const int reason = errno;
+  ::unlink(named.c_str());
+  errno = reason;
+  return false;
+}
+
+void removeTemporary(const std::string& temporary) {
+  if (!hasNoName(temporary)) ::unlink(temporary.c_str());
 }
 
 }  // namespace
@@ -146,14 +181,14 @@ AtomicFile::AtomicFile(const std::string& path) : path_(path) {
 
 AtomicFile::~AtomicFile() {
   if (descriptor_ < 0) return;
+  removeTemporary(temporary_);
   ::close(descriptor_);
-  ::unlink(temporary_.c_str());
 }
 
 void AtomicFile::giveUp() {
   const int reason = errno;
+  removeTemporary(temporary_);
   if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
-  ::unlink(temporary_.c_str());
   errno = reason;
   fail("cannot be written", path_);
 }
@@ -168,30 +203,30 @@ void AtomicFile::flush() {
   waiting_.clear();
 }
 
-void AtomicFile::close() {
+void AtomicFile::sync() {
   flush();
   if (!os::syncFile(descriptor_)) giveUp();
-  ::close(std::exchange(descriptor_, -1));
 }
 
 bool AtomicFile::commitNew() {
-  close();
-  const bool linked = ::link(temporary_.c_str(), path_.c_str()) == 0;
-  if (!linked && errno != EEXIST) {
+  sync();
+  bool isNew = ::linkat(AT_FDCWD, temporary_.c_str(), AT_FDCWD, path_.c_str(), AT_SYMLINK_FOLLOW) == 0;
+  if (isNew || errno == EEXIST) {
+    removeTemporary(temporary_);
+  } else {
     // Without hard links a file system cannot tell who comes first.
-    if (errno != EPERM && errno != EOPNOTSUPP) giveUp();
-    if (::rename(temporary_.c_str(), path_.c_str()) != 0) giveUp();
-    return true;
+    if ((errno != EPERM && errno != EOPNOTSUPP) || !putInPlace(temporary_, path_)) giveUp();
+    isNew = true;
   }
-  ::unlink(temporary_.c_str());
-  if (linked) syncFolderOf(path_);
-  return linked;
+  ::close(std::exchange(descriptor_, -1));
+  if (isNew) syncFolderOf(path_);
+  return isNew;
 }
 
 void AtomicFile::commit() {
-  close();
-  // A rename puts the new name in place of a link, never through it.
-  if (::rename(temporary_.c_str(), path_.c_str()) != 0) giveUp();
+  sync();
+  if (!putInPlace(temporary_, path_)) giveUp();
+  ::close(std::exchange(descriptor_, -1));
   syncFolderOf(path_);
 }
 
@@ -225,12 +260,12 @@ ForeignFile::ForeignFile(const std::string& path) : path_(path) {
 
 ForeignFile::~ForeignFile() {
   if (descriptor_ < 0) return;
+  removeTemporary(temporary_);
   ::close(descriptor_);
-  ::unlink(temporary_.c_str());
 }
 
 void ForeignFile::commit() {
-  if (!os::syncFile(descriptor_) || ::rename(temporary_.c_str(), path_.c_str()) != 0) fail("cannot be written", path_);
+  if (!os::syncFile(descriptor_) || !putInPlace(temporary_, path_)) fail("cannot be written", path_);
   ::close(std::exchange(descriptor_, -1));
   syncFolderOf(path_);
 }

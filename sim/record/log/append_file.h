@@ -56,7 +56,7 @@ class AtomicFile {
 
  private:
   void flush();
-  void close();
+  void sync();
   [[noreturn]] void giveUp();
   std::string path_, temporary_, waiting_;
   int descriptor_ = -1;

@@ -4,7 +4,7 @@
 namespace reachlab::record {
 
 /// AtomicFile for a library that writes by name: it is given `temporary()` and closes it, then `commit` puts it in the place of `path` once
-/// it is on the disk. Without `commit` nothing is left. One thread; members throw ResourceError.
+/// it is on the disk. Without `commit` nothing is left, also where the program is killed. One thread; members throw ResourceError.
 class ForeignFile {
  public:
   explicit ForeignFile(const std::string& path);
