@@ -15,6 +15,7 @@
 #include "sim/dynamics/scene.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/tested_ranges.h"
 
 namespace reachlab::cli {
 namespace {
@@ -36,9 +37,11 @@ class Table {
   }
   void text(std::string_view text) { buffer_ += text; }
   void number(double value) {
+    isFinite_ = isFinite_ && std::isfinite(value);
     fmt::format_to(std::back_inserter(buffer_), "{}{:.17g}", buffer_.empty() || buffer_.back() == '\n' ? "" : ",", value);
   }
   void vector(const Vec3& v) { number(v.x), number(v.y), number(v.z); }
+  bool isFinite() const { return isFinite_; }  // every number of the row so far
   void endRow() {
     buffer_ += '\n';
     stream() << buffer_;
@@ -54,6 +57,7 @@ class Table {
   std::ostream& stream() { return file_.is_open() ? static_cast<std::ostream&>(file_) : std::cout; }
   std::ofstream file_;
   std::string buffer_;
+  bool isFinite_ = true;
 };
 
 void writeHeader(Table& table, int masses, int parameters, bool body) {
@@ -90,6 +94,8 @@ void writeRow(Table& table, const dynamics::Plant& plant, double time, const dyn
     table.vector(state.angularVelocity);
   }
   table.vector(coupled ? plant.couplingForce(hand) : Vec3{});
+  if (!table.isFinite())
+    throw RefusedError(fmt::format("at {:.9g} s a position, velocity or force is beyond the numbers of a computer; use smaller values", time));
   table.endRow();
 }
 
@@ -160,6 +166,11 @@ void checkVectors(const Request& request, const std::vector<double>& at, const s
   };
   requireCount(at, "--at");
   requireCount(rate, "--rate");
+  std::vector<Fault> faults;
+  for (const auto& [option, values] : {std::pair{"--at", &request.at}, {"--rate", &request.rate}, {"--force", &request.force},
+                                       {"--angular-rate", &request.angularRate}})
+    checkNumbers(option, *values, -1, experiment::componentRange(), faults);
+  if (!faults.empty()) throw FaultError(std::move(faults));
   if (!request.force.empty() && request.force.size() != 3)
     throw FaultError(Fault{"--force", fmt::format("has {} numbers", request.force.size()), "three, X,Y,Z in N"});
   if (!request.angularRate.empty() && !body)

@@ -67,6 +67,8 @@ class DefinitionReader {
     const JsonNode* node = root_.optional("shape");
     if (node == nullptr) return;
     ObjectReader shape(faults_, *node, "shape");
+    if (node->members.size() > kMaxShapeParameters)
+      return faults_.add(*node, "shape", fmt::format("has {} names", node->members.size()), fmt::format("up to {}", kMaxShapeParameters));
     for (const auto& [key, value] : node->members) {
       shape.optional(key);
       ObjectReader reader(faults_, value, "shape." + key);

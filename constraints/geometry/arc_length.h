@@ -14,7 +14,7 @@ class ArcLength {
   /// `from` and `to` are parameters. Throws RefusedError where the curve has no value between them, and for a curve that would need
   /// more than kMaxPieces pieces.
   ArcLength(const Constraint& curve, double from, double to);
-  static constexpr int kMaxPieces = 200000;
+  static constexpr int kMaxPieces = 20000;
 
   double length() const { return length_; }  // [m] >= 0
   /// The parameter where `s` [m] of the way are done; s in [0, length()], beyond it the end.

@@ -16,7 +16,7 @@ void checkInertia(const Object& object, std::vector<Fault>& faults) {
   const auto& m = object.inertia;
   const std::size_t before = faults.size();
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) checkNumber(fmt::format("object.inertia_kg_m2[{}][{}]", i, j), m[i][j], anyNumber(), faults);
+    for (std::size_t j = 0; j < 3; ++j) checkNumber(fmt::format("object.inertia_kg_m2[{}][{}]", i, j), m[i][j], i == j ? inertiaRange() : componentRange(), faults);
   if (faults.size() > before) return;
   const double minor2 = m[0][0] * m[1][1] - m[0][1] * m[1][0];
   const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
@@ -54,15 +54,15 @@ struct KeyCheck {
 void checkObject(const Object& object, std::vector<Fault>& faults) {
   const bool one = object.kind == ObjectKind::Point || object.kind == ObjectKind::Body;
   const std::size_t count = object.masses.size(), before = faults.size();
-  if (one) checkNumbers("object.masses_kg", object.masses, 1, positive("kg"), faults);
+  if (one) checkNumbers("object.masses_kg", object.masses, 1, massRange(), faults);
   else if (count < 1 || count > kMaxMasses)
     faults.push_back({"object.masses_kg", fmt::format("has {} elements", count), fmt::format("1 to {} masses", kMaxMasses)});
-  else checkNumbers("object.masses_kg", object.masses, -1, positive("kg"), faults);
+  else checkNumbers("object.masses_kg", object.masses, -1, massRange(), faults);
   const bool countIsRight = faults.size() == before || (count >= 1 && faults.back().key != "object.masses_kg");
   if (countIsRight) {
     const int springs = static_cast<int>(springCount(object));
-    checkNumbers("object.stiffness_n_per_m", object.stiffness, springs, atLeastZero("N/m"), faults);
-    checkNumbers("object.damping_n_s_per_m", object.damping, springs, atLeastZero("N s/m"), faults);
+    checkNumbers("object.stiffness_n_per_m", object.stiffness, springs, stiffnessRange(), faults);
+    checkNumbers("object.damping_n_s_per_m", object.damping, springs, dampingRange(), faults);
   }
   if (object.kind == ObjectKind::Body) checkInertia(object, faults);
 }
@@ -85,9 +85,9 @@ void checkHands(const Experiment& e, std::vector<Fault>& faults) {
     if (hand.mass < 0 || hand.mass > masses)
       faults.push_back({key + ".mass", fmt::format("is {}", hand.mass), fmt::format("1 to {}, a mass of the object", masses)});
     const int springs = hand.mass == 0 ? masses : 1;
-    checkNumbers(key + ".stiffness_n_per_m", hand.stiffness, springs, atLeastZero("N/m"), faults);
-    checkNumbers(key + ".damping_n_s_per_m", hand.damping, springs, atLeastZero("N s/m"), faults);
-    KeyCheck{key, faults}(Key{"fp_offset_m"}, hand.fpOffset);
+    checkNumbers(key + ".stiffness_n_per_m", hand.stiffness, springs, stiffnessRange(), faults);
+    checkNumbers(key + ".damping_n_s_per_m", hand.damping, springs, dampingRange(), faults);
+    KeyCheck{key, faults}(Key{"fp_offset_m", componentRange()}, hand.fpOffset);
     const bool holds = std::any_of(hand.stiffness.begin(), hand.stiffness.end(), [](double k) { return k > 0; });
     if (!hand.stiffness.empty() && !holds)
       faults.push_back({key + ".stiffness_n_per_m", "is 0 throughout: this hand holds nothing", "a stiffness above 0 N/m"});
@@ -98,12 +98,12 @@ void checkHands(const Experiment& e, std::vector<Fault>& faults) {
 void checkPlaces(const Task& task, int coordinates, std::vector<Fault>& faults) {
   for (const auto& [key, place] : {std::pair{"task.start", &task.start}, std::pair{"task.target", &task.target}}) {
     if (place->empty()) faults.push_back({key, "is missing", "constraint parameters, or three metres when free"});
-    else checkNumbers(key, *place, coordinates, anyNumber(), faults);
+    else checkNumbers(key, *place, coordinates, componentRange(), faults);
   }
 }
 
 void checkShape(const constraints::ConstraintSpec& spec, std::vector<Fault>& faults) {
-  for (const auto& [key, value] : spec.shape) checkNumber("constraint.shape." + key, value, anyNumber(), faults);
+  for (const auto& [key, value] : spec.shape) checkNumber("constraint.shape." + key, value, componentRange(), faults);
 }
 
 void checkObjectOnConstraint(const Experiment& e, const constraints::Constraint& constraint, std::vector<Fault>& faults) {

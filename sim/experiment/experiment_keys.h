@@ -7,6 +7,7 @@
 #include "base/ticks.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/tested_ranges.h"
 
 /// The keys of an experiment's file with their ranges, in its order: the one list for reading, writing and checking. A new key is one
 /// member in experiment.h, one line here and its entry in resources/schemas/experiment.schema.json. Reader, writer and check have a
@@ -34,23 +35,23 @@ void visitKeys(T& o, const Visit& visit) {
   visit(Key{"masses_kg"}, o.masses);
   visit(Key{"stiffness_n_per_m"}, o.stiffness);
   visit(Key{"damping_n_s_per_m"}, o.damping);
-  visit(Key{"viscosity_n_s_per_m", atLeastZero("N s/m")}, o.viscosity);
-  visit(Key{"gravity_m_per_s2"}, o.gravity);
+  visit(Key{"viscosity_n_s_per_m", dampingRange()}, o.viscosity);
+  visit(Key{"gravity_m_per_s2", componentRange()}, o.gravity);
   if (o.kind != ObjectKind::Body) return;
   visit(Key{.name = "inertia_kg_m2", .required = true, .shape = "[Ix, Iy, Iz] or a symmetric positive 3 x 3 matrix"}, o.inertia);
-  visit(Key{"fp_offset_m"}, o.fpOffset);
+  visit(Key{"fp_offset_m", componentRange()}, o.fpOffset);
 }
 
 template <MaybeConst<Coupling> T, class Visit>
 void visitKeys(T& c, const Visit& visit) {
-  visit(Key{"stiffness_n_per_m", atLeastZero("N/m"), true}, c.stiffness);
-  visit(Key{"damping_n_s_per_m", atLeastZero("N s/m")}, c.damping);
+  visit(Key{"stiffness_n_per_m", stiffnessRange(), true}, c.stiffness);
+  visit(Key{"damping_n_s_per_m", dampingRange()}, c.damping);
 }
 
 template <MaybeConst<Tolerance> T, class Visit>
 void visitKeys(T& t, const Visit& visit) {
-  visit(Key{"position_m", positive("m"), true}, t.position);
-  visit(Key{"velocity_m_per_s", positive("m/s"), true}, t.velocity);
+  visit(Key{"position_m", lengthRange(), true}, t.position);
+  visit(Key{"velocity_m_per_s", speedRange(), true}, t.velocity);
   visit(Key{"time_s", positiveUpTo(kMaxDuration, "s"), true}, t.time);
 }
 
@@ -58,10 +59,10 @@ template <MaybeConst<Task> T, class Visit>
 void visitKeys(T& t, const Visit& visit) {
   visit(Key{.name = "start", .constants = true}, t.start);
   visit(Key{.name = "target", .constants = true}, t.target);
-  visit(Key{"duration_s", positiveUpTo(kMaxDuration, "s"), true}, t.duration);
+  visit(Key{"duration_s", durationRange(), true}, t.duration);
   visit(Key{.name = "tolerance", .required = true, .shape = "{ position_m, velocity_m_per_s, time_s }"}, t.tolerance);
-  visit(Key{"onset_m", positive("m")}, t.onset);
-  visit(Key{"arm_radius_m", positive("m")}, t.armRadius);
+  visit(Key{"onset_m", lengthRange()}, t.onset);
+  visit(Key{"arm_radius_m", lengthRange()}, t.armRadius);
   visit(Key{"timeout_s", positiveUpTo(kMaxTimeout, "s")}, t.timeout);
   visit(Key{"rest_s", {0, kMaxRestDuration, true, fmt::format("0 to {:.0f} s", kMaxRestDuration)}}, t.rest.seconds);
   visit(Key{"rest_speed_m_per_s", positive("m/s")}, t.rest.speed);
@@ -83,12 +84,12 @@ void visitKeys(T& v, const Visit& visit) {
 
 template <MaybeConst<Arm> T, class Visit>
 void visitKeys(T& a, const Visit& visit) {
-  visit(Key{"link_length_m", positive("m")}, a.length);
-  visit(Key{"link_centre_m", positive("m")}, a.centre);
-  visit(Key{"link_mass_kg", positive("kg")}, a.mass);
-  visit(Key{"link_inertia_kg_m2", positive("kg m^2")}, a.inertia);
-  visit(Key{"joint_damping_n_m_s_per_rad", atLeastZero("N m s/rad")}, a.damping);
-  visit(Key{"shoulder_m"}, a.shoulder);
+  visit(Key{"link_length_m", lengthRange()}, a.length);
+  visit(Key{"link_centre_m", lengthRange()}, a.centre);
+  visit(Key{"link_mass_kg", massRange()}, a.mass);
+  visit(Key{"link_inertia_kg_m2", inertiaRange()}, a.inertia);
+  visit(Key{"joint_damping_n_m_s_per_rad", upTo(1e9, "N m s/rad")}, a.damping);
+  visit(Key{"shoulder_m", componentRange()}, a.shoulder);
   visit(Key{"elbow_left"}, a.elbowLeft);
 }
 
@@ -112,8 +113,8 @@ void visitKeys(T& e, const Visit& visit) {
   visit(Key{"hands"}, e.hands);
   visit(Key{"task"}, e.task);
   visit(Key{.name = "method", .names = &methodNames()}, e.method);
-  visit(Key{"hand_mass_kg", atLeastZero("kg")}, e.handMass);
-  visit(Key{"force_limit_n", positive("N")}, e.forceLimit);
+  visit(Key{"hand_mass_kg", handMassRange()}, e.handMass);
+  visit(Key{"force_limit_n", forceRange()}, e.forceLimit);
   visit(Key{"force_limit_ends_trial"}, e.forceLimitEndsTrial);
   visit(Key{"timing"}, e.timing);
   visit(Key{"velocity_estimator"}, e.velocityEstimator);

@@ -25,7 +25,11 @@ void readConstraint(ObjectReader& reader, constraints::ConstraintSpec& spec) {
   if (surface != nullptr) reader.strings(*surface, "surface", 3, spec.surface);
   if (const JsonNode* shape = reader.optional("shape")) {
     ObjectReader shapeReader(reader.faults(), *shape, reader.keyPath("shape"));
-    for (const auto& [key, value] : shape->members) shapeReader.number(key, anyNumber(), spec.shape[key]);
+    if (shape->members.size() > constraints::kMaxShapeParameters)
+      reader.faults().add(*shape, reader.keyPath("shape"), fmt::format("has {} names", shape->members.size()),
+                          fmt::format("up to {}", constraints::kMaxShapeParameters));
+    else
+      for (const auto& [key, value] : shape->members) shapeReader.number(key, anyNumber(), spec.shape[key]);
   }
 }
 

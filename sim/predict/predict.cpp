@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/fault.h"
+#include "base/number_range.h"
 #include "constraints/geometry/task_path.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/tested_ranges.h"
 #include "sim/predict/arm/arm_prediction.h"
 #include "sim/predict/curve/curve_object_prediction.h"
 #include "sim/predict/curve/curve_prediction.h"
@@ -151,6 +155,45 @@ std::unique_ptr<Prediction> makeBentPrediction(const experiment::Experiment& exp
   return makeSurfaceJerkPrediction(constraint, task.start, task.target, duration, 1, unknowns);
 }
 
+// A bound of the fastest motion that the object has, by Gershgorin's discs [rad/s].
+double fastestSwing(const experiment::Experiment& experiment, double handMass) {
+  const experiment::Object& object = experiment.object;
+  const double coupling = experiment.coupling ? experiment.coupling->stiffness : 0;
+  const bool parallel = object.kind == experiment::ObjectKind::Parallel;
+  const auto spring = [&](std::size_t i) { return i < object.stiffness.size() ? object.stiffness[i] : 0.0; };
+  double most = 0, onHand = coupling;
+  for (std::size_t i = 0; i < object.masses.size(); ++i) {
+    const double held = parallel ? spring(i) : (i == 0 ? coupling : spring(i - 1)) + spring(i);
+    if (parallel) onHand += spring(i);
+    most = std::max(most, 2 * held / object.masses[i]);
+  }
+  if (handMass > 0) most = std::max(most, 2 * onHand / handMass);
+  return std::sqrt(most);
+}
+
+// What a prediction takes grows with the swings that it resolves.
+void requireFewSwings(const experiment::Experiment& experiment, double handMass, double duration) {
+  constexpr double kMostSwings = 1e6;
+  const double swings = fastestSwing(experiment, handMass) * duration / (2 * std::numbers::pi);
+  if (swings > kMostSwings)
+    throw RefusedError(fmt::format("the object swings some {:.2g} times in {:.6g} s; allowed: {:.0e}, by softer springs, heavier masses or less time",
+                                   swings, duration, kMostSwings));
+}
+
+// Whoever asks. What is nearly nothing is no part of an object, and no method was tested with it.
+void requireTested(const experiment::Experiment& experiment, double duration, double handMass, double handDamping) {
+  constexpr double kLeastMass = 1e-6, kLeastSpring = 1e-9;  // [kg], [N/m]
+  std::vector<Fault> faults;
+  checkNumber("duration", duration, experiment::durationRange(), faults);
+  checkNumber("hand_damping", handDamping, experiment::dampingRange(), faults);
+  checkNumber("hand_mass", handMass, experiment::handMassRange(), faults);
+  if (handMass > 0 && handMass < kLeastMass) faults.push_back({"hand_mass", fmt::format("is {}", handMass), "0, or 1e-06 kg or more"});
+  for (const double spring : experiment.object.stiffness)
+    if (spring > 0 && spring < kLeastSpring)
+      faults.push_back({"object.stiffness_n_per_m", fmt::format("has {}", spring), "0, or 1e-09 N/m or more"});
+  if (!faults.empty()) throw FaultError(std::move(faults));
+}
+
 }  // namespace
 
 Fault missingTaskFault() { return {"task", "is missing, and a prediction needs one", "{ start, target, … }"}; }
@@ -172,7 +215,9 @@ std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, co
     throw FaultError(Fault{"task", "has start and target of another length", fmt::format("{} numbers each", parameters)});
   if (task.start == task.target) throw FaultError(constraints::samePlaceFault());
   const double duration = options.duration > 0 ? options.duration : task.duration;
-  if (!(duration > 0) || !std::isfinite(duration)) throw FaultError(Fault{"duration", fmt::format("is {}", duration), "more than 0 s"});
+  const double handMass = options.handMass.value_or(experiment.handMass);
+  requireTested(experiment, duration, handMass, options.handDamping);
+  requireFewSwings(experiment, handMass, duration);
 
   std::unique_ptr<Prediction> prediction;
   std::vector<std::string> warnings;

@@ -121,8 +121,7 @@ TEST(Limits, NumbersInWhichNoMethodWasTestedAreRefusedByTheirKey) {
   };
   for (const auto& [mass, stiffness, handMass, key] :
        {Case{1e-300, 600, 1, "object.masses_kg[0]"}, {5e-324, 600, 1, "object.masses_kg[0]"}, {0.9e-6, 600, 1, "object.masses_kg[0]"},
-        {1.1e6, 600, 1, "object.masses_kg[0]"}, {1, 1e300, 1, "object.stiffness_n_per_m[0]"}, {1, 1e-300, 1, "object.stiffness_n_per_m[0]"},
-        {1, 600, 1e-100, "hand_mass_kg"}}) {
+        {1.1e6, 600, 1, "object.masses_kg[0]"}, {1, 1e300, 1, "object.stiffness_n_per_m[0]"}, {1, 600, 1e300, "hand_mass_kg"}}) {
     const std::string file = folder.write("e.json", chainOf(mass, stiffness, handMass));
     for (const std::string& line : {"validate " + file, "predict " + file + " --criterion min-hand-jerk", "simulate " + file + " --hand hold",
                                     "run " + file + " --device simulated --fast --seed 1 --data " + folder.string()}) {

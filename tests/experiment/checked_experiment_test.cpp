@@ -108,7 +108,7 @@ TEST(CheckedExperiment, OfAValueThatIsNotFinite) {
   e.task->target[0] = std::numeric_limits<double>::infinity();
   const std::vector<Fault> faults = check(e).faults;
   ASSERT_EQ(faults.size(), 2u) << toText(faults);
-  EXPECT_EQ(toText(faults[0]), "object.masses_kg[0]: is nan; allowed: more than 0 kg");
+  EXPECT_EQ(toText(faults[0]), "object.masses_kg[0]: is nan; allowed: 1e-06 to 1e+06 kg");
   EXPECT_EQ(toText(faults[1]), "task.target[0]: is inf; allowed: any finite number");
 }
 

@@ -334,12 +334,12 @@ TEST(PredictRefusals, OfATaskThatIsNone) {
   for (const double duration : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
     e = dingwell();
     e.task->duration = duration;
-    EXPECT_REFUSED("more than 0 s", predict(e, MinHandJerk));
+    EXPECT_REFUSED("0.001 to 3600 s", predict(e, MinHandJerk));
     options.duration = 1;
     EXPECT_EQ(predict(e, MinHandJerk, options)->duration, 1) << "an option goes before the task's";
   }
   options.duration = std::numeric_limits<double>::infinity();
-  EXPECT_REFUSED("more than 0 s", predict(dingwell(), MinHandJerk, options));
+  EXPECT_REFUSED("0.001 to 3600 s", predict(dingwell(), MinHandJerk, options));
 }
 
 TEST(PredictRefusals, OfAnObjectThatTheCriteriaDoNotKnow) {
