@@ -23,6 +23,7 @@ struct TimedForce {
 };
 
 constexpr std::int64_t kPauseNs = 1'000'000;  // after an exchange that brought nothing, so that a dead device does not burn a core
+constexpr std::int64_t kGuardNs = 5'000'000;  // how often the guard looks
 constexpr std::chrono::milliseconds kPatience{300};
 
 }  // namespace
@@ -35,6 +36,7 @@ struct PolledDevice::Shared final : ForceSource {
   TripleBuffer<TimedForce> forces;     // tick -> I/O
   TripleBuffer<DeviceSample> samples;  // I/O -> tick
   std::atomic<bool> stopping{false}, lost{false}, forceStopped{false};
+  std::atomic<std::int64_t> exchangeSinceNs{0};  // when the exchange under way began; 0: none is
   std::atomic<std::uint64_t> reports{0};
   // Between the controlling thread and the I/O thread only.
   std::mutex mutex;
@@ -51,6 +53,7 @@ struct PolledDevice::Shared final : ForceSource {
   Vec3 newest() noexcept override;
   std::int64_t now() const noexcept override { return clock(); }
   void run();
+  void guard();
   bool turn();
   void serveCalibration();
   void takeReport();
@@ -99,7 +102,10 @@ bool PolledDevice::Shared::turn() {
     nextReopenNs = now() + kReopenNs;
     if (!transport->reopen()) return false;
   }
-  switch (transport->exchange(*this, sample)) {
+  exchangeSinceNs.store(now(), std::memory_order_release);
+  const Exchange exchanged = transport->exchange(*this, sample);
+  exchangeSinceNs.store(0, std::memory_order_release);
+  switch (exchanged) {
     case Exchange::Report: takeReport(); return true;
     case Exchange::Nothing: return false;
     case Exchange::Lost: break;
@@ -123,9 +129,22 @@ void PolledDevice::Shared::run() {
       os::sleepUntil(next);
       next = std::max(next + period, now());
     }
-    if (!turn()) os::sleepUntil(now() + kPauseNs);
+    if (!turn() && period == 0) os::sleepUntil(now() + kPauseNs);
   }
   transport->close();
+}
+
+// Once for each exchange that hangs.
+void PolledDevice::Shared::guard() {
+  std::int64_t told = 0;
+  while (!stopping.load(std::memory_order_acquire)) {
+    const std::int64_t since = exchangeSinceNs.load(std::memory_order_acquire);
+    if (since != 0 && since != told && now() - since > kStaleNs) {
+      told = since;
+      transport->stopForce();
+    }
+    os::sleepUntil(now() + kGuardNs);
+  }
 }
 
 PolledDevice::PolledDevice(std::shared_ptr<Transport> transport, int patienceMs)
@@ -136,6 +155,11 @@ PolledDevice::PolledDevice(std::shared_ptr<Transport> transport, int patienceMs)
     os::requestExactSleep();
     shared->run();
   });
+  if (info_.rendersForce)
+    guard_ = haptics::LeavableThread([shared = shared_] {
+      os::requestExactSleep();
+      shared->guard();
+    });
   std::unique_lock lock(shared_->mutex);
   const bool came = shared_->changed.wait_for(lock, std::chrono::milliseconds(patienceMs), [&] { return shared_->reports > 0; });
   lock.unlock();
@@ -158,6 +182,7 @@ PolledDevice::~PolledDevice() {
     return;
   }
   if (!thread_.join(kPatience)) thread_.leave();
+  if (!guard_.join(kPatience)) guard_.leave();
 }
 
 void PolledDevice::step() { shared_->turn(); }
@@ -186,7 +211,6 @@ std::string PolledDevice::healthText() const {
 
 bool PolledDevice::stopForce() noexcept {
   shared_->forceStopped.store(true, std::memory_order_release);
-  shared_->transport->stopForce();
   return true;
 }
 

@@ -13,7 +13,7 @@ namespace reachlab::devices {
 /// How one exchange with a device ended.
 enum class Exchange : std::uint8_t {
   Report,   // a new sample was given
-  Nothing,  // the device said nothing in time; no fault yet
+  Nothing,  // no new sample: the device said nothing in time, or the same again; no fault yet
   Lost,     // it is gone (unplugged, closed, refused)
 };
 
@@ -46,7 +46,8 @@ class Transport {
   virtual bool reopen() { return false; }
   /// I/O thread, after Lost, or of a device that gave no report: why, in the device's or the system's words; empty: nothing is known.
   virtual std::string lossText() const { return {}; }
-  /// Any thread; must not wait for `exchange`.
+  /// A thread of its own, when `exchange` has hung for kStaleNs: takes the force off by a way that does not need that call. False: there is
+  /// none. It may hang, too.
   virtual bool stopForce() noexcept { return false; }
   /// I/O thread, last: zero force, off.
   virtual void close() noexcept {}
@@ -57,7 +58,8 @@ class Transport {
 
 /// A transport behind a thread of its own. The tick takes the newest sample and leaves its force; neither waits for the other. The I/O
 /// thread tells the device zero when the force it was left is older than kStaleNs (the tick hangs), and that is also the second path of
-/// `stopForce`. A hanging exchange is left behind on destruction.
+/// `stopForce`. A guard thread takes the force off by the transport's own second path when an exchange hangs for kStaleNs. A hanging
+/// exchange is left behind on destruction.
 class PolledDevice final : public haptics::HapticDevice {
  public:
   static constexpr std::int64_t kStaleNs = 20'000'000;
@@ -86,7 +88,7 @@ class PolledDevice final : public haptics::HapticDevice {
   haptics::DeviceInfo info_;
   std::shared_ptr<Shared> shared_;  // with the I/O thread, which may hang for ever
   haptics::DeviceSample last_;
-  haptics::LeavableThread thread_;
+  haptics::LeavableThread thread_, guard_;
 };
 
 }  // namespace reachlab::devices

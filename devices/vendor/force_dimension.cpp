@@ -47,13 +47,16 @@ class ForceDimension final : public Transport {
   std::int64_t period() const override { return kPeriodNs; }
 
   Exchange exchange(ForceSource& source, haptics::DeviceSample& sample) override {
+    if (mustEnable(source.now()) && dhd_.enableForce(1, id_) < 0) return fault();
     Vec3 place, velocity;
-    bool fine = dhd_.getPosition(&place.x, &place.y, &place.z, id_) >= 0;
+    const int said = dhd_.getPosition(&place.x, &place.y, &place.z, id_);
+    bool fine = said >= 0;
     if (fine && deviceVelocity_) fine = dhd_.getLinearVelocity(&velocity.x, &velocity.y, &velocity.z, id_) >= 0;
     const Vec3 force = toDevice(source.newest());
     fine = (dhd_.setForce(force.x, force.y, force.z, id_) >= 0) && fine;
     if (!fine) return fault();
     errors_ = 0;
+    if (said == dhd::kTimeGuard) return Exchange::Nothing;  // the sample of before once more
     sample.position = toWorld(place);
     sample.velocity = toWorld(velocity);
     sample.hasVelocity = deviceVelocity_;
@@ -63,6 +66,13 @@ class ForceDimension final : public Transport {
   }
 
   bool tellZero() noexcept override { return !isOpen_ || dhd_.setForce(0, 0, 0, id_) >= 0; }
+
+  // While the I/O thread's call hangs. The next exchange switches the forces on again, with the zero that a lost hand gets.
+  bool stopForce() noexcept override {
+    const bool told = dhd_.enableForce(0, id_) >= 0;
+    cut_.store(true, std::memory_order_release);
+    return told;
+  }
 
   bool reopen() override {
     try {
@@ -85,8 +95,18 @@ class ForceDimension final : public Transport {
       shut();
       throw ResourceError(fmt::format("{}: its forces cannot be switched on: {}", words_, said));
     }
+    // The controller itself takes the force off when no command comes: nothing of ours is needed for that.
+    watchdog_ = dhd_.enableExpertMode != nullptr && dhd_.setWatchdog != nullptr && dhd_.enableExpertMode() >= 0 &&
+                dhd_.setWatchdog(static_cast<unsigned char>(PolledDevice::kStaleNs / dhd::kWatchdogUnitNs), id_) >= 0;
     describe();
     errors_ = 0;
+  }
+
+  // Its forces were switched off beside a call that hung, or by its own watchdog when no command came.
+  bool mustEnable(std::int64_t now) noexcept {
+    const bool silent = watchdog_ && toldNs_ != 0 && now - toldNs_ > PolledDevice::kStaleNs;
+    toldNs_ = now;
+    return cut_.exchange(false, std::memory_order_acq_rel) || silent;
   }
 
   void shut() noexcept {
@@ -110,7 +130,9 @@ class ForceDimension final : public Transport {
     if (const double told = dhd_.getMaxForce != nullptr ? dhd_.getMaxForce(id_) : 0; std::isfinite(told) && told > 0) info_.maxForce = told;
     info_.rendersForce = true;
     info_.rate = 1e9 / kPeriodNs;
-    info_.secondPath = "the I/O thread tells it zero when the tick leaves no new force for 20 ms";
+    info_.secondPath = std::string("the I/O thread tells it zero when the tick leaves no new force for 20 ms, and another thread switches its forces "
+                                   "off when a call hangs for as long") +
+                       (watchdog_ ? "; its own watchdog does so too" : "; its library offers no watchdog");
     wrist_ = dhd_.hasWrist != nullptr && dhd_.getOrientationFrame != nullptr && dhd_.hasWrist(id_);
     deviceVelocity_ = deviceVelocity_ && dhd_.getLinearVelocity != nullptr;
   }
@@ -141,7 +163,9 @@ class ForceDimension final : public Transport {
   char id_;
   std::string words_;
   haptics::DeviceInfo info_;
-  bool deviceVelocity_, wrist_ = false, isOpen_ = false;
+  bool deviceVelocity_, wrist_ = false, isOpen_ = false, watchdog_ = false;
+  std::atomic<bool> cut_{false};
+  std::int64_t toldNs_ = 0;  // when an exchange began last
   int errors_ = 0;  // in a row
 };
 

@@ -22,7 +22,8 @@ Api::Api() : library({"libdrd.so.3", "libdrd.so", "libdhd.so.3", "libdhd.so"}) {
   library.bindIfThere(getButtonMask, "dhdGetButtonMask");
   library.bindIfThere(hasWrist, "dhdHasWrist");
   library.bindIfThere(getMaxForce, "dhdGetMaxForce");
-  library.bindIfThere(setBrakes, "dhdSetBrakes");
+  library.bindIfThere(enableExpertMode, "dhdEnableExpertMode");
+  library.bindIfThere(setWatchdog, "dhdSetWatchdog");
 }
 
 std::string Api::lastError() const {

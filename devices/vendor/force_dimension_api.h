@@ -12,6 +12,8 @@ namespace reachlab::devices::dhd {
 /// Errors of dhdErrorGetLast after which the device is not there any more; others may pass.
 enum Error : int { kNone = 0, kComm = 2, kNoDevice = 5, kNotAvailable = 6, kTimeout = 7, kNotReady = 12 };
 inline constexpr int kTimeGuard = 1, kMotorSaturated = 2;  // returned by calls, and no errors
+/// What dhdSetWatchdog counts in; its `unsigned char` reaches to 31 ms.
+inline constexpr std::int64_t kWatchdogUnitNs = 125'000;
 
 struct Api {
   /// Throws ResourceError: the library is not there, or lacks a function.
@@ -34,7 +36,8 @@ struct Api {
   std::uint32_t (*getButtonMask)(char) = nullptr;
   bool (*hasWrist)(char) = nullptr;
   double (*getMaxForce)(char) = nullptr;
-  int (*setBrakes)(int, char) = nullptr;
+  int (*enableExpertMode)() = nullptr;
+  int (*setWatchdog)(unsigned char, char) = nullptr;
 
   std::string lastError() const;
 };

@@ -134,6 +134,38 @@ TEST_F(ForceDimension, AHangingCallIsLeftBehind) {
   EXPECT_TRUE(until([&] { return !fakeDhd().open; })) << "and it is closed once the call returns";
 }
 
+TEST_F(ForceDimension, ACallThatHangsUnderForceIsToldOffByAnotherThreadAndTheForceComesBack) {
+  const auto device = open();
+  ASSERT_TRUE(until([&] {
+    device->write({1, 0, 0});
+    return fakeDhd().force[1] == 1;
+  }));
+  fakeDhd().hangs = true;
+  EXPECT_TRUE(until([&] {
+    device->write({1, 0, 0});
+    return !fakeDhd().forceOn;
+  })) << "the controller still holds 1 N";
+  fakeDhd().hangs = false;
+  EXPECT_TRUE(until([&] { return fakeDhd().forceOn.load(); }));
+}
+
+TEST_F(ForceDimension, ItsOwnWatchdogTakesTheForceOffWhereTheLibraryOffersOne) {
+  EXPECT_NE(open()->info().secondPath.find("its own watchdog"), std::string::npos);
+  EXPECT_EQ(fakeDhd().watchdog * 125, 20'000) << "[us]";
+  fakeDhd().watchdog = -1;
+  EXPECT_NE(open()->info().secondPath.find("no watchdog"), std::string::npos);
+}
+
+TEST_F(ForceDimension, TheSameSampleAgainIsNoReport) {
+  const auto device = open();
+  fakeDhd().sameAgain = true;
+  const int told = fakeDhd().forces;
+  ASSERT_TRUE(until([&] { return fakeDhd().forces > told + 2; }));
+  const std::uint64_t seen = device->read().reports;
+  ASSERT_TRUE(until([&] { return fakeDhd().forces > told + 20; })) << "forces go on";
+  EXPECT_EQ(device->read().reports, seen) << "a place that is believed for as long as the guard lasts";
+}
+
 TEST_F(ForceDimension, ClosingLeavesNoForce) {
   auto device = open();
   ASSERT_TRUE(until([&] {

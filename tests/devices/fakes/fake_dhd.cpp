@@ -55,7 +55,8 @@ void resetFakeDhd() {
   connected = 1;
   for (FakeDhd& device : devices) {
     for (int i = 0; i < 3; ++i) device.position[i] = 0, device.force[i] = 0;
-    device.open = device.forceOn = device.hangs = false;
+    device.open = device.forceOn = device.hangs = device.sameAgain = false;
+    device.watchdog = 0;
     device.callsUntilFailure = -1;
     device.tellsSerial = true;
     device.wrist = false;
@@ -102,6 +103,7 @@ int dhdGetPosition(double* x, double* y, double* z, char id) {
   FakeDhd& device = fakeDhd(id);
   while (device.hangs) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   if (answer(id) < 0) return -1;
+  if (device.sameAgain) return 1;
   if (std::getenv("FAKE_DHD_ALONE") != nullptr) moveAlone(device);
   ++device.positions;
   *x = device.position[0], *y = device.position[1], *z = device.position[2];
@@ -114,6 +116,12 @@ int dhdSetForce(double x, double y, double z, char id) {
   device.force[0] = x, device.force[1] = y, device.force[2] = z;
   if (const double size = std::hypot(x, y, z); size > device.most) device.most = size;
   return 2;  // "motor saturated": told, and no error
+}
+int dhdEnableExpertMode() { return 0; }
+int dhdSetWatchdog(unsigned char units, char id) {
+  if (fakeDhd(id).watchdog < 0) return -1;
+  fakeDhd(id).watchdog = units;
+  return 0;
 }
 int dhdErrorGetLast() { return last; }
 const char* dhdErrorGetLastStr() { return last == 5 ? "no device found" : last == 2 ? "communication error" : "other"; }

@@ -16,6 +16,8 @@ struct FakeDhd {
   std::atomic<int> failOnce{0};            // the next call fails with it
   std::atomic<int> callsUntilFailure{-1};  // how many calls succeed before one fails with a communication error; -1: none fails
   std::atomic<bool> hangs{false};          // dhdGetPosition does not return while it is set
+  std::atomic<bool> sameAgain{false};      // dhdGetPosition gives the sample of before, and says so (time guard)
+  std::atomic<int> watchdog{0};            // [125 us] dhdSetWatchdog; -1: it refuses
   std::atomic<bool> tellsSerial{true};     // false: dhdGetSerialNumber fails
   std::atomic<bool> wrist{false};          // dhdHasWrist
   std::atomic<double> wristTurn{0};        // [rad] of dhdGetOrientationFrame, about the device's z
