@@ -97,8 +97,10 @@ DeviceFault DeviceWatch::judge(const DeviceSample& sample, const WatchContext& c
 
 DeviceSample DeviceWatch::look(DeviceSample sample, const WatchContext& context) noexcept {
   if (!guards_) return sample;
+  sample.released = sample.released && sample.valid;  // what is gone was not let go of
   if (sample.valid && isFinite(sample.position)) latch(judge(sample, context));
   else seen_ = 0;
+  if (fault_ != DeviceFault::None) sample.released = false;
   if (fault_ != DeviceFault::None || sample.released) sample.valid = false;
   return sample;
 }

@@ -118,6 +118,11 @@ void HapticLoop::stop() {
   if (!watchdog_.joinUntil(lastMoment)) watchdog_.leave();
 }
 
+void HapticLoop::endWithoutDevice() {
+  stop();
+  core_->endWithoutDevice(os::now());
+}
+
 bool HapticLoop::hangs() const noexcept {
   const std::int64_t since = core_->silentSinceNs.load(std::memory_order_acquire);
   return (since != 0 && os::now() - since > kHangNs) || core_->abandoned.load(std::memory_order_acquire);

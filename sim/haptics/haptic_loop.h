@@ -49,6 +49,8 @@ class HapticLoop {
   DeviceFault fault() const noexcept { return latched().fault; }
   /// The same, with the hand whose device it is of.
   LatchedFault latched() const noexcept { return core_->latched.load(std::memory_order_acquire); }
+  /// Controlling thread, once the loop `hangs`: stops it, and ends the trial that is under way as one that lost its device.
+  void endWithoutDevice();
   /// Controlling thread: the experimenter has seen to it; takes effect at the next tick.
   void resetFault() noexcept { core_->resetAsked.store(true, std::memory_order_release); }
   /// Any thread: no tick has come for kHangNs since the watchdog fired, or a device call was left behind. The trial will not end.

@@ -163,6 +163,33 @@ bool LoopCore::tick(std::uint32_t missed, std::int64_t measuredNs) noexcept {
   return runTick(*engine, input, Stages{*this});
 }
 
+void LoopCore::endWithoutDevice(std::int64_t nowNs) noexcept {
+  const TickState& state = engine->state();
+  const auto record = [&](trial::Command command, std::uint32_t missed) {
+    if (sink != nullptr) sink->onTick(state, command, missed);
+    raise(ticks, std::uint64_t{1});
+  };
+  if (state.tick > ticks.load(std::memory_order_relaxed)) record(input.command, input.missedTicks);  // computed, and not recorded yet
+  TickInput lost;
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    lost.devices[i] = state.hands[i].device;
+    lost.devices[i].valid = lost.devices[i].released = false;
+  }
+  lost.deviceFault = true;
+  lost.measuredNs = nowNs;
+  // Also a trial that was put up and that no tick has seen yet.
+  for (int k = 0; k < 2 * trial::kLostTicks; ++k) {
+    Order order;
+    if (!commands.tryPop(order) && (state.phase == trial::Phase::Idle || state.phase == trial::Phase::Done)) break;
+    lost.command = order.command;
+    lost.planned = order.planned;
+    engine->tick(lost);
+    record(lost.command, 0);
+  }
+  copyState(state, snapshots.back());
+  snapshots.publish();
+}
+
 void LoopCore::tickOfDevice() noexcept {
   if (stopping.load(std::memory_order_acquire)) return;
   const std::int64_t now = os::now();

@@ -61,6 +61,8 @@ struct LoopCore {
   void writeZero() noexcept;
   /// At the end of the haptic thread.
   void writeLastZero() noexcept;
+  /// Once the haptic thread will never touch anything here again: ends the trial that is under way, as one that lost its device.
+  void endWithoutDevice(std::int64_t nowNs) noexcept;
   void countLateness(std::int64_t latenessNs, std::uint32_t missed) noexcept;
   /// One call of a device that drives the clock: a tick, or none when half a period has not passed since the last.
   void tickOfDevice() noexcept;

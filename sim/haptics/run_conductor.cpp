@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <utility>
 
 #include "base/error.h"
 
@@ -78,8 +79,9 @@ std::optional<ConductedTrial> RunConductor::poll() {
     advanceUntilDone(nullptr);
     loop_->advance();  // one tick in Done, whoever conducts: the same recording
   }
+  if (loop_->hangs() && underWay_ && !std::exchange(endedWithoutDevice_, true)) loop_->endWithoutDevice();
   if (const TickState* newer = loop_->takeLatest()) latest_ = newer;
-  if (loop_->hangs()) throw ResourceError(describe(loop_->fault(), device_->info().name));
+  if (loop_->hangs() && !underWay_) throw ResourceError(describe(loop_->fault(), device_->info().name));
   if (!underWay_ || latest_->trial != trial_ || latest_->phase != trial::Phase::Done) return std::nullopt;
   underWay_ = false;
   if (sink_ != nullptr) sink_->awaitTrial(trial_);

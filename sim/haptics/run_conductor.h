@@ -55,8 +55,8 @@ class RunConductor {
   bool underWay() const { return underWay_; }
 
   /// Looks at the newest state, and returns the trial under way once it has ended and is safe on the disk. Does not wait for the trial,
-  /// but does for the disk. May throw ResourceError from the sink, and when a call of the device hangs, so that no trial can end any
-  /// more; `finish` then leaves it behind. On the virtual clock it computes the trial to its end.
+  /// but does for the disk. A trial whose device does not call or answer any more is ended as lost. May throw ResourceError from the
+  /// sink, and when a call of the device hangs while no trial is under way; `finish` then leaves it behind. On the virtual clock it computes the trial to its end.
   std::optional<ConductedTrial> poll();
   /// After `poll`: the newest state seen.
   const TickState& latest() const { return *latest_; }
@@ -89,7 +89,7 @@ class RunConductor {
   std::size_t planned_ = 0;  // so many of them were not appended
   std::size_t next_ = 0;
   std::int32_t trial_ = 0;
-  bool underWay_ = false, finished_ = false;
+  bool underWay_ = false, finished_ = false, endedWithoutDevice_ = false;
   RunSink* sink_ = nullptr;
   std::unique_ptr<HapticLoop> loop_;
   std::unique_ptr<TickState> first_;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 #include "base/fault.h"
 #include "base/math/minimum_jerk.h"
@@ -181,8 +182,10 @@ trial::ProtocolInput TickEngine::protocolInput(const TickInput& input, dynamics:
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     const dynamics::HandSample& hip = state_.hands[i].hip;
     hips_[i] = input.devices[i].position;
-    seen.hipSpeed = std::max(norm(hip.velocity), seen.hipSpeed);
-    seen.handValid = seen.handValid && hip.valid;
+    // An open dead-man switch is no loss: where the hand is stays known. It does not rest, so that no trial is armed.
+    const bool released = input.devices[i].released;
+    seen.hipSpeed = std::max(released ? std::numeric_limits<double>::infinity() : norm(hip.velocity), seen.hipSpeed);
+    seen.handValid = seen.handValid && (hip.valid || released);
     seen.handBroken = seen.handBroken || hands_[i].broken;
     seen.clamped = seen.clamped || hands_[i].clamped;
   }

@@ -162,6 +162,8 @@ TEST(Devices, ASchedulerThatNeverCallsOrTwiceOrLateEndsInWords) {
     }
     if (std::string(fault) == "NEVER") {
       EXPECT_EQ(run.exitCode, 3) << run.out;
+      ASSERT_EQ(trialLines(run.out).size(), 1u) << run.out;
+      EXPECT_EQ(trialLines(run.out)[0].at("reason"), "device_lost");
     }
   }
 }

@@ -142,6 +142,10 @@ TEST_F(Watch, AnOpenDeadManSwitchTakesTheForceAndLeavesNoLatch) {
   sample.released = true;
   context.nowNs = now += kTickNs;
   EXPECT_FALSE(watch.look(sample, context).valid);
+  EXPECT_TRUE(watch.look(sample, context).released) << "known, so that the trial goes on";
+  sample.valid = false;
+  EXPECT_FALSE(watch.look(sample, context).released) << "lost, and not let go of";
+  sample.valid = true;
   sample.released = false;
   sample.reports = ++reports;
   context.nowNs = now += kTickNs;

@@ -215,7 +215,7 @@ TEST_F(LoopSafety, StopWaitsOnceHoweverManyCallsHang) {
   EXPECT_EQ(device->hanging, 3);
 }
 
-TEST_F(LoopSafety, ARunOnADeviceThatHangsEndsWithASentence) {
+TEST_F(LoopSafety, ARunOnADeviceThatHangsEndsItsTrialAsLostAndSaysWhy) {
   auto engine = std::make_unique<TickEngine>(experiment, EngineOptions{});
   auto hanging = std::make_unique<FailingDevice>(engine->protocol().start);
   FailingDevice* const seen = hanging.get();
@@ -225,8 +225,11 @@ TEST_F(LoopSafety, ARunOnADeviceThatHangsEndsWithASentence) {
     until([&] { return seen->lastForce > 1.2; });
     seen->hangsInWrite = true;
   });
-  EXPECT_THROW(run->runTrial(std::atomic<bool>{false}), ResourceError);
+  const auto trial = run->runTrial(std::atomic<bool>{false});
   breaker.join();
+  ASSERT_TRUE(trial);
+  EXPECT_EQ(trial->result.outcome, trial::Outcome::Interrupted);
+  EXPECT_EQ(trial->result.reason, trial::Reason::DeviceLost);
   const auto fault = run->fault();
   ASSERT_TRUE(fault);
   EXPECT_NE(fault->find("stalled"), std::string::npos) << *fault;

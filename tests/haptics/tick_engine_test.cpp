@@ -156,6 +156,30 @@ TEST_F(Engine, AHandThatIsNotANumberGivesZeroForceAndEndsTheTrial) {
   }
 }
 
+TEST_F(Engine, AnOpenDeadManSwitchTakesTheForceAndEndsNoTrial) {
+  const auto letGo = [&](bool released) {
+    TickInput input;
+    input.devices[0] = handAt(hand);
+    input.devices[0].valid = false;
+    input.devices[0].released = released;
+    engine.tick(input);
+    return engine.state().phase;
+  };
+  tick(trial::Command::NextTrial);
+  for (int i = 0; i < 50; ++i) EXPECT_EQ(letGo(true), trial::Phase::Waiting) << "nothing is armed in an open hand";
+  tick();
+  tick();
+  ASSERT_EQ(engine.state().phase, trial::Phase::Armed);
+  move(50);
+  for (int i = 0; i < 3 * trial::kLostTicks; ++i) {
+    EXPECT_EQ(letGo(true), trial::Phase::Moving);
+    EXPECT_EQ(engine.state().hands[0].deviceForce, Vec3{});
+  }
+  for (int i = 0; i < trial::kLostTicks; ++i) EXPECT_EQ(letGo(false), trial::Phase::Moving);
+  EXPECT_EQ(letGo(false), trial::Phase::Done);
+  EXPECT_EQ(engine.state().result.reason, trial::Reason::DeviceLost);
+}
+
 TEST_F(Engine, ALostHandGivesZeroForceAndComesBackWithoutAJump) {
   arm();
   move(300);

@@ -112,6 +112,32 @@ TEST(TickRecord, HasOfEachTickOnlyWhatItsFlagsAskFor) {
   expectReadOnlyWhole(expected, "tick", ticksOf);
 }
 
+// Earlier programs never wrote buttons of which none is pressed; the mark before them is an open dead-man switch.
+TEST(TickRecord, TellsAnOpenDeadManSwitchWithAndWithoutButtons) {
+  for (const std::uint32_t buttons : {0u, 6u}) {
+    haptics::DeviceSample sample;
+    sample.buttons = buttons;
+    sample.released = true;
+    sample.valid = false;
+    RecordedTick tick = tickAt(1, 0, {});
+    tick.device = sample;
+    TickBlock ticks;
+    ticks.add(tick);
+    ticks.add(tickAt(2, 1'000'000, {}));
+    HandBlock hands(2);
+    hands.add(sample);
+    hands.add({});
+    const std::vector<RecordedTick> read = ticksOf(copyOf(ticks.payload()));
+    const HandTicks other = decodeHandTicks(hands.payload());
+    for (const haptics::DeviceSample& back : {read.at(0).device, other.samples.at(0)}) {
+      EXPECT_TRUE(back.released);
+      EXPECT_EQ(back.buttons, buttons);
+    }
+    EXPECT_FALSE(read.at(1).device.released);
+    EXPECT_FALSE(other.samples.at(1).released);
+  }
+}
+
 TEST(TickRecord, TellsATickOrATimeAnewWhereItDoesNotFollowTheLast) {
   constexpr std::int64_t kMost = 4'294'967'295;  // [ns] what 32 bits hold
   const Vec3 place{0, 0, 0};

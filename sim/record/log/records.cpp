@@ -29,6 +29,19 @@ Vec3 getVec3(ByteReader& in) {
   return v;
 }
 
+// Buttons, or an open dead-man switch, which is told by the mark before them: pressed buttons are never that number.
+constexpr std::uint32_t kReleasedMark = 0;
+bool hasButtons(const haptics::DeviceSample& sample) { return sample.buttons != 0 || sample.released; }
+void putButtons(ByteWriter& out, const haptics::DeviceSample& sample) {
+  if (sample.released) out.put(kReleasedMark);
+  out.put(sample.buttons);
+}
+void getButtons(ByteReader& in, haptics::DeviceSample& sample) {
+  sample.buttons = in.get<std::uint32_t>();
+  sample.released = sample.buttons == kReleasedMark;
+  if (sample.released) sample.buttons = in.get<std::uint32_t>();
+}
+
 [[noreturn]] void refuse(const char* what) { throw FaultError(Fault{.what = fmt::format("{} record of an unknown form", what)}); }
 
 template <typename Enum>
@@ -50,7 +63,7 @@ void TickBlock::add(const TickStamp& tick, const haptics::DeviceSample& device) 
   std::uint8_t flags = 0;
   if (device.valid) flags |= kValid;
   if (device.hasVelocity) flags |= kHasVelocity;
-  if (device.buttons != 0) flags |= kButtons;
+  if (hasButtons(device)) flags |= kButtons;
   if (!first && sameBits(device.position, lastPosition_)) flags |= kSamePosition;
   if (tick.command != trial::Command::None) flags |= kCommand;
   if (tick.missedTicks != 0) flags |= kMissed;
@@ -63,7 +76,7 @@ void TickBlock::add(const TickStamp& tick, const haptics::DeviceSample& device) 
   else bytes_.put(static_cast<std::uint32_t>(passed));
   if (!(flags & kSamePosition)) put(bytes_, device.position);
   if (flags & kHasVelocity) put(bytes_, device.velocity);
-  if (flags & kButtons) bytes_.put(device.buttons);
+  if (flags & kButtons) putButtons(bytes_, device);
   if (flags & kCommand) bytes_.put(static_cast<std::uint8_t>(tick.command));
   if (flags & kMissed) bytes_.put(tick.missedTicks);
   last_ = tick;
@@ -92,7 +105,9 @@ void decodeTicks(std::span<const std::uint8_t> payload, std::vector<RecordedTick
     if (!(flags & kSamePosition)) tick.device.position = getVec3(in);
     tick.device.hasVelocity = flags & kHasVelocity;
     tick.device.velocity = flags & kHasVelocity ? getVec3(in) : Vec3{};
-    tick.device.buttons = flags & kButtons ? in.get<std::uint32_t>() : 0;
+    tick.device.buttons = 0;
+    tick.device.released = false;
+    if (flags & kButtons) getButtons(in, tick.device);
     tick.device.valid = flags & kValid;
     tick.command = flags & kCommand ? getEnum(in, trial::Command::Interrupt, "tick") : trial::Command::None;
     tick.missedTicks = flags & kMissed ? in.get<std::uint32_t>() : 0;
@@ -105,7 +120,7 @@ void HandBlock::add(const haptics::DeviceSample& sample) {
   std::uint8_t flags = 0;
   if (sample.valid) flags |= kValid;
   if (sample.hasVelocity) flags |= kHasVelocity;
-  if (sample.buttons != 0) flags |= kButtons;
+  if (hasButtons(sample)) flags |= kButtons;
   if (count_ > 0 && sameBits(sample.position, last_)) flags |= kSamePosition;
   if (count_ == 0) {
     bytes_.put(std::uint32_t{0});
@@ -114,7 +129,7 @@ void HandBlock::add(const haptics::DeviceSample& sample) {
   bytes_.put(flags);
   if (!(flags & kSamePosition)) put(bytes_, sample.position);
   if (flags & kHasVelocity) put(bytes_, sample.velocity);
-  if (flags & kButtons) bytes_.put(sample.buttons);
+  if (flags & kButtons) putButtons(bytes_, sample);
   last_ = sample.position;
   ++count_;
 }
@@ -141,7 +156,9 @@ HandTicks decodeHandTicks(std::span<const std::uint8_t> payload) {
     if (!(flags & kSamePosition)) sample.position = getVec3(in);
     sample.hasVelocity = flags & kHasVelocity;
     sample.velocity = flags & kHasVelocity ? getVec3(in) : Vec3{};
-    sample.buttons = flags & kButtons ? in.get<std::uint32_t>() : 0;
+    sample.buttons = 0;
+    sample.released = false;
+    if (flags & kButtons) getButtons(in, sample);
     sample.valid = flags & kValid;
     ticks.samples.push_back(sample);
   }

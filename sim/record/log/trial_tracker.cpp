@@ -11,7 +11,7 @@ TickFacts factsOf(const haptics::TickState& state) noexcept {
   TickFacts facts{.phase = state.phase,
                   .status = state.status,
                   .trial = state.trial,
-                  .deviceValid = state.hands[0].device.valid,
+                  .deviceValid = state.hands[0].device.valid || state.hands[0].device.released,
                   .hip = state.hands[0].hip,
                   .couplingForce = state.hands[0].couplingForce,
                   .result = state.result};
