@@ -4,6 +4,7 @@
 #include <cctype>
 #include <filesystem>
 
+#include "devices/driver/options.h"
 #include "devices/hands/several_hands.h"
 #include "devices/make_device.h"
 #include "devices/mapping/mapping.h"
@@ -13,11 +14,11 @@ namespace {
 
 std::string kindOf(const std::string& hand) { return hand.substr(0, hand.find_first_of(":,")); }
 
-// "phantom"; of several hands "phantom-Left".
-std::string fileOf(const std::string& hand, bool several, const std::string& data, const std::string& subject) {
+// "phantom", and "phantom-Left" of a device that is asked for by a name of its own: another one lies elsewhere.
+std::string fileOf(const std::string& hand, const std::string& data, const std::string& subject) {
   std::string name = kindOf(hand);
-  if (several && hand.size() > name.size() && hand[name.size()] == ':') {
-    std::string own = hand.substr(name.size() + 1, hand.find(',') - name.size() - 1);
+  if (hand.size() > name.size() && hand[name.size()] == ':') {
+    std::string own = DeviceOptions(hand.substr(name.size() + 1), "device " + name).plain();
     std::erase_if(own, [](unsigned char c) { return std::isalnum(c) == 0; });
     if (!own.empty()) name += "-" + own;
   }
@@ -29,9 +30,8 @@ std::string fileOf(const std::string& hand, bool several, const std::string& dat
 std::string withKeptMappings(const std::string& device, const std::string& data, const std::string& subject,
                              std::vector<std::string>& taken) {
   std::vector<std::string> hands = splitHands(device);
-  const bool several = hands.size() > 1;
   for (std::string& hand : hands) {
-    const std::string kind = kindOf(hand), file = fileOf(hand, several, data, subject);
+    const std::string kind = kindOf(hand), file = fileOf(hand, data, subject);
     std::error_code error;
     if (kind == "replay" || handOptionsOf(hand).mapped || !std::filesystem::exists(file, error)) continue;
     taken.push_back(file);
@@ -46,7 +46,7 @@ std::vector<std::string> keepMappings(const std::string& device, const std::stri
   for (const std::string& hand : hands) {
     const HandOptions options = handOptionsOf(hand);
     if (!options.mapped) continue;
-    kept.push_back(fileOf(hand, hands.size() > 1, data, subject));
+    kept.push_back(fileOf(hand, data, subject));
     saveMapping(options.mapping, kept.back());
   }
   return kept;

@@ -3,7 +3,7 @@
 #include <vector>
 
 /// Mappings that a dataset keeps for each device and subject (docs/devices.md). A device is what `--device` takes, of one hand or of several:
-/// of several each has its own, by its own name. Device and subject are checked elsewhere: of a faulty one nothing is kept.
+/// each hand has its own, by kind and name. Device and subject are checked elsewhere: of a faulty one nothing is kept.
 namespace reachlab::devices {
 
 /// The device with what is kept for it where no mapping was asked for; the files are added to `taken`.

@@ -77,7 +77,7 @@ void requireTheirOwn(const std::vector<std::string>& hands) {
       const Spec other = parse(hands[j]);
       if (other.name != one.name || (!nameOf(one).empty() && !nameOf(other).empty() && nameOf(one) != nameOf(other))) continue;
       throw FaultError(Fault{"device", fmt::format("is {}, which may be one device twice", joinHands(hands)),
-                             fmt::format("each {} by a name of its own, as `reach list devices` has them", one.name)});
+                             fmt::format("{}, each by a name of its own", driver->usage)});
     }
   }
 }

@@ -4,7 +4,8 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands/latency_command.h"
-#include "devices/vendor/clock_timing.h"
+#include "devices/driver/registry.h"
+#include "devices/clock_timing.h"
 
 namespace reachlab::cli {
 namespace {
@@ -15,8 +16,15 @@ struct Request {
   bool json = false;
 };
 
+// A bare word that is no kind of device is a PHANToM's name, as before there were others.
+std::string deviceOf(const std::string& asked) {
+  const std::string kind = asked.substr(0, asked.find_first_of(":,"));
+  if (devices::findDriver(kind) != nullptr) return asked;
+  return asked.empty() ? "phantom" : "phantom:" + asked;
+}
+
 void compare(const Request& r) {
-  const auto rows = devices::compareClocks(r.device, r.seconds);
+  const auto rows = devices::measureLatency(deviceOf(r.device), r.seconds);
   if (r.json) {
     auto list = nlohmann::ordered_json::array();
     for (const auto& row : rows)
@@ -43,15 +51,16 @@ void compare(const Request& r) {
 }  // namespace
 
 void addLatencyCommand(CLI::App& app, int&) {
-  CLI::App* command = app.add_subcommand("latency", "Measures a PHANToM's two clocks: its scheduler's, and the computer's that samples it");
+  CLI::App* command = app.add_subcommand("latency", "Measures how regularly a device is served and how old its samples are");
   const auto r = std::make_shared<Request>();
-  command->add_option("device", r->device, "Its name in the vendor's configuration [the default device]");
+  command->add_option("device", r->device, "As for `reach run`: forcedimension:0, mouse …; another word is a PHANToM's name [default: phantom]");
   command->add_option("--seconds", r->seconds, "How long each is measured [5 s]")->check(CLI::Range(0.1, 3600.0));
   command->add_flag("--json", r->json, "an array of objects");
   command->footer(
-      "Jitter: how far two ticks are from 1 ms apart. Latency: from a sample to the force that was computed from it in effect. No force is\n"
-      "rendered meanwhile. --device phantom[:NAME] takes the scheduler's clock, phantom[:NAME],clock=computer the other.\n\n"
-      "Examples:\n  reach latency\n  reach latency Left --seconds 60");
+      "Jitter: how far two ticks are from 1 ms apart. Latency: from a sample to the force that was computed from it. No force is rendered\n"
+      "meanwhile. A PHANToM is measured by both clocks, its scheduler's and the computer's, with the force in effect. Other devices have\n"
+      "one row. A latency of 0 means that the device does not tell when its samples were taken.\n\n"
+      "Examples:\n  reach latency\n  reach latency forcedimension:0 --seconds 60");
   command->callback([r] { compare(*r); });
 }
 

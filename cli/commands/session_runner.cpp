@@ -47,6 +47,14 @@ void printWait(const session::RecordedRun& run) {
              place.start.x, place.start.y, place.start.z, where);
 }
 
+// Why a hand that no person moves never began.
+void printNoStart(const session::RecordedRun& run) {
+  printWait(run);
+  const record::RunConfiguration& c = run.configuration();
+  fmt::print(stderr, "{}; reach validate EXPERIMENT --device {} compares its workspace with the task\n",
+             c.deviceMapping.empty() ? "the device is not mapped" : "its mapping is " + c.deviceMapping, c.device);
+}
+
 // Before anybody feels it: what this experiment will meet on this device.
 std::unique_ptr<haptics::HapticDevice> makeCheckedDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
                                                          std::uint64_t seed) {
@@ -88,6 +96,7 @@ int runSession(const session::SessionRequest& request) {
     warn();
     fmt::print("{}\n", trialLine(run.numberOf(trial), trial.result));
     std::fflush(stdout);
+    if (trial.result.reason == trial::Reason::NoStart) printNoStart(run);
     table.add(run.configuration().condition + (trial.planned.catchTrial ? " (catch)" : ""), trial.result);
   };
   words.logClosed = [&](const session::RecordedRun& run) {

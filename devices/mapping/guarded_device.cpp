@@ -139,6 +139,9 @@ std::unique_ptr<haptics::HapticDevice> guardDevice(std::unique_ptr<haptics::Hapt
   if (options.deadManButton > 0 && !device->info().rendersForce)
     throw FaultError(Fault{"device", fmt::format("dead-man-button: {} renders no force that it could take away", device->info().name),
                            "a force device"});
+  if (options.deadManButton > 0 && device->info().virtualHand)
+    throw FaultError(Fault{"device", fmt::format("dead-man-button: no hand presses a button of {}", device->info().name),
+                           "a force device that a person holds"});
   return std::make_unique<GuardedDevice>(std::move(device), options);
 }
 

@@ -122,8 +122,8 @@ TEST(TickRecord, TellsAnOpenDeadManSwitchWithAndWithoutButtons) {
     RecordedTick tick = tickAt(1, 0, {});
     tick.device = sample;
     TickBlock ticks;
-    ticks.add(tick);
-    ticks.add(tickAt(2, 1'000'000, {}));
+    add(ticks, tick);
+    add(ticks, tickAt(2, 1'000'000, {}));
     HandBlock hands(2);
     hands.add(sample);
     hands.add({});
