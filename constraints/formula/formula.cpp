@@ -1,11 +1,13 @@
 #include "constraints/formula/formula.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <optional>
 
 #include "base/fault.h"
 #include "constraints/formula/guards.h"
+#include "constraints/formula/watch_compilations.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -105,7 +107,14 @@ std::vector<FormulaFault> formulaFaults(const FormulaText& text) {
   return parseCoordinates(text, graph).faults;
 }
 
+namespace {
+std::atomic<void (*)(const FormulaText&)> watcher{nullptr};
+}
+
+void watchCompilations(void (*watch)(const FormulaText& text)) { watcher = watch; }
+
 std::shared_ptr<const CompiledFormula> compileFormula(const FormulaText& text, const std::string& key) {
+  if (const auto watch = watcher.load()) watch(text);
   auto formula = std::make_shared<CompiledFormula>();
   formula->text = text;
   ExpressionGraph& graph = formula->graph;

@@ -1,4 +1,4 @@
-// How often a formula is compiled, counted by the linker's wrap (count_compilations.h).
+// How often a formula is compiled, counted where it is compiled (count_compilations.h).
 #include <gtest/gtest.h>
 
 #include "constraints/catalogue/definition.h"

@@ -2,28 +2,25 @@
 
 #include <cstdio>
 #include <cstdlib>
-#include <memory>
 #include <mutex>
 #include <utility>
 
-#include "constraints/formula/formula.h"
-
-#define REACHLAB_COMPILE_FORMULA                                                    \
-  "_ZN8reachlab11constraints14compileFormulaERKNS0_11FormulaTextERKNSt7__cxx1112ba" \
-  "sic_stringIcSt11char_traitsIcESaIcEEE"
+#include "constraints/formula/watch_compilations.h"
 
 namespace reachlab::constraints {
-
-std::shared_ptr<const CompiledFormula> reallyCompile(const FormulaText& text,
-                                                     const std::string& key) asm("__real_" REACHLAB_COMPILE_FORMULA);
-
 namespace {
 
 std::mutex guard;
 std::vector<std::string> compiled;
 
+void note(const FormulaText& text) {
+  const std::scoped_lock lock(guard);
+  compiled.push_back(text.coordinates[0] + " | " + text.coordinates[1] + " | " + text.coordinates[2]);
+}
+
 /// The program that does nothing but count says at its end what it has compiled.
 struct Told {
+  Told() { watchCompilations(note); }
   ~Told() {
     if (std::getenv("REACHLAB_TELL_COMPILATIONS") == nullptr) return;
     for (const std::string& formula : compiled) std::fprintf(stderr, "compiled %s\n", formula.c_str());
@@ -31,17 +28,6 @@ struct Told {
 } told;
 
 }  // namespace
-
-std::shared_ptr<const CompiledFormula> countAndCompile(const FormulaText& text,
-                                                       const std::string& key) asm("__wrap_" REACHLAB_COMPILE_FORMULA);
-
-std::shared_ptr<const CompiledFormula> countAndCompile(const FormulaText& text, const std::string& key) {
-  {
-    const std::scoped_lock lock(guard);
-    compiled.push_back(text.coordinates[0] + " | " + text.coordinates[1] + " | " + text.coordinates[2]);
-  }
-  return reallyCompile(text, key);
-}
 
 }  // namespace reachlab::constraints
 

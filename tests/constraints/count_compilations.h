@@ -4,9 +4,8 @@
 
 namespace reachlab::test {
 
-/// The formulas that were compiled since the last call, "x | y | z", in order; from any thread. Of a program that is linked with
-/// REACHLAB_COUNT_COMPILATIONS (tests/CMakeLists.txt): the linker puts the counter before constraints::compileFormula, and nothing of it is
-/// in the programs that are shipped.
+/// The formulas that were compiled since the last call, "x | y | z", in order; from any thread. Of a program that
+/// has count_compilations.cpp (tests/CMakeLists.txt).
 std::vector<std::string> takeCompilations();
 
 }  // namespace reachlab::test

@@ -1,4 +1,4 @@
-// How often the window compiles the formula that was typed, counted by the linker (tests/constraints/count_compilations.h).
+// How often the window compiles the formula that was typed, counted where it is compiled (tests/constraints/count_compilations.h).
 #include <gtest/gtest.h>
 
 #include <QLineEdit>
