@@ -182,25 +182,6 @@ class HaplyOverALine : public ::testing::Test {
   haptics::DeviceSample sample;
 };
 
-TEST_F(HaplyOverALine, TellsWhatItIs) {
-  const haptics::DeviceInfo info = open().info();
-  EXPECT_EQ(info.name, "Haply Inverse3 A");
-  EXPECT_EQ(info.version, "Inverse service, websocket");
-  EXPECT_EQ(info.maxForce, 10);
-  EXPECT_EQ(info.maxContinuousForce, 2.5);
-  EXPECT_TRUE(info.rendersForce);
-  EXPECT_EQ(info.workspaceRadius, 0.17);
-  EXPECT_EQ(info.apparentMass, 0.2);
-  EXPECT_EQ(info.coulombFriction, 0.1);
-  EXPECT_EQ(info.resolution, 1e-5);
-  EXPECT_NE(info.secondPath.find("20 ms"), std::string::npos);
-  HaplyInverse3::Options weak;
-  weak.maxForce = 2;
-  EXPECT_EQ(open(weak).info().maxForce, 2);
-  EXPECT_EQ(open(weak).info().maxContinuousForce, 2) << "no more than its peak";
-  EXPECT_EQ(open().period(), 500'000);
-}
-
 TEST_F(HaplyOverALine, IsGreetedOnlyWhenItWaits) {
   (void)open();
   EXPECT_TRUE(line->sent.empty()) << "older ones tell their state unasked";
@@ -311,19 +292,6 @@ TEST_F(HaplyOverALine, AGripThatIsNotThereIsRefused) {
   options.grip = "9";
   line->waiting = {stateAt(0)};
   EXPECT_EQ(refusalOf(options), "the Inverse service has no VerseGrip 9; there is: none");
-}
-
-TEST(Haply, ItsOptionsAreBounded) {
-  const FakeHaply service;
-  const auto experiment = experiment::readExperiment("chain-slow");
-  const std::string port = fmt::format(",port={}", service.port());
-  for (const char* good : {"max-force=0.01", "max-force=10", "velocity=device", "velocity=estimated"})
-    EXPECT_NO_THROW(makeDevice(std::string("haply:049D,") + good + port, experiment, 1)) << good;
-  EXPECT_EQ(makeDevice("haply:049D,max-force=3" + port, experiment, 1)->info().maxForce, 3);
-  EXPECT_TRUE(makeDevice("haply:049D,velocity=device" + port, experiment, 1)->read().hasVelocity);
-  for (const char* bad : {"max-force=0.009", "max-force=10.1", "velocity=best", "port=0", "port=65536", "colour=red"})
-    EXPECT_THROW(makeDevice(std::string("haply:049D,") + bad, experiment, 1), FaultError) << bad;
-  EXPECT_EQ(makeDevice("haply:049D" + port, experiment, 1)->info().maxForce, 10);
 }
 
 TEST(Haply, GivesItsPlaceAndGetsItsForceInItsOwnAxes) {

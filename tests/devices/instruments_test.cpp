@@ -484,15 +484,6 @@ TEST_F(Triggers, APulseIsAsLongAsItWasAskedFor) {
   EXPECT_EQ(port.controls.size(), controls) << "down once";
 }
 
-TEST_F(Triggers, TheUsualCodesAndPulse) {
-  const TriggerCodes usual;
-  EXPECT_EQ(usual.of(Mark::Go), 1);
-  EXPECT_EQ(usual.of(Mark::Onset), 2);
-  EXPECT_EQ(usual.of(Mark::Success), 4);
-  EXPECT_EQ(usual.pulse, 0.005);
-  EXPECT_EQ(kMarkCount, 3);
-}
-
 TEST_F(Triggers, ASerialPortsInputsAreABitALine) {
   const auto lines = openSerialLines("rts", "/dev/ttyS0", {}, kFakeCalls);
   std::vector<double> told;
@@ -532,26 +523,6 @@ TEST(OpenInstruments, NumbersAreBoundedAndNamesAreWhatWasAskedFor) {
   EXPECT_EQ(refusal("byte,go=1"), "instrument: byte: its port is missing; allowed: byte:/dev/…");
   EXPECT_EQ(openInstruments({"lsl"})->names(), "lsl");
   EXPECT_EQ(openInstruments({"lsl", "lsl"})->names(), "lsl; lsl");
-}
-
-TEST_F(LabStreamingLayer, ItsStreamsSayWhatTheyAre) {
-  std::vector<std::unique_ptr<Instrument>> instruments;
-  instruments.push_back(openLabStreaming("lsl"));
-  const auto link = linkInstruments(std::move(instruments));
-  (void)eventsOf(*link, 1);
-  const record::RunConfiguration configuration = record::madeConfiguration();
-  const std::string source =
-      "sub-" + configuration.subject + "_ses-" + configuration.session + "_run-" + fmt::format("{}", configuration.run) + "_";
-  const auto& streams = test::fakeLsl().streams;
-  EXPECT_EQ(streams[0].source, source + "reachlab-markers");
-  EXPECT_EQ(streams[1].source, source + "reachlab-hand");
-  EXPECT_EQ(streams[0].channels, 1);
-  EXPECT_EQ(streams[1].channels, 6);
-  EXPECT_EQ(streams[1].name, "reachlab-hand");
-  EXPECT_EQ(streams[1].format, 2) << "doubles";
-  EXPECT_EQ(streams[0].labels, std::vector<std::string>{"marker"});
-  const auto& sample = streams[1].numbers.at(60).second;
-  ASSERT_EQ(sample.size(), 6u);
 }
 
 /// Keeps every call that it is made, and fails where it is told to.

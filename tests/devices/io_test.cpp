@@ -287,13 +287,6 @@ TEST_F(Steered, ItsSpeedIsThePushBeyondTheDeadZone) {
   EXPECT_NEAR(hand->read().velocity.z, -1, 1e-15);
 }
 
-TEST_F(Steered, ItsUsualOptionsAreThoseOfItsHeader) {
-  const RateHand::Options usual;
-  EXPECT_EQ(usual.gain, 0.5);
-  EXPECT_EQ(usual.deadZone, 0.05);
-  EXPECT_EQ(usual.reach, 0.5);
-}
-
 // Held over 40 ticks without news, then less by 1/e each 20; each tick moves it by its speed.
 TEST_F(Steered, APushIsHeldAndThenFades) {
   make({.gain = 1, .deadZone = 0, .reach = 100});

@@ -168,19 +168,6 @@ TEST_F(OpenArmOverAPort, TheLastWordIsZero) {
   for (const std::uint8_t byte : line->sent.back()) EXPECT_EQ(byte, 0);
 }
 
-TEST_F(OpenArmOverAPort, TellsWhatItIs) {
-  const haptics::DeviceInfo info = arm->info();
-  EXPECT_EQ(info.name, "woodenhaptics_v2015 1");
-  EXPECT_EQ(info.version, "open arm over HID");
-  EXPECT_EQ(info.maxForce, 5);
-  EXPECT_TRUE(info.rendersForce);
-  EXPECT_EQ(info.workspaceRadius, 0.1);
-  EXPECT_NE(info.secondPath.find("20 ms"), std::string::npos);
-  open("");
-  EXPECT_EQ(arm->info().name, "woodenhaptics_v2015");
-  EXPECT_EQ(OpenArm::Options{}.maxCurrent, 2);
-}
-
 TEST_F(OpenArmOverAPort, WaitsForItsTurnOnceAndTakesWhatHasPiledUpWithoutWaiting) {
   line->waiting = {reportOf({}), reportOf({})};
   arm->exchange(wish, sample);

@@ -15,54 +15,6 @@
 namespace reachlab::devices {
 namespace {
 
-// As the project publishes them: diameters, lengths and origin in mm, torque constants in mNm/A.
-TEST(OpenSerialArm, EveryModelsNumbersAreThePublishedOnes) {
-  struct Published {
-    const char* name;
-    std::array<double, 3> capstan, length, body, origin, torque;
-    double counts, force, stiffness;
-    std::array<int, 3> calibration;
-    std::array<bool, 3> aligned;
-  };
-  const std::array<double, 3> ten{10, 10, 10};
-  const std::vector<Published> published{
-      {"woodenhaptics_v2015", ten, {80, 205, 245}, {160, 120, 120}, {220, 0, 80}, {25.9, 25.9, 25.9}, 2000, 5, 1000, {0, 0, 6000}, {}},
-      {"woodenhaptics_v2019", ten, {80, 205, 245}, {160, 120, 120}, {220, 0, 80}, {321, 60.3, 60.3}, 2000, 5, 1000, {0, 0, 6000}, {}},
-      {"default_woody", ten, {80, 205, 245}, {160, 120, 120}, {220, 0, 80}, {25.9, 25.9, 25.9}, 2000, 5, 1000, {}, {false, true, false}},
-      {"polhem_v1",
-       ten,
-       {58, 174, 133},
-       {180, 100, 100},
-       {140, 0, 100},
-       {53.8, 53.8, 53.8},
-       2000,
-       5,
-       800,
-       {0, 0, -5000},
-       {true, true, true}},
-      {"aluhaptics_v2", {13.8, 9.8, 9.8}, {111, 140, 111}, {116, 76, 76}, {140, 0, 0}, {25.9, 25.9, 25.9}, 2000, 5, 1000, {}, {}},
-      {"vintage", {13, 10, 10}, {56, 138, 112}, {117, 77, 77}, {140, 0, 0}, {16.3, 16.3, 16.3}, 4000, 5, 800, {}, {}}};
-  ASSERT_EQ(armModels().size(), published.size());
-  for (std::size_t i = 0; i < published.size(); ++i) {
-    const Published& p = published[i];
-    const ArmModel& m = armModels()[i];
-    EXPECT_EQ(m.name, p.name);
-    EXPECT_EQ(findArmModel(p.name), &m);
-    for (std::size_t k = 0; k < 3; ++k) {
-      EXPECT_NEAR(m.capstan[k], 1e-3 * p.capstan[k], 1e-15) << p.name;
-      EXPECT_NEAR(m.length[k], 1e-3 * p.length[k], 1e-15) << p.name;
-      EXPECT_NEAR(m.body[k], 1e-3 * p.body[k], 1e-15) << p.name;
-      EXPECT_NEAR(m.torqueConstant[k], 1e-3 * p.torque[k], 1e-15) << p.name;
-      EXPECT_EQ(m.calibrationCounts[k], p.calibration[k]) << p.name;
-      EXPECT_EQ(m.aligned[k], p.aligned[k]) << p.name;
-    }
-    EXPECT_LT(norm(m.origin - 1e-3 * Vec3{p.origin[0], p.origin[1], p.origin[2]}), 1e-15) << p.name;
-    EXPECT_EQ(m.countsPerTurn, p.counts) << p.name;
-    EXPECT_EQ(m.maxForce, p.force) << p.name;
-  }
-  EXPECT_EQ(findArmModel("polhem_v9"), nullptr);
-}
-
 // Places of the workspace: a ball of 8 cm about its origin.
 class Places {
  public:

@@ -16,7 +16,7 @@
 #include "base/fault.h"
 #include "base/system/os.h"
 #include "devices/driver/registry.h"
-#include "devices/vendor/clock_timing.h"
+#include "devices/clock_timing.h"
 #include "devices/vendor/shared_library.h"
 #include "sim/experiment/experiment.h"
 #include "tests/devices/fakes/fake_hd.h"
@@ -406,16 +406,6 @@ TEST_F(Phantom, GivesButtonsVelocityAndTheHandlesTurn) {
   EXPECT_FALSE(others.sample.hasVelocity) << "unless it is asked for";
 }
 
-TEST_F(Phantom, IsNamedByItsModelAndSerialNumberAsFarAsItTellsThem) {
-  EXPECT_EQ(PhantomDevice({}).info().name, "PHANToM Omni SN7");
-  fakeHd().failures["hdGetString"] = 0x0100;
-  EXPECT_EQ(PhantomDevice({}).info().name, "PHANToM");
-  const haptics::DeviceInfo info = PhantomDevice({}).info();
-  EXPECT_TRUE(info.version.starts_with("OpenHaptics, libHD.so")) << info.version;
-  EXPECT_EQ(info.secondPath, "hdDisable(HD_FORCE_OUTPUT) from the watchdog's thread");
-  EXPECT_EQ(PhantomDevice({}).calibrationHint(), "put the stylus into the inkwell, or hold the arm in its neutral place");
-}
-
 TEST_F(Phantom, AContinuousForceThatIsNoneIsUnknown) {
   for (const double told : {-1.0, std::numeric_limits<double>::quiet_NaN(), 0.0}) {
     fakeHd().continuousForce = told;
@@ -463,21 +453,6 @@ TEST_F(Phantom, AForceThatTheTickDoesNotRenewIsNone) {
   os::sleepUntil(os::now() + 21'000'000);
   test::stepFakeHd();
   EXPECT_EQ(feltAlongX(), 0);
-}
-
-// The frame of the error is not counted, and what comes after a thousand good ones is another.
-TEST_F(Phantom, ASecondIsAThousandFrames) {
-  for (const std::uint32_t error : {0x0200u, 0x0203u}) {
-    test::resetFakeHd();
-    PhantomDevice device({});
-    Ticks ticks{&device, 0, {1, 0, 0}, {}};
-    device.startClock(tick, &ticks);
-    fakeHd().failures["hdEndFrame"] = error;
-    test::stepFakeHd();
-    int frames = 0;
-    while (device.health() != haptics::DeviceHealth::Ready && frames < 5000) test::stepFakeHd(), ++frames;
-    EXPECT_EQ(frames, 1001) << std::hex << error;
-  }
 }
 
 TEST_F(Phantom, WhatIsWrongIsToldInTheLibrarysWords) {
@@ -553,27 +528,6 @@ TEST_F(Phantom, WarmMotorsKeepTheForcesDirection) {
   }
 }
 
-TEST_F(Phantom, ItsOptionsAreRead) {
-  const experiment::CompiledExperiment experiment(experiment::readExperiment("chain-slow"));
-  const DeviceDriver& driver = *findDriver("phantom");
-  const auto make = [&](const std::string& argument) { return driver.make({"phantom", argument, experiment, 1}); };
-  EXPECT_TRUE(make("")->info().drivesClock);
-  EXPECT_FALSE(make("clock=computer")->info().drivesClock);
-  EXPECT_THROW(make("clock=mine"), FaultError);
-  EXPECT_THROW(make("velocity=best"), FaultError);
-  EXPECT_THROW(make("dead-man=maybe"), FaultError);
-  EXPECT_THROW(make("gain=1"), FaultError);
-  fakeHd().devices["Left"];
-  const auto sampled = make("Left,clock=computer,velocity=device,dead-man=yes");
-  fakeHd().devices["Left"].switchClosed = false;
-  test::stepFakeHd();
-  EXPECT_TRUE(sampled->read().released);
-  EXPECT_TRUE(sampled->read().hasVelocity);
-  const auto rows = driver.find(driver);
-  ASSERT_EQ(rows.size(), 1u);
-  EXPECT_EQ(rows[0].name, "phantom:Left") << "the one that is in use";
-}
-
 TEST_F(Phantom, NoneThereIsSaidInTheLibrarysWords) {
   fakeHd().devices.clear();
   const DeviceDriver& driver = *findDriver("phantom");
@@ -594,7 +548,7 @@ TEST_F(Phantom, NoneThereIsSaidInTheLibrarysWords) {
 // By themselves as the vendor's scheduler runs: the device's own clock first, then the computer's.
 TEST_F(Phantom, BothWaysToServeItAreTimed) {
   ::setenv("FAKE_HD_ALONE", "1", 1);
-  const auto rows = compareClocks("", 0.2);
+  const auto rows = measureLatency("phantom", 0.2);
   ::unsetenv("FAKE_HD_ALONE");
   ASSERT_EQ(rows.size(), 2u);
   EXPECT_EQ(rows[0].clock, "device");

@@ -194,17 +194,6 @@ class PolhemOverAWire : public ::testing::Test {
                    }};
 };
 
-TEST_F(PolhemOverAWire, TellsWhatItIs) {
-  const haptics::DeviceInfo info = arm.info();
-  EXPECT_EQ(info.name, "Polhem");
-  EXPECT_EQ(info.version, "Polhem v3, serial line");
-  EXPECT_EQ(info.maxForce, 5);
-  EXPECT_TRUE(info.rendersForce);
-  EXPECT_EQ(info.workspaceRadius, 0.15);
-  EXPECT_NE(info.secondPath.find("20 ms"), std::string::npos);
-  EXPECT_EQ(arm.lossText(), "its serial line is gone or does not answer");
-}
-
 TEST_F(PolhemOverAWire, IsAskedOnceAndAgainAfterTenMilliseconds) {
   EXPECT_EQ(turn(), Exchange::Nothing);
   EXPECT_EQ(wire.sent, std::vector<std::string>{polhemForceLine({3, 1, 2})});

@@ -351,18 +351,6 @@ TEST(Preflight, AWorkspaceThatTheReachJustFitsIntoIsFine) {
   EXPECT_NEAR(lineOf(check(e, info), "workspace").asked, 0.6, 2e-3) << "from the workspace's own centre";
 }
 
-TEST(Preflight, ALineIsOneSentence) {
-  PreflightLine line{"peak_force", Verdict::Warning, 2, 1, "N", "it needs more", "a stronger one"};
-  EXPECT_EQ(describe(line), "peak force: it needs more; what helps: a stronger one");
-  line.hand = 2;
-  line.remedy.clear();
-  EXPECT_EQ(describe(line), "hand 2: peak force: it needs more");
-  EXPECT_EQ(nameOf(Verdict::Fine), "fine");
-  EXPECT_EQ(nameOf(Verdict::Held), "held");
-  EXPECT_EQ(nameOf(Verdict::Warning), "warning");
-  EXPECT_EQ(nameOf(Verdict::Unknown), "unknown");
-}
-
 // Springs of parallel masses are felt together; those of a hand of its own where it has them.
 TEST(Preflight, TheStiffnessIsWhatTheHandFeelsOfAllItsSprings) {
   experiment::Experiment e = experiment::readExperiment("parallel");

@@ -105,49 +105,6 @@ TEST(DeviceOptions, WhatIsWrongIsSaidWithWhatIsAllowed) {
   EXPECT_EQ(refusalOf([&] { options.done(); }), "device: device x: other is not known; allowed: gain, absent, mode");
 }
 
-TEST(Registry, ARowSaysWhatTheDeviceSays) {
-  DeviceDriver driver{"kind", "usage", "its description", false, nullptr, nullptr};
-  haptics::DeviceInfo info;
-  info.name = "Arm 7";
-  info.maxForce = 4, info.maxContinuousForce = 1.5, info.rendersForce = true, info.degreesOfFreedom = 2, info.rate = 500;
-  const FoundDevice felt = presentDevice(driver, "kind:7", info);
-  EXPECT_EQ(felt.name, "kind:7");
-  EXPECT_EQ(felt.kind, "kind");
-  EXPECT_EQ(felt.description, "Arm 7");
-  EXPECT_TRUE(felt.present);
-  EXPECT_EQ(felt.maxForce, 4);
-  EXPECT_EQ(felt.continuousForce, 1.5);
-  EXPECT_EQ(felt.degreesOfFreedom, 2);
-  EXPECT_EQ(felt.rate, 500);
-  info.maxContinuousForce = 0;
-  EXPECT_FALSE(presentDevice(driver, "kind:7", info).continuousForce) << "unknown";
-  info.rendersForce = false;
-  info.name.clear();
-  EXPECT_EQ(presentDevice(driver, "kind:7", info).maxForce, 0);
-  EXPECT_EQ(presentDevice(driver, "kind:7", info).continuousForce, 0);
-  EXPECT_EQ(presentDevice(driver, "kind:7", info).description, "its description");
-  const FoundDevice absent = absentDevice(driver, "it is out");
-  EXPECT_EQ(absent.name, "kind");
-  EXPECT_EQ(absent.kind, "kind");
-  EXPECT_EQ(absent.description, "its description");
-  EXPECT_FALSE(absent.present);
-  EXPECT_EQ(absent.whyNot, "it is out");
-  EXPECT_FALSE(absent.rate);
-  const FoundDevice always = alwaysThere(driver).at(0);
-  EXPECT_TRUE(always.present);
-  EXPECT_EQ(always.degreesOfFreedom, 3);
-  EXPECT_EQ(always.maxForce, 0);
-  EXPECT_EQ(always.continuousForce, 0);
-  EXPECT_EQ(always.rate, 1000);
-  EXPECT_EQ(findDriver("mouse")->find(*findDriver("mouse")).at(0).rate, 125);
-  EXPECT_TRUE(findDriver("mouse")->inWindowOnly);
-  for (const char* made : {"simulated", "partner", "replay", "virtual"}) EXPECT_TRUE(findDriver(made)->isMade) << made;
-  for (const char* had : {"phantom", "hid", "mouse", "haply"}) EXPECT_FALSE(findDriver(had)->isMade) << had;
-  const experiment::CompiledExperiment experiment(experiment::readExperiment("chain-slow"));
-  EXPECT_EQ((DeviceRequest{"phantom", "Left", experiment}).words(), "device phantom:Left");
-  EXPECT_EQ((DeviceRequest{"phantom", "", experiment}).words(), "device phantom");
-}
-
 TEST(Registry, AHandBeginsWhereItsTaskDoes) {
   experiment::Experiment experiment = experiment::readExperiment("free-point");
   experiment.task->start = {0.01, -0.02, 0.03};

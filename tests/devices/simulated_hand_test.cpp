@@ -272,34 +272,6 @@ TEST(PartnerHand, OfTheLeaderMeansTheReachOfASubjectAlone) {
   EXPECT_NEAR(meant.back().x, 0.1, 1e-6);
 }
 
-TEST(PartnerHand, ItsOptionsAreBoundedAndItsRoleIsOneOfThree) {
-  const experiment::Experiment experiment = experiment::readExperiment("chain-slow");
-  const auto refusalOf = [&](const std::string& spec) {
-    try {
-      makeDevice("partner" + spec, experiment, 1);
-      return std::string("made");
-    } catch (const FaultError& error) {
-      return std::string(error.what());
-    }
-  };
-  const int masses = static_cast<int>(experiment.object.masses.size());
-  for (const std::string& good :
-       {std::string(":stubborn"), std::string(":follower,reaction=0.001"), std::string(":follower,reaction=5"),
-        std::string(":stubborn,hand-mass=0.05"), std::string(":stubborn,hand-mass=50"), std::string(":stubborn,arm-stiffness=100000"),
-        std::string(":stubborn,arm-damping=10000"), ":follower,mass=" + std::to_string(masses), std::string(":leader,noise=0")})
-    EXPECT_EQ(refusalOf(good), "made") << good;
-  for (const char* bad :
-       {"", ":boss", ":stubborn,hand-mass=0.049", ":stubborn,hand-mass=51", ":stubborn,arm-stiffness=-1", ":stubborn,arm-stiffness=100001",
-        ":stubborn,arm-damping=-1", ":stubborn,arm-damping=10001", ":follower,reaction=0.0009", ":follower,reaction=5.1",
-        ":follower,mass=-1", ":leader,reaction=9", ":stubborn,noise=0"})
-    EXPECT_NE(refusalOf(bad), "made") << bad;
-  EXPECT_NE(refusalOf(":boss").find("partner:leader, partner:follower or partner:stubborn"), std::string::npos);
-  const std::string many = refusalOf(":follower,mass=" + std::to_string(masses + 1));
-  EXPECT_NE(many.find("is a partner that looks at mass " + std::to_string(masses + 1) + "; allowed: 1 to " + std::to_string(masses)),
-            std::string::npos)
-      << many;
-}
-
 PlayedReach numbered(int trial) {
   PlayedReach reach;
   for (int i = 0; i < 4; ++i) {
@@ -386,32 +358,6 @@ TEST(SampledPlan, IsThePlanBetweenItsSamplesToo) {
   };
   EXPECT_EQ(asksAt({0.1, kinked}), 1);
   EXPECT_EQ(SampledPlan({0.1, kinked}).at(0.0505).x, 0);
-}
-
-TEST(SimulatedHand, ItsNumbersAreReadAndBounded) {
-  const SubjectSpec usual = parseSubject("");
-  EXPECT_EQ(usual.noise, 1);
-  EXPECT_EQ(usual.timeSd, 0.07);
-  EXPECT_EQ(usual.speedSd, 0.07);
-  EXPECT_EQ(usual.reaction, 0.2);
-  EXPECT_FALSE(usual.criterion);
-  EXPECT_FALSE(usual.handMass);
-  const SubjectSpec all = parseSubject("kind=plan,noise=10,time-sd=0.3,speed-sd=1,reaction=5,hand-mass=1000,criterion=min-hand-force");
-  EXPECT_EQ(all.noise, 10);
-  EXPECT_EQ(all.timeSd, 0.3);
-  EXPECT_EQ(all.speedSd, 1);
-  EXPECT_EQ(all.reaction, 5);
-  EXPECT_EQ(all.handMass, 1000);
-  EXPECT_EQ(all.criterion, predict::Criterion::MinHandForce);
-  for (const char* bad :
-       {"noise=10.1", "time-sd=0.31", "speed-sd=1.1", "reaction=5.1", "hand-mass=1001", "noise=-0.1", "kind=robot", "noise"})
-    EXPECT_THROW(parseSubject(bad), FaultError) << bad;
-  try {
-    (void)parseSubject("time-sd=2");
-    FAIL();
-  } catch (const FaultError& error) {
-    EXPECT_STREQ(error.what(), "device: simulated: time-sd=2; allowed: a number from 0 to 0.3");
-  }
 }
 
 TEST(SimulatedHand, OnlyASimulatedSubjectIsOne) {

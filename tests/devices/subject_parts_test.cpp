@@ -137,36 +137,6 @@ MatrixXd holdCost(const ArmWorld& world, const CostSpec& cost) {
   return hold;
 }
 
-TEST(FeedbackGains, AreAsManyAsTheMovementAndItsHoldHaveSteps) {
-  const Kept kept;
-  const FeedbackGains gains = computeFeedbackGains(kept.world, kArm, shortCost(), someSenses(), 0.1, 0.2);
-  EXPECT_EQ(gains.steps, 12);
-  EXPECT_EQ(gains.states, 8);
-  EXPECT_EQ(gains.touch, 3);
-  EXPECT_EQ(gains.touchDelay, 2);
-  EXPECT_EQ(gains.sightDelay, 3);
-  EXPECT_EQ(gains.seen, (std::vector<int>{0, 5})) << "hand and last mass";
-  EXPECT_EQ(gains.sight, 2);
-  EXPECT_EQ(gains.senses(), 5);
-  EXPECT_EQ(gains.estimate(), 8 + 3 * 2 + 2 * 3);
-  EXPECT_EQ(gains.control.size(), 12u * 8);
-  EXPECT_EQ(gains.filter.size(), 12u * 5 * 20);
-  EXPECT_EQ(Eigen::Map<const MatrixXd>(gains.advance.data(), 8, 8), kept.step.a);
-  EXPECT_EQ(Eigen::Map<const VectorXd>(gains.command.data(), 8), kept.step.b);
-  MatrixXd felt = MatrixXd::Zero(3, 8);
-  felt(0, 0) = felt(1, 1) = 1;
-  felt.row(2) = kept.world.contact;
-  EXPECT_EQ((Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(gains.felt.data(), 3, 8)), felt);
-  CostSpec none = shortCost();
-  none.duration = none.hold = 0.001;
-  EXPECT_EQ(computeFeedbackGains(kept.world, kArm, none, someSenses(), 0, 0).steps, 2) << "one of each at the least";
-  SenseSpec senses = someSenses();
-  senses.sight = Sight::All;
-  EXPECT_EQ(computeFeedbackGains(kept.world, kArm, none, senses, 0, 0).seen, (std::vector<int>{0, 4, 5}));
-  senses.sight = Sight::None;
-  EXPECT_TRUE(computeFeedbackGains(kept.world, kArm, none, senses, 0, 0).seen.empty());
-}
-
 // Without noise in proportion to the command the first command is that of the least cost of all together: a long hold, solved as one system.
 TEST(FeedbackGains, AreThoseOfTheLeastCost) {
   const Kept kept;
@@ -507,20 +477,6 @@ TEST(FeedbackHand, AcrossItsWayItIsASpring) {
   hand.cue(haptics::Cue::Place);
   EXPECT_EQ(dot(hand.read().velocity, side), 0);
   EXPECT_LT(norm(hand.read().position - Vec3{-0.05, 0.02, 0.01}), 1e-15);
-}
-
-TEST(FeedbackHand, TellsThatItIsSimulatedAndStrong) {
-  const experiment::CompiledExperiment experiment(shortReach());
-  std::shared_ptr<void> learnt;
-  for (const auto& made : {prepareFeedbackSubjects(experiment, parseFeedbackSubject(kShortDelays))(1, 0, learnt),
-                           prepareImpedanceSubjects(experiment, parseImpedanceSubject("kind=impedance"))(1, 0, learnt)}) {
-    const haptics::DeviceInfo info = made->info();
-    EXPECT_EQ(info.name, "simulated");
-    EXPECT_EQ(info.version, "1");
-    EXPECT_TRUE(info.virtualHand);
-    EXPECT_FALSE(info.rendersForce);
-    EXPECT_EQ(info.maxForce, 1000);
-  }
 }
 
 // A trace that another model made: the step leads towards it, and is that of Gauss and Newton in the one surprise that a single number can be.
@@ -868,78 +824,6 @@ TEST(ImpedanceSubject, EachOfItsNumbersIsReadAndBounded) {
   EXPECT_THROW(parseImpedanceSubject("kind=impedance,criterion=best"), FaultError);
   EXPECT_THROW(parseImpedanceSubject("X,kind=impedance"), FaultError);
   EXPECT_THROW(parseImpedanceSubject("kind=ofc"), FaultError);
-}
-
-// As docs/virtual-subjects.md has them: usual, least, most.
-TEST(SubjectParameters, AreThoseOfTheManual) {
-  struct Row {
-    const char* key;
-    double usual, least, most;
-  };
-  const auto expect = [](std::span<const SubjectParameter> parameters, const std::vector<Row>& rows) {
-    ASSERT_EQ(parameters.size(), rows.size());
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      EXPECT_EQ(parameters[i].key, rows[i].key);
-      EXPECT_EQ(parameters[i].usual, rows[i].usual) << rows[i].key;
-      EXPECT_EQ(parameters[i].least, rows[i].least) << rows[i].key;
-      EXPECT_EQ(parameters[i].most, rows[i].most) << rows[i].key;
-    }
-  };
-  expect(feedbackParameters(), {{"arm-mass", 1.5, 0.05, 20},
-                                {"arm-damping", 10, 0, 500},
-                                {"muscle", 0.04, 0.005, 0.5},
-                                {"motor-noise", 0.12, 0, 2},
-                                {"force-noise", 0.2, 0, 20},
-                                {"touch-position", 0.01, 1e-5, 1},
-                                {"touch-velocity", 0.1, 1e-5, 10},
-                                {"touch-force", 0.6, 1e-4, 100},
-                                {"sight-position", 0.004, 1e-5, 1},
-                                {"delay-touch", 0.05, 0.01, 0.5},
-                                {"delay-sight", 0.1, 0.01, 0.5},
-                                {"effort", 0.03, 1e-9, 1e3},
-                                {"criterion-effort", 0.001, 1e-9, 1e3},
-                                {"criterion-weight", 0.1, 1e-6, 1e3},
-                                {"time-sd", 0.07, 0, 0.3},
-                                {"reaction", 0.2, 0, 5},
-                                {"plan-sd-stiffness", 0.09, 0, 2},
-                                {"plan-sd-mass", 0.21, 0, 2},
-                                {"practice", 0, 0, 10},
-                                {"practice-trials", 400, 1, 1e6},
-                                {"model-stiffness", 0, -2, 2},
-                                {"model-mass", 0, -2, 2},
-                                {"learn-fast", 0, 0, 1},
-                                {"keep-fast", 0.6, 0, 1},
-                                {"learn-slow", 0, 0, 1},
-                                {"keep-slow", 0.999, 0, 1},
-                                {"noise", 1, 0, 10}});
-  expect(impedanceParameters(), {{"arm-mass", 1.5, 0.05, 20},
-                                 {"arm-damping", 10, 0, 500},
-                                 {"muscle", 0.04, 0.005, 0.5},
-                                 {"stiffness", 300, 0, 1e5},
-                                 {"damping", 40, 0, 1e4},
-                                 {"feedback-stiffness", 100, 0, 1e5},
-                                 {"feedback-damping", 10, 0, 1e4},
-                                 {"delay", 0.06, 0, 0.5},
-                                 {"motor-noise", 0.12, 0, 2},
-                                 {"force-noise", 0.2, 0, 20},
-                                 {"model-stiffness", 0, -2, 2},
-                                 {"model-mass", 0, -2, 2},
-                                 {"hand-mass", 0, 0, 1000},
-                                 {"time-sd", 0.07, 0, 0.3},
-                                 {"reaction", 0.2, 0, 5},
-                                 {"noise", 1, 0, 10}});
-  expect(planParameters(),
-         {{"hand-mass", 0, 0, 1000}, {"time-sd", 0.07, 0, 0.3}, {"speed-sd", 0.07, 0, 1}, {"reaction", 0.2, 0, 5}, {"noise", 1, 0, 10}});
-  const auto published = [](std::span<const SubjectParameter> parameters) {
-    std::vector<std::string> keys;
-    for (const SubjectParameter& p : parameters)
-      if (p.published) keys.emplace_back(p.key);
-    return keys;
-  };
-  EXPECT_EQ(published(feedbackParameters()),
-            (std::vector<std::string>{"muscle", "touch-position", "touch-velocity", "delay-touch", "delay-sight", "time-sd"}));
-  EXPECT_EQ(published(impedanceParameters()), (std::vector<std::string>{"muscle", "delay", "time-sd"}));
-  EXPECT_EQ(published(planParameters()), std::vector<std::string>{"time-sd"});
 }
 
 // The five of the fit: ln of assumed over true stiffness and mass, how noisy they are and how quick to learn.

@@ -143,33 +143,6 @@ TEST(Channels, AnInvalidSampleIsAZero) {
   EXPECT_EQ(row[table.indexOf("valid")], 0);
 }
 
-TEST(Channels, AreNamedWithTheirUnitsInEveryTable) {
-  const ChannelTable table = makeChannelTable(sceneOf(2, 2), 2, true);
-  const auto expectChannel = [&](const char* name, const char* component, const char* type, const char* point, const char* units,
-                                 const char* column) {
-    const Channel& c = table.channels[table.indexOf(name)];
-    EXPECT_EQ(c.component, component) << name;
-    EXPECT_EQ(c.type, type) << name;
-    EXPECT_EQ(c.trackedPoint, point) << name;
-    EXPECT_EQ(c.units, units) << name;
-    EXPECT_EQ(c.column, column) << name;
-    EXPECT_FALSE(c.description.empty()) << name;
-  };
-  expectChannel("latency", "n/a", "LATENCY", "n/a", "s", "time_s");
-  expectChannel("hand_pos_y", "y", "POS", "hand", "m", "hand_y_m");
-  expectChannel("coupling_force_z", "z", "MISC", "mass1", "N", "coupling_z_n");
-  expectChannel("mass2_acc_x", "x", "ACCEL", "mass2", "m/s^2", "mass2_ax_m_per_s2");
-  expectChannel("mass2_q1", "n/a", "MISC", "mass2", "n/a", "mass2_q1");
-  expectChannel("mass2_q2_rate", "n/a", "MISC", "mass2", "1/s", "mass2_q2_per_s");
-  expectChannel("hand2_device_force_y", "y", "MISC", "hand2", "N", "hand2_device_force_y_n");
-  expectChannel("device2_pos_z", "z", "POS", "device2", "m", "device2_z_m");
-  std::set<std::string> names, columns;
-  for (const Channel& c : table.channels) {
-    EXPECT_TRUE(names.insert(c.name).second) << c.name;
-    EXPECT_TRUE(columns.insert(c.column).second) << c.column;
-  }
-}
-
 TEST(Channels, OneThatIsNotThereIsNamed) {
   try {
     (void)makeChannelTable(sceneOf(1), 0).indexOf("mass2_pos_x");

@@ -205,14 +205,6 @@ TEST_F(Tables, EveryHandHasItsOwnTrackingSystem) {
   for (const std::string& file : written) EXPECT_TRUE(std::filesystem::exists(file)) << file;
 }
 
-TEST_F(Tables, AxesStandInTheWorldFrameAndScalarsInNone) {
-  const TsvTable channels = parseTsv(channelsTsv(configuration_));
-  for (std::size_t row = 0; row < channels.rows.size(); ++row) {
-    std::map<std::string, std::string> cells = rowOf(channels, row);
-    EXPECT_EQ(cells["reference_frame"], cells["component"] == "n/a" ? "n/a" : "world") << cells["name"];
-  }
-}
-
 TEST_F(Tables, TheDatasetsTablesTellPeopleSessionsAndWhenTheyWereRecorded) {
   RunConfiguration a = configuration_, b = configuration_, c = configuration_;
   a.participant = {31.5, "F", ""};
@@ -374,20 +366,6 @@ TEST_F(Tables, ColumnsAreTheSameHoweverFewAreReadAtATime) {
   }
 }
 
-TEST_F(Tables, EventsAreATableOfTheirOwn) {
-  const ColumnTable table = eventTable(recorded(1));
-  std::vector<std::string> names;
-  for (const auto& column : table.columns()) names.push_back(column.name);
-  EXPECT_EQ(names, (std::vector<std::string>{"time_s", "event", "trial", "value", "text"}));
-  EXPECT_EQ(table.rows(), 5u);
-  EXPECT_EQ(table.columns()[0].numbers, (std::vector<double>{0, 0.02, 0.025, 0.05, 0.25}));
-  EXPECT_EQ(table.columns()[1].texts, (std::vector<std::string>{"trial_start", "armed", "go", "onset", "trial_end"}));
-  EXPECT_TRUE(table.columns()[1].isText);
-  EXPECT_FALSE(table.columns()[2].isText);
-  EXPECT_EQ(table.columns()[2].numbers, (std::vector<double>(5, 1)));
-  EXPECT_EQ(table.columns()[3].numbers, (std::vector<double>{0, 0, 0, 0, 1}));
-}
-
 TEST_F(Tables, ATrialsRowHasEveryNumberUnderItsName) {
   RunConfiguration c = configuration_;
   c.run = 3, c.block = 4, c.day = 5, c.seed = 18446744073709551615ull;
@@ -452,17 +430,6 @@ TEST_F(Tables, WhatAnUnreadableExperimentAskedForIsNotKnown) {
   const experiment::Task task = taskOf(configuration_);
   for (const double unknown : {task.duration, task.tolerance.position, task.tolerance.velocity, task.tolerance.time})
     EXPECT_TRUE(std::isnan(unknown));
-}
-
-TEST_F(Tables, TheClockIsToldInOneSentence) {
-  const std::string steady = clockStatement(configuration_);
-  EXPECT_NE(steady.find("CLOCK_MONOTONIC"), std::string::npos);
-  EXPECT_TRUE(steady.ends_with("the run began at 2026-11-20T10:00:00.000Z by the system's clock (UTC).")) << steady;
-  configuration_.clock = "virtual";
-  configuration_.startedUtc = "";
-  const std::string fast = clockStatement(configuration_);
-  EXPECT_EQ(fast.find("CLOCK_MONOTONIC"), std::string::npos);
-  EXPECT_TRUE(fast.ends_with("a virtual clock that ran as fast as it could; the run began at a time that was not recorded.")) << fast;
 }
 
 TEST(ColumnDictionary, ExplainsEachColumnOfAHeader) {

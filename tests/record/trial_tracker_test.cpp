@@ -314,18 +314,6 @@ TEST(TrialTracker, TellsEachWayInWhichAStepDidNotEndWellWhereItBegins) {
                                                    {6, EventKind::StepFault, 0, static_cast<double>(StepStatus::Capped)}}));
 }
 
-TEST(TrialTracker, TellsTheDevicesStateByNumberAndName) {
-  Made run;
-  run.facts.trial = 2;
-  run.next();
-  run.facts.deviceState = haptics::DeviceState::Engaged;
-  run.until(3);
-  run.facts.deviceState = haptics::DeviceState::Off;
-  run.until(5);
-  EXPECT_EQ(toldOf(run.events),
-            (std::vector<Told>{{1, EventKind::DeviceState, 2, 3, "engaged"}, {3, EventKind::DeviceState, 2, 0, "off"}}));
-}
-
 // An intervention has ended when it has been away for 100 ticks.
 TEST(TrialTracker, AnInterventionThatComesAndGoesIsOne) {
   Made run;
@@ -349,17 +337,6 @@ TEST(TrialTracker, AnInterventionThatComesAndGoesIsOne) {
   run.until(604);
   EXPECT_EQ(toldOf(std::vector<RecordedEvent>{run.events.back()}), (std::vector<Told>{{600, EventKind::Intervention, 0, 1, "heat"}}))
       << "and begins again";
-}
-
-TEST(TrialTracker, EveryInterventionIsToldByItsOwnName) {
-  const char* names[] = {"limit", "heat", "ramp", "slew", "wall", "passivity", "not_finite", "held_back"};
-  for (int bit = 0; bit < 8; ++bit) {
-    Made run;
-    run.tick.tick = 1;
-    run.facts.interventions = static_cast<std::uint8_t>(1 << bit);
-    run.next();
-    EXPECT_EQ(toldOf(run.events), (std::vector<Told>{{1, EventKind::Intervention, 0, 1, names[bit]}}));
-  }
 }
 
 TEST(TrialTracker, ATrialThatBreaksOffIsInterruptedByTheProgramWhereItStands) {
