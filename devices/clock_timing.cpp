@@ -21,7 +21,7 @@ class TickTimes final : public haptics::RunSink {
     const std::int64_t now = os::now();
     if (beforeNs_ != 0) jitter.add(std::abs(now - beforeNs_ - haptics::LoopCore::kPeriodNs));
     beforeNs_ = now;
-    if (state.device.takenNs != 0) age.add(now - state.device.takenNs);
+    if (state.hands[0].device.takenNs != 0) age.add(now - state.hands[0].device.takenNs);
     return true;
   }
   std::uint32_t massesEvery() const noexcept override { return 0; }

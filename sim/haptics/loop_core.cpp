@@ -183,7 +183,7 @@ void LoopCore::endWithoutDevice(std::int64_t nowNs) noexcept {
     if (!commands.tryPop(order) && (state.phase == trial::Phase::Idle || state.phase == trial::Phase::Done)) break;
     lost.command = order.command;
     lost.planned = order.planned;
-    engine->tick(lost);
+    (void)runTick(*engine, lost);
     record(lost.command, 0);
   }
   copyState(state, snapshots.back());

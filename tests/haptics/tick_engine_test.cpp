@@ -162,7 +162,7 @@ TEST_F(Engine, AnOpenDeadManSwitchTakesTheForceAndEndsNoTrial) {
     input.devices[0] = handAt(hand);
     input.devices[0].valid = false;
     input.devices[0].released = released;
-    engine.tick(input);
+    runTick(engine, input);
     return engine.state().phase;
   };
   tick(trial::Command::NextTrial);
