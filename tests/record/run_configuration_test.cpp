@@ -51,12 +51,6 @@ std::string verdictWith(json j, const char* pointer, const json& value) {
   return verdictOn(j);
 }
 
-struct Bounds {
-  const char* pointer;
-  double least, most;
-  const char* allowed;
-};
-
 // In the words of the refusal: "/trials/0/index" is trials[0].index.
 std::string keyOf(std::string pointer) {
   std::string key = "configuration";
@@ -67,13 +61,6 @@ std::string keyOf(std::string pointer) {
     at = end;
   }
   return key;
-}
-
-void expectBounds(const json& good, const Bounds& b, const std::vector<json>& inside, const std::vector<json>& outside) {
-  for (const json& value : inside)
-    EXPECT_EQ(verdictWith(good, b.pointer, value).find(keyOf(b.pointer) + ": is"), std::string::npos) << b.pointer << " " << value;
-  for (const json& value : outside)
-    EXPECT_EQ(verdictWith(good, b.pointer, value), "a log: " + keyOf(b.pointer) + ": is " + value.dump() + "; allowed: " + b.allowed);
 }
 
 TEST(RunConfiguration, EveryKeyMustBeThereButTheAge) {

@@ -287,7 +287,7 @@ TEST_F(Tables, WhereADeviceIsLostOrAPlaceIsNoNumberAPointIsNotSeen) {
     MadeRun run;
     for (int tick = 0; tick < 275; ++tick) {
       haptics::TickState state = run.next();
-      state.device.valid = tick != 20;
+      state.hands[0].device.valid = tick != 20;
       if (tick == 30) state.masses[1].r.z = std::nan("");
       if (tick < 40 || tick >= 50) recorder.onTick(state, trial::Command::None, 0);
     }
