@@ -10,7 +10,7 @@ namespace reachlab::session {
 /// One block as far as it is recorded: its first run and those that resumed it.
 struct RecordedBlock {
   record::RunConfiguration configuration;  // of the first run
-  std::set<int> done;                      // planned indices that were finished, and are not to be repeated
+  std::set<int> done = {};                  // planned indices that were finished, and are not to be repeated
   std::set<int> putUpAgain = {};           // or to be repeated, once
   bool complete() const { return done.size() >= configuration.trials.size(); }
   int lastTrial = 0;  // largest trial number used so far
