@@ -2,6 +2,7 @@
 #include <optional>
 #include <string>
 
+#include "base/math/vec3.h"
 #include "sim/experiment/compiled_experiment.h"
 
 namespace reachlab::devices {

@@ -2,6 +2,7 @@
 #include <functional>
 #include <optional>
 
+#include "base/math/vec3.h"
 #include "sim/predict/predict.h"
 
 namespace reachlab::devices {

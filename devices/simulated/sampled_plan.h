@@ -1,6 +1,7 @@
 #pragma once
 #include <vector>
 
+#include "base/math/vec3.h"
 #include "devices/simulated/reach_plan.h"
 
 namespace reachlab::devices {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "sim/dynamics/systems/body_system.h"
 #include "sim/dynamics/systems/held_geometry.h"
 #include "sim/experiment/experiment.h"
 

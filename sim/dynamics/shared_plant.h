@@ -2,6 +2,7 @@
 #include <memory>
 #include <span>
 
+#include "constraints/constraint_spec.h"
 #include "sim/dynamics/object/hand_springs.h"
 #include "sim/dynamics/object/object_model.h"
 #include "sim/dynamics/object/plant.h"

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/fault.h"
-#include "constraints/constraint.h"
+#include "constraints/constraint_spec.h"
 #include "sim/experiment/experiment_fwd.h"
 #include "sim/experiment/task.h"
 

@@ -2,7 +2,7 @@
 #include <memory>
 #include <string>
 
-#include "constraints/constraint.h"
+#include "constraints/constraint_spec.h"
 #include "sim/experiment/experiment_fwd.h"
 
 namespace reachlab::experiment {

@@ -6,8 +6,6 @@
 
 #include "sim/dynamics/hand/hand_sample.h"
 #include "sim/dynamics/object/mass_state.h"
-#include "sim/dynamics/object/plant.h"
-#include "sim/experiment/object.h"
 #include "sim/experiment/object_limits.h"
 #include "sim/haptics/device.h"
 #include "sim/trial/command.h"

@@ -3,11 +3,8 @@
 #include <cstdint>
 #include <span>
 
-#include "constraints/constraint.h"
 #include "sim/dynamics/object/mass_state.h"
-#include "sim/dynamics/object/plant.h"
 #include "sim/experiment/experiment_fwd.h"
-#include "sim/experiment/object.h"
 #include "sim/experiment/object_limits.h"
 #include "sim/trial/command.h"
 #include "sim/trial/outcome.h"
@@ -15,9 +12,6 @@
 
 namespace reachlab::constraints {
 struct Constraint;
-}
-namespace reachlab::experiment {
-struct Experiment;
 }
 
 /// The trial as a state machine over ticks of 1 ms. A pure function of what it is given: no clock, no device, no plant.

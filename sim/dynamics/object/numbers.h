@@ -3,7 +3,6 @@
 #include <bit>
 
 #include "base/math/lanes.h"
-#include "sim/experiment/object.h"
 #include "sim/experiment/object_limits.h"
 
 namespace reachlab::dynamics {

@@ -3,10 +3,8 @@
 #include <span>
 #include <string>
 
-#include "constraints/constraint.h"
 #include "sim/dynamics/hand/hand_segment.h"
 #include "sim/dynamics/object/mass_state.h"
-#include "sim/experiment/experiment_fwd.h"
 
 namespace reachlab::dynamics {
 
