@@ -170,7 +170,7 @@ void MainWindow::wireSession() {
   connect(&runFits_, &inspector::Inspector::judged, this, [this](const std::shared_ptr<const inspector::Inspection>& run) {
     std::vector<std::optional<double>> fitted;
     for (int i = 0; i < predict::kCriterionCount; ++i)
-      fitted.push_back(inspector::fittedEpsilon(*run->study, 0, static_cast<predict::Criterion>(i)));
+      fitted.push_back(inspector::fittedEpsilon(*run->analysis, 0, static_cast<predict::Criterion>(i)));
     predictions().setFitted(fitted);
   });
   session_.setOwnPause([this] {

@@ -165,7 +165,7 @@ double fastestSwing(const experiment::Experiment& experiment, double handMass) {
   for (std::size_t i = 0; i < object.masses.size(); ++i) {
     const double held = parallel ? spring(i) : (i == 0 ? coupling : spring(i - 1)) + spring(i);
     if (parallel) onHand += spring(i);
-    most = std::max(most, 2 * held / object.masses[i]);
+    if (object.masses[i] > 0) most = std::max(most, 2 * held / object.masses[i]);  // without a mass it is refused later, by its name
   }
   if (handMass > 0) most = std::max(most, 2 * onHand / handMass);
   return std::sqrt(most);

@@ -213,7 +213,8 @@ class Backup {
                          copy.string());
     }
     try {
-      if (record::RunLog::open(log.string(), record::LogCheck::Trials).healthy()) return {};
+      const record::RunLog run = record::RunLog::open(log.string(), record::LogCheck::Trials);
+      if (run.healthy() && run.closed()) return {};
       return fmt::format("{}: its run was not ended in order; mend it with: reach recover {}", log.string(), log.string());
     } catch (const FaultError& fault) {
       return fault.what();

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/fault.h"
+#include "constraints/constraint.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/log/append_file.h"
 #include "sim/record/log/run_writer.h"

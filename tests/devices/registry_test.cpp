@@ -146,8 +146,8 @@ TEST(MakeDevice, OfSeveralHandsEachHasADeviceOfItsOwn) {
     }
   };
   EXPECT_EQ(refusalOf("hid:A + hid"),
-            "device: is hid:A + hid, which may be one device twice; allowed: each hid by a name of its own, as `reach list "
-            "devices` has them");
+            "device: is hid:A + hid, which may be one device twice; allowed: hid[:SERIAL][,model=NAME,max-current=A,calibrate=start], each by a name "
+            "of its own");
   EXPECT_NE(refusalOf("hid + hid:A").find("twice"), std::string::npos);
   EXPECT_NE(refusalOf("hid:A + simulated + hid:A").find("twice"), std::string::npos);
   EXPECT_EQ(refusalOf("hid:A + hid:B").find("twice"), std::string::npos) << "two";

@@ -171,7 +171,7 @@ TEST(HeldObject, TwoCopiesLieApartByTheMeanSquareOfTheirMasses) {
   const std::vector<double> c{0.1, 0.2, 0.3}, d{0.5, 0.2, -0.4};
   double squares = 0;
   for (std::size_t i = 0; i < 3; ++i) {
-    const Vec3 apart = constraints::evaluate(loop.constraint.curve, c[i]).r - constraints::evaluate(loop.constraint.curve, d[i]).r;
+    const Vec3 apart = constraints::evaluate(loop.constraint->curve, c[i]).r - constraints::evaluate(loop.constraint->curve, d[i]).r;
     squares += dot(apart, apart);
   }
   EXPECT_NEAR(loop.shared->distanceBetween(c, d), std::sqrt(squares / 3), 1e-15);

@@ -19,7 +19,7 @@ constexpr double kRounding = 1e-10;  // [m]
 double trueError(const experiment::Experiment& e) {
   const experiment::Task& task = *e.task;
   Scene rk4 = compileScene(e, {"rk4", kStep, 0}), exact = compileScene(e, {"adaptive", kStep, 0});
-  const constraints::Constraint& c = rk4.constraint;
+  const constraints::Constraint& c = *rk4.constraint;
   const auto at = [&](const std::vector<double>& q) {
     return c.kind == constraints::ConstraintKind::Curve ? constraints::evaluate(c.curve, q[0]).r
                                                         : constraints::evaluate(c.surface, q[0], q[1]).r;

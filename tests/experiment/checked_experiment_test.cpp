@@ -109,7 +109,7 @@ TEST(CheckedExperiment, OfAValueThatIsNotFinite) {
   const std::vector<Fault> faults = check(e).faults;
   ASSERT_EQ(faults.size(), 2u) << toText(faults);
   EXPECT_EQ(toText(faults[0]), "object.masses_kg[0]: is nan; allowed: 1e-06 to 1e+06 kg");
-  EXPECT_EQ(toText(faults[1]), "task.target[0]: is inf; allowed: any finite number");
+  EXPECT_EQ(toText(faults[1]), "task.target[0]: is inf; allowed: -1e+09 to 1e+09");
 }
 
 // An editor has no file: the character stands for the place.

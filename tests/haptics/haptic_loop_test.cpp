@@ -329,11 +329,12 @@ TEST_F(Conducted, ASentenceSaysWhichDeviceIsLostAndWhy) {
   EXPECT_EQ(run.hands()[1].name, "right");
   run.start(nullptr);
   EXPECT_EQ(run.fault(), std::nullopt);
-  device->is = second.is = DeviceHealth::Lost;  // of several, the device tells the worst
+  second.is = DeviceHealth::Lost;
   EXPECT_EQ(run.fault(), "device right is lost");
   second.says = "its plug is out";
   EXPECT_EQ(run.fault(), "device right is lost: its plug is out");
   second.is = DeviceHealth::Ready;
+  device->is = DeviceHealth::Lost;
   device->says = "gone";
   EXPECT_EQ(run.fault(), "device left is lost: gone");
   device->is = DeviceHealth::Warm;

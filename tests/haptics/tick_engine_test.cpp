@@ -302,7 +302,7 @@ TEST(TickEngine, SeesMassesWhereTheyAreLookedAtAndJudgesTheSame) {
     TickInput input;
     int unseen = 0, unseenMasses = 0;
     for (int trial = 0; trial < 2; ++trial) {
-      for (int i = 0; i < 2 * kReach && (i == 0 || all.state().phase != trial::Phase::Done); ++i) {
+      for (int i = 0; i < 3 * kReach && (i == 0 || all.state().phase != trial::Phase::Done); ++i) {
         const double x = std::min(1.0, i / double{kReach});
         input.devices[0] = handAt(from + (x * x * x * (10 + x * (6 * x - 15))) * way);
         input.command = i == 0 ? trial::Command::NextTrial : trial::Command::None;

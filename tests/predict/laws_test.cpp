@@ -139,10 +139,10 @@ TEST(Laws, CentreOfMassAndForceDifferByTheMassSquaredAlone) {
 }
 
 TEST(Laws, HeavyHandTurnsForceChangeIntoHandJerk) {
-  constexpr double kHeavy = 1e7;  // [kg] against 3: leaves 3e-7
+  constexpr double kHeavy = 1e6;  // [kg] against 3: leaves 3e-6
   const auto force = predictWith(chainModerate(), MinHandForceChange, kHeavy), jerk = predict(chainModerate(), MinHandJerk);
-  EXPECT_NEAR(force->cost / (kHeavy * kHeavy * jerk->cost), 1, 1e-5);
-  EXPECT_LT(difference(1.35, handOf(*jerk), handOf(*force)), 1e-5);
+  EXPECT_NEAR(force->cost / (kHeavy * kHeavy * jerk->cost), 1, 1e-4);
+  EXPECT_LT(difference(1.35, handOf(*jerk), handOf(*force)), 1e-4);
 }
 
 TEST(Laws, DistanceScalesProfilesAndCosts) {

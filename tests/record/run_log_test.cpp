@@ -462,7 +462,7 @@ TEST(LogReader, RefusesAnotherSchemaAndNamesTheOneThatItReads) {
       FAIL() << "opened";
     } catch (const FaultError& error) {
       EXPECT_EQ(std::string(error.what()),
-                path + ": error: log of schema version " + std::to_string(version) + "; allowed: 2, the version that this program reads");
+                path + ": log of schema version " + std::to_string(version) + "; allowed: 2, the version that this program reads");
     }
   }
 }

@@ -11,7 +11,9 @@
 #include <thread>
 
 #include "base/fault.h"
+#include "base/number_range.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/tested_ranges.h"
 
 namespace reachlab::predict {
 namespace {
@@ -120,7 +122,8 @@ void applySweepValue(const std::string& key, double value, experiment::Experimen
   };
   const bool zeroAllowed = key == "damping_n_s_per_m" || key == "viscosity_n_s_per_m" || key.starts_with("hand_");
   if (!(value > 0) && !(zeroAllowed && value == 0)) throw FaultError(Fault{"sweep", fmt::format("is {} = {}", key, value), "above 0"});
-  if (key == "duration_s" && value > 3600) throw FaultError(Fault{"sweep", fmt::format("is {} = {}", key, value), "at most 3600 s"});
+  if (key == "duration_s" && !isWithin(experiment::durationRange(), value))
+    throw FaultError(Fault{"sweep", fmt::format("is {} = {}", key, value), experiment::durationRange().allowed});
   if (key == "duration_s") {
     options.duration = value;
   } else if (key == "stiffness_n_per_m") {

@@ -130,7 +130,10 @@ std::vector<std::string> writeHdf5(const std::vector<RunLog>& runs, const std::s
     const std::string path = folder + "/" + runName(run.configuration()) + ".h5";
     ForeignFile out(path);
     try {
-      const hid_t file = checked(H5Fcreate(out.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT));
+      // The default driver looks the file's path up, and a file without a name has none.
+      const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+      done(H5Pset_fapl_stdio(access));
+      const hid_t file = checked(H5Fcreate(out.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access));
       try {
         addRun(file, run);
         done(H5Fflush(file, H5F_SCOPE_GLOBAL));

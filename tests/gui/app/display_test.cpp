@@ -14,7 +14,7 @@ TEST(Display, ThatDoesNotAnswerIsNamedWithTheRemedy) {
   environment.remove(QStringLiteral("QT_QPA_PLATFORM"));
   environment.insert(QStringLiteral("DISPLAY"), QStringLiteral(":4242"));
   program.setProcessEnvironment(environment);
-  program.start(QStringLiteral(REACHLAB_BINARY_DIR "/gui/reachlab"), {});
+  program.start(QStringLiteral(REACHLAB_BINARY_DIR "/gui/reachlab"), QStringList());
   ASSERT_TRUE(program.waitForFinished(60000));
   EXPECT_EQ(program.exitStatus(), QProcess::NormalExit);
   EXPECT_EQ(program.exitCode(), 3);

@@ -13,6 +13,7 @@
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/themes.h"
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/experiment.h"
 #include "sim/experiment/scene_look.h"
 
 namespace reachlab::gui::scene {
