@@ -11,11 +11,13 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/json/json_reader.h"
+#include "base/number_range.h"
 #include "cli/commands/commands.h"
 #include "cli/output/predict_output.h"
 #include "cli/terminal/criterion_option.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/tested_ranges.h"
 
 namespace reachlab::cli {
 namespace {
@@ -90,9 +92,8 @@ void runPredict(const PredictArguments& arguments) {
   const predict::Criterion criterion = parseCriterion(arguments.criterion);
   if (arguments.samples < 2 || arguments.samples > kMostSamples)
     throw FaultError(Fault{"--samples", fmt::format("is {}", arguments.samples), fmt::format("2 to {}", kMostSamples)});
-  if (arguments.duration > experiment::kMaxDuration)
-    throw FaultError(Fault{"--duration", fmt::format("is {} s", arguments.duration),
-                           fmt::format("more than 0, at most {:.0f} s", experiment::kMaxDuration)});
+  if (const NumberRange range = experiment::durationRange(); arguments.duration != 0 && !isWithin(range, arguments.duration))
+    throw FaultError(Fault{"--duration", fmt::format("is {} s", arguments.duration), range.allowed});
   if (arguments.json && !arguments.sweep.empty()) throw FaultError(Fault{"--sweep", "writes CSV rows; --json is for a single prediction"});
   const experiment::CompiledExperiment experiment = experiment::openExperiment(arguments.experiment);
   if (!experiment.experiment().task)

@@ -117,7 +117,7 @@ TEST(Devices, AMappingIsKeptForDeviceAndSubjectAndRecordedWithTheRun) {
   EXPECT_EQ(reach("run chain-slow --device virtual:premium15 --subject 03 --save-mapping" + rest).exitCode, 2) << "there is none to keep";
   const Ended first = reach("run chain-slow --device virtual:premium15,scale=1.25,wall=yes --subject 03 --save-mapping" + rest);
   ASSERT_EQ(first.exitCode, 0) << first.err;
-  const Json kept = Json::parse(contentOf(folder / "sourcedata/mappings/sub-03_virtual.json"));
+  const Json kept = Json::parse(contentOf(folder / "sourcedata/mappings/sub-03_virtual-premium15.json"));
   EXPECT_EQ(kept["scale"], 1.25);
   const Ended again = reach("run chain-slow --device virtual:premium15 --subject 03" + rest);
   EXPECT_NE(again.err.find("mapping of "), std::string::npos) << again.err;

@@ -34,7 +34,7 @@ class CommandPages(unittest.TestCase):
     def test_the_help_is_understood_whole(self):
         for command in self.tree.walk():
             text = subprocess.run([REACH, *command.words[1:], "--help"], capture_output=True, text=True, check=True).stdout
-            told = set(re.findall(r"^  (?:-\w,)?(--[\w-]+)", text, re.M))
+            told = {name for names in re.findall(r"^  (?:-\w,)?(--[\w-]+(?:,--[\w-]+)*)", text, re.M) for name in names.split(",")}
             self.assertEqual({name for option in command.options for name in option.names if name.startswith("--")}, told, command.name)
             for option in command.options + command.positionals:
                 self.assertTrue(option.text, f"{command.name} {option.names} has no explanation")

@@ -74,7 +74,7 @@ def beyond(schema, root):
     if isinstance(schema.get("items"), dict):
         count = schema.get("minItems", 2)
         return [[v] * count for v in beyond(schema["items"], root)]
-    low = [schema["exclusiveMinimum"]] if "exclusiveMinimum" in schema else [schema["minimum"] - 1e-9] if "minimum" in schema else []
+    low = [schema["exclusiveMinimum"]] if "exclusiveMinimum" in schema else [schema["minimum"] - max(1e-9, 1e-9 * abs(schema["minimum"]))] if "minimum" in schema else []
     high = [schema["maximum"] * (1 + 1e-9) + 1] if "maximum" in schema else []
     return low + high
 
