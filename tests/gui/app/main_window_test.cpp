@@ -397,7 +397,7 @@ TEST_F(Window, WhatAnyHandsDeviceCannotGiveIsSaidWhenARunBegins) {
 TEST_F(Window, AMappingThatIsKeptForTheSubjectIsTakenAndSaid) {
   request_.device = "virtual:premium15";
   request_.place.data = (folder_.path() + QStringLiteral("/data")).toStdString();
-  const QString file = folder_.path() + QStringLiteral("/data/sourcedata/mappings/sub-01_virtual.json");
+  const QString file = folder_.path() + QStringLiteral("/data/sourcedata/mappings/sub-01_virtual-premium15.json");
   devices::Mapping kept;
   kept.scale = 1.5;
   devices::saveMapping(kept, file.toStdString());
