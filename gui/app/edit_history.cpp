@@ -7,6 +7,7 @@
 #include "gui/session/session_controller.h"
 #include "gui/widgets/fault_words.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/scene_look.h"
 
 namespace reachlab::gui::app {
 namespace {
@@ -37,7 +38,8 @@ class Change : public QUndoCommand {
 QStringList EditHistory::tryEdit(const experiment::Experiment& changed, const QString& what) {
   experiment::Experiment same = changed;
   same.text = session_.experiment().text;
-  if (same == session_.experiment()) return {};  // back to what holds: the run goes on
+  const bool sameLook = experiment::lookOf(changed) == experiment::lookOf(session_.experiment());
+  if (same == session_.experiment() && sameLook) return {};  // back to what holds: the run goes on
   const session::Programme before = session_.programme();
   try {
     const QStringList faults = widgets::inWords(session_.tryEdit(changed));
