@@ -96,8 +96,7 @@ class MadeRun {
 };
 
 /// Writes a log of so many whole trials.
-inline void writeMadeRun(const std::string& path, int trials, const RunConfiguration& configuration = madeConfiguration(),
-                         bool close = true) {
+inline void writeMadeRun(const std::string& path, int trials, const RunConfiguration& configuration = madeConfiguration()) {
   Recorder recorder(path, configuration, {.threaded = false});
   MadeRun run(configuration.table.massCount);
   for (std::uint64_t tick = 0; tick < static_cast<std::uint64_t>(trials) * MadeRun::kTicksPerTrial; ++tick) {
@@ -107,7 +106,7 @@ inline void writeMadeRun(const std::string& path, int trials, const RunConfigura
     }
     recorder.onTick(run.next(), tick % MadeRun::kTicksPerTrial == 0 ? trial::Command::NextTrial : trial::Command::None, 0);
   }
-  if (close) recorder.close();
+  recorder.close();
 }
 
 /// As a disk leaves it that took half of the record by which the last trial ends.
