@@ -8,8 +8,9 @@
 
 namespace reachlab::devices {
 
-enum class Mark : std::uint8_t { Go, Onset, Success };
-inline constexpr int kMarkCount = 3;
+/// Every trial ends with one mark: `Success`, or `End` for every other outcome.
+enum class Mark : std::uint8_t { Go, Onset, Success, End };
+inline constexpr int kMarkCount = 4;
 const char* nameOf(Mark mark);
 
 /// What happened at a tick of the run.

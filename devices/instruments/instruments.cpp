@@ -144,7 +144,8 @@ class Link final : public record::InstrumentLink {
   static std::optional<Mark> markOf(const record::RecordedEvent& event) {
     if (event.kind == record::EventKind::Go) return Mark::Go;
     if (event.kind == record::EventKind::Onset) return Mark::Onset;
-    if (event.kind == record::EventKind::TrialEnd && event.value == static_cast<double>(trial::Outcome::Success)) return Mark::Success;
+    if (event.kind == record::EventKind::TrialEnd)
+      return event.value == static_cast<double>(trial::Outcome::Success) ? Mark::Success : Mark::End;
     return std::nullopt;
   }
 
@@ -210,6 +211,7 @@ const char* nameOf(Mark mark) {
     case Mark::Go: return "go";
     case Mark::Onset: return "onset";
     case Mark::Success: return "success";
+    case Mark::End: return "end";
   }
   return "";
 }

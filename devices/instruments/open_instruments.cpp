@@ -16,7 +16,7 @@ constexpr const char* kKnown = "lsl, parallel:PATH, rts:PATH, byte:PATH";
 
 TriggerCodes takeCodes(DeviceOptions& options) {
   TriggerCodes codes;
-  for (const Mark mark : {Mark::Go, Mark::Onset, Mark::Success}) {
+  for (const Mark mark : {Mark::Go, Mark::Onset, Mark::Success, Mark::End}) {
     int& code = codes.code[static_cast<std::size_t>(mark)];
     code = static_cast<int>(std::lround(options.number(nameOf(mark), code, 0, 255)));
   }

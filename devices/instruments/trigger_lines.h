@@ -9,7 +9,7 @@ namespace reachlab::devices {
 
 /// What goes out at each mark (0: nothing), and for how long a line stays up.
 struct TriggerCodes {
-  std::array<int, kMarkCount> code{1, 2, 4};
+  std::array<int, kMarkCount> code{1, 2, 4, 8};
   double pulse = 0.005;  // [s]
   int of(Mark mark) const { return code[static_cast<std::size_t>(mark)]; }
 };

@@ -182,7 +182,8 @@ TEST_F(Triggers, WhatHappenedIsFoundAtTheTicksThatTheRecordingHasItAt) {
                                                                        {50, "parallel out onset"},
                                                                        {250, "parallel out success"},
                                                                        {300, "parallel out go"},
-                                                                       {325, "parallel out onset"}}));
+                                                                       {325, "parallel out onset"},
+                                                                       {525, "parallel out end"}}));
   EXPECT_EQ(events.back().trial, 2);
   EXPECT_TRUE(link->takeWarnings().empty());
 }
@@ -280,7 +281,7 @@ TEST_F(LabStreamingLayer, MarkersAndTheHandGoOutUnderTheTicksOwnTimes) {
   ASSERT_EQ(hand.numbers.size(), 2 * record::MadeRun::kTicksPerTrial);
   std::vector<std::string> texts;
   for (const auto& [time, text] : markers.texts) texts.push_back(text);
-  EXPECT_EQ(texts, (std::vector<std::string>{"go 1", "onset 1", "success 1", "go 2", "onset 2"}));
+  EXPECT_EQ(texts, (std::vector<std::string>{"go 1", "onset 1", "success 1", "go 2", "onset 2", "end 2"}));
   // A marker has the very time of the sample that it belongs to.
   EXPECT_EQ(markers.texts[0].first, hand.numbers[25].first);
   EXPECT_EQ(markers.texts[1].first, hand.numbers[50].first);
@@ -561,14 +562,14 @@ TEST_F(Triggers, EveryInstrumentIsToldEverythingAndOneThatFailsNothingMore) {
   EXPECT_EQ(link->names(), "one; two");
   EXPECT_EQ(link->massesEvery(), 0u);
   const auto events = eventsOf(*link, 2);
-  EXPECT_EQ(one->lines, (std::vector<std::string>{"begin", "go 1", "onset 1", "success 1", "go 2", "onset 2", "end"}));
+  EXPECT_EQ(one->lines, (std::vector<std::string>{"begin", "go 1", "onset 1", "success 1", "go 2", "onset 2", "end 2", "end"}));
   EXPECT_EQ(two->lines, (std::vector<std::string>{"begin", "go 1", "onset 1"}));
   EXPECT_EQ(one->hands, 2 * static_cast<int>(record::MadeRun::kTicksPerTrial));
   EXPECT_GE(one->looks, 1);
   std::vector<std::string> texts;
   for (const record::RecordedEvent& event : events) texts.push_back(event.text);
   EXPECT_EQ(texts, (std::vector<std::string>{"one hello at +0.000000 s", "two hello at +0.000000 s", "one out go", "two out go",
-                                             "two lost: no more", "one out success", "one out go"}));
+                                             "two lost: no more", "one out success", "one out go", "one out end"}));
   EXPECT_EQ(events[0].value, 42);
   EXPECT_EQ(events[0].tick, 0u) << "before the first tick";
   EXPECT_EQ(events[4].tick, 50u);
