@@ -1,0 +1,71 @@
+#pragma once
+#include <array>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "base/math/vec3.h"
+
+namespace reachlab::experiment {
+
+template <std::size_t N>
+using SquareMatrix = std::array<std::array<double, N>, N>;
+
+/// F = B v.
+struct ViscousForce {
+  SquareMatrix<3> matrix{};  // [N s/m] B
+  bool operator==(const ViscousForce&) const = default;
+};
+
+/// F = -K (x - c).
+struct ElasticForce {
+  SquareMatrix<3> matrix{};    // [N/m] K
+  std::optional<Vec3> centre;  // [m] c; the task's start where it is not given
+  bool operator==(const ElasticForce&) const = default;
+};
+
+/// A torque W times the rate of the joint angles, seen at the hand: F = J^-T W J^-1 v in the plane of the arm. Both angles are absolute.
+struct JointViscousForce {
+  SquareMatrix<2> matrix{};  // [N m s/rad] W
+  bool operator==(const JointViscousForce&) const = default;
+};
+
+/// Walls beside the line from start to target: F = -K (d - w) n - D d' n where the distance d from the line is more than w.
+struct ChannelForce {
+  double stiffness = 1000;      // [N/m] K
+  double damping = 15;          // [N s/m] D
+  double halfWidth = 0;         // [m] w
+  double ramp = 0.5;            // [s] in which the walls grow
+  double breakDistance = 0.03;  // [m] beyond it the channel lets go for the rest of the trial
+  bool operator==(const ChannelForce&) const = default;
+};
+
+/// When a pulse begins; exactly one is given.
+struct PulseInstant {
+  std::optional<double> onset;     // [s] after movement onset
+  std::optional<double> distance;  // [m] of the hand from the start
+  bool operator==(const PulseInstant&) const = default;
+};
+
+/// A trapezoid in time.
+struct PulseForce {
+  Vec3 force;  // [N]
+  PulseInstant at;
+  double duration = 0.1;  // [s] with rise and fall
+  double rise = 0.01;     // [s] also of the fall
+  bool operator==(const PulseForce&) const = default;
+};
+
+/// Movement: from movement onset to the end of the trial. Trial: from arming. A pulse has its own instant.
+enum class ForceWhen { Movement, Trial };
+
+/// A force on the hand itself, beside that of the object.
+struct HandForce {
+  std::variant<ViscousForce, ElasticForce, JointViscousForce, ChannelForce, PulseForce> law;
+  ForceWhen when = ForceWhen::Movement;
+  bool operator==(const HandForce&) const = default;
+};
+/// The forces add up.
+using Environment = std::vector<HandForce>;
+
+}  // namespace reachlab::experiment
