@@ -28,7 +28,8 @@ std::string sentenceOf(const analysis::AdaptationFit& fit) {
       return fmt::format("One state is enough: its BIC is lower by {:.1f}. The second state of the fit means nothing.", -gain);
     case analysis::StateCount::Undecided: break;
   }
-  return fmt::format("The series cannot tell one state from two: their BIC differ by {:.1f}, and less than 6 is no strong evidence.", std::abs(gain));
+  return fmt::format("The series cannot tell one state from two: their BIC differ by {:.1f}, and less than 6 is no strong evidence.",
+                     std::abs(gain));
 }
 
 nlohmann::ordered_json jsonOf(const analysis::LearningFit& fit, const std::vector<std::string>& endings) {
@@ -48,8 +49,8 @@ nlohmann::ordered_json jsonOf(const analysis::LearningFit& fit, const std::vecto
 void printStates(const analysis::LearningFit& fit, const std::vector<const char*>& names) {
   for (std::size_t k = 0; k < fit.states.size(); ++k) {
     const auto& [retention, rate] = fit.intervals[k];
-    fmt::print("{:<7} retention {:.4f} [{:.4f}, {:.4f}]   learning rate {:.4f} [{:.4f}, {:.4f}]\n", names[k], fit.states[k].retention, retention.low,
-               retention.high, fit.states[k].learningRate, rate.low, rate.high);
+    fmt::print("{:<7} retention {:.4f} [{:.4f}, {:.4f}]   learning rate {:.4f} [{:.4f}, {:.4f}]\n", names[k], fit.states[k].retention,
+               retention.low, retention.high, fit.states[k].learningRate, rate.low, rate.high);
   }
 }
 
@@ -69,8 +70,8 @@ void fitSeries(const Request& r) {
   fmt::print("{} responses, {} channel trials\n", fit.responses, fit.channels);
   printStates(fit.two, {"fast", "slow"});
   printStates(fit.one, {"single"});
-  fmt::print("Root mean square residual: {:.3g} with two states, {:.3g} with one.\n{}\n", std::sqrt(fit.two.meanSquare), std::sqrt(fit.one.meanSquare),
-             sentenceOf(fit));
+  fmt::print("Root mean square residual: {:.3g} with two states, {:.3g} with one.\n{}\n", std::sqrt(fit.two.meanSquare),
+             std::sqrt(fit.one.meanSquare), sentenceOf(fit));
 }
 
 }  // namespace
@@ -79,8 +80,8 @@ void addAdaptationCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("adaptation", "Fits a two-state model of learning to a series of trials");
   const auto r = std::make_shared<Request>();
   command->add_option("series", r->series, "CSV file with the columns perturbation (empty in channel trials) and response")->required();
-  command->add_option("--resamples", r->resamples, "Bootstrap series for the intervals [400]")->check(CLI::Range(100, 100000));
-  command->add_option("--seed", r->seed, "Seed of the bootstrap [1]");
+  command->add_option("--resamples", r->resamples, "Bootstrap series for the intervals [default: 400]")->check(CLI::Range(100, 100000));
+  command->add_option("--seed", r->seed, "Seed of the bootstrap [default: 1]");
   command->add_flag("--json", r->json, "an object");
   command->footer(
       "The model is Smith, Ghazizadeh & Shadmehr (2006): a fast and a slow state learn from each trial's error and forget. The response of a trial\n"

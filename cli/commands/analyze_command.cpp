@@ -300,19 +300,19 @@ void addAnalyzeCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("analyze", "Tables (CSV), figures (SVG, PDF) and a report (HTML) of recorded sessions");
   const auto o = std::make_shared<AnalyzeOptions>();
   command->add_option("dataset", o->dataset, "Data folder of `reach run`, a session's folder in it, or one log")->required();
-  command->add_option("--out", o->out, "Folder to write to (default: DATASET/derivatives/reachlab)");
+  command->add_option("--out", o->out, "Folder to write to [default: DATASET/derivatives/reachlab]");
   command
-      ->add_option("--criterion", o->criteria, "Draw this criterion and tell its ε; repeat for more. Every criterion is compared all the same [default: all]")
+      ->add_option("--criterion", o->criteria,
+                   "Draw this criterion and tell its ε; repeat for more. Every criterion is compared all the same [default: all]")
       ->allow_extra_args(false);
-  command->add_option("--hand-mass", o->handMass, "Mass of the hand in the predictions [kg] (default: the experiment's)")
+  command->add_option("--hand-mass", o->handMass, "Mass of the hand in the predictions [kg] [default: the experiment's]")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--hand-damping", o->handDamping, "Damping of the hand in the predictions [N s/m]")->check(CLI::NonNegativeNumber);
   command->add_option("--hand-masses", o->masses,
-                      "Masses of the hand [kg] that the fits of (4) to (6) try where none is given, with commas (default: 0,0.5,1,2)");
+                      "Masses of the hand [kg] that the fits of (4) to (6) try where none is given, with commas [default: 0,0.5,1,2]");
   command
-      ->add_option(
-          "--prediction-duration", o->duration,
-          "Paper's epsilon: predict for the task's T, or for the mean duration moved. The fits choose their own")
+      ->add_option("--prediction-duration", o->duration,
+                   "Paper's epsilon: predict for the task's T, or for the mean duration moved. The fits choose their own")
       ->check(CLI::IsMember({"task", "mean"}))
       ->capture_default_str();
   command->add_option("--onset", o->onset, "Rule for onset and offset of a movement")
@@ -325,7 +325,7 @@ void addAnalyzeCommand(CLI::App& app, int&) {
       ->add_option("--recovery", o->recovery,
                    "Simulate that many studies of this very design for each truth, and say how often each is named (all processors)")
       ->check(CLI::Range(1, 100000));
-  command->add_option("--jobs", o->jobs, "Threads of the recovery (default: one a processor)")->check(CLI::PositiveNumber);
+  command->add_option("--jobs", o->jobs, "Threads of the recovery [default: one a processor]")->check(CLI::PositiveNumber);
   command->add_option("--seed", o->seed, "Seed of the recovery")->capture_default_str();
   command->add_option("--learning-bin", o->bin, "Trials a point of the learning curve")->capture_default_str();
   command->add_option("--experiment", o->experiment, "Experiment of a dataset without logs (file or shipped name)");

@@ -52,7 +52,7 @@ void addExportCommand(CLI::App& app, int&) {
   command->add_option("what", options->what, "A log (…_log.reach), a session's folder (data/sub-01/ses-01), or a dataset")->required();
   command->add_option("--format", options->format, formats)->required()->check(CLI::IsMember(names));
   command->add_option("--out", options->out,
-                      "Folder to write into; default: the dataset itself (bids), its derivatives/FORMAT (the others)");
+                      "Folder to write into [default: the dataset itself (bids), its derivatives/FORMAT (the others)]");
   command->footer(
       "Columns carry their units (movement_time_s, mass1_x_m, …); docs/recording.md lists them. A damaged log is read up to the "
       "damage.\n"

@@ -53,8 +53,9 @@ void compare(const Request& r) {
 void addLatencyCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("latency", "Measures how regularly a device is served and how old its samples are");
   const auto r = std::make_shared<Request>();
-  command->add_option("device", r->device, "As for `reach run`: forcedimension:0, mouse …; another word is a PHANToM's name [default: phantom]");
-  command->add_option("--seconds", r->seconds, "How long each is measured [5 s]")->check(CLI::Range(0.1, 3600.0));
+  command->add_option("device", r->device,
+                      "As for `reach run`: forcedimension:0, mouse …; another word is a PHANToM's name [default: phantom]");
+  command->add_option("--seconds", r->seconds, "How long each is measured [default: 5 s]")->check(CLI::Range(0.1, 3600.0));
   command->add_flag("--json", r->json, "an array of objects");
   command->footer(
       "Jitter: how far two ticks are from 1 ms apart. Latency: from a sample to the force that was computed from it. No force is rendered\n"

@@ -48,8 +48,8 @@ void addMergeCommand(CLI::App& app, int&) {
   const auto o = std::make_shared<Options>();
   command->add_option("logs", o->logs, "The stations' logs (…_log.reach), one of each")->required()->expected(2, 8);
   command->add_option("--data", o->data, "Folder of the merged dataset")->capture_default_str();
-  command->add_option("--subject", o->subject, "Subject's label there [the first log's]");
-  command->add_option("--session", o->session, "Session's label there [the first log's]");
+  command->add_option("--subject", o->subject, "Subject's label there [default: the first log's]");
+  command->add_option("--session", o->session, "Session's label there [default: the first log's]");
   command->footer(
       "The merged run has the conductor's ticks, object and outcomes, and of every station its hand at the same moment; clocks are "
       "compared by what\n"

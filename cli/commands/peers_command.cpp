@@ -22,6 +22,7 @@ void addPeersCommand(CLI::App& app, int& exitCode) {
 
   CLI::App* init =
       command->add_subcommand("init", "Makes this station's key: with the authorities on the conductor, with a request elsewhere");
+  init->footer("Examples:\n  reach peers init lab --conductor --name left\n  reach peers init lab --name right");
   init->add_option("folder", r->folder, "Folder of certificates, new or empty")->required();
   init->add_option("--name", r->name, "Name of this station: letters, digits and hyphens")->required();
   init->add_flag("--conductor", r->conductor, "Makes the two authorities too");
@@ -37,6 +38,7 @@ void addPeersCommand(CLI::App& app, int& exitCode) {
   });
 
   CLI::App* add = command->add_subcommand("add", "On the conductor: answers a station's request");
+  add->footer("Example:\n  reach peers add lab request.pem");
   add->add_option("folder", r->folder, "The conductor's folder of certificates")->required();
   add->add_option("request", r->request, "The station's request.pem")->required();
   days(add);
@@ -45,6 +47,7 @@ void addPeersCommand(CLI::App& app, int& exitCode) {
 
   CLI::App* list =
       command->add_subcommand("list", "Says whose certificates a folder has and what is wrong with them; exits 1 when something is");
+  list->footer("Example:\n  reach peers list lab");
   list->add_option("folder", r->folder, "Folder of certificates")->required();
   list->callback([r, &exitCode] {
     for (const network::PeerFolder& peer : network::listPeers(r->folder)) {

@@ -137,22 +137,22 @@ void addPredictCommand(CLI::App& app, int&) {
   const auto arguments = std::make_shared<PredictArguments>();
   command->add_option("experiment", arguments->experiment, "Experiment file, or the name of a shipped one")->required();
   command->add_option("--criterion", arguments->criterion, "One of the criteria below")->required();
-  command->add_option("--duration", arguments->duration, "Movement time [s]; default: the task's")->check(CLI::PositiveNumber);
-  command->add_option("--hand-mass", arguments->handMass, "Mass of the hand [kg]; default: the experiment's")
+  command->add_option("--duration", arguments->duration, "Movement time [s] [default: the task's]")->check(CLI::PositiveNumber);
+  command->add_option("--hand-mass", arguments->handMass, "Mass of the hand [kg] [default: the experiment's]")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--hand-damping", arguments->handDamping, "Damping of the hand itself [N s/m]; default 0")
+  command->add_option("--hand-damping", arguments->handDamping, "Damping of the hand itself [N s/m] [default: 0]")
       ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--point", arguments->point,
-                   "What an object of kind point is: behind-spring (default on a line) or hand, one with the hand (default elsewhere)")
+                   "What an object of kind point is: behind-spring (default on a line) or hand, one with the hand [default: elsewhere]")
       ->check(CLI::IsMember({"behind-spring", "hand"}));
-  command->add_option("--samples", arguments->samples, "Rows from 0 to T; default 201");
-  command->add_option("--unknowns", arguments->unknowns, "Unknowns of arm and curve predictions; default: chosen for 1e-8")
+  command->add_option("--samples", arguments->samples, "Rows from 0 to T [default: 201]");
+  command->add_option("--unknowns", arguments->unknowns, "Unknowns of arm and curve predictions [default: chosen for 1e-8]")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--sweep", arguments->sweep, "KEY=FROM:TO:STEP: one row for each value, on all cores");
   command->add_flag("--json", arguments->json,
                     "Cost, peaks, jumps, condition and travel time as JSON instead of the CSV (beside it with --out)");
-  command->add_option("--out", arguments->out, "File for the CSV; default: standard output");
+  command->add_option("--out", arguments->out, "File for the CSV [default: standard output]");
   command->add_option("--figure", arguments->figure, "Draws profiles or family: FILE.svg, FILE.pdf or FILE.png");
   command->add_flag("--time", arguments->time, "Tells on stderr how long the computation takes");
   command->footer(footer());

@@ -45,17 +45,21 @@ void addRunCommand(CLI::App& app, int& exitCode) {
       ->allow_extra_args(false);
   command
       ->add_option("--instrument", r->instruments,
-                   "lsl, parallel:PATH, rts:PATH or byte:PATH, told of go, onset and success; may be given several times")
+                   "lsl, parallel:PATH, rts:PATH or byte:PATH, told of go, onset and the end of a trial. May be given several times")
       ->expected(1)
       ->take_all();
-  command->add_option("--trials", r->trials, "Trials of an experiment [one; each file of a replayed folder once]; a plan has its own")
+  command
+      ->add_option("--trials", r->trials,
+                   "Trials of an experiment. A plan has its own [default: 1, or each file of a replayed folder once]")
       ->check(CLI::Range(1, 1000000));
-  command->add_option("--run", r->run, "Run number; default: the next free one. A taken one is refused")->check(CLI::Range(1, record::kMaxRun));
-  command->add_option("--subject", r->place.subject, "Subject's label, letters and digits [01]");
-  command->add_option("--session", r->place.session, "Session's label, letters and digits [01]; a number is the plan's day");
-  command->add_option("--data", r->place.data, "Folder of the dataset [./data]");
+  command->add_option("--run", r->run, "Run number. A taken one is refused [default: the next free one]")
+      ->check(CLI::Range(1, record::kMaxRun));
+  command->add_option("--subject", r->place.subject, "Label of the subject: letters and digits [default: 01]");
+  command->add_option("--session", r->place.session,
+                      "Label of the session: letters and digits. A number is the day of the plan [default: 01]");
+  command->add_option("--data", r->place.data, "Folder of the dataset [default: ./data]");
   command->add_option("--backup", r->backup, "Second data folder: every finished run is copied there and verified");
-  command->add_option("--seed", r->seed, "Seed of noise and order; default: one is drawn, printed and stored")->check(wholeSeed());
+  command->add_option("--seed", r->seed, "Seed of noise and order [default: one is drawn, printed and stored]")->check(wholeSeed());
   command->add_flag("--fast", r->fast, "Virtual clock: as fast as the processor allows, the same results");
   command->add_flag("--resume", r->resume, "Goes on with the trial at which this session broke off, in the same order");
   const auto saveMapping = std::make_shared<bool>(false);
@@ -65,10 +69,11 @@ void addRunCommand(CLI::App& app, int& exitCode) {
   command
       ->add_option_function<double>(
           "--disk-reserve", [r](double megabytes) { r->diskReserve = static_cast<std::uint64_t>(megabytes * 1e6); },
-          "MB that the recording leaves free on the disk [1000, at most 5 % of the disk]")
+          "MB that the recording leaves free on the disk [default: 1000, at most 5 % of the disk]")
       ->check(CLI::Range(0.0, 1e9));
   command
-      ->add_option("--timing-check", r->timingCheckSeconds, "Seconds for which the loop is watched before a block in real time; 0: not [2]")
+      ->add_option("--timing-check", r->timingCheckSeconds,
+                   "Seconds for which the loop is watched before a block in real time. 0 skips the check [default: 2]")
       ->check(CLI::Range(0.0, 60.0));
   command->add_option("--day", r->day, "Day of the plan, when the session's label is no number")->check(CLI::Range(1, 10000));
   command->add_option("--age", r->participant.age, "Participant's age [years]")->check(CLI::Range(0.0, record::kMaxAge));
@@ -76,6 +81,11 @@ void addRunCommand(CLI::App& app, int& exitCode) {
   command->add_option("--handedness", r->participant.handedness, "Participant's handedness: R, L or A")
       ->check(CLI::IsMember({"R", "L", "A"}));
   command->add_option("--notes", r->notes, "Notes by the experimenter; kept in the recording");
+  for (const auto& [group, names] : std::initializer_list<std::pair<const char*, std::vector<const char*>>>{
+           {"Device", {"--device", "--instrument", "--save-mapping", "--timing-check"}},
+           {"Participant", {"--subject", "--age", "--sex", "--handedness", "--notes"}},
+           {"Recording", {"--data", "--backup", "--every-tick", "--disk-reserve"}}})
+    for (const char* const name : names) command->get_option(name)->group(group);
   command->footer(
       "Prints one line a trial once it is safe on the disk, `trial=3 outcome=failure reason=velocity mass=5 by=0.004 "
       "by_unit=m/s\n"

@@ -95,7 +95,8 @@ void writeRow(Table& table, const dynamics::Plant& plant, double time, const dyn
   }
   table.vector(coupled ? plant.couplingForce(hand) : Vec3{});
   if (!table.isFinite())
-    throw RefusedError(fmt::format("at {:.9g} s a position, velocity or force is beyond the numbers of a computer; use smaller values", time));
+    throw RefusedError(
+        fmt::format("at {:.9g} s a position, velocity or force is beyond the numbers of a computer; use smaller values", time));
   table.endRow();
 }
 
@@ -158,7 +159,8 @@ double checkedEnd(const Request& request, const experiment::Experiment& experime
   return until;
 }
 
-void checkVectors(const Request& request, const std::vector<double>& at, const std::vector<double>& rate, std::size_t coordinates, bool body) {
+void checkVectors(const Request& request, const std::vector<double>& at, const std::vector<double>& rate, std::size_t coordinates,
+                  bool body) {
   const auto requireCount = [&](const std::vector<double>& values, const char* option) {
     if (values.size() != coordinates)
       throw FaultError(
@@ -167,8 +169,8 @@ void checkVectors(const Request& request, const std::vector<double>& at, const s
   requireCount(at, "--at");
   requireCount(rate, "--rate");
   std::vector<Fault> faults;
-  for (const auto& [option, values] : {std::pair{"--at", &request.at}, {"--rate", &request.rate}, {"--force", &request.force},
-                                       {"--angular-rate", &request.angularRate}})
+  for (const auto& [option, values] :
+       {std::pair{"--at", &request.at}, {"--rate", &request.rate}, {"--force", &request.force}, {"--angular-rate", &request.angularRate}})
     checkNumbers(option, *values, -1, experiment::componentRange(), faults);
   if (!faults.empty()) throw FaultError(std::move(faults));
   if (!request.force.empty() && request.force.size() != 3)
@@ -237,8 +239,8 @@ void simulate(const Request& request) {
   const int parameters = constraint.kind == constraints::ConstraintKind::Free ? 0 : constraint.parameterCount();
   const std::size_t coordinates = parameters == 0 ? 3 : static_cast<std::size_t>(parameters);
   if (!experiment.task && request.at.empty())
-    throw FaultError(atTheirPlaces({{"task", "is missing, and a simulation needs its start", "{ start, target, … }, or --at"}}, experiment.text,
-                                   request.experiment));
+    throw FaultError(atTheirPlaces({{"task", "is missing, and a simulation needs its start", "{ start, target, … }, or --at"}},
+                                   experiment.text, request.experiment));
   const HandLaw law = makeHandLaw(request.hand, experiment, constraint);
   const std::vector<double> at = request.at.empty() ? experiment.task->start : request.at;
   std::vector<double> rate = request.rate;
@@ -278,25 +280,25 @@ void addSimulateCommand(CLI::App& app, int&) {
                    "sample's time v_HIP is the spline's inner velocity there; before the first and after the last the hand rests\n"
                    "where it is, so that its velocity jumps unless the samples begin and end at rest")
       ->required();
-  command->add_option("--until", request->until, "End of the simulation [s] (default: the task's duration_s)")
+  command->add_option("--until", request->until, "End of the simulation [s] [default: the task's duration_s]")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--every", request->every, "Time between rows [s] (default 0.01)");
-  command->add_option("--method", request->method, "auto, rk4, exact, abm, adaptive, stiff (default: the experiment's)")
+  command->add_option("--every", request->every, "Time between rows [s] [default: 0.01]");
+  command->add_option("--method", request->method, "auto, rk4, exact, abm, adaptive, stiff [default: the experiment's]")
       ->check(CLI::IsMember({"auto", "rk4", "exact", "abm", "adaptive", "stiff"}));
-  command->add_option("--step", request->step, "Longest step of the method [s] (default 0.001)");
-  command->add_option("--at", request->at, "Initial parameters of all masses: phi, or u,v; metres when free (default: the start)")
+  command->add_option("--step", request->step, "Longest step of the method [s] [default: 0.001]");
+  command->add_option("--at", request->at, "Initial parameters of all masses: phi, or u,v; metres when free [default: the start]")
       ->delimiter(',');
-  command->add_option("--rate", request->rate, "Initial rates of these parameters [1/s, free: m/s] (default 0)")->delimiter(',');
-  command->add_option("--angular-rate", request->angularRate, "A body's initial angular velocity, world axes, X,Y,Z [rad/s] (default 0)")
+  command->add_option("--rate", request->rate, "Initial rates of these parameters [1/s, free: m/s] [default: 0]")->delimiter(',');
+  command->add_option("--angular-rate", request->angularRate, "A body's initial angular velocity, world axes, X,Y,Z [rad/s] [default: 0]")
       ->delimiter(',');
   command->add_option("--force", request->force, "Constant extra force on mass 1, X,Y,Z [N]")->delimiter(',');
-  command->add_option("--out", request->out, "File for the rows (default: standard output)");
+  command->add_option("--out", request->out, "File for the rows [default: standard output]");
   command->footer(
-      "Example: reach simulate chain-moderate --hand min-jerk --until 2 --every 0.01 --out chain.csv\n"
       "Units are in the column names; massI_q1 is the constraint's parameter. A stop at a constraint's end writes the last row there.\n"
       "A body starts unturned with its centre of mass at the start (or --at); its FP is at fp_offset_m from there. Its columns body_qw … "
       "are\n"
-      "the unit quaternion from body to world axes, body_wx_rad_per_s … its angular velocity in world axes.");
+      "the unit quaternion from body to world axes, body_wx_rad_per_s … its angular velocity in world axes.\n\n"
+      "Example:\n  reach simulate chain-moderate --hand min-jerk --until 2 --every 0.01 --out chain.csv");
   command->callback([request] { simulate(*request); });
 }
 

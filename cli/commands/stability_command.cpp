@@ -85,15 +85,16 @@ void addStabilityCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("stability", "Largest coupling stiffness that a held device renders stably");
   const auto r = std::make_shared<Request>();
   command->add_option("model", r->model, "Device: omni, premium15, premium60, highforce, omega3, inverse3")->required();
-  command->add_option("--hand-mass", r->settings.handMass, "Mass of the hand that moves with the handle [0.3 kg]")
+  command->add_option("--hand-mass", r->settings.handMass, "Mass of the hand that moves with the handle [default: 0.3 kg]")
       ->check(CLI::Range(0.0, 50.0));
-  command->add_option("--hand-damping", r->settings.handDampings, "Dampings of the hand [0.5 1 3 10 N s/m]")
+  command->add_option("--hand-damping", r->settings.handDampings, "Dampings of the hand [default: 0.5 1 3 10 N s/m]")
       ->check(CLI::Range(0.0, 1000.0));
-  command->add_option("--damping", r->settings.mostDamping, "Coupling damping b_h from 0 to this [20 N s/m]")
+  command->add_option("--damping", r->settings.mostDamping, "Coupling damping b_h from 0 to this [default: 20 N s/m]")
       ->check(CLI::Range(0.0, 1000.0));
-  command->add_option("--step", r->settings.dampingStep, "Step of b_h [0.25 N s/m]")->check(CLI::Range(0.01, 1000.0));
-  command->add_option("--delay-ms", r->settings.delayTicks, "Delay of the device beyond the tick's own [0 ms]")->check(CLI::Range(0, 31));
-  command->add_option("--out", r->out, "Folder for the table and the figure; default: the table to stdout");
+  command->add_option("--step", r->settings.dampingStep, "Step of b_h [default: 0.25 N s/m]")->check(CLI::Range(0.01, 1000.0));
+  command->add_option("--delay-ms", r->settings.delayTicks, "Delay of the device beyond the tick's own [default: 0 ms]")
+      ->check(CLI::Range(0, 31));
+  command->add_option("--out", r->out, "Folder for the table and the figure [default: the table to stdout]");
   command->footer(
       "Linear: Coulomb friction and encoder steps are left out. `passive` is Colgate's bound, 2 (b - |b_h|)/T.\n\n"
       "Examples:\n  reach stability premium15 --out stability\n  reach stability omni --hand-damping 1 --delay-ms 2");

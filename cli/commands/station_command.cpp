@@ -109,11 +109,11 @@ void addStationCommand(CLI::App& app, int& exitCode) {
       ->check(CLI::Range(0.01, 3600.0))
       ->capture_default_str()
       ->needs(observe);
-  command->add_option("--trials", s.trials, "Trials [one]; the conductor's count holds")->check(CLI::Range(1, 1000000));
-  command->add_option("--subject", s.place.subject, "Subject's label, letters and digits [01]");
-  command->add_option("--session", s.place.session, "Session's label, letters and digits [01]");
-  command->add_option("--data", s.place.data, "Folder of the dataset, this station's own [./data]");
-  command->add_option("--seed", s.seed, "Seed of noise; default: one is drawn and stored")->check(wholeSeed());
+  command->add_option("--trials", s.trials, "Trials. The number of the conductor is used [default: 1]")->check(CLI::Range(1, 1000000));
+  command->add_option("--subject", s.place.subject, "Subject's label, letters and digits [default: 01]");
+  command->add_option("--session", s.place.session, "Session's label, letters and digits [default: 01]");
+  command->add_option("--data", s.place.data, "Folder of the dataset, this station's own [default: ./data]");
+  command->add_option("--seed", s.seed, "Seed of noise [default: one is drawn and stored]")->check(wholeSeed());
   command->add_flag("--every-tick", s.everyTick, "Samples at 1 kHz instead of 100 Hz");
   command->footer(
       "Prints one line a trial, as reach run does. No trial is armed while a station is missing, differs in experiment or version, or has "

@@ -141,9 +141,9 @@ void addStudyCommand(CLI::App& app, int&) {
   command->require_subcommand(0, 1);
   const auto r = std::make_shared<StudyRequest>();
   command->add_option("study", r->study, "Study file (docs/reference/study.md)");
-  command->add_option("--out", r->out, "Folder of the study [the file's name with -study, here]");
-  command->add_option("--jobs", r->jobs, "Threads [one a processor]")->check(CLI::Range(1, 4096));
-  command->add_option("--shard", r->shard, "I/N: share I of N of the chunks, 1 to N [of a Slurm array: the task's; else all]");
+  command->add_option("--out", r->out, "Folder of the study [default: the file's name with -study, here]");
+  command->add_option("--jobs", r->jobs, "Threads [default: one a processor]")->check(CLI::Range(1, 4096));
+  command->add_option("--shard", r->shard, "I/N: share I of N of the chunks, 1 to N [default: the task of a Slurm array, or else all]");
   command->add_flag("--resume", r->resume, "Goes on with the chunks that are not there");
   command->footer(
       "The same study gives the same bytes for any number of threads, shares, ranks and interruptions. Each chunk is safe on the disk "
@@ -158,41 +158,47 @@ void addStudyCommand(CLI::App& app, int&) {
   });
 
   CLI::App* status = command->add_subcommand("status", "How far a study is, its rate, and the time that is left");
+  status->footer("Example:\n  reach study status stiffness");
   const auto folder = std::make_shared<std::string>();
   status->add_option("folder", *folder, "Folder of the study")->required();
   status->callback([folder] { tellStatus(*folder); });
 
   CLI::App* point = command->add_subcommand("point", "Writes the experiment of a point, and says how a recorded run repeats a subject");
+  point->footer("Example:\n  reach study point stiffness 12 --subject 3 --out point-12");
   const auto p = std::make_shared<PointRequest>();
   point->add_option("folder", p->folder, "Folder of the study")->required();
   point->add_option("point", p->point, "Number of the point, from 0")->required();
   point->add_option("--subject", p->subject, "Number of the subject, from 1")->check(CLI::PositiveNumber)->capture_default_str();
-  point->add_option("--out", p->out, "Folder to write to [here]");
+  point->add_option("--out", p->out, "Folder to write to [default: here]");
   point->callback([p] { tellPoint(*p); });
 
   CLI::App* report = command->add_subcommand("report", "Tables and figures: success, confusion of criteria, power and the smallest design");
+  report->footer("Example:\n  reach study report stiffness --subjects 5,8,12 --out figures");
   const auto q = std::make_shared<ReportRequest>();
   report->add_option("folder", q->folder, "Folder of the study")->required();
-  report->add_option("--out", q->out, "Folder to write to [FOLDER/report]");
+  report->add_option("--out", q->out, "Folder to write to [default: FOLDER/report]");
   report->add_option("--studies", q->options.studies, "Studies that are drawn for each design")
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
-  report->add_option("--subjects", q->options.subjects, "Numbers of subjects to look at [5, 6, 7 … up to half of those there are]")
+  report->add_option("--subjects", q->options.subjects, "Numbers of subjects to look at [default: 5, 6, 7 … up to half of those there are]")
       ->delimiter(',');
-  report->add_option("--trials", q->options.trials, "Numbers of trials to look at [10, 12, 15 … up to all]")->delimiter(',');
+  report->add_option("--trials", q->options.trials, "Numbers of trials to look at [default: 10, 12, 15 … up to all]")->delimiter(',');
   report->callback([q] { tellReport(*q); });
 
   CLI::App* sbatch = command->add_subcommand("sbatch", "Prints the script of a Slurm array for a study");
+  sbatch->footer("Example:\n  reach study sbatch study.json --out /scratch/stiffness --tasks 32 > study.sbatch");
   const auto b = std::make_shared<SbatchRequest>();
   sbatch->add_option("study", b->study, "Study file")->required();
-  sbatch->add_option("--out", b->out, "Folder of the study, which every node reaches [the file's name with -study]");
+  sbatch->add_option("--out", b->out, "Folder of the study, which every node reaches [default: the file's name with -study]");
   sbatch->add_option("--tasks", b->tasks, "Tasks of the array")->check(CLI::Range(1, 100000))->capture_default_str();
   sbatch->add_option("--cpus", b->cpus, "Processors of a task")->check(CLI::Range(1, 4096))->capture_default_str();
   sbatch->add_option("--time", b->time, "Time limit of a task")->capture_default_str();
   sbatch->callback([b] { tellSbatch(*b); });
 
-  command->add_subcommand("parameters", "Every number of the virtual subjects with unit, default and source, as Markdown")
-      ->callback(tellParameters);
+  CLI::App* parameters =
+      command->add_subcommand("parameters", "Every number of the virtual subjects with unit, default and source, as Markdown");
+  parameters->footer("Example:\n  reach study parameters > parameters.md");
+  parameters->callback(tellParameters);
 }
 
 }  // namespace reachlab::cli

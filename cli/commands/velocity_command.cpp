@@ -45,9 +45,11 @@ void compare(const Request& r) {
 void addVelocityCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("velocity", "Compares the estimators of the hand's velocity on recorded reaches");
   const auto r = std::make_shared<Request>();
-  command->add_option("--reaches", r->reaches, "File or folder of reaches [the shipped ones, of people]");
-  command->add_option("--step-mm", r->millimetres, "Encoder steps at the handle [0.02 0.055 0.1 mm]")->check(CLI::Range(1e-6, 10.0));
-  command->add_option("--cutoff", r->settings.cutoff, "Cut-off of the estimators that have one [40 Hz]")->check(CLI::Range(0.1, 400.0));
+  command->add_option("--reaches", r->reaches, "File or folder of reaches [default: the shipped ones, of people]");
+  command->add_option("--step-mm", r->millimetres, "Encoder steps at the handle [default: 0.02 0.055 0.1 mm]")
+      ->check(CLI::Range(1e-6, 10.0));
+  command->add_option("--cutoff", r->settings.cutoff, "Cut-off of the estimators that have one [default: 40 Hz]")
+      ->check(CLI::Range(0.1, 400.0));
   command->add_flag("--json", r->json, "an array of objects");
   command->footer(
       "Noise is what is left (RMS an axis) when the delay is taken off, error what the coupling sees. A device's own estimate is its\n"

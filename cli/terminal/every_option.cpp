@@ -68,7 +68,8 @@ bool isSameFile(const std::string& output, const std::string& input) {
 void addChecks(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) {
     const std::string type = option->get_type_name();
-    if (type.find("FLOAT") != std::string::npos) option->check(CLI::Validator([](std::string& text) { return finiteNumberFault(text); }, ""));
+    if (type.find("FLOAT") != std::string::npos)
+      option->check(CLI::Validator([](std::string& text) { return finiteNumberFault(text); }, ""));
     if (type.find("INT") == std::string::npos) continue;
     const auto toDecimal = [](std::string& text) {
       text = withoutLeadingZeros(text);
@@ -87,7 +88,8 @@ void checkOutputs(const CLI::App& app) {
   const std::vector<Value> values = givenValues(app);
   for (const Value& value : values) {
     const auto refuse = [&](const char* what) {
-      throw FaultError(Fault{value.option, "is " + value.text + ", " + what, "a file or folder elsewhere: recordings and inputs are not written over"});
+      throw FaultError(
+          Fault{value.option, "is " + value.text + ", " + what, "a file or folder elsewhere: recordings and inputs are not written over"});
     };
     const bool isOutput = isAnyOf(value.option, {"--out", "--figure"});
     if (!isOutput && !isAnyOf(value.option, {"--data", "--backup"})) continue;

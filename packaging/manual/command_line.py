@@ -53,37 +53,38 @@ def rows(lines):
 
 
 def option(left, right):
-    names, _, rest = left.partition(" ")
-    required = "REQUIRED" in rest
-    rest = rest.replace("REQUIRED", "").strip()
-    repeats = rest.endswith("...")
-    rest = rest.removesuffix("...").strip()
-    value, default = (rest.split("=", 1) + [""])[:2] if "=" in rest and "{" not in rest.split("=")[0] else (rest, "")
-    if "}=" in rest:
-        value, default = rest.split("}=", 1)[0] + "}", rest.split("}=", 1)[1]
-    kind, _, limit = value.partition(":")
-    choices = limit.strip("{}").split(",") if limit.startswith("{") else []
-    bounds = re.search(r"in \[.*\]", limit)
-    allowed = bounds[0] if bounds else {"POSITIVE": "more than 0", "NONNEGATIVE": "0 or more"}.get(limit, "")
-    return Option(names.split(","), kind, choices, allowed, default, required, repeats, right)
+    names, _, value = left.partition(" ")
+    repeats = value.endswith("...")
+    value = value.removesuffix("...").strip(" <>")
+    required = right.endswith("(required)")
+    right = right.removesuffix(" (required)")
+    default, bounds, choices = "", "", []
+    if found := re.search(r" \[default: ([^][]*)\]", right):
+        default, right = found[1], right.replace(found[0], "", 1)
+    if found := re.search(r" \[(?:one of: ([^][]*)|(\S+ to \S+|more than 0|0 or more))\]$", right):
+        choices, bounds, right = found[1].split(", ") if found[1] else [], found[2] or "", right[:found.start()]
+    return Option(names.split(","), value, choices, bounds, default, required, repeats, right)
 
 
 def read(program, words):
     """The tree of `program`, called by the name words[0]."""
     done = subprocess.run([program, *words[1:], "--help"], capture_output=True, text=True, check=True)
     lines = done.stdout.splitlines()
-    at = {line.rstrip(":"): i for i, line in enumerate(lines) if line in ("Positionals:", "Options:", "Subcommands:")}
+    at = {i: line for i, line in enumerate(lines) if re.fullmatch(r"(?!Examples?:)[A-Z][a-z]+:", line)}
     usage = next(i for i, line in enumerate(lines) if line.startswith("Usage: "))
     command = Command(list(words), " ".join(lines[:usage]).removeprefix(f"{words[0]}: "), lines[usage].removeprefix("Usage: "))
-    end = usage + 1
-    for section, start in at.items():
+    last = usage + 1
+    for start, section in at.items():
         end = next((i for i in range(start + 1, len(lines)) if not lines[i].strip()), len(lines))
         table = rows(lines[start + 1:end])
-        if section == "Options":
-            command.options = [option(*row) for row in table]
-        elif section == "Positionals":
-            command.positionals = [option(*row) for row in table]
-        else:
-            command.commands = [read(program, [*words, name]) for name, _ in table]
-    command.footer = "\n".join(lines[end:]).strip("\n")
+        if section == "Positionals:":
+            last = end
+            command.positionals += [option(*row) for row in table]
+        elif table[0][0].startswith("-"):
+            last = end
+            command.options += [option(*row) for row in table]
+        elif section == "Subcommands:" or len(words) == 1:  # `reach` has its commands in groups
+            last = end
+            command.commands += [read(program, [*words, name]) for name, _ in table]
+    command.footer = "\n".join(lines[last:]).strip("\n")
     return command

@@ -41,7 +41,7 @@ def entry(option):
     if option.choices:
         said.append("One of " + ", ".join(option.choices) + ".")
     if option.bounds:
-        said.append("Allowed: " + option.bounds.removeprefix("in ") + ".")
+        said.append("Allowed: " + option.bounds + ".")
     if option.default:
         said.append(f"Default: {option.default}.")
     if option.required and option.names[0].startswith("-"):

@@ -1,6 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
+#include <sstream>
+#include <string>
+#include <vector>
 
 #include "test_paths.h"
 #include "tests/cli/program.h"
@@ -8,14 +12,51 @@
 using namespace reachlab::test;
 using Json = nlohmann::json;
 
-TEST(Usage, HelpAndVersionEndWithZero) {
-  EXPECT_EQ(reach("--version").exitCode, 0);
-  for (const char* command :
-       {"", "list", "validate", "run", "simulate", "predict", "analyze", "replay", "export", "recover", "constraint", "bench"}) {
-    const Ended help = reach(std::string(command) + " --help");
-    EXPECT_EQ(help.exitCode, 0) << command;
-    EXPECT_NE(help.out.find("xample"), std::string::npos) << command << " has no example in its help";
+namespace {
+
+// Every command with its sub-commands, as the help lists them: two spaces, the word, and its meaning in column 30.
+std::vector<std::string> commandsBelow(const std::string& command) {
+  std::vector<std::string> all{command};
+  std::istringstream lines(reach(command + " --help").out);
+  bool commands = false;
+  for (std::string line; std::getline(lines, line);) {
+    if (!line.empty() && line.back() == ':') commands = line == "Subcommands:" || (command.empty() && line != "Options:");
+    if (!commands || line.size() < 31 || !line.starts_with("  ") || line[2] < 'a' || line[2] > 'z' || line[29] != ' ') continue;
+    for (const std::string& below : commandsBelow(command + (command.empty() ? "" : " ") + line.substr(2, line.find(' ', 2) - 2)))
+      all.push_back(below);
   }
+  return all;
+}
+
+}  // namespace
+
+TEST(Usage, EveryCommandHasHelpOfOneForm) {
+  EXPECT_EQ(reach("--version").exitCode, 0);
+  const std::vector<std::string> commands = commandsBelow("");
+  EXPECT_GE(commands.size(), 30u);
+  for (const std::string& command : commands) {
+    const Ended help = reach(command + " --help");
+    EXPECT_EQ(help.exitCode, 0) << command;
+    EXPECT_EQ(reach("help " + command).out, help.out) << command;
+    EXPECT_NE(help.out.find("  reach " + command), std::string::npos) << command << " has no example of its own\n" << help.out;
+    std::istringstream lines(help.out);
+    for (std::string line; std::getline(lines, line);)
+      EXPECT_LE(std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; }), 100) << command << "\n" << line;
+  }
+}
+
+TEST(Usage, HelpShowsTheCommandsInTheOrderOfTheWork) {
+  const std::string help = reach("help").out;
+  std::size_t last = 0;
+  for (const char* line :
+       {"Record:", "  run ", "Inspect:", "  show ", "Understand:", "  predict ", "Prepare:", "  list ", "Measure:", "  bench "}) {
+    const std::size_t at = help.find(line, last);
+    ASSERT_NE(at, std::string::npos) << line << "\n" << help;
+    last = at;
+  }
+  const Ended wrong = reach("help simulat");
+  EXPECT_EQ(wrong.exitCode, 2);
+  EXPECT_NE(wrong.err.find("did you mean simulate?"), std::string::npos) << wrong.err;
 }
 
 TEST(Usage, WrongWordsEndWithTwoAndASentence) {
@@ -42,8 +83,8 @@ TEST(Usage, MistakesAreAnsweredWithWhatWasMeant) {
        {Mistake{"run dingwell --devise simulated", "did you mean --device?"},
         Mistake{"run dingwell --device simulated --tirals=3", "did you mean --trials?"},
         Mistake{"run dingwell --device simulated --trial 3", "reach: not known here: --trial 3; --trial: did you mean --trials?"},
-        Mistake{"simulat dingwell", "reach: simulat is not a command; commands are list"},
-        Mistake{"simulat dingwell", "did you mean simulate?"}, Mistake{"", "a command is missing: list, validate, run"},
+        Mistake{"simulat dingwell", "reach: simulat is not a command; commands are run"},
+        Mistake{"simulat dingwell", "did you mean simulate?"}, Mistake{"", "a command is missing: run, station"},
         Mistake{"constraint", "constraint: a command is missing: list, show"},
         Mistake{"list", "list: what is missing: experiments, plans, constraints"},
         Mistake{"run dingwell", "run: --device is missing: simulated"},
