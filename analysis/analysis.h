@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/conclusions/candidates.h"
 #include "analysis/conclusions/conclusion.h"
 #include "analysis/conclusions/person_fit.h"
 #include "analysis/conclusions/progress_model.h"
@@ -24,11 +25,11 @@ enum class PredictionDuration { Task, Moved };
 struct AnalysisOptions {
   MeasureOptions measure;
   bool includePractice = false;
-  std::vector<predict::Criterion> criteria;      // that are compared; empty: all that are defined for the object
-  std::vector<predict::Criterion> drawn;         // of the figures, predictions and the paper's epsilon; empty: those that are compared
-  std::optional<double> handMass;                // [kg] of the predictions; nullopt: the experiment's
-  std::vector<double> handMasses{0, 0.5, 1, 2};  // [kg] that the fits of (4) to (6) try where no mass is given
-  double handDamping = 0;                        // [N s/m]
+  std::vector<predict::Criterion> criteria;  // that are compared; empty: all that are defined for the object
+  std::vector<predict::Criterion> drawn;     // of the figures, predictions and the paper's epsilon; empty: those that are compared
+  std::optional<double> handMass;            // [kg] of the predictions; nullopt: the experiment's
+  std::vector<double> handMasses{kHandMasses.begin(), kHandMasses.end()};  // [kg] that the fits of (4) to (6) try where no mass is given
+  double handDamping = 0;                                                  // [N s/m]
   PredictionDuration predictFor = PredictionDuration::Task;
   int learningBin = 10;      // trials a point of the learning curve
   bool keepScatter = false;  // of people's movements, for recovery

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <optional>
 #include <string>
@@ -17,13 +18,17 @@ struct Candidate {
   bool reference() const { return criteria.empty(); }
 };
 
+/// Hand masses [kg] that are tried where nothing gives the mass: up to a whole arm with the handle of a heavy device. With 2 kg as the largest,
+/// a hand of 3 or 4 kg that follows criterion (4) was taken for one that follows (5).
+inline constexpr std::array kHandMasses{0.0, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0};
+
 struct CandidateOptions {
-  std::vector<predict::Criterion> criteria;      // empty: all
-  std::vector<double> handMasses{0, 0.5, 1, 2};  // [kg] tried where nothing gives it
-  std::optional<double> handMass;                // [kg] given
-  double handDamping = 0;                        // [N s/m]
-  double cutoff = 10;                            // [Hz] of the recording's filter
-  double rate = 100;                             // [Hz] of the recording
+  std::vector<predict::Criterion> criteria;                                // empty: all
+  std::vector<double> handMasses{kHandMasses.begin(), kHandMasses.end()};  // [kg] tried where nothing gives it
+  std::optional<double> handMass;                                          // [kg] given
+  double handDamping = 0;                                                  // [N s/m]
+  double cutoff = 10;                                                      // [Hz] of the recording's filter
+  double rate = 100;                                                       // [Hz] of the recording
 };
 
 /// What can be predicted for an experiment, and the reference: a minimum jerk of the hand that ignores the object, 30 s^2 (1 - s)^2, last.

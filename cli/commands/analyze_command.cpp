@@ -308,8 +308,9 @@ void addAnalyzeCommand(CLI::App& app, int&) {
   command->add_option("--hand-mass", o->handMass, "Mass of the hand in the predictions [kg] [default: the experiment's]")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--hand-damping", o->handDamping, "Damping of the hand in the predictions [N s/m]")->check(CLI::NonNegativeNumber);
-  command->add_option("--hand-masses", o->masses,
-                      "Masses of the hand [kg] that the fits of (4) to (6) try where none is given, with commas [default: 0,0.5,1,2]");
+  command->add_option(
+      "--hand-masses", o->masses,
+      "Masses of the hand [kg] that the fits of (4) to (6) try where none is given, with commas [default: 0,0.5,1,2,3,4,6,8]");
   command
       ->add_option("--prediction-duration", o->duration,
                    "Paper's epsilon: predict for the task's T, or for the mean duration moved. The fits choose their own")

@@ -158,7 +158,7 @@ TEST(Wording, OfMethodsHasEveryOptionThatChangesNumbers) {
   Analysis analysis = madeStudy();
   const std::string usual = describeMethods(analysis);
   expectIn(usual, {"Butterworth, second order, 10 Hz in each pass", "crosses 5 % of the trial's own peak",
-                   "0, 0.5, 1 and 2 kg were tried for criteria (4) to (6)", "p < 0.01 against every other",
+                   "0, 0.5, 1, 2, 3, 4, 6 and 8 kg were tried for criteria (4) to (6)", "p < 0.01 against every other",
                    "their scores are 0.1 or more above", "from 5 on if p < 0.05 against every other", "is at least 0.85",
                    "Fewer than 10 successful trials", "against the prediction for the task's duration"});
   expectNotIn(usual, {"Damping of the hand"});
