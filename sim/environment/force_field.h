@@ -8,7 +8,7 @@
 
 namespace reachlab::environment {
 
-/// What the forces depend on in one tick.
+/// The inputs of the forces in one tick.
 struct HandTick {
   bool engaged = false;  // armed or moving
   bool moving = false;
@@ -53,8 +53,8 @@ class ForceField {
 /// The part of `v` at right angles to `along`, which has length 1.
 Vec3 across(const Vec3& v, const Vec3& along) noexcept;
 
-/// Shoulder and elbow [rad] of an arm whose hand is at (right, forward) [m] from the shoulder, both counted from the right, so that the
-/// elbow's angle is absolute. Not finite out of reach.
+/// Shoulder and elbow angle [rad] of an arm whose hand is at (right, forward) [m] from the shoulder. Both are counted from the right, so
+/// the elbow's angle is absolute. Not finite out of reach.
 std::array<double, 2> absoluteAngles(const experiment::Arm& arm, double right, double forward) noexcept;
 /// The hand's rate (right, forward) by the rates of the absolute angles [m/rad].
 experiment::SquareMatrix<2> absoluteJacobian(const experiment::Arm& arm, const std::array<double, 2>& angles) noexcept;

@@ -13,20 +13,19 @@ namespace reachlab::experiment {
 
 inline constexpr double kMaxDuration = 3600, kMaxTimeout = 86400, kMaxRestDuration = 60;  // [s]
 
-/// What holds of an experiment as a value, from a file or from an editor alike: its faults, each under its key, and the constraint, compiled
-/// on the way, unless it is at fault itself.
+/// The faults of an experiment, each under its key, and its constraint. The constraint is missing if it is at fault itself.
 struct CheckedExperiment {
   std::vector<Fault> faults;
   std::shared_ptr<const constraints::Constraint> constraint;
 };
-/// `compiled`: the experiment's constraint, where somebody has it; compiled here otherwise.
+/// `compiled`: the experiment's constraint, if the caller has it. Otherwise it is compiled here.
 CheckedExperiment check(const Experiment& experiment, const constraints::Constraint* compiled = nullptr);
 
-/// What a file says, whether or not it holds as a value: nothing is compiled. For one that was recorded, and so held when it was.
-/// Throws FaultError where the file itself is at fault. `definition`: see parseExperiment.
+/// Reads a file without checking its values or compiling. For recorded experiments, which were checked before their run.
+/// Throws FaultError if the file cannot be read as an experiment. `definition`: see parseExperiment.
 Experiment readUnchecked(const std::string& text, const std::string& file, const std::string& definition = {});
 
-/// The task, which a trial needs. Throws FaultError without one.
+/// The task, which a trial needs. Throws FaultError if the experiment has no task.
 const Task& requiredTask(const Experiment& experiment);
 
 /// Where the task moves a typed formula on: the hull of start and target, when both are there.

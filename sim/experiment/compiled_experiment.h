@@ -7,7 +7,7 @@
 
 namespace reachlab::experiment {
 
-/// An experiment without a fault, its constraint compiled once: what protocol, scene, prediction, device and picture are made from.
+/// An experiment without faults, with its constraint compiled once. Protocol, scene, prediction, device and picture are made from it.
 /// A value, cheap to copy: window, haptic engine and predictions in the background share the two parts, which never change. Any thread.
 class CompiledExperiment {
  public:
@@ -29,7 +29,7 @@ class CompiledExperiment {
 
 /// Reads and compiles an experiment file, or a shipped one by name. Throws FaultError with every fault, each with its place.
 CompiledExperiment openExperiment(const std::string& fileOrName);
-/// The same from text; `file` is only named in messages. `definition`: see parseExperiment.
+/// The same from text. `file` is only named in messages. `definition`: see parseExperiment.
 CompiledExperiment openExperimentText(const std::string& text, const std::string& file, const std::string& definition = {});
 
 }  // namespace reachlab::experiment

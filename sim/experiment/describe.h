@@ -5,7 +5,7 @@
 
 namespace reachlab::experiment {
 
-/// What is moved, on what, and what is asked, in one sentence with units: for reports and datasets, which are read without the program.
+/// Object, constraint and task in one sentence with units, for readers of reports and datasets who do not have the program.
 /// Throws FaultError where it names a constraint that is not known.
 std::string describe(const Experiment& experiment);
 

@@ -24,13 +24,14 @@ struct ElasticForce {
   bool operator==(const ElasticForce&) const = default;
 };
 
-/// A torque W times the rate of the joint angles, seen at the hand: F = J^-T W J^-1 v in the plane of the arm. Both angles are absolute.
+/// A torque W times the rate of the joint angles, as the hand feels it: F = J^-T W J^-1 v. Both angles are absolute. The plane is that of
+/// the arm.
 struct JointViscousForce {
   SquareMatrix<2> matrix{};  // [N m s/rad] W
   bool operator==(const JointViscousForce&) const = default;
 };
 
-/// Walls beside the line from start to target: F = -K (d - w) n - D d' n where the distance d from the line is more than w.
+/// Walls beside the line from start to target. Where the distance d from the line is more than w, F = -K (d - w) n - D d' n.
 struct ChannelForce {
   double stiffness = 1000;      // [N/m] K
   double damping = 15;          // [N s/m] D
@@ -40,7 +41,7 @@ struct ChannelForce {
   bool operator==(const ChannelForce&) const = default;
 };
 
-/// When a pulse begins; exactly one is given.
+/// The beginning of a pulse. Exactly one of the two members has a value.
 struct PulseInstant {
   std::optional<double> onset;     // [s] after movement onset
   std::optional<double> distance;  // [m] of the hand from the start

@@ -13,7 +13,7 @@
 
 namespace reachlab::experiment {
 
-/// Two-link planar arm for criterion 2 (docs/theory/criteria.md, "Minimum torque change"); defaults unverified, after Uno 1989.
+/// Two-link planar arm for criterion 2 (docs/theory/criteria.md, "Minimum torque change"). Unverified defaults, after Uno 1989.
 struct Arm {
   std::array<double, 2> length{0.25, 0.35};     // [m]
   std::array<double, 2> centre{0.11, 0.15};     // [m] from the proximal joint
@@ -25,7 +25,7 @@ struct Arm {
   bool operator==(const Arm&) const = default;
 };
 
-/// One experiment file, validated: what the subject holds, on what, and what is asked. SI units throughout.
+/// One experiment file, validated: object, constraint, coupling and task. SI units throughout.
 struct Experiment {
   int schemaVersion = 1;
   std::string name;
@@ -49,15 +49,15 @@ struct Experiment {
 /// Reads an experiment file, or a shipped one by name. Throws FaultError with every fault, one a line,
 /// `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
 Experiment readExperiment(const std::string& fileOrName);
-/// The same from text; `file` is only named in messages.
-/// `definition`: the text of the definition that the experiment names, where it is not to be looked up (recorded runs); empty: looked up.
+/// The same from text. `file` is only named in messages.
+/// `definition`: the text of the constraint's definition, for recorded runs. If it is empty, the definition is looked up by its name.
 Experiment parseExperiment(const std::string& text, const std::string& file, const std::string& definition = {});
-/// The text of the definition that the experiment names, with formula, shape and domain; empty where it types its formula or moves free.
-/// Throws FaultError when there is no such definition.
+/// The text of the definition that the experiment names, with formula, shape and domain. Empty if the formula is typed or the object is
+/// free. Throws FaultError when there is no such definition.
 std::string definitionTextOf(const Experiment& experiment);
 /// The experiment as a file that reads back equal (for saving from the window, and for the log).
 std::string toJson(const Experiment& experiment);
-/// Every fault of the value, each under its key as in the files; empty when fine. The reader adds the places.
+/// Every fault of the value, each under its key as in the files. Empty if there is no fault. The reader adds the places.
 std::vector<Fault> problems(const Experiment& experiment);
 
 }  // namespace reachlab::experiment

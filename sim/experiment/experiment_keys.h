@@ -9,9 +9,9 @@
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/tested_ranges.h"
 
-/// The keys of an experiment's file with their ranges, in its order: the one list for reading, writing and checking. A new key is one
-/// member in experiment.h, one line here and its entry in resources/schemas/experiment.schema.json. Reader, writer and check have a
-/// function of their own only for what depends on another key: the constraint, the hands, how many springs there are.
+/// The keys of an experiment's file with their ranges, in the file's order. This is the one list for reading, writing and checking. A new
+/// key is one member in experiment.h, one line here and its entry in resources/schemas/experiment.schema.json. Separate functions of
+/// reader, writer and check handle keys that depend on other keys: the constraint, the hands, the number of springs.
 namespace reachlab::experiment {
 
 struct Key {
@@ -71,7 +71,7 @@ void visitKeys(T& t, const Visit& visit) {
 template <MaybeConst<TimingLimits> T, class Visit>
 void visitKeys(T& t, const Visit& visit) {
   visit(Key{"max_missed_ticks", wholeNumber(0, kNoTimingLimits.maxMissedTicks)}, t.maxMissedTicks);
-  // A gap between two ticks is never shorter than one.
+  // A gap between two ticks is at least one tick long.
   const std::string allowed = fmt::format("{} s to {:.0f} s", kTickSeconds, kNoTimingLimits.maxGap);
   visit(Key{"max_gap_s", {kTickSeconds, kNoTimingLimits.maxGap, true, allowed}}, t.maxGap);
 }

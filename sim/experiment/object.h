@@ -36,7 +36,7 @@ struct Coupling {
   bool operator==(const Coupling&) const = default;
 };
 
-/// One of several hands on one object, each coupled by Eq. (8) for itself: to one mass, or to every mass by a spring of its own.
+/// One of several hands on one object, each coupled by Eq. (8) for itself: to one mass, or to every mass by a separate spring.
 struct Hand {
   int mass = 1;                            // from 1; 0: to all, and both lists have a number for each
   std::vector<double> stiffness, damping;  // [N/m], [N s/m]; one number where one mass is held

@@ -16,13 +16,13 @@ struct Patch {
   friend auto operator<=>(const Patch&, const Patch&) = default;
 };
 
-/// The changes of an object { "PATH": value, … } in its order; `key` is its own. Whether they fit is seen when they are made.
+/// The changes of an object { "PATH": value, … } in its order. `key` is the key of the object. Paths are not checked before patchedText.
 std::vector<Patch> readPatches(const JsonNode& node, const std::string& key, FaultList& faults);
 /// A node as JSON, in one line.
 std::string valueText(const JsonNode& node);
 
-/// The file's text with these changes, comments gone. A key that is not there is made, so that the file's reader judges it; an element
-/// that is not there is refused. Throws FaultError under the patch's path.
+/// The file's text with these changes and without comments. A missing key is added, so that the file's reader judges it. A missing
+/// element of a list is refused. Throws FaultError under the patch's path.
 std::string patchedText(const std::string& text, const std::string& file, std::span<const Patch> patches);
 
 }  // namespace reachlab::experiment

@@ -38,9 +38,9 @@ struct SceneLook {
 /// Parts of the scene whose colour can be chosen.
 const std::vector<std::string>& colouredParts();
 
-/// What stands under the key `look`; what is wrong with it goes to the list.
+/// Reads the content of the key `look`. Faults are added to the list.
 SceneLook readLook(FaultList& faults, const JsonNode& node);
-/// What the experiment's text says of it; the default where it says nothing.
+/// The look in the experiment's text. The default look if the text has no such key.
 SceneLook lookOf(const Experiment& experiment);
 /// The same experiment with this look in its text.
 Experiment withLook(const Experiment& experiment, const SceneLook& look);

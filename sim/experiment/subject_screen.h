@@ -2,7 +2,7 @@
 
 namespace reachlab::experiment {
 
-/// What a subject's own screen shows. Stored with the experiment: what is seen is part of what is asked.
+/// The content of the subject's screen. It is stored with the experiment because it is part of the task.
 struct SubjectScreen {
   bool semaphore = true, target = true, masses = true, words = true;
   bool score = false;       // trials of the run that succeeded

@@ -10,7 +10,7 @@ struct Tolerance {
   bool operator==(const Tolerance&) const = default;
 };
 
-/// What waiting at the start asks of the hand before a trial is armed: to stay there for so long, and slower than that.
+/// The rest at the start before a trial is armed. The hand stays there for this time and is slower than this speed.
 struct StartRest {
   double seconds = 0.3;  // [s]
   double speed = 0.02;   // [m/s]

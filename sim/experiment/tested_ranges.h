@@ -9,11 +9,11 @@ namespace reachlab::experiment {
 inline NumberRange between(double lo, double hi, const std::string& unit) {
   return {lo, hi, true, fmt::format("{:g} to {:g}{}{}", lo, hi, unit.empty() ? "" : " ", unit)};
 }
-/// Zero stands for what is not there.
+/// Zero: the object has no such part.
 inline NumberRange upTo(double most, const std::string& unit) { return between(0, most, unit); }
 
 inline NumberRange massRange() { return between(1e-6, 1e6, "kg"); }
-/// Of a hand, which may have none.
+/// Of a hand. Zero is allowed.
 inline NumberRange handMassRange() { return upTo(1e6, "kg"); }
 inline NumberRange inertiaRange() { return between(1e-12, 1e6, "kg m^2"); }
 inline NumberRange stiffnessRange() { return upTo(1e9, "N/m"); }

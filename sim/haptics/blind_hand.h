@@ -2,7 +2,7 @@
 
 namespace reachlab::haptics {
 
-/// A virtual hand that looks at nothing (HapticDevice::see): what it does not see need not be observed for it.
+/// A virtual hand that does not use HapticDevice::see. The engine need not observe masses for it.
 class BlindHand {
  public:
   virtual ~BlindHand() = default;

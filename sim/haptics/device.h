@@ -11,7 +11,7 @@
 
 namespace reachlab::haptics {
 
-/// What a device delivers at one tick. World frame, SI. A lost device repeats its last sample with valid = false.
+/// The sample of a device at one tick. World frame, SI. A lost device repeats its last sample with valid = false.
 struct DeviceSample {
   Vec3 position;  // [m] raw, unfiltered
   Vec3 velocity;  // [m/s] if the device measures it (hasVelocity)
@@ -25,7 +25,7 @@ struct DeviceSample {
   std::array<double, 4> orientation{1, 0, 0, 0};  // unit quaternion w, x, y, z; world frame
 };
 
-/// What a device is and can do. Numbers that the device itself gives go before those of a data sheet.
+/// Properties of a device. Numbers from the device itself replace those of a data sheet.
 struct DeviceInfo {
   std::string name, version;
   double maxForce = 12;           // [N] instantaneous; an experiment may ask for less, never for more
@@ -39,7 +39,7 @@ struct DeviceInfo {
   int degreesOfFreedom = 3;       // of the force; of the place where there is none
   double rate = 1000;             // [1/s] of its reports
   double workspaceRadius = 0;     // [m] about `workspaceCentre`; 0: unknown
-  // As a body, for what is predicted of it; 0: unknown.
+  // The device as a body, for predictions. 0: unknown.
   double apparentMass = 0;     // [kg] at the handle
   double coulombFriction = 0;  // [N] to move it backwards
   double viscosity = 0;        // [N s/m]
@@ -48,7 +48,7 @@ struct DeviceInfo {
   Vec3 workspaceCentre;        // [m]
   GuardSettings guards;
   std::string mapping;     // device to world, as JSON (devices/mapping/mapping.h); empty: as it is
-  std::string secondPath;  // what `stopForce` does, in words; empty: nothing, the device's own watchdog is relied on
+  std::string secondPath;  // the action of `stopForce`, for messages. Empty: only the device's watchdog protects
 };
 
 /// A trial's cue to a hand that is simulated or replayed.
@@ -73,22 +73,22 @@ class HapticDevice {
   virtual ~HapticDevice() = default;
   virtual DeviceInfo info() const = 0;
 
-  /// Trial index from 0; the motion depends on (seed, index) alone unless the device says otherwise.
+  /// Trial index from 0. The motion depends on (seed, index) alone unless the device says otherwise.
   virtual void prepareTrial(int /*index*/) {}
   virtual void cue(Cue) noexcept {}
   virtual DeviceSample read() noexcept = 0;
   virtual void write(const Vec3& force) noexcept = 0;
-  /// What a person would see after this tick: every mass. For virtual subjects.
+  /// The masses as a person would see them after this tick. For virtual subjects.
   virtual void see(std::span<const dynamics::MassState> /*masses*/) noexcept {}
 
-  /// The device of each hand, the first hand's at index 0: this one, unless it is several together. The haptic thread reads and writes
-  /// each; all else goes to them through this device. Controlling thread.
+  /// The device of each hand, the first hand's at index 0. A plain device returns itself. The haptic thread reads and writes each device.
+  /// All other calls reach them through this device. Controlling thread.
   virtual std::vector<HapticDevice*> hands() { return {this}; }
 
   virtual DeviceHealth health() const noexcept { return DeviceHealth::Ready; }
-  /// Why it is not ready, or warnings of the last frames, in the device's own words. Empty: nothing to say.
+  /// Why it is not ready, or warnings of the last frames, as the device tells them. Empty: nothing to say.
   virtual std::string healthText() const { return {}; }
-  /// What the experimenter is to do before `calibrate` ("hold the stylus in the inkwell"); empty: the device needs none.
+  /// Instruction to the experimenter before `calibrate` ("hold the stylus in the inkwell"). Empty: the device needs no calibration.
   virtual std::string calibrationHint() const { return {}; }
   /// Takes the present place as the calibration place. Throws ResourceError in the device's words.
   virtual void calibrate() {}

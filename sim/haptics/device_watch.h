@@ -20,21 +20,21 @@ enum class DeviceFault : std::uint8_t {
   Device,     // the device says that it failed
 };
 std::string_view nameOf(DeviceFault fault);  // "silent", "jump", …
-/// One sentence for a person: what happened to the device of this name, and what to do.
+/// One sentence for a person: the fault of the device with this name, and the remedy.
 std::string describe(DeviceFault fault, const std::string& device);
 
-/// What the watch needs to know of a tick beside the sample.
+/// The inputs of the watch in one tick beside the sample.
 struct WatchContext {
   bool engaged = false;      // a trial is armed or moving: forces act
   std::uint32_t missed = 0;  // periods skipped before this tick
   std::int64_t nowNs = 0;    // monotonic clock
 };
 
-/// Looks at every sample of a device that renders force, before anything is computed from it. What it does not believe becomes
-/// valid = false, which is recorded, ends in zero force at once and ends the trial as lost; so a recorded run replays to the same bits
-/// without knowing of the watch. A fault is latched until `reset`.
-/// Held still is not frozen: only missing reports are (`DeviceSample::reports`); a device that does not count them is not judged by it.
-/// Haptic thread; neither allocates nor throws.
+/// Looks at every sample of a device that renders force, before anything is computed from it. A sample that it does not believe becomes
+/// valid = false. Such a sample is recorded, gives zero force at once and ends the trial as lost. A recorded run therefore replays to the
+/// same bits without the watch. A fault is latched until `reset`.
+/// A hand that is held still is no fault. Only missing reports are (`DeviceSample::reports`), and only for devices that count them.
+/// Haptic thread. Neither allocates nor throws.
 class DeviceWatch {
  public:
   explicit DeviceWatch(const DeviceInfo& info) noexcept;

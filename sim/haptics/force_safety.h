@@ -5,7 +5,7 @@
 
 namespace reachlab::haptics {
 
-/// What a device stands.
+/// The forces that a device can bear.
 struct ForceLimits {
   double instantaneous = 12;   // [N] > 0
   double continuous = 0;       // [N] for ever; 0: unknown, no budget is kept
@@ -20,7 +20,7 @@ struct ForceLimits {
 ///     follows h' = (F^2 - h)/tau, and between 80 and 100 % of h = Fc^2 the limit falls from the instantaneous to the continuous one, so
 ///     that the force's mean square over tau never exceeds Fc^2;
 ///   - the change from one tick to the next is clamped to kSlewPerTick, direction kept. Going to zero is never slowed.
-/// Haptic thread; neither allocates nor throws.
+/// Haptic thread. Neither allocates nor throws.
 class ForceSafety {
  public:
   static constexpr double kRampSeconds = 0.2;
@@ -30,11 +30,11 @@ class ForceSafety {
 
   /// `engaged`: a trial is under way. `held`: the hand is known at this tick and no gap precedes it.
   Vec3 limit(const Vec3& force, bool engaged, bool held) noexcept;
-  /// Clears the latch, not the heat; when a new trial is put up.
+  /// Clears the latch, not the heat. Called when a new trial is queued.
   void rearm() noexcept { latched_ = false; }
   bool latched() const noexcept { return latched_; }
   double limit() const noexcept { return limits_.instantaneous; }
-  /// What was done to the latest force: bits of `intervention` (hand_guard.h).
+  /// Interventions on the latest force: bits of `intervention` (hand_guard.h).
   std::uint8_t interventions() const noexcept { return interventions_; }
   /// Share of the budget that is used up: 1 where only the continuous force is left.
   double heat() const noexcept;

@@ -6,7 +6,7 @@
 
 namespace reachlab::haptics {
 
-/// What acts on the hand beside the object, and what watches over the energy. Recorded with a run.
+/// Forces on the hand beside the object, and the control of energy. Recorded with a run.
 struct GuardSettings {
   Vec3 wallCentre;             // [m]
   double wallRadius = 0;       // [m] 0: no wall
@@ -17,17 +17,17 @@ struct GuardSettings {
 };
 bool operator==(const GuardSettings& a, const GuardSettings& b) noexcept;
 
-/// Where a device that renders force stands; each change is an event of the recording.
+/// The state of a device that renders force. Each change is an event of the recording.
 enum class DeviceState : std::uint8_t {
   Off,      // not seen, or lost
   Homed,    // its place is known; no object
-  Armed,    // a trial is put up: no force yet, the hand is to come to the start
+  Armed,    // a trial is queued. No force yet, the hand is to come to the start
   Engaged,  // the object is felt
   Fault,    // latched: zero until the experimenter resets it
 };
 std::string_view nameOf(DeviceState state);  // "off", "homed", …
 
-/// What kept the device from getting the force that the object gave. Bits; each is an event when it begins and when it has ended.
+/// Reasons why the device got another force than the object gave, as bits. Beginning and end of each are events.
 namespace intervention {
 inline constexpr std::uint8_t kLimit = 1;       // the instantaneous limit
 inline constexpr std::uint8_t kHeat = 2;        // the budget of the continuous force
@@ -41,14 +41,14 @@ inline constexpr int kCount = 8;
 std::string_view nameOf(int bit);  // of 1 << bit: "limit", "heat", …
 }  // namespace intervention
 
-/// Force that keeps the hand within the wall's sphere: F = -(K (|d| - R) + B max(v . n, 0)) n with d from the centre, n = d/|d|; zero
+/// Force that keeps the hand within the wall's sphere: F = -(K (|d| - R) + B max(v . n, 0)) n. d points from the centre, n = d/|d|. Zero
 /// inside. It pushes inwards only.
 Vec3 wallForce(const GuardSettings& settings, const Vec3& place, const Vec3& velocity) noexcept;
 
 /// Time-domain passivity observer and controller (Hannaford and Ryu 2002) at the port between hand and device. Between two ticks the force
-/// F on the hand is held, so the work that the hand has done on the program is exactly E(n) = E(n-1) - F(n-1) . (x(n) - x(n-1)); below
+/// F on the hand is held. The work of the hand on the program is therefore exactly E(n) = E(n-1) - F(n-1) . (x(n) - x(n-1)). Below
 /// zero, the program has given more than it was given. The controller then takes it back by F_pc = -alpha v, alpha = -E/(T v^2), at most
-/// kMaxDissipation. Haptic thread; neither allocates nor throws.
+/// kMaxDissipation. Haptic thread. Neither allocates nor throws.
 class PassivityObserver {
  public:
   static constexpr double kMaxDissipation = 5;  // [N s/m]; more would make the loop itself unstable (Colgate)
@@ -58,9 +58,9 @@ class PassivityObserver {
   void observe(const Vec3& place) noexcept;
   /// [J] given by the hand so far.
   double energy() const noexcept { return energy_; }
-  /// [N] to be added so that the energy returns to zero; none while it is not below.
+  /// [N] to be added so that the energy returns to zero. Zero unless the energy is negative.
   Vec3 control(const Vec3& velocity) const noexcept;
-  /// What the hand feels from this tick to the next [N].
+  /// The force [N] that the hand feels from this tick to the next.
   void render(const Vec3& force) noexcept { force_ = force; }
 
  private:

@@ -7,8 +7,8 @@
 
 namespace reachlab::haptics {
 
-/// Counts durations in buckets that are 1/16 of their octave wide, so that percentiles are right to 6 % from nanoseconds to hours; the
-/// maximum is exact. Fixed size. `add` from one thread, wait-free; reading from any, approximate while it is being filled.
+/// Counts durations in buckets that are 1/16 of their octave wide. Percentiles are right to 6 % from nanoseconds to hours, and the
+/// maximum is exact. Fixed size. `add` from one thread, wait-free. Reading from any thread, approximate while it is being filled.
 class LatenessHistogram {
  public:
   void add(std::int64_t ns) noexcept {
@@ -18,7 +18,7 @@ class LatenessHistogram {
     if (value > max_.load(std::memory_order_relaxed)) max_.store(value, std::memory_order_relaxed);
   }
 
-  /// The duration that `share` (0 … 1) of all stay below [ns]: the upper edge of its bucket, at most the maximum; 0 when empty.
+  /// The duration [ns] that `share` (0 … 1) of all stay below. It is the upper edge of its bucket, at most the maximum. 0 if empty.
   double percentile(double share) const noexcept {
     std::uint64_t total = 0;
     for (const auto& count : counts_) total += count.load(std::memory_order_relaxed);
@@ -36,7 +36,7 @@ class LatenessHistogram {
  private:
   static constexpr int kSubBits = 4;
   static constexpr std::uint64_t kSub = 1u << kSubBits;
-  // Below 16 each number has its own bucket; above, the four bits after the leading one choose within the octave.
+  // Below 16 each number has its own bucket. Above, the four bits after the leading one choose within the octave.
   static constexpr std::size_t bucketOf(std::uint64_t value) noexcept {
     if (value < kSub) return value;
     const int shift = static_cast<int>(std::bit_width(value)) - 1 - kSubBits;

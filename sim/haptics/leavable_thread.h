@@ -7,8 +7,8 @@
 
 namespace reachlab::haptics {
 
-/// A thread that may hang in a device's call and can then be left behind. What the job uses it must own or share: a thread that is left
-/// goes on for as long as it hangs, and ends with the program.
+/// A thread that may hang in a device's call and can then be left behind. The job must own or share everything that it uses. A thread that
+/// is left runs for as long as it hangs, and ends with the program.
 class LeavableThread {
  public:
   LeavableThread() = default;
@@ -24,7 +24,7 @@ class LeavableThread {
   ~LeavableThread() { leave(); }
 
   bool running() const { return thread_.joinable(); }
-  /// True when the job has ended by then; the thread is then joined. May be asked again.
+  /// True if the job has ended by then. The thread is then joined. May be asked again.
   bool joinUntil(std::chrono::steady_clock::time_point then) {
     if (!thread_.joinable()) return true;
     if (!ended_->try_acquire_until(then)) return false;

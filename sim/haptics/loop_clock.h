@@ -5,8 +5,8 @@
 
 namespace reachlab::haptics {
 
-/// The monotonic clock by which a loop in real time keeps its deadlines: the computer's. A test brings its own, whose time passes as it says.
-/// Called from the haptic thread; neither allocates nor throws.
+/// The monotonic clock by which a loop in real time keeps its deadlines. Usually the computer's clock. A test uses a clock that it
+/// controls. Called from the haptic thread. Neither allocates nor throws.
 class LoopClock {
  public:
   virtual ~LoopClock() = default;

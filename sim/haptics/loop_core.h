@@ -41,7 +41,7 @@ struct LatchedFault {
 };
 static_assert(std::atomic<LatchedFault>::is_always_lock_free);
 
-/// What the haptic thread works on. Plain members with one writer each; kept alive by whoever may still run in it.
+/// The data of the haptic thread. Plain members with one writer each. Every thread that may still run in it keeps it alive.
 struct LoopCore {
   static constexpr std::int64_t kPeriodNs = kTickNs;
 
@@ -49,7 +49,7 @@ struct LoopCore {
     trial::Command command = trial::Command::None;
     trial::PlannedTrial planned;
   };
-  /// Where the haptic thread is. `abandon` takes it from Idle or InDevice to Abandoned; when the device's call returns after that, the
+  /// The place of the haptic thread. `abandon` takes it from Idle or InDevice to Abandoned. If the device's call returns after that, the
   /// thread leaves without touching anything.
   enum class Where : std::uint8_t { Idle, InDevice, Computing, Abandoned };
 
@@ -64,9 +64,9 @@ struct LoopCore {
   /// Once the haptic thread will never touch anything here again: ends the trial that is under way, as one that lost its device.
   void endWithoutDevice(std::int64_t nowNs) noexcept;
   void countLateness(std::int64_t latenessNs, std::uint32_t missed) noexcept;
-  /// One call of a device that drives the clock: a tick, or none when half a period has not passed since the last.
+  /// One call of a device that drives the clock. It makes no tick if less than half a period has passed since the last tick.
   void tickOfDevice() noexcept;
-  /// Controlling thread: true once the haptic thread will never touch anything here again. False: it computes just now; ask again.
+  /// Controlling thread: true once the haptic thread will never touch anything here again. False: it computes just now, so ask again.
   bool abandon() noexcept;
   /// Any thread: the first fault stays. `hand`: whose device it is of, from 0.
   void latch(DeviceFault fault, int hand = 0) noexcept;

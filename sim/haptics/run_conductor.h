@@ -17,8 +17,8 @@ struct ConductedTrial {
   trial::TrialResult result;
 };
 
-/// Conducts one run: one experiment on one device, trial after trial. The command line calls `runTrial` and waits; the window calls
-/// `putUpNext` and `poll` from a timer. The controlling thread owns it; the haptic thread is inside.
+/// Conducts one run: one experiment on one device, trial after trial. The command line calls `runTrial` and waits. The window calls
+/// `putUpNext` and `poll` from a timer. The controlling thread owns it and the haptic thread is inside.
 ///
 ///   RunConductor run(experiment, makeDevice("simulated", experiment, seed), trials);
 ///   run.start(&sink);                        // the sink was made from run.engine() and run.device()
@@ -41,22 +41,23 @@ class RunConductor {
   /// Of each hand's own device.
   std::vector<DeviceInfo> hands() const;
 
-  /// Starts the loop; ticks go to `sink`, which outlives the run and may be null.
+  /// Starts the loop. Ticks are given to `sink`, which outlives the run and may be null.
   void start(RunSink* sink);
 
-  /// Puts the next planned trial up. False when none is left, or one is under way. May throw ResourceError from the sink.
+  /// Queues the next planned trial. False if no trial is left or a trial is under way. May throw ResourceError from the sink.
   bool putUpNext();
   /// One more trial at the end of the plan (a repetition keeps its index).
   void append(const trial::PlannedTrial& trial) { trials_.push_back(trial); }
-  /// Takes the last trial off again that was appended and is still to come. False when there is none.
+  /// Removes the last appended trial that is still to come. False if there is no such trial.
   bool takeBackAppended();
   std::size_t trialsLeft() const { return trials_.size() - next_; }
   const trial::PlannedTrial* nextPlanned() const { return next_ < trials_.size() ? &trials_[next_] : nullptr; }
   bool underWay() const { return underWay_; }
 
-  /// Looks at the newest state, and returns the trial under way once it has ended and is safe on the disk. Does not wait for the trial,
-  /// but does for the disk. A trial whose device does not call or answer any more is ended as lost. May throw ResourceError from the
-  /// sink, and when a call of the device hangs while no trial is under way; `finish` then leaves it behind. On the virtual clock it computes the trial to its end.
+  /// Looks at the newest state, and returns the trial under way once it has ended and is safe on the disk. Waits for the disk but not for
+  /// the trial. A trial whose device does not call or answer any more is ended as lost. May throw ResourceError from the sink, and if a
+  /// call of the device hangs while no trial is under way. `finish` then leaves that call behind. On the virtual clock it computes the
+  /// trial to its end.
   std::optional<ConductedTrial> poll();
   /// After `poll`: the newest state seen.
   const TickState& latest() const { return *latest_; }
@@ -64,16 +65,16 @@ class RunConductor {
   void abort() { loop_->tryCommand(trial::Command::Abort); }
   void interrupt() { loop_->tryCommand(trial::Command::Interrupt); }
 
-  /// putUpNext and poll until the trial has ended; nullopt when none is left. When `stop` becomes true, the trial is interrupted. `looked`,
-  /// if any, is called after each look at a trial that goes on; on the virtual clock there is none.
+  /// putUpNext and poll until the trial has ended. nullopt if no trial is left. When `stop` becomes true, the trial is interrupted.
+  /// `looked`, if given, is called after each look at a trial that has not ended. It is not called on the virtual clock.
   std::optional<ConductedTrial> runTrial(const std::atomic<bool>& stop, const std::function<void()>& looked = {});
 
   /// Stops the loop, zero force, closes the sink. Idempotent.
   void finish();
   LoopReport report() const { return loop_ ? loop_->report() : LoopReport{}; }
 
-  /// What was latched on the device, or that it was lost, in one sentence; nullopt while all is well. Whoever conducts ends the run with
-  /// it, or asks the experimenter and calls `resetFault`.
+  /// One sentence about a latched fault or loss of the device. nullopt if the device is well. The caller ends the run with this sentence,
+  /// or asks the experimenter and calls `resetFault`.
   std::optional<std::string> fault() const;
   void resetFault() noexcept {
     if (loop_) loop_->resetFault();

@@ -7,18 +7,17 @@
 
 namespace reachlab::haptics {
 
-/// Where a run's ticks go: the history unit, behind what the haptic loop and the conductor need of it. Without one nothing is kept.
+/// The receiver of a run's ticks, usually the recorder, as haptic loop and conductor see it. Without a sink no tick is kept.
 class RunSink {
  public:
   virtual ~RunSink() = default;
 
-  /// Haptic thread (virtual clock: the controlling thread), every tick; must not wait in real time, allocate or throw. False: the tick
+  /// Haptic thread (virtual clock: the controlling thread), every tick. Must not wait in real time, allocate or throw. False: the tick
   /// is lost, and counted.
   virtual bool onTick(const TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept = 0;
-  /// Every how many ticks (at their multiples) `onTick` looks at masses other than the first and the last, and at the energy;
-  /// 0: never.
+  /// `onTick` looks at the inner masses and the energy only at multiples of this number of ticks. 0: never.
   virtual std::uint32_t massesEvery() const noexcept { return 1; }
-  /// Controlling thread, before a trial is put up. May throw ResourceError, as all below.
+  /// Controlling thread, before a trial is queued. May throw ResourceError, as all below.
   virtual void announce(std::int32_t trial, const trial::PlannedTrial& planned) = 0;
   /// Controlling thread, after a trial has ended: returns once its record is safe on the disk.
   virtual void awaitTrial(std::int32_t trial) = 0;

@@ -27,12 +27,12 @@ struct TickInput {
   bool deviceFault = false;       // latched on a device; its samples are then not valid
 };
 
-/// What the engine must know of one hand's device.
+/// Properties of one hand's device that the engine needs.
 struct HandOptions {
   double deviceMaxForce = 12;  // [N] DeviceInfo::maxForce
   /// DeviceInfo::virtualHand: the hand moves by tick count, so after a gap it is where it was and nothing has to be anchored anew.
   bool virtualHand = false;
-  /// DeviceInfo::rendersForce: then an experiment's limit can only lower the device's. Where no force is felt it takes its place.
+  /// DeviceInfo::rendersForce. If true, an experiment's limit can only lower the limit of the device. If false, it replaces that limit.
   bool rendersForce = false;
   double continuousForce = 0;  // [N] DeviceInfo::maxContinuousForce
   double thermalSeconds = 10;  // [s] DeviceInfo::thermalSeconds
@@ -46,9 +46,9 @@ struct EngineOptions {
 EngineOptions engineOptions(HapticDevice& device);
 
 /// Everything deterministic of one tick, from device sample to device force: estimate the hand, step the object, judge the trial, limit
-/// the force. Physics and protocol advance by one tick a tick, whatever the clock did; after a gap of more than kGapTicks the device's
-/// force is zero and rises again by a ramp, and a real hand, which has moved meanwhile, is seen to go on from where it was: the
-/// difference is blended out over kReanchorTicks, so the object feels neither a jump nor a burst.
+/// the force. Physics and protocol advance by one tick per tick, whatever the clock did. After a gap of more than kGapTicks the device's
+/// force is zero and rises again by a ramp. A real hand has moved in the gap, but the object sees it where it was before. The difference
+/// is blended out over kReanchorTicks, so the object feels neither a jump nor a burst.
 /// Its state is a pure function of construction and inputs so far. One thread at a time.
 /// Where several hands hold the object (experiment::Hand), each has all of this for itself, and one that is lost takes the force from all.
 class TickEngine {
@@ -57,30 +57,30 @@ class TickEngine {
   static constexpr int kReanchorTicks = 250;
   static constexpr int kManyMasses = 32;  // fewer are observed whole at every tick that somebody may look at: it hardly costs more
 
-  /// Throws FaultError without a task, or with other than a device for each hand; RefusedError from compileScene.
+  /// Throws FaultError without a task, or unless each hand has a device. Throws RefusedError from compileScene.
   TickEngine(const experiment::Experiment& experiment, const EngineOptions& options);
   /// The same, with the constraint that is compiled already.
   TickEngine(const experiment::CompiledExperiment& experiment, const EngineOptions& options);
   TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options);
 
-  /// The two stages of a tick (tick_order.h) that are the engine's: estimate the hands, step the object and judge the trial; then limit
-  /// the forces. Haptic thread: neither allocates, locks, waits nor throws.
+  /// Two stages of a tick (tick_order.h). `step` estimates the hands, steps the object and judges the trial. `limit` then limits the
+  /// forces. Haptic thread: neither allocates, locks, waits nor throws.
   void step(const TickInput& input) noexcept;
   void limit(const TickInput& input) noexcept;
-  /// After the latest tick; before the first, the object at rest at the start.
+  /// After the latest tick. Before the first tick, the object is at rest at the start.
   const TickState& state() const noexcept { return state_; }
-  /// What a virtual hand is to be told after the latest tick.
+  /// The cue to a virtual hand after the latest tick.
   std::optional<Cue> cue() const noexcept { return cue_; }
-  /// What only the loop around this knows: late ticks, longest gap, dropped records.
+  /// Counts that only the loop knows: late ticks, longest gap, dropped records.
   LoopFaults& faults() noexcept { return state_.faults; }
 
-  /// Where observing all masses costs far more than a step (EndMasses), it is done at multiples of `ticks` alone and where the trial's
-  /// verdict needs it; force, hand and verdict stay the same bits. Before the first tick.
+  /// If observing all masses costs far more than a step (EndMasses), it is done only at multiples of `ticks` and where the trial's
+  /// verdict needs it. Force, hand and verdict keep the same bits. Before the first tick.
   void setMassesEvery(std::uint32_t ticks) noexcept { massesEvery_ = ticks; }
-  /// Where nobody looks, nor a hand that sees: at multiples of `ticks` alone (0: at none) all is observed, else no energy, and of the masses
-  /// what the verdict needs. Force, hand and verdict stay the same bits. Before the first tick.
+  /// For runs that nobody watches. Everything is observed only at multiples of `ticks` (0: never). At other ticks the energy is left out
+  /// and only the masses that the verdict needs are observed. Force, hand and verdict keep the same bits. Before the first tick.
   void setLookedAtEvery(std::uint32_t ticks) noexcept { lookedAtEvery_ = ticks; }
-  /// False after a tick in which the masses between the first and the last may not have been observed, and no energy.
+  /// False after a tick in which the energy and the inner masses may not have been observed.
   bool sawAllMasses() const noexcept { return sawAll_; }
 
   /// The scene, for another engine of the same experiment: as good as compiled anew, since an engine begins by putting its object at rest.
@@ -93,7 +93,7 @@ class TickEngine {
   std::string stopReason() const { return scene_.plant->stopReason(); }
 
  private:
-  /// What is one hand's own: how it is estimated, where it holds, and what its device may get.
+  /// The state of one hand: its estimate, where it holds the object, and the limits of its device.
   struct Hand {
     Hand(const experiment::Experiment& experiment, const HandOptions& options);
 
@@ -103,7 +103,7 @@ class TickEngine {
     ForceSafety safety;
     GuardSettings guards;
     PassivityObserver observer;
-    Vec3 fpInBody;           // [m] the FP from what `fixedPoint` says, as the object is put up
+    Vec3 fpInBody;           // [m] from `fixedPoint` to the FP when the object is placed
     Vec3 fpOffset;           // [m] HIP minus FP at arming, fixed in world axes
     Vec3 anchor;             // [m] the hand after a gap: seen minus true, at the gap
     int anchorTicks = 0;     // left of the blend

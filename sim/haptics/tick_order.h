@@ -20,7 +20,7 @@ struct NoStages {
 ///   limit     turns the coupling's force into what each device may get
 ///   write     gives the devices their forces and the hands their cue; false ends the tick here
 ///   publish   tells recorder and window
-/// `stages` has the members of NoStages. Returns false when the tick ended early. Throws only what a stage throws.
+/// `stages` has the members of NoStages. Returns false when the tick ended early. Throws only exceptions of a stage.
 template <class Stages = NoStages>
 bool runTick(TickEngine& engine, TickInput& input, Stages&& stages = {}) {
   if (!stages.read(input)) return false;

@@ -23,7 +23,7 @@ struct LoopFaults {
   std::array<std::uint64_t, dynamics::kStepStatusCount> steps{};
 };
 
-/// What is known of one hand after one tick.
+/// The state of one hand after one tick.
 struct HandState {
   DeviceSample device;        // raw
   dynamics::HandSample hip;   // what the coupling saw
@@ -38,7 +38,7 @@ struct HandState {
   double work = 0;                 // [J] done by the hand on the object in this trial; counted where several hold it
 };
 
-/// What is known after one tick beside the hands and the masses.
+/// The state after one tick without the hands and the masses.
 struct TickHeader {
   std::uint64_t tick = 0;       // since the run's start; simulated time is tick * 1 ms
   std::int64_t measuredNs = 0;  // monotonic clock at the tick, for the record only
@@ -56,7 +56,7 @@ struct TickHeader {
   dynamics::BodyState body;
 };
 
-/// Everything that is known after one tick; published to the window and turned into a row of the recording.
+/// The whole state after one tick. It is published to the window and becomes a row of the recording.
 struct TickState : TickHeader {
   std::array<HandState, experiment::kMaxHands> hands{};  // the first `handCount`
   std::array<dynamics::MassState, experiment::kMaxMasses> masses{};  // the first `massCount`

@@ -18,13 +18,13 @@ namespace reachlab::haptics {
 ///                    up to kMaxWindowDuration, whose every sample lies within kWindowNoise of the line through its ends; delay half of it
 ///   device           what the device measures itself; the butterworth where it measures nothing
 ///   auto             device (docs/devices.md has the table that it was chosen by)
-/// Axes alike, but the window is one for all three. Starts at rest; reset() after a jump or a loss. Haptic thread.
+/// Axes alike, but the window is one for all three. Starts at rest. Call reset() after a jump or a loss. Haptic thread.
 class VelocityEstimator {
  public:
   static constexpr int kMaxWindowDuration = 32;    // [ticks]
   static constexpr double kWindowNoise = 0.06e-3;  // [m] half a step of the coarsest encoders of docs/devices.md, and a little
 
-  /// Cutoff in (0, 500) Hz; problems(Experiment) reports other values.
+  /// Cutoff in (0, 500) Hz. problems(Experiment) reports other values.
   explicit VelocityEstimator(const experiment::VelocityEstimatorSpec& spec);
   void reset() noexcept { count_ = 0; }
   /// Velocity at this sample [m/s], world frame.

@@ -5,7 +5,7 @@
 
 namespace reachlab::haptics {
 
-/// What the watchdog sees of the loop, at one look.
+/// The loop as the watchdog sees it at one look.
 struct WatchdogView {
   std::int64_t nowNs = 0;
   std::int64_t lastTickNs = 0;  // when the latest tick was completed; 0: none yet
@@ -16,7 +16,7 @@ struct WatchdogView {
 inline constexpr std::int64_t kStallNs = 20'000'000;     // without a tick while force is on
 inline constexpr std::int64_t kNoClockNs = 500'000'000;  // without a call of a device that drives the clock, at any time
 
-/// What is to be latched now: Stalled, NoClock or None. A pure function, so that its law is tested with invented times.
+/// The fault to be latched now: Stalled, NoClock or DeviceFault::None. A pure function, so that its law is tested with invented times.
 constexpr DeviceFault judgeLoop(const WatchdogView& view) noexcept {
   if (view.lastTickNs == 0) return DeviceFault::None;
   const std::int64_t silence = view.nowNs - view.lastTickNs;

@@ -38,12 +38,12 @@ struct TrialResult {
   std::uint64_t onsetTick = 0, endTick = 0;
 };
 
-/// True when the run ends with this trial: somebody, or the end of the program, broke it off. What the machine or the device spoilt does not.
+/// True if the run ends with this trial, because a person or the end of the program broke it off. A fault of machine or device does not.
 bool endsRun(const TrialResult& result);
-/// True when it says nothing of the subject and is put up once more at the end, if the plan says so (`repeat_aborted`).
+/// True if the trial says nothing about the subject. It is queued again at the end if the plan asks for it (`repeat_aborted`).
 bool isPutUpAgain(const TrialResult& result);
 
-/// Where the trial stands, as recorded with every tick.
+/// The state of the trial, recorded with every tick.
 enum class Phase : std::uint8_t { Idle, Waiting, Armed, Moving, Done };
 /// The square near the top left: neutral before T - dT, green inside T +- dT, red after.
 enum class Semaphore : std::uint8_t { Neutral, Green, Red };

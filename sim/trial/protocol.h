@@ -14,7 +14,7 @@ namespace reachlab::constraints {
 struct Constraint;
 }
 
-/// The trial as a state machine over ticks of 1 ms. A pure function of what it is given: no clock, no device, no plant.
+/// The trial as a state machine over ticks of 1 ms. A pure function of its arguments: no clock, no device, no plant.
 ///
 ///   from             on                                                     to
 ///   Idle, Done       NextTrial                                              Waiting   trial + 1, result cleared
@@ -43,7 +43,7 @@ struct Constraint;
 ///
 /// Where several hands hold the object, each must be at the start, the one that moves first makes the onset, and losing one loses all.
 /// Of several at one tick the lower row of the table wins. Armed begins with the go signal unless the trial has a foreperiod.
-/// At T + dT the reason is `position` while any mass is farther than dx from the target, else `velocity`; the mass to blame is the one
+/// At T + dT the reason is `position` while any mass is farther than dx from the target, else `velocity`. The result names the mass
 /// with the largest excess in that quantity. The semaphore is green from T - dT on, red once T + dT has passed without success.
 namespace reachlab::trial {
 
@@ -72,7 +72,7 @@ struct ProtocolSettings {
 /// Throws FaultError when the experiment has no task, or its start or target is no place on the constraint.
 ProtocolSettings makeProtocolSettings(const experiment::Experiment& experiment, const constraints::Constraint& constraint);
 
-/// What the protocol sees of one tick.
+/// The inputs of the protocol in one tick.
 struct ProtocolInput {
   std::uint64_t tick = 0;
   Command command = Command::None;
@@ -101,10 +101,10 @@ struct ProtocolState {
   TrialResult result;            // in Done
 };
 
-/// Haptic thread, once a tick, after the step; neither allocates nor throws.
+/// Haptic thread, once per tick, after the step. Neither allocates nor throws.
 void advance(const ProtocolSettings& settings, const ProtocolInput& input, ProtocolState& state) noexcept;
 
-/// Haptic thread: whether the verdict on this tick depends on other masses than the first and the last, as these are now.
+/// Haptic thread: true if the verdict on this tick depends on masses between the first mass and the last mass.
 bool needsEveryMass(const ProtocolSettings& settings, const ProtocolState& state, std::uint64_t tick,
                     std::span<const dynamics::MassState> masses) noexcept;
 

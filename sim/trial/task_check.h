@@ -7,8 +7,8 @@
 
 namespace reachlab::trial {
 
-/// Why the experiment's task cannot be carried out as a reach, if so: start and target on the constraint, and not the same place. Asked before
-/// a run and by `reach validate`; who only simulates or predicts has rules of his own.
+/// Reasons why the task cannot be carried out as a reach. Start and target must be two different places on the constraint. Checked before a
+/// run and by `reach validate`. Simulations and predictions have other rules.
 std::vector<Fault> taskProblems(const experiment::CompiledExperiment& experiment);
 /// Throws these as FaultError, with their places in `file`.
 void checkTask(const experiment::CompiledExperiment& experiment, const std::string& file);

@@ -7,8 +7,8 @@
 
 namespace reachlab::trial {
 
-/// What the way from start to target holds in store, one sentence each: places where the formula is not smooth, and a start at which
-/// rounding decides which way the mass leaves when the hand goes straight to the target. Empty where nothing is to be told.
+/// Warnings about the path from start to target, one sentence each. It tells of places where the formula is not smooth. It also tells of a
+/// start at which rounding decides the direction in which the mass leaves. Empty if there is nothing to tell.
 std::vector<Fault> describeWay(const experiment::CompiledExperiment& experiment);
 
 }  // namespace reachlab::trial
