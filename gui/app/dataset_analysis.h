@@ -5,19 +5,20 @@
 
 namespace reachlab::gui::app {
 
-/// Analyses a dataset by the program `reach` in a process of its own, so that neither a run nor the window waits for it, or falls with it.
+/// Analyses a dataset with the program `reach`, in a separate process. Neither a run nor the window waits for it, and neither fails with
+/// it.
 class DatasetAnalysis : public QObject {
   Q_OBJECT
  public:
-  /// `program`: reach; empty: the one beside this program, of its build tree, or on the path.
+  /// `program`: the path of `reach`. If it is empty, `reach` is looked for beside this program, in its build tree, and on the path.
   explicit DatasetAnalysis(QString program = {}, QObject* parent = nullptr);
   ~DatasetAnalysis() override;
 
-  /// Begins; one at a time.
+  /// Begins an analysis. Only one runs at a time.
   void begin(const QString& dataset);
 
  Q_SIGNALS:
-  /// One sentence: why it cannot be had, or what `reach` said when it failed.
+  /// One sentence: why no report can be made, or the error that `reach` printed.
   void said(const QString& sentence);
   /// It has begun, or the report is written.
   void told(const QString& sentence);

@@ -9,14 +9,14 @@ namespace reachlab::gui::app {
 
 class SessionController;
 
-/// What the user changed, to be undone and redone: each change is the whole of what is to be done, checked and compiled.
+/// Changes by the user, for undo and redo. Each change holds the whole programme, checked and compiled.
 class EditHistory {
  public:
   explicit EditHistory(SessionController& session) : session_(session) {}
 
-  /// Takes the experiment over if nothing is wrong with it. What is wrong, in words; empty: it holds.
+  /// Takes the experiment over if it has no fault. Returns the faults as sentences, and an empty list if the experiment holds.
   QStringList tryEdit(const experiment::Experiment& changed, const QString& what);
-  /// Takes over what was opened.
+  /// Takes over a programme that was opened.
   void open(const session::Programme& programme, const QString& what);
   QUndoStack& stack() { return stack_; }
 

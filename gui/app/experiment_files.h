@@ -7,13 +7,13 @@
 /// Files of experiments as the window handles them: written whole or not at all, remembered, and begun from templates.
 namespace reachlab::gui::app {
 
-/// Throws ResourceError; what was there before is then as it was.
+/// Throws ResourceError. A file that was there before is then unchanged.
 void writeExperiment(const experiment::Experiment& experiment, const QString& file);
 
-/// A log, or a folder: what is looked at, not reached with.
+/// Whether the path is a log or a folder, which is inspected and not run.
 bool isRecorded(const QString& file);
 
-/// The newest first, at most eight; those that are gone are left out.
+/// At most eight files, the newest first. Files that no longer exist are left out.
 QStringList recentFiles();
 void rememberFile(const QString& file);
 
@@ -23,10 +23,10 @@ struct Template {
   const char* shipped;
 };
 const std::vector<Template>& templates();
-/// Of that template, under a name of its own. Throws FaultError.
+/// A new experiment from that template, with a new name. Throws FaultError.
 experiment::CompiledExperiment newExperiment(const Template& from);
 
-/// Where the manual begins: the installed site, the one that was built, or its source. Empty: none is there.
+/// The first page of the manual: the installed site, the built site, or its source. Empty if there is no manual.
 QString manualPage();
 
 }  // namespace reachlab::gui::app

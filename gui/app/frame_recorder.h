@@ -15,9 +15,9 @@ class SceneView;
 
 namespace reachlab::gui::app {
 
-/// Pictures of a scene for a film, 25 a second, as frame-000001.png and on. Written on a thread of its own; where the disk is slower than the
-/// pictures come, pictures are left out and counted: neither window nor memory waits. All are of the first one's size, made even, as encoders
-/// want it: what is of another size since, because the window was changed, is fitted into it.
+/// Writes pictures of a scene for a film, 25 per second, as frame-000001.png and so on. A separate thread writes them. If the disk is too
+/// slow, pictures are left out and counted, so that neither window nor memory suffers. All pictures have the size of the first picture,
+/// made even, as encoders need it. A later picture of a different size is fitted into it.
 class FrameRecorder : public QObject {
   Q_OBJECT
  public:
@@ -26,7 +26,7 @@ class FrameRecorder : public QObject {
   ~FrameRecorder() override;
 
   void start(const QString& folder);
-  /// `ended` follows when the last one is written.
+  /// `ended` follows when the last picture is written.
   void stop();
 
  Q_SIGNALS:

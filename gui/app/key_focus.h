@@ -6,12 +6,12 @@ class QWidget;
 
 namespace reachlab::gui::app {
 
-/// Who gets the keys of a window: a text field only while it is being typed in. Enter keeps an entry, Esc leaves it, and both give the keys
-/// back to the scene; undo and redo are the window's where the field has nothing of its own to undo.
+/// Decides which widget gets the keys of a window. A text field gets them only while the user types in it. Enter keeps an entry and Esc
+/// leaves it. Both give the keys back to the scene. Undo and redo belong to the window if the field has nothing to undo.
 class KeyFocus : public QObject {
   Q_OBJECT
  public:
-  /// Watches the fields of `window`; `home` gets the keys back.
+  /// Watches the fields of `window`. The widget `home` gets the keys back.
   KeyFocus(QWidget& window, QWidget& home);
 
  protected:

@@ -6,7 +6,7 @@ namespace reachlab::gui::app {
 
 class MainWindow;
 
-/// How the scene is drawn, as entries of the View menu: what belongs to the experiment is an edit of it.
+/// Entries of the View menu for the look of the scene. A look that belongs to the experiment is changed as an edit of the experiment.
 void addLookMenu(MainWindow& window, QMenu& menu);
 
 }  // namespace reachlab::gui::app

@@ -61,12 +61,12 @@ class MainWindow : public QMainWindow {
   const scene::OverlayState& overlay() const;
   /// How the scene is drawn, as the experiment has it.
   experiment::SceneLook look() const { return experiment::lookOf(session_.experiment()); }
-  /// At the top of the window: what is wrong, and what went as it was asked for.
+  /// Shows a sentence at the top of the window: `say` for an error, `tell` for news of a success.
   void say(const QString& sentence);
   void tell(const QString& sentence);
-  /// The sentence in the bar at the top, empty when there is none.
+  /// The sentence in the bar at the top. Empty if the bar is hidden.
   QString message() const;
-  /// Waits for nothing; true once the criteria have been computed for the experiment as it is.
+  /// True once the criteria have been computed for the present experiment. Never waits.
   bool predictionsReady() const { return forecast_.isReady(); }
 
  public Q_SLOTS:
@@ -77,14 +77,14 @@ class MainWindow : public QMainWindow {
   void endRun();
   /// At a station: the others hear of it from now on.
   void joinStations();
-  /// An experiment or a plan, a file or a shipped name; what is wrong with it is said.
+  /// Opens an experiment or a plan, by file or shipped name. Faults are shown.
   void openExperiment(const QString& what);
   void openFile();
   /// Shows a dataset, a session or a log.
   void inspect(const QString& path);
   /// A sound beginning of its kind, not saved yet.
   void beginNew(const Template& from);
-  /// Into the file it came from; where there is none, asks for one. False when it was not saved.
+  /// Saves into the file that was opened, or asks for a file. Returns false if nothing was saved.
   bool saveExperiment();
   /// False when it was not saved.
   bool saveExperimentAs();
@@ -94,11 +94,11 @@ class MainWindow : public QMainWindow {
   void showSubjectOn(const QString& screen);
   /// Remembered (QSettings).
   void setSubjectsLanguage(const QString& code);
-  /// What the subject sees is part of the experiment.
+  /// Changes the subject's screen, which is part of the experiment.
   void setSubjectScreen(const reachlab::experiment::SubjectScreen& screen);
   /// An edit of the experiment.
   void setLook(const reachlab::experiment::SceneLook& look);
-  /// Where the scene is looked from now, as a named camera of the experiment; one of that name is replaced.
+  /// Stores the present camera as a named camera of the experiment. A camera with the same name is replaced.
   void rememberView(const QString& name);
   void setSideBySide(bool on);
   void setMuted(bool muted);

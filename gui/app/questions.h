@@ -5,7 +5,7 @@ class QWidget;
 
 namespace reachlab::gui::app {
 
-/// Asks before something is lost. Each waits for the answer; closing the box is "no".
+/// Questions before data would be lost. Each waits for the answer. Closing the box means "no".
 bool askToEndRun(QWidget& window, const QString& doing, std::size_t trialsDone, std::size_t trialsPlanned);
 
 enum class Unsaved { Save, Discard, Cancel };

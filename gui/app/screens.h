@@ -25,7 +25,7 @@ class SubjectWindow;
 
 namespace reachlab::gui::app {
 
-/// Every picture of the scene that there is: the experimenter's and, while it is open, the subject's, with words of its own.
+/// All pictures of the scene: the experimenter's and, while it is open, the subject's with separate words.
 class Screens : public QObject {
   Q_OBJECT
  public:
@@ -34,19 +34,18 @@ class Screens : public QObject {
 
   /// Builds the picture anew, the hand at rest at the start.
   void showExperiment(const experiment::CompiledExperiment& experiment);
-  /// Which of the experiment's hands is here, from 0, where the others are at other stations.
+  /// The index from 0 of the hand at this station. The other hands are at other stations.
   void setOwnHand(int hand) { options_.ownHand = hand; }
-  /// Where a scene file stands that is named without a folder.
+  /// The folder of a scene file that is named without a folder.
   void lookIn(const QString& folder) { folder_ = folder; }
   /// The object back at the start: no run is open.
   void showRest();
-  /// Moves what there is.
-  /// `others`: hands at other stations.
+  /// Moves the actors. `others`: hands at other stations.
   void showState(const haptics::TickState& state, const network::OtherHands& others = {});
   void showOverlay(const scene::OverlayState& experimenters, const scene::OverlayState& subjects);
   /// The keys that work on the subject's screen as they do in the main window.
   void setSubjectsActions(const QList<QAction*>& actions) { actions_ = actions; }
-  /// Masses beside one another, for the eye only; seen from where the camera stands.
+  /// Draws masses beside one another, for the eye only, as seen from the present camera.
   void setSideBySide(bool on);
   void toggleSubject();
   /// Opens the subject's screen on the monitor of that name, or moves it there.
@@ -55,13 +54,13 @@ class Screens : public QObject {
   const scene::OverlayState& overlay() const { return overlay_; }
   /// Of the experiment's scene file.
   model::ModelReader& modelReader() { return model_; }
-  /// Masses stand at one place, so that one hides the others.
+  /// Whether masses are at the same position, so that one hides the others.
   bool massesHide() const;
 
  Q_SIGNALS:
   /// As SceneView::handDragged, from whichever picture.
   void handDragged(double x, double y, double z, qint64 eventMs);
-  /// What is wrong with a scene file.
+  /// Faults of a scene file.
   void said(const QString& sentence);
 
  private:

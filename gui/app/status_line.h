@@ -12,7 +12,8 @@ class RecordedRun;
 
 namespace reachlab::gui::app {
 
-/// What the status bar tells of a run: rate, late ticks, the last trial's true time, method, the file that is written. The labels are the bar's.
+/// Facts of a run in the status bar: rate, late ticks, the last trial's true time, method, and the log file. The status bar owns the
+/// labels.
 class StatusLine {
  public:
   explicit StatusLine(QStatusBar& bar);

@@ -6,7 +6,7 @@ namespace reachlab::gui::app {
 
 class MainWindow;
 
-/// What the subject sees, hears and reads: on which screen, in which language, what is shown (stored in the experiment), how loud.
+/// Menu of the subject's screen: monitor, language, visible parts (stored in the experiment), and loudness.
 void addSubjectMenu(MainWindow& window, QMenu& menu);
 
 }  // namespace reachlab::gui::app

@@ -4,20 +4,21 @@ class QMainWindow;
 
 namespace reachlab::gui::app {
 
-/// What the docks are arranged for; each arrangement is remembered as it was left.
+/// The purposes that the docks are arranged for. Each arrangement is remembered as the user left it.
 enum class WindowLayout { SetUp, Run, Inspect };
 
-/// Where the window stands, which layout it has, and where its docks stand: remembered from one start to the next (QSettings).
+/// Remembers position, layout and docks of the window from one start to the next (QSettings).
 void rememberLayout(const QMainWindow& window, WindowLayout layout);
-/// As it was left; at the first start as large as the screen allows.
+/// Restores the window as it was left. At the first start, it is as large as the screen allows.
 WindowLayout restoreLayout(QMainWindow& window);
 void forgetLayout();
 
-/// Where docks on both sides, or three below one another, would leave no room, those of the right and the constraint become tabs on the left.
+/// Makes room on small screens. If docks on both sides or three docks in a column leave no room, some become tabs on the left. These are
+/// the docks on the right and the constraint.
 void stackOnNarrowScreen(QMainWindow& window);
 void rememberDocks(const QMainWindow& window, WindowLayout layout);
-/// As they were left in this layout, or as it begins: everything to set up, the session and the plot to run, none to
-/// inspect: a recording has its own page.
+/// Restores the docks as they were left in this layout, or as the layout begins. SetUp begins with every dock, Run with session and plot.
+/// Inspect begins without docks, because a recording has a separate page.
 void restoreDocks(QMainWindow& window, WindowLayout layout);
 
 }  // namespace reachlab::gui::app

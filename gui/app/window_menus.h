@@ -6,7 +6,7 @@ namespace reachlab::gui::app {
 
 class MainWindow;
 
-/// What begins and ends trials, with its keys: valid in the subject's window too.
+/// Actions that begin and end trials, with their keys. They also work in the subject's window.
 struct TrialActions {
   QAction *next = nullptr, *abort = nullptr, *repeat = nullptr, *end = nullptr, *subjectsScreen = nullptr;
 };

@@ -23,26 +23,26 @@ namespace reachlab::gui::docks {
 
 class FormulaEditor;
 
-/// A choice made: what an experiment needs to use it.
+/// A choice with everything that an experiment needs to use it.
 struct ConstraintChoice {
   constraints::ConstraintSpec spec;
   std::vector<double> start, target;
   bool withPoint = false;  // the object becomes one mass of the same weight
 };
 
-/// Choose a constraint from a searchable list with thumbnails and move its sliders, or type a formula; both with a live picture. A typed
-/// formula can be saved as a definition. "Use" reaches on it at once, without a restart.
+/// Dialog that chooses a constraint from a searchable list with thumbnails and sliders, or from a typed formula. Both show a live picture.
+/// A typed formula can be saved as a definition. "Use" takes effect at once, without a restart.
 class ConstraintChooser : public QDialog {
   Q_OBJECT
  public:
   explicit ConstraintChooser(QWidget* parent = nullptr);
   ~ConstraintChooser() override;
-  /// Shows what is in use.
+  /// Shows the constraint in use.
   void setCurrent(const experiment::Experiment& experiment);
-  /// Why the choice cannot be reached on with the object as it is; where it is more than one mass, one is offered instead. Empty: it was
-  /// taken, and the dialog closes.
+  /// Why the present object cannot move on the choice. If only the number of masses is the reason, a single mass is offered. Empty: the
+  /// choice was taken, and the dialog closes.
   void answer(const QStringList& faults);
-  /// What would be used now; nullopt while it cannot be.
+  /// The present choice. nullopt while it has a fault.
   std::optional<ConstraintChoice> choice() const { return choice_; }
   scene::SceneView* preview() { return preview_; }
 

@@ -22,7 +22,7 @@ class DeviceDialog : public QDialog {
                QWidget* parent);
   ~DeviceDialog() override;
 
-  /// Opens what is named, or lets it go.
+  /// Opens the named device, or releases it.
   void openOrLetGo();
   QString words() const;  // the line under the pictures
 

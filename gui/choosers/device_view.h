@@ -7,11 +7,11 @@ class QPainter;
 
 namespace reachlab::gui::docks {
 
-/// A device live: where its handle is from the front and from above, the force on it, and how long the times between its reports are.
+/// Live view of a device: its handle from the front and from above, its force, and the times between its reports.
 class DeviceView : public QWidget {
  public:
   explicit DeviceView(QWidget* parent = nullptr);
-  /// `reach`: [m] about the origin that is shown; `force`: [N] of a full arrow.
+  /// `reach`: shown range about the origin [m]. `force`: force of a full arrow [N].
   void display(const devices::LiveDevice::View& view, double reach, double force);
   void clear();
   QSize sizeHint() const override { return {660, 220}; }

@@ -17,7 +17,8 @@ namespace reachlab::gui::docks {
 /// Names in the formulas that are neither variables, constants nor functions: the shape parameters, in order of appearance.
 std::vector<std::string> parameterNames(constraints::ConstraintKind kind, const std::array<std::string, 3>& coordinates);
 
-/// The variable that a parameter's name was perhaps to be: one letter away from it, or the same but for capitals; empty: none.
+/// The variable that was probably meant by a parameter's name: one letter differs, or only capitals differ. Empty if there is no such
+/// variable.
 std::string variableMeant(constraints::ConstraintKind kind, const std::string& name);
 
 /// Three lines of formula with the fault of each under it, at the character where it went wrong. Knows no scene.
@@ -30,7 +31,7 @@ class FormulaEditor : public QWidget {
   std::array<std::string, 3> coordinates() const;
   /// True when every line can be compiled.
   bool fine() const { return fine_; }
-  /// A fault of the whole, found beyond the text (degenerate everywhere, not finite somewhere); empty: none.
+  /// A fault of the whole formula, found beyond its text: degenerate everywhere or not finite somewhere. Empty if there is no fault.
   void setFault(const QString& fault);
 
  Q_SIGNALS:

@@ -15,7 +15,7 @@ class StationsDock;
 class TrialsDock;
 class VelocityDock;
 
-/// The docks of the window; owned by it.
+/// The docks of the window, which owns them.
 struct Docks {
   SessionDock* session = nullptr;
   ConstraintDock* constraint = nullptr;

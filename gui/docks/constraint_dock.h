@@ -11,12 +11,12 @@ namespace reachlab::gui::docks {
 
 class ConstraintChooser;
 
-/// The constraint in use: its name, its shape's sliders, and the way to another. Knows definitions, not the simulator.
+/// The constraint in use: its name, its sliders, and the button for the chooser. Depends on definitions, not on the simulator.
 class ConstraintDock : public Dock {
   Q_OBJECT
  public:
   explicit ConstraintDock(QWidget* parent = nullptr);
-  /// The dialog with the catalogue, for the experiment that is shown; nothing where it may not be edited.
+  /// Opens the dialog with the catalogue for the experiment that is shown. Does nothing if the experiment may not be edited.
   void choose();
   ConstraintChooser& chooser();  // made when first asked for
   void showFaults(const QStringList& faults) override;

@@ -16,8 +16,8 @@ namespace reachlab::gui::docks {
 
 class DeviceDialog;
 
-/// Which devices there are, what could be there and why it is not. What is plugged in or out shows by itself while the dock is seen and no
-/// run has the devices: drivers are asked in the window's thread, and asking some of them opens a device for a moment.
+/// Lists the present devices, and the missing devices with a reason. Plugging shows by itself while the dock is visible and no run has the
+/// devices. Drivers are asked in the window's thread, and some drivers open a device for a moment.
 class DeviceDock : public Dock {
   Q_OBJECT
  public:
@@ -29,9 +29,9 @@ class DeviceDock : public Dock {
   explicit DeviceDock(QWidget* parent = nullptr) : DeviceDock(Finding{}, parent) {}
   DeviceDock(const Finding& finding, QWidget* parent);
 
-  /// A run has its devices: nobody asks for them, and none is opened.
+  /// Tells that a run has its devices. Then no driver is asked and no device is opened.
   void setBusy(bool busy);
-  /// What is the hand now: its options stay when its device is looked at or chosen again.
+  /// The device that is the hand now. Its options stay when its device is looked at or chosen again.
   void setHand(const QString& hand) { hand_ = hand; }
   /// Asks every driver anew.
   void list();

@@ -11,26 +11,26 @@ class FaultLabel;
 
 namespace reachlab::gui::docks {
 
-/// A panel beside the scene: an experiment in, an edit out. Knows neither the window nor the session. A new one is a file of its own and a
-/// line in all_docks.cpp.
+/// A panel beside the scene: an experiment goes in, an edit comes out. Depends neither on the window nor on the session. A new dock needs
+/// its files and a line in all_docks.cpp.
 class Dock : public QDockWidget {
   Q_OBJECT
  public:
   /// `name`: by which the layout is remembered.
   Dock(const QString& title, const QString& name, QWidget* parent);
 
-  /// Displays what holds; emits nothing. `editable`: false where the settings are a plan's, which stand in its file.
+  /// Displays the experiment and emits nothing. `editable` is false if the settings belong to a plan's file.
   void showExperiment(const experiment::CompiledExperiment& experiment, bool editable);
-  /// Why the last edit was refused, a line each; empty: it holds.
+  /// Shows why the last edit was refused, one line per fault. An empty list means that the edit holds.
   virtual void showFaults(const QStringList& faults);
 
  Q_SIGNALS:
-  /// The user changed something: the whole experiment as it is to be, perhaps faulty, and what the change is called: "task".
+  /// Emitted after a change by the user, with the whole changed experiment, which may be faulty. `what` names the change: "task".
   void edited(const reachlab::experiment::Experiment& changed, const QString& what);
 
  protected:
   virtual void display(const experiment::CompiledExperiment& experiment, bool editable) = 0;
-  /// `scrolls`: on a small screen the dock may be lower than what it holds.
+  /// `scrolls`: on a small screen the dock may be lower than its content.
   void setBody(QWidget* body, bool scrolls = true);
   QWidget* body() const { return body_; }
   const experiment::Experiment& shown() const { return shown_; }

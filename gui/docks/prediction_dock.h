@@ -17,8 +17,8 @@ class PredictionDock : public Dock {
   explicit PredictionDock(QWidget* parent = nullptr);
   /// While they are being computed: an empty list.
   void setForecasts(const std::vector<plot::CriterionForecast>& forecasts);
-  /// The paper's epsilon of a trial, one a criterion, in the forecasts' order [m/s]. The run's is over the trials that succeeded, as in
-  /// `reach analyze`, and over the failed ones while none has.
+  /// The paper's epsilon of a trial for each criterion, in the order of the forecasts [m/s]. The run's epsilon is over successful trials,
+  /// as in `reach analyze`, and over failed trials as long as none of the trials succeeded.
   void addErrors(const std::vector<std::optional<double>>& errors, bool succeeded);
   /// The fitted epsilon over the trials of the run that succeeded, one a criterion [m/s].
   void setFitted(const std::vector<std::optional<double>>& fitted);

@@ -21,23 +21,24 @@ class UnitSpinBox;
 
 namespace reachlab::gui::docks {
 
-/// Who, when, with which hand, and how it goes: subject, session, run, day, device, the trial buttons, the tally, notes.
+/// Subject, session, run, day, device, the buttons of trials, the tally, and notes.
 class SessionDock : public Dock {
   Q_OBJECT
  public:
   explicit SessionDock(QWidget* parent = nullptr);
 
   void setRequest(const session::SessionRequest& request);
-  /// What is typed; `what`, `fast` and the like as they came.
+  /// The typed values. `what`, `fast` and similar members are unchanged.
   session::SessionRequest request() const;
-  /// What is wrong with the fields, a line each, as it stands under them; empty: nothing.
+  /// The faults of the fields, one line each, as shown under them. Empty if there is no fault.
   QString fault() const;
   std::string device() const;
   void setDevice(const QString& name);
   bool repeatsByItself() const;  // next trial without a key
   double pauseSeconds() const;   // [s] before it
 
-  /// While a run is open its who and where stand still. BlockDone: the plan has another; Following: another station conducts.
+  /// While a run is open, the fields of subject and session are fixed. BlockDone: the plan has a next block. Following: another station
+  /// conducts.
   enum class Stage { Closed, BetweenTrials, UnderWay, BlockDone, Finished, Following };
   void setStage(Stage stage);
   /// Which run is open: its number, block, condition, day, seed.

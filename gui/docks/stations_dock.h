@@ -9,17 +9,17 @@ class QTableWidget;
 
 namespace reachlab::gui::docks {
 
-/// The stations that move one object together: who is there, how the link to each is, and why no trial is armed.
+/// The stations that move one object together: their names, the quality of each link, and the reason why no trial is armed.
 class StationsDock : public Dock {
   Q_OBJECT
  public:
   explicit StationsDock(QWidget* parent = nullptr);
-  /// Of this station's run: none is open, and so no link either; a trial waits for the links to be good; one is under way.
+  /// State of this station's run. Closed: no run and no link. Arming: a trial waits for good links. UnderWay: a trial moves.
   enum class Stage { Closed, BetweenTrials, Arming, UnderWay, Observing };
   void showStations(const network::StationSetup& here, Stage stage, const std::vector<network::StationStatus>& others);
-  /// One line of what the stations tell, the newest at the end.
+  /// Adds a message of the stations, the newest at the end.
   void tell(const QString& line);
-  /// What stands under the table.
+  /// The sentence under the table.
   QString sentence() const;
 
  protected:

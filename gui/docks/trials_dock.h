@@ -10,7 +10,7 @@ class QTableWidget;
 
 namespace reachlab::gui::docks {
 
-/// The trials of the run that is open, the newest on top: how each ended, why, in what time, and how far its hand was from a criterion.
+/// The trials of the open run, the newest on top: outcome, reason, time, and distance of the hand from a criterion.
 class TrialsDock : public Dock {
   Q_OBJECT
  public:
@@ -20,9 +20,9 @@ class TrialsDock : public Dock {
   void add(int number, const trial::TrialResult& result);
   /// The paper's epsilon of the newest trial, one a criterion. [m/s]
   void setErrors(const std::vector<std::optional<double>>& errors);
-  /// Whose epsilon is shown: an index into the errors, and what it is called.
+  /// Selects the criterion of the shown epsilon: an index into the errors, and its title.
   void showCriterion(std::size_t index, const QString& title);
-  /// What is said of a trial.
+  /// Shows the mark of a trial.
   void setMark(int number, const record::TrialMark& mark);
   int trialCount() const { return static_cast<int>(rows_.size()); }
 

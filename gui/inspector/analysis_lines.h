@@ -5,7 +5,7 @@
 #include "gui/inspector/inspection.h"
 #include "gui/inspector/profile_plot.h"
 
-/// What of an inspection is drawn, as numbers: the same for plot, figure and file. Pure.
+/// The drawn lines of an inspection as numbers, the same for plot, figure and file. Pure.
 namespace reachlab::gui::inspector {
 
 /// Velocity of the hand along the path, or of the last mass.
@@ -13,7 +13,7 @@ enum class Signal { Hand, Object };
 /// As it was moved, or time-scaled to the mean of the chosen trials as in the report's figures.
 enum class TimeAxis { AsMoved, Scaled };
 
-/// One a trial, in their order; time from the trial's onset (of one without a movement, from its arming). [s], [m/s]
+/// One line per trial, in the order of trials [s], [m/s]. Time counts from the trial's onset, or from its arming if there was no movement.
 std::vector<ProfilePlot::Line> linesOf(const Inspection& inspection, Signal signal, TimeAxis axis);
 /// Onset of a trial on the clock of its samples: 0 on the plot. [s] since arming
 double zeroOf(const Inspection& inspection, std::size_t trial);
@@ -21,10 +21,10 @@ double zeroOf(const Inspection& inspection, std::size_t trial);
 struct MeanLine {
   QVector<double> x, mean, sd;
 };
-/// Over the trials of the condition that count; empty where none does.
+/// Over the counted trials of the condition. Empty if no trial counts.
 MeanLine meanOf(const analysis::Analysis& analysis, std::size_t condition, Signal signal);
 
-/// The predictions of these criteria: for the task's T, dashed, or where the chosen trials of a person were fitted the mean of the fitted
+/// The predictions of these criteria. They are dashed and for the task's T, unless `fitted`: then they are the mean of the fitted
 /// movements, dotted.
 std::vector<ProfilePlot::Prediction> predictionsOf(const analysis::Analysis& analysis, std::size_t condition, Signal signal,
                                                    const std::vector<predict::Criterion>& criteria, bool fitted);

@@ -9,8 +9,8 @@ class QTableWidget;
 
 namespace reachlab::gui::inspector {
 
-/// The two errors of each criterion over chosen trials: the paper's epsilon and the fitted epsilon, of a person or of people as the report
-/// has them. Ticked ones are drawn.
+/// The two errors of each criterion over chosen trials, as the report has them: the paper's epsilon and the fitted epsilon. They are for
+/// one person or for several. Ticked criteria are drawn.
 class EpsilonPanel : public QWidget {
   Q_OBJECT
  public:
@@ -20,7 +20,7 @@ class EpsilonPanel : public QWidget {
   /// Nothing is known (yet): why.
   void clear(const QString& why);
   std::vector<predict::Criterion> chosen() const;
-  /// The least ticked; what the table of trials tells of.
+  /// The first ticked criterion, which the table of trials shows.
   predict::Criterion first() const;
 
  Q_SIGNALS:
@@ -32,7 +32,7 @@ class EpsilonPanel : public QWidget {
   QLabel* told_;
 };
 
-/// The fitted epsilon of a candidate that stands for `criterion`, over all samples of the condition's people who were fitted. [m/s]
+/// The fitted epsilon of the candidate for `criterion`, over all samples of the condition's fitted people. [m/s]
 std::optional<double> fittedEpsilon(const analysis::Analysis& analysis, std::size_t condition, predict::Criterion criterion);
 
 }  // namespace reachlab::gui::inspector

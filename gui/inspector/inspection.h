@@ -18,7 +18,7 @@ struct Inspection {
   std::shared_ptr<const analysis::Analysis> analysis;  // null until judged
 };
 
-/// Reads and judges beside the window: the newest request wins, and what it replaces is given up. All signals come on the window's thread.
+/// Reads and judges on another thread. A new request replaces the work under way. All signals are emitted on the window's thread.
 class Inspector : public QObject {
   Q_OBJECT
  public:
@@ -27,9 +27,9 @@ class Inspector : public QObject {
 
   /// `read` follows, then `judged`. The numbers are `reach analyze`'s for a dataset of just these trials.
   void begin(std::vector<analysis::ChosenTrials> chosen);
-  /// Analyses the dataset at `path` as `reach analyze` does and writes report, tables and figures into its own folder; `reported` follows.
+  /// Analyses the dataset at `path` as `reach analyze` does and writes report, tables and figures into its folder. `reported` follows.
   void report(const QString& path);
-  /// Gives up what is being done; `idle` follows.
+  /// Stops the work under way. `idle` follows.
   void cancel();
   bool busy() const { return busy_; }
 

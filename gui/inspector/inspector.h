@@ -26,24 +26,24 @@ class MarksPanel;
 class ProfilePlot;
 class ReplayView;
 
-/// Recordings looked at: a table of trials, the chosen ones' velocities, a replay in three dimensions, both epsilons, and what a person marks.
-/// Line, row and replay go together. Nothing here touches a recording: marks stand beside it.
+/// Page of recordings: a table of trials, velocities of the chosen trials, a 3D replay, both epsilons, and marks by a person. Line, row and
+/// replay are linked. Nothing here changes a recording, because marks are files beside it.
 class InspectorPage : public QWidget {
   Q_OBJECT
  public:
   explicit InspectorPage(QWidget* parent = nullptr);
   ~InspectorPage() override;
 
-  /// A dataset, a session or a log; what is wrong with it is said. Read beside the window, with progress.
+  /// Opens a dataset, a session or a log on another thread, with progress. Faults are shown.
   void open(const QString& path);
   QString path() const { return path_; }
   TrialTable& table() { return *table_; }
   QTableView& view() { return *view_; }
   ProfilePlot& plot() { return *plot_; }
   ReplayView& replay() { return *replay_; }
-  /// Of what is chosen; null while it is read.
+  /// The inspection of the chosen trials. Null while it is read.
   const Inspection* inspection() const { return inspection_.get(); }
-  /// The row that is picked, -1: none.
+  /// The picked row, or -1.
   int pickedRow() const { return picked_; }
   bool busy() const { return opening_.valid() || inspector_.busy(); }
   /// Everything that is chosen as a figure (by the file's ending: svg, pdf, png) or as lines (csv). Throws ResourceError.
@@ -52,9 +52,9 @@ class InspectorPage : public QWidget {
   void exportTable(const QString& file);
 
  Q_SIGNALS:
-  /// One sentence for whoever looks; empty takes it away.
+  /// One sentence for the user. An empty sentence removes it.
   void said(const QString& sentence);
-  /// News of what went well.
+  /// News of a success.
   void told(const QString& sentence);
   /// A report that was asked for is written, and to be shown.
   void reported(const QString& file);

@@ -10,12 +10,12 @@ class QPushButton;
 
 namespace reachlab::gui::inspector {
 
-/// What is said of one trial: flag, exclusion with its reason, moved onset and end, a note.
+/// The marks of one trial: flag, exclusion with its reason, moved onset and end, and a note.
 class MarksPanel : public QWidget {
   Q_OBJECT
  public:
   explicit MarksPanel(QWidget* parent = nullptr);
-  /// Displays; emits nothing. `title`: which trial; times [s] since arming as they hold, and whether they were moved.
+  /// Displays the marks and emits nothing. `title` names the trial. `onset` and `end` are the valid times [s] since arming, moved or not.
   void show(const QString& title, const record::TrialMark& mark, double onset, double end);
   void clear();
 

@@ -9,9 +9,9 @@
 
 namespace reachlab::gui::inspector {
 
-/// Many trials' velocities over one another, their mean and scatter, and predictions. A click on a line picks its trial, a drag moves the
-/// time that is looked at, a drag on a dashed mark moves onset or end of the picked trial; the wheel zooms, the middle button shifts, a double
-/// click shows everything. [s], [m/s]
+/// Velocities of many trials, their mean and scatter, and predictions. A click on a line picks its trial, and a drag moves the time cursor.
+/// A drag on a dashed mark moves onset or end of the picked trial. The wheel zooms, the middle button shifts, a double click shows
+/// everything. [s], [m/s]
 class ProfilePlot : public QWidget {
   Q_OBJECT
  public:
@@ -28,9 +28,9 @@ class ProfilePlot : public QWidget {
     QVector<double> x, y;
   };
   void setLines(const std::vector<Line>& lines);
-  /// Which of the lines is picked; -1: none.
+  /// Picks a line by its index, or -1 for no line.
   void setPicked(int line);
-  /// Empty: none.
+  /// Empty vectors remove the mean.
   void setMean(const QVector<double>& x, const QVector<double>& mean, const QVector<double>& sd);
   void setPredictions(const std::vector<Prediction>& predictions);
   void setCursor(std::optional<double> time);

@@ -20,19 +20,19 @@ class SceneView;
 
 namespace reachlab::gui::inspector {
 
-/// A recorded trial in three dimensions, and how to move through its time: slider, play at 0.1 to 4 times, step by a row, over and over;
-/// other trials at the same time as ghosts.
+/// A recorded trial in three dimensions with controls of its time: slider, play at 0.1 to 4 times, step by a row, and loop. Other trials at
+/// the same time are shown as ghosts.
 class ReplayView : public QWidget {
   Q_OBJECT
  public:
   explicit ReplayView(QWidget* parent = nullptr);
 
-  /// `zero`: where in the replay's time the plot's time is 0 (the onset); `moment`: what is looked at first, on the plot's time. [s]
+  /// `zero`: the replay's time at which the plot's time is 0, which is the onset. `moment`: the first time shown, on the plot's clock. [s]
   struct Track {
     TrialReplay replay;
     double zero = 0;
   };
-  /// `folder`: where a scene file stands that the experiment names without a folder.
+  /// `folder`: folder of a scene file that the experiment names without a folder.
   void show(const experiment::CompiledExperiment& experiment, const QString& folder, Track trial, std::vector<Track> ghosts);
   void clear();
   /// On the plot's time. [s]
@@ -48,7 +48,7 @@ class ReplayView : public QWidget {
 
  Q_SIGNALS:
   void timeChanged(double time);
-  /// What is wrong with the experiment's scene file.
+  /// Faults of the experiment's scene file.
   void said(const QString& sentence);
 
  private:

@@ -6,11 +6,11 @@
 
 namespace reachlab::gui::inspector {
 
-/// The recorded states of one trial, to be looked at at any time: what the rows hold, straight lines between them. Nothing is simulated.
+/// The recorded states of one trial at any time, with straight lines between its rows. Nothing is simulated.
 class TrialReplay {
  public:
   TrialReplay() = default;
-  /// Reads the trial's rows from its arming to its end. Throws what RunLog::rows throws.
+  /// Reads the trial's rows from its arming to its end. Throws the errors of RunLog::rows.
   TrialReplay(const record::RunLog& log, const record::RecordedTrial& trial);
   bool empty() const { return rows_.size() == 0; }
   /// Of the first and the last row. [s] since arming

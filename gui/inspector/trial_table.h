@@ -17,7 +17,7 @@ struct TrialErrors {
   One paper, fitted;  // the paper's epsilon, the fitted epsilon: as `reach analyze` has them
 };
 
-/// Every trial of an index, a row each, with what was marked and computed so far. Sorts by Qt::UserRole.
+/// Every trial of an index as a row, with its marks and computed values so far. Sorts by Qt::UserRole.
 class TrialTable : public QAbstractTableModel {
   Q_OBJECT
  public:
@@ -28,10 +28,11 @@ class TrialTable : public QAbstractTableModel {
   const record::TrialIndex& recordings() const { return index_; }
   const record::IndexedRun& run(int row) const { return index_.runs[places_[static_cast<std::size_t>(row)].run]; }
   const record::RecordedTrial& trial(int row) const;
-  /// The row of that trial of that log; -1: there is none.
+  /// The row of that trial of that log, or -1.
   int rowOf(const std::string& log, int trial) const;
 
-  /// Beside the trial's log; read when the run is first asked for, written at once. Throws what reading and writing marks throws.
+  /// Marks beside the trial's log. They are read when the run is first asked for, and written at once. Throws the errors of reading and
+  /// writing marks.
   record::TrialMark mark(int row) const;
   void setMark(int row, const record::TrialMark& mark);
 
@@ -43,7 +44,7 @@ class TrialTable : public QAbstractTableModel {
   int columnCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : kColumns; }
   QVariant data(const QModelIndex& at, int role) const override;
   QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
-  /// Every word of a row, in small letters: what a filter looks in.
+  /// Every word of a row, in small letters, for the filter.
   QString words(int row) const;
 
  private:

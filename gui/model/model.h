@@ -6,7 +6,7 @@
 
 #include "base/math/vec3.h"
 
-/// Scenes from files, as plain data: known to no graphics library, and checked so that none can fall over them.
+/// Scenes from files as plain data, independent of any graphics library and checked, so that no library can crash on them.
 namespace reachlab::gui::model {
 
 /// Triangles of one colour. [m]
@@ -26,13 +26,13 @@ struct Model {
 inline constexpr std::size_t kMostTriangles = 500'000;
 inline constexpr std::uintmax_t kMostBytes = 64'000'000;
 
-/// "hand", "mass7": what moves in a scene.
+/// "hand" or "mass7": a part that moves in a scene.
 bool isMoving(const std::string& name);
 
-/// Throws FaultError for a part that no picture can be made of: a corner that is none of its points, a number that is not finite, too much.
+/// Throws FaultError for a part that cannot be drawn: a corner without a point, a number that is not finite, or too much data.
 void check(const Model& model, const std::string& file);
 
-/// A scene file, by its ending: wrl (VRML 2.0), gltf or glb (read by a process of its own). Throws FaultError, ResourceError.
+/// Reads a scene file by its ending: wrl (VRML 2.0), gltf or glb (read by a separate process). Throws FaultError, ResourceError.
 Model readModel(const std::string& file);
 
 }  // namespace reachlab::gui::model

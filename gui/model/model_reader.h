@@ -10,20 +10,21 @@
 
 namespace reachlab::gui::model {
 
-/// As readModel(file); `watch` is told the share that is read, and may throw.
+/// As readModel(file). `watch` gets the share that is read, and may throw.
 Model readModel(const std::string& file, const Watch& watch);
 /// The file that an experiment names so: beside the experiment or recording in `folder`, if it is there.
 std::string findSceneFile(const std::string& named, const QString& folder);
 
-/// Reads scene files beside the window: a large one, or a slow disk, keeps nobody waiting. The newest one wins. The window's thread.
+/// Reads scene files on another thread, so that a large file or a slow disk does not block the window. A new request replaces the last.
+/// Window's thread.
 class ModelReader : public QObject {
   Q_OBJECT
  public:
   explicit ModelReader(QObject* parent = nullptr);
   ~ModelReader() override;
 
-  /// `ready` follows, or `failed`; nothing where it is cancelled or another is begun. Empty: no scene, which is ready at once.
-  /// Reads nothing that is read already, or being read.
+  /// `ready` or `failed` follows, but not if the request is cancelled or replaced. An empty name means no scene, which is ready at once. A
+  /// file that is read or being read is not read again.
   void begin(const std::string& file);
   void cancel();
   const std::shared_ptr<const Model>& model() const { return model_; }
@@ -31,7 +32,7 @@ class ModelReader : public QObject {
  Q_SIGNALS:
   void ready();
   void failed(const QString& sentence);
-  /// Of what takes long. `percent`: -1 where it is not known.
+  /// Progress of long work. `percent` is -1 if it is not known.
   void progressed(const QString& what, int percent);
   void idle();
 

@@ -6,8 +6,8 @@
 
 #include "gui/model/model.h"
 
-/// A model between two processes of one machine: "reachlab-model 1", then for each part a line
-/// `part NAME RED GREEN BLUE OPACITY POINTS TRIANGLES` (NAME "-": none), its points as doubles and its corners as 32-bit numbers.
+/// Format of a model between two processes of one machine. It begins with "reachlab-model 1". Each part has a line `part NAME RED GREEN
+/// BLUE OPACITY POINTS TRIANGLES` (NAME "-" means no name). Its points follow as doubles and its corners as 32-bit numbers.
 namespace reachlab::gui::model {
 
 inline constexpr std::string_view kStreamHead = "reachlab-model 1\n";

@@ -6,7 +6,7 @@
 
 namespace reachlab::gui::model {
 
-/// Places of an inner frame in an outer one: 3 x 3 and a shift. [m]
+/// Maps positions of an inner frame into an outer frame: a 3 x 3 matrix and a shift. [m]
 struct Transform {
   std::array<Vec3, 3> columns{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
   Vec3 shift;

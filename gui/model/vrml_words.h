@@ -7,7 +7,7 @@
 
 namespace reachlab::gui::model {
 
-/// The words of a VRML 2.0 text one by one: names, numbers, "texts", { } [ ]. Comments and commas are blanks.
+/// The tokens of a VRML 2.0 text: names, numbers, "texts", { } [ ]. Comments and commas are blanks.
 class VrmlWords {
  public:
   VrmlWords(std::string_view text, std::string file, Watch watch = {}) : text_(text), file_(std::move(file)), watch_(std::move(watch)) {

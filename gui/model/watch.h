@@ -3,7 +3,7 @@
 
 namespace reachlab::gui::model {
 
-/// Told now and then how much is done [0, 1], NaN where nobody knows; it throws to give up.
+/// Called now and then with the finished share [0, 1], or NaN if it is not known. It throws to stop the work.
 using Watch = std::function<void(double share)>;
 
 }  // namespace reachlab::gui::model

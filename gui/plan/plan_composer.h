@@ -19,16 +19,16 @@ class UnitSpinBox;
 
 namespace reachlab::gui::plan {
 
-/// Composes a session plan: blocks in their order, practice, breaks, instructions, counterbalancing; what subjects will do is shown below.
-/// A plan is a file: it is saved before it is used.
+/// Composes a session plan: blocks in their order, practice, breaks, instructions and counterbalancing. The resulting trials of subjects
+/// are shown below. A plan is a file, which is saved before it is used.
 class PlanComposer : public QDialog {
   Q_OBJECT
  public:
   explicit PlanComposer(QWidget* parent = nullptr);
-  /// Displays. `file`: where it stands; empty: not saved yet.
+  /// Displays a plan. `file`: its path, or empty if it is not saved yet.
   void setPlan(const session::Plan& plan, const QString& file);
   const session::Plan& plan() const { return plan_; }
-  /// What is wrong, a line each; empty: it can be used.
+  /// The faults of the plan, one line each. Empty if the plan can be used.
   QStringList faults() const;
   /// Writes it, and is then of that file. Throws ResourceError.
   void saveTo(const QString& file);

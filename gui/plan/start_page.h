@@ -10,8 +10,8 @@ class QTableWidget;
 
 namespace reachlab::gui::plan {
 
-/// What stands over the scene before a session's run is opened: who, which day, which blocks are done and which are to do, and how it goes
-/// on. Knows the progress, not the session.
+/// The page over the scene before a session's run: subject, day, finished blocks, remaining blocks, and the next step. Depends on the
+/// progress, not on the session.
 class StartPage : public QFrame {
   Q_OBJECT
  public:
@@ -23,7 +23,7 @@ class StartPage : public QFrame {
     QString fault;  // why nothing can be begun; empty: it can
   };
   void show(const Shown& shown);
-  /// Goes on with what was begun, rather than from the beginning.
+  /// Resumes the session that was begun, instead of starting from the beginning.
   bool resumes() const { return resumes_; }
 
  Q_SIGNALS:

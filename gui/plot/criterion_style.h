@@ -6,7 +6,7 @@
 
 namespace reachlab::gui::plot {
 
-/// A criterion's colour in plot and list: legible on the theme's ground, and none like the hand's or the object's.
+/// A criterion's colour in plot and list. It is legible on the theme's background and differs from the hand's and the object's colours.
 QColor colourOf(predict::Criterion criterion);
 /// "min. hand jerk" …
 QString titleOf(predict::Criterion criterion);

@@ -16,11 +16,11 @@ class LiveForecast : public QObject {
  public:
   ~LiveForecast() override;
 
-  /// Begins anew for this experiment; what was being computed is dropped.
+  /// Begins anew for this experiment. Work under way is dropped.
   void setExperiment(const experiment::CompiledExperiment& experiment);
-  /// Takes over what has been computed. From the frame timer; never waits.
+  /// Takes over finished computations. Called by the frame timer. Never waits.
   void poll();
-  /// All have been computed for the experiment that holds.
+  /// True once all predictions of the present experiment are computed.
   bool isReady() const { return !stale_ && !computing_.valid(); }
   /// Empty while they are being computed.
   const std::vector<CriterionForecast>& forecasts() const { return forecasts_; }

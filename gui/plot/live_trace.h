@@ -17,7 +17,7 @@ class LiveTrace {
   void beginRun() { trial_ = 0; }
   /// One more point: a new trial begins with its first.
   void add(const TracePoint& point, VelocityPlot& plot);
-  /// From the start position to the first point after the end, of the trial under way or the last.
+  /// From the start position to the first point after the end, for the trial under way or the last trial.
   const std::vector<TracePoint>& points() const { return points_; }
 
  private:

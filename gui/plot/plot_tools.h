@@ -1,5 +1,5 @@
 #pragma once
-// What every plot of the window can do. For files that are compiled with Qwt's headers (gui/CMakeLists.txt).
+// Tools of every plot of the window, for files that are compiled with Qwt's headers (gui/CMakeLists.txt).
 #include <qwt_global.h>
 #include <qwt_plot.h>
 #include <qwt_plot_canvas.h>
@@ -29,7 +29,7 @@ inline QwtText axisTitle(const QString& text) {
   return title;
 }
 
-/// The canvas and the grid of a plot, in the theme's colours; both go with the plot.
+/// Canvas and grid of a plot, in the theme's colours. The plot owns both.
 inline QwtPlotCanvas* dress(QwtPlot& plot) {
   auto* canvas = new QwtPlotCanvas(&plot);
   canvas->setFrameStyle(QFrame::NoFrame);
@@ -45,7 +45,7 @@ inline QwtPlotCanvas* dress(QwtPlot& plot) {
   return canvas;
 }
 
-/// A drag zooms in, a right click back; the pointer's place in the axes' units stands beside it.
+/// A drag zooms in, and a right click zooms back. The pointer's coordinates in the axes' units are shown beside it.
 class Zoomer : public QwtPlotZoomer {
  public:
   explicit Zoomer(QWidget* canvas) : QwtPlotZoomer(canvas) {
@@ -58,7 +58,7 @@ class Zoomer : public QwtPlotZoomer {
   }
 };
 
-/// By the file's ending as SVG or PDF, or as CSV of what `write` puts into a text stream. False: another ending, or it cannot be written.
+/// Exports by the file's ending: SVG, PDF, or CSV with the text that `write` writes. Returns false for other endings and for failures.
 template <typename Write>
 bool exportPlot(QwtPlot& plot, const QString& file, Write write) {
   const QString ending = QFileInfo(file).suffix().toLower();
@@ -77,7 +77,7 @@ bool exportPlot(QwtPlot& plot, const QString& file, Write write) {
   return QFileInfo::exists(file);
 }
 
-/// Asks for a file; `write` is told its name, and answers whether it was written.
+/// Asks for a file. `write` gets its name and returns whether it was written.
 template <typename Write>
 void askAndExport(QWidget* plot, const QString& title, const QString& suggested, Write write) {
   const QString file = QFileDialog::getSaveFileName(plot, title, suggested, QObject::tr("SVG (*.svg);;PDF (*.pdf);;CSV (*.csv)"));

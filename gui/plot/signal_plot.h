@@ -6,9 +6,9 @@
 
 namespace reachlab::gui::plot {
 
-/// The last seconds of one signal of the run: velocity, position or force of the hand or a mass, its phase plane, or how the loop keeps time.
-/// A drag zooms in, a right click back; the pointer tells values; *freeze* holds the picture; what is shown is exported. Memory does not grow:
-/// a ring of kCapacity points. SI.
+/// The last seconds of one signal of the run. The signal is velocity, position or force of the hand or a mass, its phase plane, or the
+/// timing of the loop. A drag zooms in, a right click zooms back, and the pointer shows values. *freeze* holds the picture. The shown
+/// curves can be exported. Memory does not grow, because a ring holds kCapacity points. SI.
 class SignalPlot : public QWidget {
   Q_OBJECT
  public:
@@ -30,7 +30,7 @@ class SignalPlot : public QWidget {
   int watched() const;
   Quantity quantity() const;
   void add(const Point& point);
-  /// Draws what was added; nothing while it is frozen or not seen.
+  /// Draws the added points. Does nothing while the plot is frozen or hidden.
   void refresh();
   void clear();
   int pointCount() const;

@@ -4,7 +4,7 @@
 
 namespace reachlab::gui::plot {
 
-/// `beforeNs`: when the point before was made, 0: it is the first.
+/// `beforeNs`: time of the point before, or 0 for the first point.
 inline SignalPlot::Point signalPointOf(const TracePoint& p, std::int64_t beforeNs) {
   SignalPlot::Point out;
   out.time = secondsOf(p.tick);

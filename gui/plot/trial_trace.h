@@ -9,7 +9,7 @@
 
 namespace reachlab::gui::plot {
 
-/// What the plot needs of a tick. World frame, SI.
+/// One tick for the plot. World frame, SI.
 struct TracePoint {
   std::uint64_t tick = 0;
   std::int32_t trial = 0;
@@ -31,13 +31,14 @@ class TraceSink final : public haptics::RunSink {
   static constexpr double kRate = kTicksPerSecond / double{kEvery};  // [Hz]
 
   bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override;
-  /// A mass between the ends is looked at while it is watched, if it was when the run began; else with the rows of the recording.
+  /// A mass between the ends is computed every fifth tick if it was watched when the run began. Otherwise it comes with the rows of the
+  /// recording.
   std::uint32_t massesEvery() const noexcept override { return watched_.load(std::memory_order_relaxed) > 0 ? std::uint32_t{kEvery} : 0; }
   void announce(std::int32_t, const trial::PlannedTrial&) override {}
   void awaitTrial(std::int32_t) override {}
   void close() override {}
 
-  /// Any thread: which mass is watched, from 0; -1: the hand.
+  /// Any thread. The watched mass from 0, or -1 for the hand.
   void watch(int mass) noexcept { watched_.store(mass, std::memory_order_relaxed); }
   /// Window's thread: the oldest point not yet taken. Points that the window was too slow for are lost to the plot, not to the record.
   bool tryTake(TracePoint& point) noexcept { return points_.tryPop(point); }

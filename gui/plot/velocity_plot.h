@@ -11,9 +11,9 @@ namespace reachlab::gui::plot {
 /// Of Qwt, as compiled: "6.1.4".
 QString libraryVersion();
 
-/// Velocity against time since onset: hand and last mass of the trial under way, the last trial's faintly behind, the window T ± dT as a
-/// band, chosen predictions dashed. [s], [m/s]
-/// A drag zooms in, a right click back; the pointer tells values; *freeze* holds the picture, not the trial; what is shown is exported.
+/// Velocity against time since onset [s], [m/s]. It shows hand and last mass of the trial under way, and the trial before as faint lines.
+/// The window T ± dT is a band, and chosen predictions are dashed. A drag zooms in, a right click zooms back, and the pointer shows values.
+/// *freeze* holds the picture, not the trial. The shown curves can be exported.
 class VelocityPlot : public QWidget {
   Q_OBJECT
  public:
@@ -25,9 +25,9 @@ class VelocityPlot : public QWidget {
   void beginTrial();
   /// Another experiment: its trials are not to be compared with those before.
   void forgetTrials();
-  /// Appends; drawn at the next `refresh`.
+  /// Appends a point, which the next `refresh` draws.
   void add(double time, double hand, double last);
-  /// Draws what has changed; nothing while it is frozen.
+  /// Draws the changes. Does nothing while the plot is frozen.
   void refresh();
 
   struct Line {

@@ -5,7 +5,7 @@
 #include "base/math/vec3.h"
 #include "gui/scene_plan/constraint_mesh.h"
 
-/// The viewer's eye as a plain value, and what the pointer does to it. Pixels: y down, origin at the top left.
+/// The camera as a plain value, and the effect of the pointer on it. Pixels: y down, origin at the top left.
 namespace reachlab::gui::scene {
 
 struct Camera {

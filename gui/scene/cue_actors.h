@@ -7,8 +7,8 @@ class vtkRenderer;
 
 namespace reachlab::gui::scene {
 
-/// What helps an eye to see depth, way and force: grid and shadows below the scene, the hand's trace, the arrow of the coupling's force.
-/// Each only where the plan's look asks for it. Window's thread.
+/// Cues of depth, path and force: grid and shadows below the scene, the hand's trace, and the arrow of the coupling's force. The plan's
+/// look switches each cue. Window's thread.
 class CueActors {
  public:
   static constexpr double kReachPerNewton = 0.05;  // the arrow's length, of the reach

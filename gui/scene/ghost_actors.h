@@ -8,8 +8,8 @@ class vtkRenderer;
 
 namespace reachlab::gui::scene {
 
-/// Other trials at the same moment: their masses and hands as faint balls. Built for the most that were shown at once; `show` moves them.
-/// Window's thread.
+/// Other trials at the same moment: their masses and hands as faint balls. Actors are kept for the largest number shown so far, and `show`
+/// moves them. Window's thread.
 class GhostActors {
  public:
   GhostActors(vtkRenderer& renderer, const ScenePlan& plan);

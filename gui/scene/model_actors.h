@@ -7,7 +7,7 @@ class vtkRenderer;
 
 namespace reachlab::gui::scene {
 
-/// The plan's model as actors: scenery that stays, and what stands for the hand and for masses. Window's thread.
+/// The plan's model as actors: fixed scenery, and the shapes of the hand and of masses. Window's thread.
 class ModelActors {
  public:
   ModelActors(vtkRenderer& renderer, const ScenePlan& plan);
@@ -15,7 +15,7 @@ class ModelActors {
   ModelActors(const ModelActors&) = delete;
   ModelActors& operator=(const ModelActors&) = delete;
 
-  /// The model has a shape of its own for the hand, or for that mass (from 0): the usual one is not drawn.
+  /// Whether the model has a shape for the hand, or for that mass (from 0). The usual shape is then not drawn.
   bool hasHand() const;
   bool hasMass(std::size_t mass) const;
   void show(const SceneFrame& frame);

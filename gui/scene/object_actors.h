@@ -9,7 +9,7 @@ namespace reachlab::gui::scene {
 
 enum class SurfaceStyle { Glass, Wire };
 
-/// The actors of one plan in one renderer. Built once; `show` only moves them. Window's thread.
+/// The actors of one plan in one renderer. They are built once, and `show` only moves them. Window's thread.
 class ObjectActors {
  public:
   ObjectActors(vtkRenderer& renderer, const ScenePlan& plan, SurfaceStyle style);

@@ -3,9 +3,9 @@
 
 namespace reachlab::gui::scene {
 
-/// Who draws what OpenGL is told, as it says itself: "llvmpipe (LLVM 15.0.6, 256 bits)". Asked once; the GUI's thread.
+/// The name that the OpenGL renderer gives itself: "llvmpipe (LLVM 15.0.6, 256 bits)". Asked once, in the window's thread.
 const QString& rendererName();
-/// The processor does.
+/// Whether the processor draws.
 bool drawsInSoftware();
 
 }  // namespace reachlab::gui::scene

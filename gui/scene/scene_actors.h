@@ -24,7 +24,7 @@ vtkSmartPointer<vtkActor> makeBall(const Look& look);
 vtkSmartPointer<vtkActor> makeBox(const Look& look);
 /// Coil along x from 0 to 1, radius 1 across, with straight ends.
 vtkSmartPointer<vtkActor> makeCoil(const Look& look, int turns, double wire);
-/// A pen whose tip is at the origin and whose shaft points up and to the viewer; unit: the tip's ball has radius 1.
+/// A pen with its tip at the origin and its shaft up and towards the viewer. The tip's ball has radius 1.
 vtkSmartPointer<vtkActor> makePen(const Look& look);
 /// Where the shaft of a pen of tip radius `radius` [m] ends whose tip is at `hand`. [m]
 Vec3 penEnd(const Vec3& hand, double radius);

@@ -8,7 +8,7 @@
 
 namespace reachlab::gui::scene {
 
-/// What is written over the scene.
+/// Texts and semaphore over the scene.
 struct OverlayState {
   trial::Semaphore semaphore = trial::Semaphore::Neutral;
   bool semaphoreShown = true;
@@ -21,7 +21,7 @@ struct OverlayState {
   bool operator==(const OverlayState&) const = default;
 };
 
-/// Semaphore, trial counter, instruction, scale and axes over the scene; lets the pointer through.
+/// Semaphore, trial counter, instruction, scale and axes over the scene. The pointer acts on the scene below.
 class SceneOverlay : public QWidget {
   Q_OBJECT
  public:
@@ -33,7 +33,7 @@ class SceneOverlay : public QWidget {
   void setTextScale(double scale);
   /// Pixels at the top that the texts take: the scene is put below them.
   double headHeight() const { return state_.semaphoreShown ? 96 * textScale_ : 0; }
-  /// "5 masses" beside where they are drawn over one another; empty: they are seen apart.
+  /// "5 masses" beside masses that are drawn over one another. Empty if all masses are visible.
   void setLabel(const QString& text, const QPointF& at);
   const QString& label() const { return label_; }
   /// The square's colour at this moment, for tests.

@@ -11,7 +11,7 @@ namespace reachlab::gui::scene {
 
 /// Of VTK, as it runs: "9.1.0".
 QString libraryVersion();
-/// The OpenGL format that the scene needs; before the QApplication is made.
+/// Sets the OpenGL format of the scene. Call it before the QApplication is made.
 void applySurfaceFormat();
 
 /// The scene in three dimensions. Left drag moves the hand (handDragged), right drag turns, middle drag (or shift) pans, the wheel zooms.
@@ -23,9 +23,9 @@ class SceneView : public QWidget {
 
   /// Builds the actors anew and, if `resetCamera`, looks at all of it.
   void setPlan(const ScenePlan& plan, bool resetCamera = true);
-  /// Moves what there is; nothing is built, and nothing drawn while nothing has moved that could be seen.
+  /// Moves the actors without building any. Draws only if a visible movement happened.
   void showFrame(const SceneFrame& frame);
-  /// Other trials, faintly, until the next plan; drawn at the next `showFrame` or `renderNow`.
+  /// Shows other trials faintly until the next plan. The next `showFrame` or `renderNow` draws them.
   void setGhosts(const std::vector<SceneFrame>& ghosts);
   void setOverlay(const OverlayState& state);
   void setSurfaceStyle(SurfaceStyle style);
@@ -36,7 +36,7 @@ class SceneView : public QWidget {
   void fit();
   /// From the side of x, y or z, or 0: the usual view.
   void lookAlong(char axis);
-  /// What is farther is not smaller; the whole scene is then looked at anew.
+  /// Switches to a parallel projection and fits the whole scene.
   void setParallel(bool parallel);
   /// For red and cyan glasses.
   void setStereo(bool stereo);

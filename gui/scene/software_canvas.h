@@ -12,14 +12,14 @@ class vtkObject;
 
 namespace reachlab::gui::scene {
 
-/// Shows what VTK draws where the processor draws it: into memory, which is then painted as any widget is. A QOpenGLWidget would have the
-/// processor put the whole top-level window together as textures for each picture, which costs twice what the scene does.
+/// Shows the pictures of VTK if the processor draws them. They are drawn into memory and painted like any widget. With a QOpenGLWidget, the
+/// processor would compose the whole top-level window from textures, which costs twice as much as the scene.
 class SoftwareCanvas : public QWidget {
  public:
   SoftwareCanvas(vtkGenericOpenGLRenderWindow& window, QWidget* parent);
   ~SoftwareCanvas() override;
 
-  /// Pixels drawn for one of the screen's, along either side. From the next picture on.
+  /// Drawn pixels per screen pixel, along either side. Takes effect with the next picture.
   void setScale(double scale);
 
  protected:

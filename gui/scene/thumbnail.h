@@ -5,8 +5,8 @@
 
 namespace reachlab::gui::scene {
 
-/// A small line drawing of a constraint, with start and target: by QPainter, so that a list of fifty is there at once and needs no
-/// graphics driver.
+/// A small line drawing of a constraint, with start and target. QPainter draws it, so that a list of fifty is fast and needs no graphics
+/// driver.
 QImage drawThumbnail(const ScenePlan& plan, const QSize& size, double pixelRatio = 1);
 
 }  // namespace reachlab::gui::scene

@@ -5,12 +5,12 @@
 
 namespace reachlab::gui::scene {
 
-/// What stands over the scene: what the subject is to do now, and how the last trial ended. Pure.
+/// Texts over the scene: the subject's next step, and the outcome of the last trial. Pure.
 OverlayState overlayOf(const haptics::TickState& state, const experiment::Task& task, int trialsPlanned, bool mouse);
 /// Before a run.
 OverlayState restingOverlay(const QString& experiment, bool mouse);
-/// What the trials of this experiment ask for, in a sentence of its own numbers: what is judged, no more. `hiding`: masses stand at one
-/// place, and a second line says which keys part them. Empty without a task.
+/// The task of the trials in a sentence with the numbers that are judged. `hiding`: masses are at the same position, and a second line
+/// names the keys that part them. Empty without a task.
 QString taskText(const experiment::Experiment& experiment, bool hiding);
 /// Why a trial did not succeed, for the tally: "too fast", "still moving".
 QString reasonText(trial::Reason reason);

@@ -7,8 +7,8 @@
 #include "base/math/vec3.h"
 #include "constraints/constraint_spec.h"
 
-/// A constraint as points and lines to draw: computed from the same functions that the simulation moves on, and known to no graphics
-/// library. Sampling follows curvature and is bounded, so a wild formula costs no more than a tame one.
+/// A constraint as points and lines to draw, from the functions that the simulation uses, and without a graphics library. Sampling follows
+/// curvature and is bounded, so the computation time of any formula is bounded.
 namespace reachlab::gui::scene {
 
 struct MeshOptions {
@@ -19,12 +19,12 @@ struct MeshOptions {
   std::size_t parameterLines = 16;
 };
 
-/// The stretch of each parameter that is drawn: the domain where it ends; [0, 2 pi] or [-1, 1] where it does not, widened so that start
-/// and target lie inside with a margin.
+/// The drawn range of each parameter: the domain if it is bounded, else [0, 2 pi] or [-1, 1]. A range without bounds is widened so that start and
+/// target lie inside with a margin.
 std::array<constraints::Domain, 2> drawnDomain(const constraints::Constraint& constraint, std::span<const double> start,
                                                std::span<const double> target);
 
-/// Pieces of a curve; a new piece begins where the formula is not finite. [m]
+/// Pieces of a curve. A new piece begins after a gap where the formula is not finite. [m]
 struct CurveMesh {
   std::vector<std::vector<Vec3>> pieces;
   std::size_t pointCount() const;
@@ -40,7 +40,7 @@ struct SurfaceMesh {
 SurfaceMesh sampleSurface(const constraints::Surface& surface, const std::array<constraints::Domain, 2>& domain,
                           const MeshOptions& options = {});
 
-/// Smallest box around points; empty (valid() false) for none that is finite.
+/// Smallest box around points. Empty (valid() is false) if no point is finite.
 struct Box {
   Vec3 low{1, 1, 1}, high{-1, -1, -1};
   bool valid() const { return low.x <= high.x; }

@@ -6,7 +6,8 @@
 
 namespace reachlab::gui::scene {
 
-/// Of several hands, by their number from 0: white, as one hand is, and after it what no mass has (after Okabe and Ito).
+/// Colours of several hands, by their number from 0. The first hand is white, as a single hand is. Further hands have colours that no mass
+/// has (after Okabe and Ito).
 inline const widgets::Colour& handColour(std::size_t hand) {
   static constexpr std::array<widgets::Colour, 8> kHands{{widgets::colours::kHand,
                                                           {0.90, 0.52, 0.76},

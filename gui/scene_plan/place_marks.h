@@ -13,8 +13,8 @@ struct PlaceMark {
   bool passed = false;  // a mass goes on across it; else never crossed
 };
 
-/// The constraint's list of places (constraints/regularity/places.h) in the domain that is drawn: a curve's as they are, those of a surface's lines
-/// as points along them. `about`: the start, where there is a task.
+/// The constraint's list of singular positions (constraints/regularity/places.h) in the drawn domain. Lines of a surface become points
+/// along them. `about`: the start, if there is a task.
 std::vector<PlaceMark> markPlaces(const constraints::Constraint& constraint, const std::array<constraints::Domain, 2>& drawn,
                                   const std::vector<double>& about);
 

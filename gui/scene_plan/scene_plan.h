@@ -10,7 +10,7 @@
 #include "sim/experiment/experiment_fwd.h"
 #include "sim/haptics/tick_state.h"
 
-/// What is to be drawn of an experiment, as plain data: sizes, places, colours' roles. Known to no graphics library.
+/// The drawn content of an experiment as plain data: sizes, positions and colours. Independent of any graphics library.
 namespace reachlab::gui::scene {
 
 enum class MassRole { Driven, Middle, Last };
@@ -21,7 +21,7 @@ struct SpringPlan {
   bool coupling = false;  // the coupling (8): drawn thinner than the object's own springs
 };
 
-/// Colours of the scene's parts: the theme's, and over them the experiment's.
+/// Colours of the scene's parts: the theme's colours, or the colours that the experiment sets.
 struct PartColours {
   widgets::Colour backgroundTop, backgroundBottom, rail, surface, surfaceLine, start, target, driven, middle, last, hand, spring, coupling,
       force, trace;
@@ -79,7 +79,7 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
 /// The same without its masses and springs, or without its target.
 ScenePlan subjectsPlan(ScenePlan plan, const experiment::SubjectScreen& screen);
 
-/// One instant of it: what actors are moved to.
+/// One instant of the scene: positions that actors are moved to.
 struct SceneFrame {
   std::vector<std::optional<Vec3>> hands{Vec3{}};  // [m] of each of the plan's hands, or of the only one; empty: not known
   int ownHand = 0;                                 // the index of the hand that is here; its place is always known
@@ -94,11 +94,12 @@ inline const Vec3& ownHand(const SceneFrame& frame) { return *frame.hands[static
 inline Vec3& ownHand(SceneFrame& frame) { return *frame.hands[static_cast<std::size_t>(frame.ownHand)]; }
 /// At rest at the start.
 SceneFrame restingFrame(const ScenePlan& plan);
-/// The state's first hand becomes the frame's own; the frame's further hands are those of the state, the rest is not known.
+/// The state's first hand becomes the hand of the frame. Further hands come from the state, and the rest is not known.
 void copyToFrame(const haptics::TickState& state, SceneFrame& frame);
-/// Something has moved by more than that [m], turned by more than a thousandth, the drawn force is another by 0.05 N, or the hand was lost or found.
+/// Whether the change is visible: a shift of more than that length [m], a turn of more than a thousandth, a drawn force that differs by
+/// 0.05 N, or a hand that was lost or found.
 bool movedBeyond(double distance, const SceneFrame& from, const SceneFrame& to);
-/// How many masses are drawn at one place, so that only one is seen: all of them while none is half its radius from the first, else 0.
+/// The number of masses that hide behind the first: all of them if each is within half its radius of the first, else 0.
 int massesAtOnePlace(const ScenePlan& plan, const SceneFrame& frame);
 
 }  // namespace reachlab::gui::scene

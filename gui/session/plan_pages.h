@@ -19,18 +19,19 @@ namespace reachlab::gui::app {
 
 class SessionController;
 
-/// A plan in the window: its start page over the scene while no run is open, and the dialog in which one is composed.
+/// A plan in the window: the start page over the scene while no run is open, and the composer dialog.
 class PlanPages : public QObject {
   Q_OBJECT
  public:
   PlanPages(SessionController& session, docks::SessionDock& dock, scene::SceneView& view);
-  /// Shows or hides the start page; looks at the disk again where subject, session or plan are others, or a run has ended. From a timer.
+  /// Shows or hides the start page. Reads the disk again after another subject, session or plan, or after the end of a run. Called by a
+  /// timer.
   void refresh();
-  /// What is recorded has changed.
+  /// The recordings have changed.
   void forget() { known_ = false; }
-  /// The start page offers to go on with what was begun.
+  /// The start page offers to resume the session that was begun.
   bool resumes() const;
-  /// `file`: where the plan stands that is open; empty: shipped, or no plan.
+  /// `file`: the path of the open plan. Empty if the plan is shipped or there is no plan.
   void compose(QWidget* window, const QString& file);
 
  Q_SIGNALS:

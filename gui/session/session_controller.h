@@ -23,20 +23,20 @@ class MouseDevice;
 
 namespace reachlab::gui::app {
 
-/// The session behind the window: what is to be done, as opened or edited, and the run that is open. Knows no widget. Changes take effect
-/// between trials: a run that is open is then ended, and the next trial opens a new one with the new settings, so that each log holds one
-/// configuration. A signal that asks the program to end (base/system/stop_signals.h) ends it within a second whatever the window is busy with (a large
-/// picture, a table): the trial is kept as interrupted, and the log is closed, by a thread of its own.
+/// The session behind the window: the opened or edited programme, and the open run. Uses no widget. Changes take effect between trials. An
+/// open run is then ended, and the next trial opens a new run with the new settings, so that each log holds one configuration. A signal
+/// that asks the program to end (base/system/stop_signals.h) ends it within a second, even if the window is busy. A separate thread then
+/// keeps the trial as interrupted and closes the log.
 class SessionController : public QObject {
   Q_OBJECT
  public:
-  /// Reads the experiment, or the plan and its first block. Throws FaultError.
-  /// `station`: this window is one of several that move one object together; then FaultError for a plan, too.
+  /// Reads the experiment, or the plan and its first block. Throws FaultError. `station`: this window is one of several stations that move
+  /// one object together. Then a plan is a fault, too.
   explicit SessionController(const session::SessionRequest& request, std::optional<network::StationSetup> station = std::nullopt,
                              QObject* parent = nullptr);
   ~SessionController() override;
 
-  /// What is shown: the experiment, or that of the plan's block that is open or comes first.
+  /// The shown experiment, which is that of the plan's open or first block if there is a plan.
   const experiment::Experiment& experiment() const { return shown_.experiment(); }
   const constraints::Constraint& constraint() const { return shown_.constraint(); }
   const experiment::CompiledExperiment& compiled() const { return shown_; }
@@ -44,33 +44,34 @@ class SessionController : public QObject {
   /// A plan has its settings in its file: they are shown, not edited.
   bool isPlan() const { return programme_.isPlan(); }
 
-  /// Takes over what is to be done from the next run on: label, condition and log name are its own.
+  /// Takes the programme over from the next run on. Label, condition and log name belong to it.
   void setProgramme(const session::Programme& programme);
-  /// Every fault of an edited experiment; it is taken over when there is none. Throws RefusedError when the scene cannot be computed.
+  /// Every fault of an edited experiment. It is taken over if there is no fault. Throws RefusedError if the scene cannot be computed.
   std::vector<Fault> tryEdit(const experiment::Experiment& experiment);
-  /// The next session that is opened goes on with what this subject's session has left undone.
+  /// The next session that is opened resumes the unfinished work of this subject's session.
   void resume();
   /// The next session that is opened begins from the first block.
   void beginAnew();
 
   /// At a station: opens its run, so that the others hear of it. Throws children of Error.
   void join(const session::SessionRequest& request);
-  /// Puts the next trial up; opens a run first if none is open. False when nothing is left of a plan. Throws children of Error. At a station the
-  /// conductor arms it as soon as every line is good, and the others wait for that.
+  /// Begins the next trial, and first opens a run if no run is open. Returns false if a plan has no trial left. Throws children of Error.
+  /// At a station, the conductor arms the trial as soon as every link is good, and the other stations wait for that.
   bool next(const session::SessionRequest& request);
   void abort();
-  /// The last trial once more, at the end of the run. False when there was none.
+  /// Repeats the last trial at the end of the run. Returns false if there was no trial.
   bool repeat();
-  /// The last repeat is not done after all. False when none is still to come.
+  /// Cancels the last repeat. Returns false if no repeat is left.
   bool takeBackRepeat();
-  /// [s] that the plan rests yet before its next block; 0: it may begin.
+  /// [s] of rest that the plan still asks for before its next block. 0: the block may begin.
   double restLeft() const;
   /// True once, when the pause before a trial that comes by itself is over.
   bool takeNextTrial();
   void cancelPause();
-  /// Asked after each trial: [s] before the next comes by itself where the plan has no pause; none: it waits to be asked for.
+  /// Asked after each trial: the pause [s] before the next trial begins by itself, if the plan has no pause. nullopt: the next trial waits
+  /// for a key.
   void setOwnPause(std::function<std::optional<double>()> ownPause) { ownPause_ = std::move(ownPause); }
-  /// Of the block that is open or, once that is done, of the next; empty: none.
+  /// Of the open block or, after its end, of the next block. Empty if there is no instruction.
   QString instructions();
   void note(const QString& text);
   void endRun();
@@ -79,7 +80,7 @@ class SessionController : public QObject {
   void poll();
   /// The oldest point of the trace not yet taken.
   bool tryTake(plot::TracePoint& point) { return trace_.tryTake(point); }
-  /// Which mass the trace tells of besides the hand and the last; -1: the hand.
+  /// The mass that the trace tells of besides the hand and the last mass. -1: the hand.
   void watch(int mass) { trace_.watch(mass); }
 
   session::RecordedRun* run() { return recorded_ ? recorded_->run() : nullptr; }  // null: none is open
@@ -88,17 +89,17 @@ class SessionController : public QObject {
   /// Of the plan, as this session does them.
   std::size_t blockCount() { return run() != nullptr ? static_cast<std::size_t>(run()->configuration().block) + blocksLeft() : 0; }
   bool underWay() { return run() != nullptr && (run()->underWay() || isArming()); }
-  /// One of several stations, by its setup; null: a window on its own.
+  /// The station of this window, by its setup. Null for a window without stations.
   const network::StationSetup* station() const { return setup_ ? &*setup_ : nullptr; }
-  /// Puts up what the conductor arms, and nothing else.
+  /// Begins only the trials that the conductor arms.
   bool follows() const { return setup_ && !setup_->link.conductor; }
-  /// No hand is here: the window shows what the stations do.
+  /// No hand is at this station, and the window shows the movement of the other stations.
   bool observes() const { return setup_ && setup_->link.station == 0; }
-  /// What it shows; null: nothing has come yet, or a hand is here.
+  /// The state of an observed run. Null before the first state, or if a hand is here.
   const haptics::TickState* seen() const { return observer_ ? observer_->state() : nullptr; }
   /// A trial is to be armed, and is not yet.
   bool isArming() { return station_ && station_->isArming(); }
-  /// How the other stations stand to this one; empty while no run is open.
+  /// The state of the other stations. Empty while no run is open.
   std::vector<network::StationStatus> statuses();
   /// Of a station's run: where the other hands are.
   network::OtherHands otherHands();
@@ -112,9 +113,9 @@ class SessionController : public QObject {
   void trialEnded();
   /// One sentence for the experimenter: the disk, the device, the computation. Finished trials are safe.
   void failed(const QString& sentence);
-  /// Worth a word, and no fault; sentences, a line each.
+  /// Remarks that are no faults: sentences, one per line.
   void told(const QString& sentence);
-  /// Of the other stations: how they ended a trial, who was silent.
+  /// Messages of the other stations, such as the end of a trial or a silent station.
   void stationTold(const QString& line);
 
  private:
@@ -155,12 +156,12 @@ class SessionController : public QObject {
   std::unique_ptr<session::RecordedSession> recorded_;
   std::optional<haptics::ConductedTrial> last_;
   std::function<std::optional<double>()> ownPause_;
-  // held by whoever changes the run that is open or looks whether there is one: the window, or the thread below
+  // Held by the thread that changes the open run or checks for one: the window's, or the thread below.
   std::mutex changing_;
   std::jthread endsOnSignal_;  // last: it looks at all of the above
 };
 
-/// What is worth a word before a session, as the window says it; empty: nothing.
+/// Remarks before a session, as sentences of the window. Empty if there is no remark.
 QString wordsOf(const session::SessionNotice& notice);
 
 }  // namespace reachlab::gui::app

@@ -9,10 +9,11 @@ namespace reachlab::gui::app {
 
 class SessionController;
 
-/// What stands over the scene for the session as it is. `mouse`: the pointer is the hand; `massesHide`: masses stand at one place.
+/// Texts over the scene for the present state of the session. `mouse`: the mouse is the hand. `massesHide`: masses are at the same
+/// position.
 scene::OverlayState overlayOf(SessionController& session, bool mouse, bool massesHide);
 
-/// The same for the subject, of what its screen shows: what to do and how it went, without a number (but the score), a name or a key.
+/// The same for the subject: the next step and the outcome, without names, keys or numbers except the score.
 scene::OverlayState subjectsOverlayOf(SessionController& session, const subject::SubjectWords& words, int score);
 
 }  // namespace reachlab::gui::app

@@ -3,8 +3,8 @@
 
 namespace reachlab::gui::app {
 
-/// What the subject hears: the go signal, two rising tones after a success, a falling one after a failure. Without a sound device they do
-/// nothing; they never wait.
+/// Sounds for the subject: the go signal, two rising tones after a success, a falling tone after a failure. They never wait. Without a
+/// sound device they are silent.
 class SoundCues {
  public:
   enum class Cue { Go, Success, Failure };
@@ -13,7 +13,7 @@ class SoundCues {
   void play(Cue cue);
   /// Whether there is anything to hear them with.
   void setMuted(bool muted) { muted_ = muted; }
-  /// 0 to 1, as it is heard (not as amplitude); remembered (QSettings).
+  /// 0 to 1 as perceived loudness, not as amplitude. Remembered (QSettings).
   void setVolume(double volume);
   double volume() const { return volume_; }
 

@@ -9,7 +9,8 @@ namespace reachlab::gui::app {
 class MessageBar;
 class SessionController;
 
-/// Flags and exclusions of the trials of the run that is open: asked for in the dock, kept beside the log at once, shown in the dock.
+/// Connects flags and exclusions of the open run's trials. The dock asks for them and shows them, and a file beside the log keeps them at
+/// once.
 void wireMarking(docks::TrialsDock& dock, SessionController& session, MessageBar& message);
 
 }  // namespace reachlab::gui::app

@@ -7,14 +7,14 @@ class QScreen;
 
 namespace reachlab::gui::subject {
 
-/// What the subject sees: the scene and a few words, over a whole screen. The experimenter's keys work here too: the main window gives its
-/// actions.
+/// The subject's screen: the scene and a few words in full screen. The experimenter's keys also work here, because the main window passes
+/// its actions on.
 class SubjectWindow : public QWidget {
   Q_OBJECT
  public:
   explicit SubjectWindow(QWidget* parent = nullptr);
-  /// Over the screen of that name; where there is none, over the one that was used last, else over the second if there is one. What is
-  /// chosen is remembered (QSettings).
+  /// Fills the screen of that name. Otherwise it fills the screen that was used last, or else the second screen. The choice is remembered
+  /// (QSettings).
   void showFull(const QString& screen = {});
   scene::SceneView& view() { return *view_; }
   /// The square for a light sensor in the lower left corner: not there, black, or white.
@@ -31,9 +31,9 @@ class SubjectWindow : public QWidget {
   Patch patch_ = Patch::None;
 };
 
-/// "HDMI-1, 1920 × 1080": as a menu names a screen; the first word is the screen's name.
+/// "HDMI-1, 1920 × 1080": the menu's name of a screen. The first word is the screen's name.
 QString titleOf(const QScreen& screen);
-/// The screen that showFull would take without being told one.
+/// The screen that showFull takes without a name.
 QString rememberedScreen();
 
 }  // namespace reachlab::gui::subject

@@ -16,21 +16,21 @@ struct Language {
 };
 const std::vector<Language>& languages();
 
-/// What the subject reads, in a language of its own, whatever the experimenter's is: large, few words, no number.
+/// The subject's texts, in a language that is independent of the experimenter's. They are large and short and have no number.
 class SubjectWords {
  public:
   SubjectWords();
   ~SubjectWords();
-  /// A code of languages(); another one is English.
+  /// A code of languages(). Unknown codes mean English.
   void setLanguage(const QString& code);
   const QString& language() const { return language_; }
-  /// What is to be done at this moment; empty while the movement is under way.
+  /// The instruction at this moment. Empty during the movement.
   QString instruction(const haptics::TickState& state, bool targetShown) const;
   QString outcome(const trial::TrialResult& result) const;
-  /// Between blocks, and after the last.
+  /// Texts between blocks and after the last block.
   QString rest() const;
   QString thanks() const;
-  /// A sentence that stands in the program in English, in the subject's language.
+  /// Translates an English sentence of the program into the subject's language.
   QString say(const char* english) const;
 
  private:
@@ -38,7 +38,7 @@ class SubjectWords {
   std::unique_ptr<QTranslator> translator_;
 };
 
-/// Every sentence, in English: what a translation must have.
+/// Every sentence that a translation needs, in English.
 const std::vector<const char*>& subjectSentences();
 
 }  // namespace reachlab::gui::subject

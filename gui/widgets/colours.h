@@ -1,7 +1,7 @@
 #pragma once
 
-/// The window's palette: dark and legible from the back of a room, and told apart by colour-blind eyes (blue, orange and sky of Okabe
-/// and Ito). Components in [0, 1]; toQColor lives with the widgets.
+/// The window's palette: dark, legible from a distance, and distinct for colour-blind eyes (blue, orange and sky of Okabe and Ito).
+/// Components in [0, 1]. toQColor is with the widgets.
 namespace reachlab::gui::widgets {
 
 struct Colour {

@@ -7,8 +7,8 @@
 
 namespace reachlab::gui::widgets {
 
-/// What is wrong with the entries of a dock, a line each; hidden while nothing is. A watched field has `QString fault() const` and the signal
-/// `checked()`, which it emits whenever it is typed in.
+/// The faults in the entries of a dock, one line each. Hidden if there is no fault. A watched field has `QString fault() const` and the
+/// signal `checked()`, which it emits at every keystroke.
 class FaultLabel : public QLabel {
  public:
   FaultLabel() {
@@ -22,7 +22,7 @@ class FaultLabel : public QLabel {
     fields_.push_back([field] { return field->fault(); });
     connect(field, &Field::checked, this, [this] { setFaults({}); });
   }
-  /// Why the entries as a whole were refused; stands below the fields' own until the next is typed.
+  /// Shows why the entries as a whole were refused, below the faults of the fields. The next keystroke removes these refusals.
   void setFaults(const QStringList& refusals) {
     QStringList lines;
     for (const auto& faultOfField : fields_) lines << faultOfField();

@@ -6,7 +6,7 @@
 
 namespace reachlab::gui::widgets {
 
-/// A fault in the window's words: its fields are called by what they hold, "mass 2" and not "object.masses_kg[1]".
+/// A fault in the window's words: "mass 2" instead of "object.masses_kg[1]".
 QString inWords(const Fault& fault);
 QStringList inWords(const std::vector<Fault>& faults);
 

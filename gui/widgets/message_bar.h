@@ -3,7 +3,7 @@
 
 namespace reachlab::gui::app {
 
-/// The sentence at the top of the window; hidden while there is none.
+/// The sentence at the top of the window. Hidden if there is no sentence.
 class MessageBar : public QLabel {
  public:
   MessageBar() {
@@ -11,9 +11,9 @@ class MessageBar : public QLabel {
     setWordWrap(true);
     hide();
   }
-  /// What is wrong, or must be known: red.
+  /// An error or a warning: red.
   void say(const QString& sentence) { put(sentence, QStringLiteral("#6b2b25")); }
-  /// News of what went as it was asked for.
+  /// News of a success: blue.
   void tell(const QString& sentence) { put(sentence, QStringLiteral("#24506b")); }
   QString sentence() const { return isHidden() ? QString() : text(); }
 

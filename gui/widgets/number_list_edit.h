@@ -7,7 +7,7 @@
 
 namespace reachlab::gui::widgets {
 
-/// What a list of numbers may hold, and what it is called in a message.
+/// The allowed content of a list of numbers, and its name in messages.
 struct NumberListRule {
   QString list = QStringLiteral("numbers");  // "masses"
   QString item;                              // "mass": the second is "mass 2"
@@ -24,16 +24,16 @@ class NumberListEdit : public QLineEdit {
  public:
   explicit NumberListEdit(QWidget* parent = nullptr);
   void setRule(const NumberListRule& rule);
-  /// Displays; what is being typed and still wrong stays if the numbers behind it are the same as before.
+  /// Displays numbers. A faulty text that the user is typing stays if the numbers behind it are unchanged.
   void setNumbers(const std::vector<double>& numbers);
   std::optional<std::vector<double>> numbers() const;
-  /// What is wrong with the text, in a sentence; empty: nothing.
+  /// The fault of the text, in a sentence. Empty if there is no fault.
   QString fault() const;
 
  Q_SIGNALS:
   /// Enter or leaving the field, with a new list of numbers that keeps the rule.
   void numbersEdited();
-  /// Typed in: what `fault` says may have changed.
+  /// Emitted at every keystroke, because `fault` may have changed.
   void checked();
 
  private:
@@ -47,7 +47,7 @@ class NumberListEdit : public QLineEdit {
 /// "5 x 0.6" where all are equal. Shortest decimal that reads back the same.
 QString textOf(const std::vector<double>& numbers);
 std::optional<std::vector<double>> numbersOf(const QString& text);
-/// "mass 2: -0.6 kg; allowed: more than 0"; empty when the text keeps the rule.
+/// "mass 2: -0.6 kg; allowed: more than 0". Empty if the text keeps the rule.
 QString faultOf(const QString& text, const NumberListRule& rule);
 
 }  // namespace reachlab::gui::widgets

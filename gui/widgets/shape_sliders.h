@@ -14,16 +14,16 @@ namespace reachlab::gui::widgets {
 
 class UnitSpinBox;
 
-/// "minor radius" of minor_radius_m: its unit stands behind the number.
+/// "minor radius" for minor_radius_m: the unit is shown behind the number.
 QString plainName(const constraints::ShapeParameter& parameter);
 
-/// A slider and a number for each shape parameter of a definition. A name out of a typed formula has no range but what is typed: the ends
-/// of its slider are numbers to type as well, and a value beyond them moves them.
+/// A slider and a number for each shape parameter of a definition. A parameter of a typed formula has no range. The ends of its slider can
+/// therefore be typed as well, and a value beyond an end moves that end.
 class ShapeSliders : public QWidget {
   Q_OBJECT
  public:
   explicit ShapeSliders(QWidget* parent = nullptr);
-  /// Rows for these; values not given stand at their defaults.
+  /// Makes rows for these parameters. Missing values get their defaults.
   void setParameters(const std::vector<constraints::ShapeParameter>& parameters, const std::map<std::string, double>& values = {});
   std::map<std::string, double> values() const;
   /// With the ranges as they are now.

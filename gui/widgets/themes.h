@@ -7,10 +7,10 @@ namespace reachlab::gui::widgets {
 
 enum class Theme { Dark, Light };
 
-/// Before the first widget is made; what is drawn already keeps its colours.
+/// Call it before the first widget is made. Widgets that are already drawn keep their colours.
 void setTheme(Theme theme);
 Theme theme();
-/// One of the dark palette as the theme has it; any other colour as it is.
+/// A colour of the dark palette as the theme has it. Other colours are unchanged.
 Colour themed(const Colour& colour);
 /// Of "#rrggbb".
 Colour colourOf(const std::string& hex);

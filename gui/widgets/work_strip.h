@@ -7,7 +7,7 @@
 
 namespace reachlab::gui::widgets {
 
-/// What goes on beside the window, how far it is, and the button that ends it. Hidden while there is nothing.
+/// Work in the background, its progress, and the button that stops it. Hidden if there is no work.
 class WorkStrip : public QWidget {
  public:
   WorkStrip(const QString& name, const QString& button) : what_(new QLabel), bar_(new QProgressBar), stop_(new QToolButton) {
