@@ -6,7 +6,7 @@
 
 namespace reachlab {
 
-/// A label with what it stands for, as C3D has them side by side.
+/// A label with its description and unit, as C3D stores them side by side.
 struct C3dLabel {
   std::string name;
   std::string description = {};
@@ -18,8 +18,8 @@ struct C3dEvent {
   double time = 0;  // [s] since the first frame
 };
 
-/// A C3D file (biomechanics' common format, c3d.org): points in space and analog channels at equal times, here one analog sample a frame
-/// when written, any number when read. Plain value.
+/// A C3D file (biomechanics' common format, c3d.org): points in space and analog channels at equal times. A written file has one analog
+/// sample per frame. A read file may have any number. Plain value.
 struct C3dFile {
   double rate = 100;      // [1/s] frames
   std::string pointUnit;  // "mm", "m"
@@ -33,8 +33,8 @@ struct C3dFile {
   std::vector<float> signals;  // frames x analogs, written only
 };
 
-/// The file's bytes: Intel floats, parameters as c3d.org's guide has them. Throws FaultError for what the format cannot hold (more than 65535
-/// points or channels, 2^31 frames).
+/// The file's bytes: Intel floats, with parameters as in c3d.org's guide. Throws FaultError beyond the limits of the format (65535 points
+/// or channels, 2^31 frames).
 std::string c3dBytes(const C3dFile& file);
 
 /// Reads the points and the events: floats or scaled integers of Intel, MIPS and DEC processors. Throws FaultError

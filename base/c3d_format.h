@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 
-/// What writer and reader of C3D files agree on.
+/// Constants that the writer and the reader of C3D files share.
 namespace reachlab::c3d {
 
 inline constexpr std::size_t kBlock = 512;

@@ -6,8 +6,8 @@
 
 namespace reachlab {
 
-/// A table from a text file whose first line names the columns. The separator is the header's: tab, comma, or semicolon. Quotes around a
-/// cell, spaces beside it, a byte order mark, and empty lines are left out.
+/// A table from a text file whose first line names the columns. That line also decides the separator: tab, comma, or semicolon. Quotes
+/// around a cell, spaces beside it, a byte order mark, and empty lines are left out.
 struct CsvTable {
   struct Row {
     int line = 0;  // in the file, from 1

@@ -1,9 +1,9 @@
 #pragma once
 #include <stdexcept>
 
-/// What cannot start or be read is thrown as one of these or as a FaultError (base/fault.h; 2: wrong usage or a bad file), caught in
-/// `main` and in the window's slots, and shown as it stands: the message says what, where, and what to do. `reach` ends with the number
-/// behind each.
+/// Functions that cannot start or read throw a child of Error: one of these two, or FaultError for wrong usage or a bad file
+/// (base/fault.h). `main` and the window's slots catch it and show its message unchanged. The message names the problem, its location and
+/// the remedy. `reach` ends with the exit code that is given at each type. FaultError has 2.
 namespace reachlab {
 
 struct Error : std::runtime_error {

@@ -8,15 +8,16 @@
 
 namespace reachlab {
 
-/// Where something stands in a file; lines and columns count from 1, 0: not known. Without a file: the character of a text (a formula).
+/// A location in a file. Lines and columns count from 1, and 0 means unknown. Without a file, `column` counts the characters of a text (a
+/// formula).
 struct FilePlace {
   std::string file;
   int line = 0, column = 0;
   bool operator==(const FilePlace&) const = default;
 };
 
-/// What is wrong with something that was given: the one currency of wrong input. It speaks of keys and values, never of an option or a
-/// widget: the file's reader adds the place, and each front end the words of its own door.
+/// A fault of something that was given. All wrong input is reported in this form. A fault names keys and values, never an option or a
+/// widget. The file's reader adds the location, and each front end adds the words of its options or widgets.
 struct Fault {
   std::string key = {};                           // "object.masses_kg[1]" as in the files, or a request's "trials"; empty: the whole
   std::string what = {};                          // "is -1"
@@ -25,20 +26,20 @@ struct Fault {
   bool operator==(const Fault&) const = default;
 };
 
-/// `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`, without what is not there.
+/// `FILE:LINE:COLUMN: KEY: fault; allowed: …`, without the parts that are empty.
 std::string toText(const Fault& fault);
 /// A line each.
 std::string toText(const std::vector<Fault>& faults);
 
-/// "constraint.shape" of "constraint" and "shape"; without an outer one the inner.
+/// "constraint.shape" of "constraint" and "shape". Without an outer key it is the inner key.
 std::string keyIn(const std::string& outer, const std::string& inner);
 
 /// The same faults told from outside: those of "index" in "trials[3]" are of "trials[3].index".
 std::vector<Fault> inside(const std::string& key, std::vector<Fault> faults);
-/// The same faults of a file, those that have no place yet.
+/// The faults, with the file added to each fault that has no location yet.
 std::vector<Fault> inFile(const std::string& file, std::vector<Fault> faults);
 
-/// Wrong usage or a bad file, fault by fault; `reach` ends with 2.
+/// Wrong usage or a bad file, as a list of faults. `reach` ends with 2.
 struct FaultError : Error {
   explicit FaultError(std::vector<Fault> all) : Error(toText(all)), faults(std::move(all)) {}
   explicit FaultError(Fault fault) : FaultError(std::vector<Fault>{std::move(fault)}) {}

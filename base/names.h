@@ -5,7 +5,7 @@
 
 namespace reachlab {
 
-/// The known name closest to `name` by edit distance, or empty when none is close.
+/// The known name closest to `name` by edit distance, or empty when no name is close.
 std::string nearestName(std::string_view name, const std::vector<std::string>& known);
 /// "a, b or c".
 std::string listOf(const std::vector<std::string>& names);

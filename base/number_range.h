@@ -6,7 +6,7 @@
 
 namespace reachlab {
 
-/// Range of a number, with the words that a message uses: files and values are held against the same ones.
+/// Range of a number, with the text for messages. Files and values are checked against the same ranges.
 struct NumberRange {
   double lo = 0, hi = 0;
   bool loIncluded = true;
@@ -20,7 +20,7 @@ NumberRange wholeNumber(double lo, double hi);
 /// (0, most].
 NumberRange positiveUpTo(double most, const std::string& unit);
 
-/// False for what is not finite.
+/// False for a number that is not finite.
 bool isWithin(const NumberRange& range, double value);
 
 /// Appends "is VALUE" under `key` where the value is out of range.
@@ -28,7 +28,7 @@ void checkNumber(const std::string& key, double value, const NumberRange& range,
 /// The same for each of a list, under `key[i]`, and for their count where `count` >= 0.
 void checkNumbers(const std::string& key, const std::vector<double>& values, int count, const NumberRange& range,
                   std::vector<Fault>& faults);
-/// Appends "is "NAME"" under `key` where it is none of `names`.
+/// Appends "is "NAME"" under `key` if `name` is not in `names`.
 void checkChoice(const std::string& key, const std::string& name, const std::vector<std::string>& names, std::vector<Fault>& faults);
 
 }  // namespace reachlab

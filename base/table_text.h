@@ -6,13 +6,13 @@
 
 namespace reachlab {
 
-/// A table as text, cell by cell; the same bytes in every locale. Numbers read back equal.
+/// A table as text, cell by cell, with the same bytes in every locale. Numbers read back equal.
 class TableText {
  public:
-  /// `missing` stands for what is not known (a number that is not finite).
+  /// `missing` is the text for an unknown value (a number that is not finite).
   TableText(char separator, std::string missing) : separator_(separator), missing_(std::move(missing)) {}
 
-  /// Quoted for CSV where it must be, and guarded by ' where it begins with = + - @; tabs and line ends become spaces in TSV.
+  /// Quoted for CSV where necessary, and guarded by ' if it begins with = + - @. In TSV, tabs and line ends become spaces.
   TableText& cell(std::string_view text);
   TableText& cell(const char* text) { return cell(std::string_view(text)); }
   TableText& cell(const std::string& text) { return cell(std::string_view(text)); }
@@ -22,7 +22,7 @@ class TableText {
   void endRow();
   void row(const std::vector<std::string>& cells);
   const std::string& text() const { return text_; }
-  /// What is written so far, which the table forgets: a long one goes to its file piece by piece.
+  /// Returns the text so far and forgets it, so that a long table can be written to its file piece by piece.
   std::string takeText() { return std::exchange(text_, {}); }
 
  private:
@@ -32,7 +32,7 @@ class TableText {
   bool rowBegun_ = false;
 };
 
-/// A TSV file: the header, and rows of as many cells. Throws nothing; a short row is filled with n/a.
+/// A TSV file: the header, and rows with as many cells. Throws nothing. A short row is filled with n/a.
 struct TsvTable {
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;

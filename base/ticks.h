@@ -12,7 +12,7 @@ inline constexpr double kTickSeconds = 0.001;  // [s] the time step of everythin
 constexpr double secondsOf(double ticks) noexcept { return ticks / kTicksPerSecond; }
 constexpr double secondsOf(std::uint64_t ticks) noexcept { return secondsOf(static_cast<double>(ticks)); }
 constexpr double secondsOf(int ticks) noexcept { return secondsOf(static_cast<double>(ticks)); }
-/// From one tick to another, which may lie before it.
+/// Time between two ticks. The second tick may be earlier than the first.
 constexpr double secondsBetween(std::uint64_t from, std::uint64_t to) noexcept {
   return secondsOf(static_cast<double>(to) - static_cast<double>(from));
 }

@@ -17,12 +17,12 @@ struct SurfacePoint {
   Vec3 r, rU, rV, rUu, rUv, rVv;
 };
 
-/// Evaluates one definition. `program` is the kernel's own data (null for generated code), `shape` its parameters. Any thread; never
-/// allocates. Outside the formula's domain the result is not finite.
+/// Evaluates one definition. `program` is the kernel's data (null for generated code) and `shape` holds the shape's parameters. Outside the
+/// formula's domain the result is not finite. Any thread. Never allocates.
 using CurveFunction = void (*)(const void* program, const double* shape, double phi, CurvePoint& out) noexcept;
 using SurfaceFunction = void (*)(const void* program, const double* shape, double u, double v, SurfacePoint& out) noexcept;
 
-/// CurveFunction for eight values of phi, with the same bits as one by one.
+/// CurveFunction for eight values of phi at once, with the same bits as eight single calls.
 struct CurveBatch;  // curve_batch.h
 using CurveBatchFunction = void (*)(const void* program, const double* shape, const double* phi, CurveBatch& out) noexcept;
 
@@ -39,7 +39,7 @@ struct Surface {
 };
 static_assert(std::is_trivially_copyable_v<Curve> && std::is_trivially_copyable_v<Surface>);
 
-/// Room for what is about to be written whole, by a curve's or surface's function, say: it is not cleared beforehand.
+/// Memory that the function of a curve or surface will fill completely. It is not cleared beforehand.
 template <class T>
 union Unfilled {
   T value;
@@ -56,7 +56,7 @@ inline SurfacePoint evaluate(const Surface& surface, double u, double v) noexcep
   return p;
 }
 
-/// A constraint ready to be computed with: a value, cheap to copy; the owner keeps a typed formula's program alive.
+/// A constraint that is ready for computation. It is a value and cheap to copy. The owner keeps a typed formula's program alive.
 struct Constraint {
   ConstraintKind kind = ConstraintKind::Free;
   std::string name;  // of the definition, or "curve" / "surface" for a typed formula
@@ -70,9 +70,9 @@ struct Constraint {
   int parameterCount() const { return static_cast<int>(kind); }
 };
 
-/// Builds the constraint of an experiment: looks the name up or compiles the formula. Throws FaultError (unknown name or shape key,
-/// value out of range, syntax with the character's place, degenerate everywhere, non-finite in the domain).
-/// Each fault stands under `key` or what it has inside: "constraint.curve[1]", "constraint.shape.a".
+/// Builds the constraint of an experiment: looks the name up or compiles the formula. Throws FaultError for an unknown name or shape key, a
+/// value out of range, wrong syntax (with the character's position), and a curve or surface that is degenerate everywhere or not finite in
+/// its domain. The key of each fault is `key` or a key inside it: "constraint.curve[1]", "constraint.shape.a".
 Constraint makeConstraint(const ConstraintSpec& spec, const std::string& key = "constraint");
 
 }  // namespace reachlab::constraints

@@ -10,7 +10,7 @@ namespace reachlab::constraints {
 
 inline constexpr int kMaxShapeParameters = 8;
 
-// What is computed with: constraint.h.
+// These types are defined in constraint.h.
 struct Constraint;
 struct Curve;
 struct Surface;
@@ -22,7 +22,8 @@ enum class ConstraintKind { Free, Curve, Surface };
 /// What happens where an open parameter domain ends: the run stops there with a reason, or the end is an elastic stop.
 enum class AtEnd { Stop, Bounce };
 
-/// Range of one parameter; infinite where the formula has no end. `periodic`: hi is the same place as lo, the parameter itself runs on.
+/// Range of one parameter, infinite where the formula has no end. If `periodic`, hi and lo are the same position, and the parameter itself
+/// continues beyond them.
 struct Domain {
   double lo = -std::numeric_limits<double>::infinity();
   double hi = std::numeric_limits<double>::infinity();
@@ -31,14 +32,14 @@ struct Domain {
   bool operator==(const Domain&) const = default;
 };
 
-/// What an experiment says of its constraint: a name of the catalogue ("free" for none) or the formula itself, and the shape.
+/// The constraint as an experiment names it: a name of the catalogue ("free" for no constraint) or the formula itself, and the shape.
 struct ConstraintSpec {
   std::string name = "line";
   std::vector<std::string> curve;    // one formula a coordinate in `phi`; empty if named
   std::vector<std::string> surface;  // one formula a coordinate in `u`, `v`; empty if named
   std::map<std::string, double> shape;
-  /// Where a typed formula will be moved on (the hull of start and target): there it must be finite with its derivatives; the motion itself
-  /// has no ends. Not known: phi in [0, 2 pi] (Eq. 10), u and v in [-1, 1].
+  /// The range in which a typed formula will be used (the hull of start and target). The formula and its derivatives must be finite there.
+  /// The movement itself has no ends. If unknown: phi in [0, 2 pi] (Eq. 10), u and v in [-1, 1].
   std::optional<std::array<Domain, 2>> inUse = std::nullopt;
   /// The text of the named definition where it is not to be looked up: a recorded run brings its own. Empty: looked up.
   std::string definition = {};

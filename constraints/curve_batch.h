@@ -11,7 +11,7 @@ struct CurveBatch {
   alignas(64) double rPhiPhi[3][kBatchLanes];
 };
 
-/// One by one, for what does not go in lanes. Any thread; never allocates.
+/// Evaluates eight points by eight single calls, for functions that have no batch form. Any thread. Never allocates.
 void evaluateSingly(CurveFunction function, const void* program, const double* shape, const double* phi, CurveBatch& out) noexcept;
 
 }  // namespace reachlab::constraints

@@ -12,15 +12,15 @@
 
 namespace reachlab {
 
-/// Faults of one file, told in its order; each `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
+/// Faults of one file in the order of the file, each as `FILE:LINE:COLUMN: KEY: fault; allowed: …`.
 class FaultList {
  public:
   explicit FaultList(std::string file) : file_(std::move(file)) {}
   void add(const JsonNode& where, const std::string& key, const std::string& what, const std::string& allowed = {});
-  /// A fault of the value that was read from `root`, at the place of its key there, or that it is missing there. Left out where the file
-  /// itself is at fault about that key, what it has inside or what it is inside of: the value then has a default.
+  /// Adds a fault of the value that was read from `root`, at the location of its key there, or as a missing key. It is left out if the file
+  /// itself has a fault about that key, a key inside it or a key around it. In that case the value has a default.
   void addOfValue(const JsonNode& root, Fault fault);
-  /// True when there is a fault about that key, what it has inside or what it is inside of.
+  /// True when there is a fault about that key, a key inside it or a key around it.
   bool isAbout(const std::string& key) const;
   /// More than a person reads: further faults are only counted.
   bool isFull() const { return faults_.size() >= kMaxFaults; }
@@ -39,12 +39,12 @@ class FaultList {
   std::size_t ofFile_ = kNone;  // so many faults are of the file itself, before any of its value
 };
 
-/// Faults of a value at the places of their keys in the text that it was read from; unchanged where there is no text.
+/// Faults of a value at the locations of their keys in the text from which it was read. Without a text they are unchanged.
 std::vector<Fault> atTheirPlaces(std::vector<Fault> faults, const std::string& text, const std::string& file);
 
-/// Reads one JSON object key by key and remembers which keys were asked for: `finish` reports the others as unknown, with the nearest
-/// known name. Faults are collected; a faulty value reads as its default, a faulty number as none (NaN), so that the value's own check says
-/// what is allowed there.
+/// Reads one JSON object key by key and remembers the keys that were asked for. `finish` reports the others as unknown, with the nearest
+/// known name. Faults are collected. A faulty value reads as its default. A faulty number reads as NaN, so that the value's own check
+/// states the allowed range.
 class ObjectReader {
  public:
   ObjectReader(FaultList& faults, const JsonNode& node, std::string path);
@@ -58,7 +58,7 @@ class ObjectReader {
   void boolean(const std::string& key, bool& value);
   void text(const std::string& key, std::string& value);
   bool choice(const std::string& key, const std::vector<std::string>& names, std::string& value, bool isRequired);
-  /// Numbers; `length` < 0: any number of them.
+  /// Numbers. If `length` < 0, any number of them is allowed.
   bool numbers(const JsonNode& node, const std::string& key, int length, const NumberRange& range, std::vector<double>& values);
   bool strings(const JsonNode& node, const std::string& key, int length, std::vector<std::string>& values);
   void finish();

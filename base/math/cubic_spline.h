@@ -5,12 +5,12 @@
 
 namespace reachlab {
 
-/// How a spline ends: with no curvature (natural: a hand that was at rest before and is after), or with the third derivative continuous at
-/// the second and last but one points (not-a-knot: samples of a smooth motion that goes on). Fewer than four points of the second kind: the
-/// polynomial through them.
+/// The condition at the ends of a spline. Natural: no curvature, for a hand that rests before and after. Not-a-knot: the third derivative
+/// is continuous at the second point and the last but one, for samples of a smooth motion that continues. With fewer than four points,
+/// not-a-knot gives the polynomial through them.
 enum class SplineEnds { Natural, NotAKnot };
 
-/// C2 cubic through (time, value) (de Boor, A Practical Guide to Splines, ch. IV). A value; any thread.
+/// C2 cubic through (time, value) (de Boor, A Practical Guide to Splines, ch. IV). A value. Any thread.
 class CubicSpline {
  public:
   /// At least one point, times strictly increasing, as many values.
@@ -18,7 +18,7 @@ class CubicSpline {
   struct Point {
     Vec3 value, rate;
   };
-  /// At the first and last time the rate is the inner one; beyond them the value is held with zero rate.
+  /// At the first and last time the rate is the rate inside. Beyond them the value is held with zero rate.
   Point at(double t) const;
 
  private:

@@ -1,11 +1,11 @@
 #pragma once
 #include <sleef.h>
 
-/// The functions that a formula may name beside sine and cosine (constraints/formula/sincos.h), each with the same bits on every processor: SLEEF's
-/// deterministic forms without fused operations (Shibata and Petrogalli, IEEE Trans. Parallel Distrib. Syst. 31, 2020). The C library's
-/// choose their code by the processor and change between its versions. Error below 1 unit in the last place for normal numbers; domains and
-/// limits are those of the C library, but sinh and cosh are infinite from 709.8 on (there 710.5). Any thread. Price and error beside the C
-/// library's: docs/adr/0020-fused-operations-are-written-out.md.
+/// The functions that a formula may name beside sine and cosine (constraints/formula/sincos.h), with the same bits on every processor. They
+/// are SLEEF's deterministic forms without fused operations (Shibata and Petrogalli, IEEE Trans. Parallel Distrib. Syst. 31, 2020). The C
+/// library's functions choose their code by the processor and change between its versions. Error below 1 unit in the last place for normal
+/// numbers. Domains and limits are those of the C library, but sinh and cosh are infinite from 709.8 on (there 710.5). Any thread.
+/// Computation time and error beside the C library's: docs/adr/0020-fused-operations-are-written-out.md.
 namespace reachlab::elementary {
 
 inline double sin(double x) noexcept { return Sleef_cinz_sind1_u10purec(x); }  // where constraints/formula/sincos.h ends

@@ -1,9 +1,9 @@
 #pragma once
 #include "base/math/vec3.h"
 
-/// a b + c with one rounding. The compiler fuses nothing on its own (-ffp-contract=off): where a kernel gains from a fused operation it
-/// calls one of these, and the result is the same in every build. A processor without the instruction leaves it to the C library, which
-/// computes the same bits, slowly. Any thread; see docs/adr/0020-fused-operations-are-written-out.md.
+/// a b + c with one rounding. The compiler itself fuses nothing (-ffp-contract=off). A kernel that gains from a fused operation calls one
+/// of these functions, and the result is the same in every build. On a processor without the instruction the C library computes the same
+/// bits, slowly. Any thread. See docs/adr/0020-fused-operations-are-written-out.md.
 namespace reachlab {
 
 [[gnu::always_inline]] inline double mulAdd(double a, double b, double c) noexcept { return __builtin_fma(a, b, c); }
@@ -13,7 +13,7 @@ namespace reachlab {
   return {mulAdd(s, a.x, b.x), mulAdd(s, a.y, b.y), mulAdd(s, a.z, b.z)};
 }
 
-/// a.b + c with one rounding a term; the same for (a, b) as for (b, a).
+/// a.b + c with one rounding per term. (a, b) and (b, a) give the same result.
 [[gnu::always_inline]] inline double mulAdd(const Vec3& a, const Vec3& b, double c) noexcept {
   return mulAdd(a.x, b.x, mulAdd(a.y, b.y, mulAdd(a.z, b.z, c)));
 }

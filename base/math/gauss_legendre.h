@@ -3,7 +3,7 @@
 
 namespace reachlab {
 
-/// Gauss-Legendre nodes (ascending) and weights on [-1, 1]; exact for polynomials of degree 2 count - 1.
+/// Gauss-Legendre nodes (ascending) and weights on [-1, 1], exact for polynomials of degree 2 count - 1.
 struct GaussRule {
   std::vector<double> node, weight;
 };

@@ -8,9 +8,9 @@
 
 #include "base/math/fused.h"
 
-/// Numbers that are computed side by side: vectors of the compiler, kept in registers and split where the processor has narrower ones.
-/// Operators and comparisons are the compiler's; a comparison gives all ones or zero in each lane. Libraries for this were measured and
-/// left, see docs/adr/0021-lanes-are-the-compilers-vectors.md. Any thread.
+/// Numbers that are computed side by side: vectors of the compiler, kept in registers and split where the processor has narrower registers.
+/// The compiler provides the operators and comparisons. A comparison sets all bits or no bit in each lane. Libraries for this were measured
+/// and rejected, see docs/adr/0021-lanes-are-the-compilers-vectors.md. Any thread.
 namespace reachlab {
 
 namespace lanesDetail {
@@ -39,11 +39,11 @@ concept Lanes = !std::is_class_v<L> && requires(L x) {
 
 template <int Width>
 using Lanes = typename lanesDetail::Of<Width>::Numbers;
-/// What a comparison of Lanes<Width> gives; also which lane of two vectors a shuffle takes.
+/// The result of a comparison of Lanes<Width>. It also says which lane of two vectors a shuffle takes.
 template <int Width>
 using LaneMarks = typename lanesDetail::Of<Width>::Marks;
 
-/// A batch: what a kernel computes side by side in one pass (masses on a curve, columns of a matrix).
+/// A batch: the numbers that a kernel computes side by side in one pass (masses on a curve, columns of a matrix).
 inline constexpr int kBatchLanes = 8;
 using LaneBatch = Lanes<kBatchLanes>;
 
@@ -67,8 +67,8 @@ void storeLanes(const Lanes& x, double* to) noexcept {
   std::memcpy(to, &x, sizeof x);
 }
 
-/// a b + c with one rounding in each lane, see fused.h. By the processor's own instruction where it has one of this width: g++ 12 takes a
-/// loop over the lanes apart, lane by lane, where much else is inlined around it.
+/// a b + c with one rounding in each lane, see fused.h. It uses the processor's instruction of this width where there is one, because g++
+/// 12 splits a loop over the lanes into single operations where much else is inlined around it.
 template <lanesDetail::Lanes L>
 [[gnu::always_inline]] inline L mulAdd(const L& a, const L& b, const L& c) noexcept {
 #ifdef __AVX512F__

@@ -3,9 +3,9 @@
 #include <immintrin.h>  // whole, before its switches are hidden
 #endif
 
-/// Eigen, two numbers at a time and without fused operations, whatever the processor: by itself it takes the widest lanes that it is compiled
-/// for, and the order of its sums, and so the last bits, change with them. Every file that needs Eigen includes this one
-/// (tests/house/layers.py sees to it), so that one program holds one Eigen. See docs/adr/0026-the-same-bits-at-every-level.md.
+/// Eigen, restricted to two numbers at a time and no fused operations, on every processor. Without the restriction it takes the widest
+/// available lanes, and the order of its sums and their last bits change with the lanes. Every file that needs Eigen includes this header,
+/// so that one program holds one Eigen. tests/house/layers.py checks it. See docs/adr/0026-the-same-bits-at-every-level.md.
 #pragma push_macro("__AVX__")
 #pragma push_macro("__AVX2__")
 #pragma push_macro("__FMA__")

@@ -3,7 +3,7 @@
 namespace reachlab {
 
 /// The minimum-jerk law from rest at 0 to rest at 1 over 0 <= x <= 1 (Flash and Hogan 1985) with its first two derivatives by x, in the
-/// arithmetic of T; a polynomial, not held beyond its ends. Any thread.
+/// arithmetic of T. It is a polynomial and is not held beyond its ends. Any thread.
 template <class T>
 constexpr T minimumJerk(const T& x) {
   return x * x * x * (10 + x * (6 * x - 15));

@@ -4,9 +4,9 @@
 
 namespace reachlab {
 
-/// Philox 4x32 with ten rounds (Salmon, Moraes, Dror, Shaw 2011, "Parallel random numbers: as easy as 1, 2, 3"): four words that are a
-/// function of a key and a counter alone, so that whoever works on item n draws item n's numbers without those before it. The same on every
-/// machine. Any thread.
+/// Philox 4x32 with ten rounds (Salmon, Moraes, Dror, Shaw 2011, "Parallel random numbers: as easy as 1, 2, 3"). The four words are a
+/// function of a key and a counter alone. The numbers of item n therefore do not need those of earlier items. The same on every machine.
+/// Any thread.
 using PhiloxCounter = std::array<std::uint32_t, 4>;
 using PhiloxKey = std::array<std::uint32_t, 2>;
 

@@ -12,7 +12,7 @@ constexpr std::uint64_t mixBits(std::uint64_t x) {
   return x ^ (x >> 31);
 }
 
-/// A number that depends on the two alone: what is drawn for trial i does not depend on the trials before it.
+/// A number that depends on these two alone: the draw for trial i does not depend on the trials before it.
 constexpr std::uint64_t seededBits(std::uint64_t seed, std::uint64_t index) { return mixBits(mixBits(seed) ^ mixBits(~index)); }
 
 /// The same in [0, 1).

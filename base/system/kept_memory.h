@@ -2,9 +2,9 @@
 
 namespace reachlab {
 
-/// Memory that is freed stays with the program, up to 128 MiB, for what it allocates next: the matrices of one prediction after the other are
-/// of like size, and giving each back to the system costs a page fault for every 4 KiB when it is asked for again. An analysis of 1,200 trials
-/// took a fifth longer so. Once, first thing in main, before other threads.
+/// Freed memory stays with the program, up to 128 MiB, for later allocations. The matrices of successive predictions have similar sizes. If
+/// memory is returned to the system, each 4 KiB costs a page fault when it is needed again: an analysis of 1,200 trials took a fifth
+/// longer. Call it once, first in main, before other threads.
 void keepFreedMemory() noexcept;
 
 }  // namespace reachlab

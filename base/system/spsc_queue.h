@@ -8,7 +8,8 @@
 
 namespace reachlab {
 
-/// Every item from one thread to another, in order. Bounded: full is an answer. Neither side ever waits.
+/// Carries every item from one thread to a second thread, in order. It is bounded, and a full queue reports that it is full. Neither side
+/// waits.
 template <typename T, std::size_t Capacity>
 class SpscQueue {
   static_assert(std::is_trivially_copyable_v<T>);

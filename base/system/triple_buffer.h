@@ -10,8 +10,9 @@ namespace reachlab {
 
 inline constexpr std::size_t kCacheLine = 64;
 
-/// The latest value from one thread to another. Three slots: one being written, one being read, one that waits between them; the sides
-/// swap theirs with the waiting one. Neither side ever waits, and a value is never torn; values that were not taken in time are lost.
+/// Carries the latest value from one thread to a second thread. One slot is being written, one is being read, and one waits between them.
+/// Each side swaps its slot with the waiting slot. Neither side ever waits, and a value is never torn. Values that are not taken in time
+/// are lost.
 template <typename T>
 class TripleBuffer {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -26,7 +27,7 @@ class TripleBuffer {
     publish();
   }
 
-  /// Reader, wait-free: the latest value, or nullptr when none is newer than the one taken last. Valid until the next call.
+  /// Reader, wait-free: the latest value, or nullptr if no value is newer than the last that was taken. Valid until the next call.
   const T* takeLatest() noexcept {
     if ((waiting_.load(std::memory_order_relaxed) & kNew) == 0) return nullptr;
     front_ = waiting_.exchange(front_, std::memory_order_acq_rel) & kIndex;

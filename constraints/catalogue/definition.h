@@ -9,7 +9,7 @@
 
 namespace reachlab::constraints {
 
-/// One number of a constraint's shape that the experimenter may move. SI; keys of the catalogue end in their unit (`radius_m`).
+/// One number of a constraint's shape that the experimenter may change, in SI units. Keys of the catalogue end in their unit (`radius_m`).
 struct ShapeParameter {
   std::string name;
   double defaultValue = 0, min = 0, max = 0;
@@ -18,14 +18,15 @@ struct ShapeParameter {
   bool whole = false;   // whole numbers only (numbers of cusps, turns …)
 };
 
-/// Where a parameter begins and ends, as constant expressions that may name shape parameters ("2*pi", "turns*2*pi"); empty: no end.
+/// The two ends of a parameter, as constant expressions that may name shape parameters ("2*pi", "turns*2*pi"). An empty text means no end.
 struct DomainText {
   std::string lo, hi;
   bool periodic = false;
   AtEnd atEnd = AtEnd::Stop;
 };
 
-/// One definition file: what a mass may move on, in one line a coordinate, with all that a window or an experiment needs to use it.
+/// One definition file. It gives the curve or surface of a mass in one line per coordinate, with everything that a window or an experiment
+/// needs.
 struct Definition {
   std::string name;  // lower case, words joined by '-'
   ConstraintKind kind = ConstraintKind::Curve;
@@ -39,20 +40,20 @@ struct Definition {
 
 /// The shipped definitions, curves first, each group by name. Compiled into the library.
 const std::vector<Definition>& catalogue();
-/// A definition of the catalogue; null when there is none.
+/// A definition of the catalogue, or null if the catalogue has no such name.
 const Definition* findInCatalogue(const std::string& name);
-/// A definition of the catalogue, else NAME.json of the user's folder. Throws FaultError naming the nearest known one.
+/// A definition of the catalogue, else NAME.json of the user's folder. Throws FaultError that names the nearest known definition.
 Definition findDefinition(const std::string& name, const std::string& key);
 
 /// Reads a definition file. Throws FaultError with every fault, one a line, `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
 Definition parseDefinition(const std::string& text, const std::string& file);
 Definition readDefinition(const std::string& file);
-/// Every fault of a definition as a value, each under its key; empty when fine.
+/// Every fault of a definition, each under its key. Empty when the definition is valid.
 std::vector<Fault> problems(const Definition& definition);
 /// The definition as a file that reads back equal.
 std::string toJson(const Definition& definition);
 
-/// All definitions (*.json) of a folder, by name; none if there is no such folder. Throws FaultError on a faulty file.
+/// All definitions (*.json) of a folder, ordered by name. Empty if the folder does not exist. Throws FaultError on a faulty file.
 std::vector<Definition> readDefinitionFolder(const std::string& folder);
 /// Where the user's own definitions are saved: $REACHLAB_CONSTRAINTS, else reachlab/constraints in $XDG_DATA_HOME or ~/.local/share.
 std::string userDefinitionFolder();

@@ -13,7 +13,7 @@ struct GeneratedEntry {
   CurveBatchFunction curveBatch;
   SurfaceFunction surface;
 };
-/// The definition's generated code if it is of the catalogue; all null otherwise.
+/// The generated code of a definition of the catalogue. All three are null for any other definition.
 struct GeneratedFunctions {
   CurveFunction curve = nullptr;
   CurveBatchFunction curveBatch = nullptr;
@@ -21,7 +21,7 @@ struct GeneratedFunctions {
 };
 GeneratedFunctions generatedFunctions(const Definition& definition);
 
-/// Defined by the generated file in the build folder; by name.
+/// The entries ordered by name. The generated file in the build folder defines this function.
 std::span<const GeneratedEntry> generatedEntries();
 
 }  // namespace reachlab::constraints

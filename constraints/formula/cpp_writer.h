@@ -7,13 +7,13 @@
 
 namespace reachlab::constraints {
 
-/// Prints graph nodes as C++: what is used more than once becomes a named constant (sinPhi, cos4Phi, t1 …), the rest stands where it is
-/// used. The operations and their order are those of the interpreter.
+/// Prints graph nodes as C++. A node that is used more than once becomes a named constant (sinPhi, cos4Phi, t1 …), and any other node is
+/// printed where it is used. The operations and their order are those of the interpreter.
 class CppWriter {
  public:
   struct Names {
     std::vector<std::string> variables, parameters;  // C++ identifiers
-    // call for both at once, of sincos.h; empty: code that stands alone, with std::sin and its like
+    // The call for sine and cosine at once, from sincos.h. If empty, the code is self-contained and calls std::sin and similar functions.
     std::string sinCos;
   };
   /// `roots` will be asked for by expression(). Integer powers become products in `graph`.
@@ -50,7 +50,8 @@ std::string cppIdentifier(const std::string& name, const std::vector<std::string
 
 /// The function of a catalogue entry, `evaluate<Name>` in UpperCamel, with the signature of CurveFunction or SurfaceFunction.
 std::string writeEvaluator(const CompiledFormula& formula, const std::string& functionName);
-/// The same for a curve at eight parameter values, `<functionName>Batch`, with the signature of CurveBatchFunction; stands after it.
+/// The same for a curve at eight parameter values, `<functionName>Batch`, with the signature of CurveBatchFunction. It must follow the
+/// single form in the file.
 std::string writeBatchEvaluator(const CompiledFormula& formula, const std::string& functionName);
 
 /// A self-contained C++ function with the coordinates, the derivatives and the coefficients of the dynamic equations: M, L, V, Q of

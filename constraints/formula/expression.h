@@ -34,10 +34,10 @@ enum class Op : std::uint8_t {
   Sign
 };
 const char* nameOf(Op op);
-/// Number of operands that are nodes (PowInt has one: its exponent is a number).
+/// Number of operands that are nodes. PowInt has a single operand, because its exponent is a number.
 int operandCount(Op op);
 
-/// One operation on earlier nodes. Constant: `value`; Variable, Parameter: `a` is its index; PowInt: `b` is the exponent.
+/// One operation on earlier nodes. A Constant uses `value`. For Variable and Parameter, `a` is the index. For PowInt, `b` is the exponent.
 struct ExpressionNode {
   Op op = Op::Constant;
   int a = -1, b = -1;
@@ -47,9 +47,9 @@ struct ExpressionNode {
 /// Value of one operation on numbers, exactly as the compiled forms compute it.
 double applyOp(Op op, double a, double b) noexcept;
 
-/// Expressions that share their equal parts: equal nodes are one node, operands come before what uses them, so a walk in index order
-/// needs no recursion. Building simplifies: constants fold, signs and constant factors move outwards, powers of one base join.
-/// Throws FaultError when it would hold more than kMaxExpressionNodes.
+/// Expressions that share their equal parts: equal nodes are stored once. Operands precede the nodes that use them, so a walk in index
+/// order needs no recursion. Building simplifies: constants fold, signs and constant factors move outwards, powers of the same base join.
+/// Throws FaultError above kMaxExpressionNodes nodes.
 class ExpressionGraph {
  public:
   static constexpr int kMaxExpressionNodes = 20000;

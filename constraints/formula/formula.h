@@ -22,13 +22,13 @@ struct FormulaText {
 /// Highest derivative of a curve that is at hand outside the haptic loop.
 inline constexpr int kMaxDerivative = 4;
 
-/// A formula after the whole pipeline: text, shared graph, exact derivatives, program. Immutable; any thread.
+/// A formula after the whole pipeline: text, shared graph, exact derivatives, program. Immutable. Any thread.
 struct CompiledFormula {
   FormulaText text;
   ExpressionGraph graph;
   /// Nodes in the order of CurvePoint's or SurfacePoint's members: 9 or 18.
   std::vector<int> roots;
-  /// Curves: nodes of r, r', … as far as they could be formed (three each, up to kMaxDerivative); those beyond the second are slow.
+  /// Curves: nodes of r, r', … as far as they could be formed (three each, up to kMaxDerivative). Derivatives beyond order two are slow.
   std::vector<std::array<int, 3>> derivatives;
   Program program;
   bool straight = false;  // a curve with constant r_phi

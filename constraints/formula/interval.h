@@ -13,7 +13,7 @@ struct Interval {
   double lo = 0, hi = 0;
 };
 
-/// What is known of a node on a box. Touching: a root or an arc function reaches the end of its domain there (finite itself).
+/// The known properties of a node on a box. Touching: a root or an arc function reaches the end of its domain there (finite itself).
 enum class Finiteness { Finite, Touching, Unknown, Nowhere };
 
 class IntervalEvaluator {

@@ -11,7 +11,7 @@ namespace reachlab::constraints {
 inline constexpr std::size_t kMaxFormulaCharacters = 2000;
 inline constexpr int kMaxFormulaDepth = 100;
 
-/// What is wrong with a formula, and where: `position` counts bytes from 0, `character` counts characters from 1.
+/// A syntax fault of a formula with its position: `position` counts bytes from 0, `character` counts characters from 1.
 struct FormulaFault {
   int coordinate = 0;        // 0 x, 1 y, 2 z
   std::size_t position = 0;  // byte of the formula at which it went wrong (its length: at the end)
@@ -32,12 +32,12 @@ struct ParsedFormula {
   std::vector<bool> used;  // which parameters it names
 };
 
-/// Reads one line of infix text into the graph. `+ - * / ^`, unary minus, parentheses, pi, e, functions, names.
-/// -x^2 is -(x^2); ^ groups to the right: 2^3^2 = 2^9. No implicit multiplication. At most kMaxFormulaCharacters characters and
-/// kMaxFormulaDepth levels of nesting; whatever the text, it neither recurses nor allocates beyond that.
+/// Reads one line of infix text into the graph: `+ - * / ^`, unary minus, parentheses, pi, e, functions, names. -x^2 is -(x^2), and ^
+/// groups to the right: 2^3^2 = 2^9. There is no implicit multiplication. At most kMaxFormulaCharacters characters and kMaxFormulaDepth
+/// levels of nesting. No text makes it recurse or allocate beyond that.
 ParsedFormula parseFormula(std::string_view text, const FormulaNames& names, ExpressionGraph& graph);
 
-/// Why `name` can't name a shape parameter (clash with a variable, constant or function; not a name); none when it can.
+/// The reason why `name` cannot name a shape parameter: it is no name, or clashes with a variable, constant or function. Empty if it can.
 std::optional<FormulaFault> parameterNameFault(const std::string& name, const std::vector<std::string>& variables);
 
 }  // namespace reachlab::constraints

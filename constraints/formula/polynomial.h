@@ -7,9 +7,9 @@
 
 namespace reachlab::constraints {
 
-/// A polynomial whose indeterminates are nodes of a graph that are no sums or products themselves (u, sin(u), sqrt(1 - u^2) …), with
-/// numbers as coefficients. sin^2 + cos^2 = 1, cosh^2 - sinh^2 = 1, sqrt(a)^2 = a and abs(a)^2 = a^2 are used, so that what vanishes
-/// identically by them has no terms left but rounding.
+/// A polynomial with numbers as coefficients. Its indeterminates are graph nodes that are not sums or products (u, sin(u), sqrt(1 - u^2)
+/// …). The identities sin^2 + cos^2 = 1, cosh^2 - sinh^2 = 1, sqrt(a)^2 = a and abs(a)^2 = a^2 are applied. An expression that vanishes
+/// identically by them therefore keeps no terms except rounding.
 class Polynomial {
  public:
   using Monomial = std::map<int, int>;  // node to exponent

@@ -59,15 +59,15 @@ struct Instruction {
 inline constexpr int kMaxOutputs = 18;
 inline constexpr int kMaxRegisters = 1024 + kMaxOutputs;
 
-/// A formula with its derivatives as a list of operations on registers: first the results (9 or 18, in the order of CurvePoint's or
-/// SurfacePoint's members; each is computed in its place), then the shape, the variables, and what lies between.
-/// Immutable once made; evaluated by any thread, without allocation, recursion or loops.
+/// A formula with its derivatives as a list of operations on registers. The results come first: 9 or 18, in the order of CurvePoint's or
+/// SurfacePoint's members, each computed in its register. Then come the shape, the variables, and the intermediate values. Immutable once
+/// made. Any thread evaluates it, without allocation, recursion or loops.
 struct Program {
   std::vector<Instruction> instructions;
   std::vector<Code> codes;  // of the instructions, before pairs were made
   std::uint16_t parameterCount = 0;
   std::array<double, kMaxOutputs> constants{};  // results that never change
-  // Results that are the same as another, or as a parameter or variable.
+  // Results that equal another result, a parameter or a variable.
   struct Copy {
     std::uint16_t slot, from;
   };
@@ -78,7 +78,7 @@ struct Program {
 /// than kMaxRegisters.
 Program compileProgram(ExpressionGraph& graph, std::span<const int> roots, int parameterCount, int variableCount);
 
-/// The interpreter, as the functions of constraint.h; `program` points to a Program.
+/// The interpreter, in the form of the functions of constraint.h. `program` points to a Program.
 void evaluateCurveProgram(const void* program, const double* shape, double phi, CurvePoint& out) noexcept;
 void evaluateCurveBatchProgram(const void* program, const double* shape, const double* phi, CurveBatch& out) noexcept;
 void evaluateSurfaceProgram(const void* program, const double* shape, double u, double v, SurfacePoint& out) noexcept;

@@ -8,11 +8,11 @@
 
 namespace reachlab::constraints {
 
-/// Sine and cosine together, inlined; every fused operation is written out, so that generated code and typed formulas give the same
-/// bits, in every build. Absolute error below 1.7e-16 for |x| <= kSinCosLimit; elementary.h beyond (and for what is not finite).
-/// Reduction to |y| <= pi/4 after Cody and Waite (Software Manual for the Elementary Functions, 1980, ch. 8): pi/2 in three parts, the
-/// first two short enough that their products with the quadrant number are exact. Polynomials: minimax fits on [0, (pi/4)^2],
-/// `constraints/generate/sincos_coefficients.py` prints them.
+/// Sine and cosine together, inlined. Every fused operation is written out, so that generated code and typed formulas give the same bits in
+/// every build. The absolute error is below 1.7e-16 for |x| <= kSinCosLimit. Beyond it, and for numbers that are not finite, elementary.h
+/// is used. Reduction to |y| <= pi/4 after Cody and Waite (Software Manual for the Elementary Functions, 1980, ch. 8): pi/2 has three
+/// parts. The first two are short enough that their products with the quadrant number are exact. Polynomials: minimax fits on [0,
+/// (pi/4)^2], printed by `constraints/generate/sincos_coefficients.py`.
 inline constexpr double kSinCosLimit = 1e5;
 
 namespace sincosDetail {
@@ -69,7 +69,7 @@ inline double cosine(double x) noexcept {
   sinCos(x, s, c);
   return c;
 }
-/// -1, 0 or 1; not a number stays one.
+/// Returns -1, 0 or 1. NaN remains NaN.
 inline double signOf(double x) noexcept { return x > 0 ? 1.0 : x < 0 ? -1.0 : x; }
 
 }  // namespace reachlab::constraints

@@ -3,7 +3,7 @@
 
 namespace reachlab::constraints {
 
-/// From now on `watch` is called with every formula before it is compiled, by the thread that compiles it; null: nobody is.
+/// From now on `watch` is called with every formula before it is compiled, in the thread that compiles it. Null ends the watch.
 void watchCompilations(void (*watch)(const FormulaText& text));
 
 }  // namespace reachlab::constraints

@@ -8,8 +8,7 @@
 
 namespace reachlab::constraints {
 
-/// What s is: metres of arc length, or the curve's own parameter from the start on, |phi - start|, which passes near a cusp more
-/// smoothly.
+/// The meaning of s: metres of arc length, or |phi - start| in the curve's parameter, which passes near a cusp more smoothly.
 enum class Along { ArcLength, Parameter };
 
 /// Where and why a curve cannot be followed smoothly.
@@ -18,20 +17,21 @@ struct CurveBreak {
   std::string what;  // "a kink (its direction turns by 53 degrees)"
 };
 
-/// A curve of the catalogue as a function of its arc length s [m] from the task's start (s = 0) to its target (s = length()), and
-/// as far beyond both ends as the curve goes smoothly, at most half the way. Pieces of high degree through the curvature vector
-/// r_ss = (r_ff - T (T.r_ff)) / |r_f|^2, integrated twice, so that r and its first five derivatives are known to about 1e-12 of
-/// their size; they are held against the formula itself at many places, and against each other where they meet, so that no kink, jump
-/// or narrow bump goes unseen. Beyond the known part it goes on straight, so that an iteration may look there; a result must stay
-/// within [lowest(), highest()]. A value; any thread.
+/// A curve of the catalogue as a function of its arc length s [m] from the task's start (s = 0) to its target (s = length()). It is known
+/// as far beyond both ends as the curve is smooth, at most half the length. It consists of pieces of high degree through the curvature
+/// vector r_ss = (r_ff - T (T.r_ff)) / |r_f|^2, integrated twice. So r and its first five derivatives are known to about 1e-12 of their
+/// size. The pieces are compared with the formula at many positions, and with each other where they meet, so that no kink, jump or narrow
+/// bump is overlooked. Beyond the known part the curve continues straight, so that an iteration may look there. A result must stay within
+/// [lowest(), highest()]. A value. Any thread.
 class ArcCurve {
  public:
-  /// Throws RefusedError, with the place, where the curve has a kink, a jump, a cusp or a step of its curvature between start and
-  /// target (constraint parameters), stands still or has no value. Such a place at the start or at the target is met at rest: allowed.
+  /// Throws RefusedError, with the position, where the curve between start and target (constraint parameters) is not smooth: a kink, a
+  /// jump, a cusp, a step of its curvature, a standstill or a missing value. Such a position is allowed at the start or target, where the
+  /// hand rests.
   ArcCurve(const Constraint& curve, double start, double target, Along along = Along::ArcLength);
 
-  /// The first `part` of the way, magnified to the whole length: r(part s)/part, from a straight line (part 0) to the curve
-  /// itself (1). For continuation from a straight line to any curve.
+  /// The first `part` of the curve, magnified to the whole length: r(part s)/part. Part 0 is a straight line and part 1 the curve itself.
+  /// For continuation from a straight line to any curve.
   ArcCurve magnified(double part) const;
 
   double length() const { return length_; }

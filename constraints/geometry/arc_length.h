@@ -6,9 +6,9 @@
 
 namespace reachlab::constraints {
 
-/// The parameter of a curve as a function of the arc length from one place of it, to 1e-12 of the whole: |r_phi| as Legendre series on
-/// pieces that are halved until sixteen terms resolve them, or until what they hold is no longer a part of the length (cusps, kinks,
-/// changes of pace). Made once; asking costs one search and a few steps of Newton's method. A value; any thread.
+/// The parameter of a curve as a function of the arc length from one of its points, to 1e-12 of the whole. |r_phi| is a Legendre series on
+/// each piece. Pieces are halved until sixteen terms resolve them, or until their length no longer counts (cusps, kinks, changes of pace).
+/// Made once. A query costs one search and a few steps of Newton's method. A value. Any thread.
 class ArcLength {
  public:
   /// `from` and `to` are parameters. Throws RefusedError where the curve has no value between them, and for a curve that would need
@@ -17,7 +17,7 @@ class ArcLength {
   static constexpr int kMaxPieces = 20000;
 
   double length() const { return length_; }  // [m] >= 0
-  /// The parameter where `s` [m] of the way are done; s in [0, length()], beyond it the end.
+  /// The parameter after `s` [m] of the curve, s in [0, length()]. Beyond this range it is the parameter of the nearer end.
   double parameterAt(double s) const;
 
  private:

@@ -4,8 +4,8 @@
 
 namespace reachlab::constraints {
 
-/// The way along a curve from one parameter to another by metres of its arc. Beyond both ends it goes on at the pace that it has there, as a
-/// hand that carries springs passes the target. A value; any thread; asking neither allocates nor throws.
+/// Position along a curve from one parameter to another, in metres of arc. Beyond both ends the position continues at the pace of that end,
+/// because a hand that carries springs passes the target. A value. Any thread. A query neither allocates nor throws.
 class CurveWay {
  public:
   /// Throws RefusedError as ArcLength does, FaultError (task.target) where the way has no length.
@@ -17,7 +17,7 @@ class CurveWay {
   /// The parameter `s` [m] from the start.
   double parameterAt(double s) const noexcept;
   CurvePoint at(double s) const noexcept { return evaluate(curve_.curve, parameterAt(s)); }
-  /// How far [m] the place of a parameter lies before the start (negative) or past the target; 0 between them.
+  /// Distance [m] of a parameter before the start (negative) or beyond the target (positive). It is 0 between them.
   double beyond(double parameter) const noexcept;
 
  private:

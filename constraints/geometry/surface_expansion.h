@@ -9,13 +9,13 @@
 
 namespace reachlab::constraints {
 
-/// All partial derivatives of r(u, v) at one point: d[a][b] = r_(u^a v^b) [m], a + b up to the order that was asked for; 0 beyond.
+/// All partial derivatives of r(u, v) at one point: d[a][b] = r_(u^a v^b) [m], for a + b up to the requested order. Higher ones are 0.
 inline constexpr int kMaxExpansion = 5;
 using SurfaceExpansion = std::array<std::array<Vec3, kMaxExpansion + 1>, kMaxExpansion + 1>;
 
-/// A surface's formula, made ready to be expanded in Taylor series: the same graph as the compiled forms, every operation done on
-/// polynomials in (du, dv) instead of numbers (Griewank and Walther, Evaluating Derivatives, ch. 13). Exact but for rounding, at any
-/// scale of the parameters. Immutable; any thread; allocates: not for the haptic thread.
+/// A surface's formula, prepared for Taylor series. It is the same graph as the compiled forms, with each operation done on polynomials in
+/// (du, dv) instead of numbers (Griewank and Walther, Evaluating Derivatives, ch. 13). It is exact except for rounding, at any scale of the
+/// parameters. Immutable. Any thread. It allocates, so it is not for the haptic thread.
 class SurfaceFormula {
  public:
   /// Throws RefusedError on a constraint that is no surface.

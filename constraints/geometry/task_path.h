@@ -8,15 +8,15 @@
 
 namespace reachlab::constraints {
 
-/// A place on the constraint by its parameters (three metres when free) [m]; not finite outside the domain, and for another number of
-/// parameters than the constraint has. Any thread; never allocates.
+/// A point on the constraint, given by its parameters (three metres if free) [m]. It is not finite outside the domain, or if the number of
+/// parameters differs from the constraint's. Any thread. Never allocates.
 Vec3 placeOn(const Constraint& constraint, std::span<const double> q) noexcept;
 
 /// Of a task that leads nowhere.
 Fault samePlaceFault();
 
-/// The way from one place of a constraint to another and its direction: along the chord on a straight curve and in free space, along the
-/// tangent on other curves, towards the target; on a surface there is none. A value; any thread.
+/// The path from one point of a constraint to another, and its direction towards the target. The direction is along the chord on a straight
+/// curve and in free space, and along the tangent on other curves. A surface has no direction. A value. Any thread.
 class TaskPath {
  public:
   TaskPath();  // in free space, without a length
@@ -28,11 +28,11 @@ class TaskPath {
   const Vec3& target() const { return target_; }  // [m]
   /// One direction everywhere.
   bool straight() const noexcept;
-  /// A curve with a tangent of its own at each parameter.
+  /// A curve whose tangent changes with the parameter.
   bool bent() const noexcept;
-  /// Unit direction at a curve's parameter `q` (not looked at where straight), world frame; zero where there is none.
+  /// Unit direction at a curve's parameter `q` in the world frame (`q` is ignored where straight). Zero if the path has no direction.
   Vec3 directionAt(double q) const noexcept;
-  /// Velocity along the way of something at `q`, positive towards the target; its magnitude where there is no direction. [m/s]
+  /// Speed along the path of a body at `q`, positive towards the target. Without a direction it is the magnitude. [m/s]
   double velocityAlong(const Vec3& velocity, double q) const noexcept;
 
  private:

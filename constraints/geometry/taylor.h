@@ -14,8 +14,8 @@ struct Taylor {
 
 // All below keep terms up to `degree` <= kMaxDegree.
 Taylor multiply(const Taylor& x, const Taylor& y, int degree);
-/// One operation of the formula language. `exponent` is PowInt's. Not finite where the operation or a derivative of it has no value; at
-/// the kink of abs and the jump of sign the derivatives are those of the graph, with sign(0) = 0.
+/// One operation of the formula language. `exponent` belongs to PowInt. The result is not finite where the operation or a derivative of it
+/// has no value. At the kink of abs and the jump of sign the derivatives are those of the graph, with sign(0) = 0.
 Taylor apply(Op op, const Taylor& x, const Taylor& y, int exponent, int degree);
 
 }  // namespace reachlab::constraints

@@ -8,14 +8,14 @@
 
 namespace reachlab::constraints {
 
-// What a constraint does between its points. Nothing here is for the haptic thread. Typed curves without a domain are looked at on
-// [0, 2 pi] (Eq. 10), typed surfaces on [-1, 1] x [-1, 1].
+// Properties of a constraint between its sample points. Nothing here is for the haptic thread. Typed curves without a domain are examined
+// on [0, 2 pi] (Eq. 10), typed surfaces on [-1, 1] x [-1, 1].
 
-/// The domain with a finite stretch in place of an endless one.
+/// The domain with a finite stretch in place of an infinite range.
 std::array<Domain, 2> boundedDomain(const Constraint& constraint);
 
-/// r and its derivatives r', r'' … up to `order` (at most 4) at phi, from the same graph as the compiled forms. [m]
-/// Throws RefusedError on a constraint that is no curve, or a formula too large for this order.
+/// r and its derivatives r', r'' … up to `order` (at most 4) at phi, from the same graph as the compiled forms. [m] Throws RefusedError if
+/// the constraint is not a curve, or if the formula is too large for this order.
 std::vector<Vec3> computeDerivatives(const Constraint& curve, double phi, int order);
 
 struct SlowPlace {
@@ -41,16 +41,17 @@ struct DegeneratePlace {
   Vec3 r;               // [m]
   Vec3 normal;          // Pole: unit normal there
 };
-/// Degenerate places of a surface in its (bounded) domain, ends included; a period's second end is not listed. Empty for curves. Points are
-/// searched for from a grid of 97 x 97, until kMaxDegeneratePlaces places are known.
+/// Degenerate positions of a surface in its (bounded) domain, ends included. A period's second end is not listed. Empty for curves.
+/// Isolated points are searched for from a grid of 97 x 97, until kMaxDegeneratePlaces positions are known.
 inline constexpr std::size_t kMaxDegeneratePlaces = 64;
 std::vector<DegeneratePlace> findDegeneratePlaces(const Constraint& surface);
 
 /// sqrt(det G) / (|r_u| |r_v|), 0 where degenerate: the sine of the angle between the parameter lines.
 double computeAngleSine(const SurfacePoint& p) noexcept;
 
-/// First place in the ranges where r, r_phi or r_phiphi (r, and all derivatives of a surface) is not finite, in words
-/// ("r_phi is not finite at phi = 1"); empty when it is finite everywhere. Looks between sample points by interval arithmetic.
+/// The first position in the ranges where r or a derivative is not finite, as a text: "r_phi is not finite at phi = 1". It looks at r,
+/// r_phi and r_phiphi of a curve, and at r and all derivatives of a surface. Empty when all are finite. Interval arithmetic looks between
+/// sample points.
 std::string findNonFinite(const Constraint& constraint, const std::array<Domain, 2>& range);
 /// Whether r_phi, or r_u x r_v, vanishes wherever one looks in the ranges.
 bool degeneratesEverywhere(const Constraint& constraint, const std::array<Domain, 2>& range);

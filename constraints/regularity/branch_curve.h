@@ -7,8 +7,7 @@
 
 namespace reachlab::constraints {
 
-/// One branch of a curve's formula as a curve of its own: continued by its tangent beyond `lo` and `hi`, where the formula itself has no
-/// value.
+/// One branch of a curve's formula, as a separate curve. Beyond `lo` and `hi`, where the formula has no value, its tangent continues it.
 struct BranchCurve {
   std::shared_ptr<const Program> program;
   double lo = -std::numeric_limits<double>::infinity(), hi = std::numeric_limits<double>::infinity();

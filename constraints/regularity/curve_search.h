@@ -6,7 +6,7 @@
 
 namespace reachlab::constraints {
 
-/// A stretch of a curve: its formula's nodes, x, y and z, in `graph`, and what evaluates them.
+/// A stretch of a curve: the nodes of its formula in `graph` (x, y and z), and the curve that evaluates them.
 struct CurveStretch {
   std::vector<int> r;
   Curve curve;
@@ -16,9 +16,10 @@ struct CurveStretch {
 /// Places of a stretch where r_phi vanishes, at most `most`: cusps, folds and standstills. `boxes` as of findRoots. Adds nodes.
 std::vector<Place> findStillPlaces(ExpressionGraph& graph, const double* shape, const CurveStretch& stretch, int& boxes, std::size_t most);
 
-/// The pieces, cut at stretches on which the curve bends much more than elsewhere and that are shorter than a tick's way: pieces of their
-/// own, so that a step lands on them and goes through in small parts. Looks from phi = `from` to `to`, and takes what is usual from a turn
-/// about `about`. `formulas`: r of each piece. The pieces as they were where there is no such stretch, or too many. Adds nodes.
+/// The pieces, with short stretches cut out on which the curve bends much more than elsewhere. Such a stretch is shorter than the distance
+/// of one tick. It becomes a separate piece, so that a step ends on its boundary and crosses it in small parts. The search covers phi =
+/// `from` to `to`, and the usual bend is taken from a turn about `about`. `formulas` holds r of each piece. The pieces are returned
+/// unchanged if there is no such stretch, or if there are too many. Adds nodes.
 std::vector<CurvePiece> cutAtNarrow(ExpressionGraph& graph, const double* shape, const std::vector<CurvePiece>& pieces,
                                     const std::vector<std::vector<int>>& formulas, double from, double to, double about);
 

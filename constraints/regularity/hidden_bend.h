@@ -17,11 +17,11 @@ struct HiddenBend {
   bool found = false;  // false: there may be one, interval arithmetic showed neither
   std::array<double, 2> at{};
 };
-/// Looks at what of a movement's jerk comes from the surface's second and third derivatives, between 513 samples at equal shares of its time
-/// (0 … 1): nothing where it is shown to stay within twice the largest at the samples, or within `least` [m/s^3]. By interval arithmetic
-/// over boxes round ever shorter pieces of the way, so that a bump is seen however narrow. Between two looks the parameters are taken to
-/// leave their hull by no more than a quarter of it, as those of a resolved movement do. Nothing for definitions of the catalogue, whose
-/// shapes are known. Allocates.
+/// Looks at the part of a movement's jerk that comes from the surface's second and third derivatives, between 513 samples at equal shares
+/// of its time (0 … 1). Returns nothing where this part is proved to stay within twice its largest sample, or within `least` [m/s^3].
+/// Interval arithmetic runs over boxes round ever shorter pieces of the path, so that no bump is too narrow. Between two samples the
+/// parameters are assumed to leave their hull by at most a quarter of it, as in a resolved movement. Definitions of the catalogue have
+/// known shapes and return nothing. Allocates.
 std::optional<HiddenBend> findHiddenBend(const Constraint& surface, const std::function<WayPoint(double share)>& way, double least);
 
 }  // namespace reachlab::constraints

@@ -7,7 +7,7 @@
 
 namespace reachlab::constraints {
 
-/// How a formula fails to be smooth at a place. docs/constraints.md says what a mass does at each.
+/// The kinds of positions where a formula is not smooth. docs/constraints.md describes the movement of a mass at each.
 enum class PlaceKind {
   Kink,       // the direction turns, or |r_phi| jumps (abs): passed with the tangential speed
   Bend,       // only a second derivative jumps: passed
@@ -43,7 +43,7 @@ struct CurvePiece {
   bool narrow = false;                          // smooth, but a tick could step over what is there (a bump of a micrometre)
 };
 
-/// What interval analysis of the formula's graph decides about a curve.
+/// The result of interval analysis of a curve's formula graph.
 struct CurveRegularity {
   double lo = 0, hi = 0;              // examined: the statement holds between these; infinite where it holds everywhere
   std::vector<Place> places;          // in order of phi
@@ -54,12 +54,13 @@ struct CurveRegularity {
   /// One piece, which is the whole domain.
   bool whole = false;
 
-  /// The piece that holds phi; -1 where the formula has no value or was not examined. On a boundary the one above.
+  /// The piece that holds phi, and on a boundary the upper piece. It is -1 where the formula has no value or was not examined.
   int pieceAt(double phi) const;
 };
 
-/// Examines the domain, or where that has no end a stretch about `about`: everything, if the formula can be proved analytic everywhere,
-/// else 64 turns and at least 10 m either way. Allocates; not for the haptic thread. A constraint without a formula (free) has no places.
+/// Examines the domain. Where it has no end, everything is examined if the formula can be proved analytic everywhere. Otherwise a stretch
+/// about `about` is examined: 64 turns, and at least 10 m either way. It allocates, so it is not for the haptic thread. A constraint
+/// without a formula (free) has no such positions.
 CurveRegularity computeRegularity(const Constraint& curve, double about);
 /// The same for [lo, hi] alone, and without a search for places where r_phi = 0.
 CurveRegularity computeRegularityWithin(const Constraint& curve, double lo, double hi);

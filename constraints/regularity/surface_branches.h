@@ -9,8 +9,8 @@
 
 namespace reachlab::constraints {
 
-/// What interval analysis of the formula's graph decides about a surface: the lines across which it is not smooth, and its branches
-/// between them. A typed surface has no ends: where its formula cannot be proved smooth everywhere, the lines are watched as a mass moves.
+/// The result of interval analysis of a surface's formula graph: the lines across which it is not smooth, and its branches between them. A
+/// typed surface has no ends. Where its formula cannot be proved smooth everywhere, the lines are watched while a mass moves.
 struct SurfaceBranches {
   static constexpr int kMaxGuards = 6;
   static constexpr int kMaxBranching = 4;  // more lines that can be passed than that are stopped at

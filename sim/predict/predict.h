@@ -14,8 +14,8 @@ struct PredictOptions {
   double handDamping = 0;          // [N s/m] of the hand itself
   int unknowns = 0;                // transcribed cases; 0: chosen for 1e-8
   std::optional<PointIs> point;    // nullopt: as the constraint means it
-  /// Predictions of the same experiment, criterion and hand at other durations, or none: what is found by iteration (joint torque change
-  /// along a line) starts from the polynomial in T through their unknowns and has as many, unless those turn out too few.
+  /// Predictions of the same experiment, criterion and hand at other durations, or empty. Iterative solutions (joint torque change along a
+  /// line) start from the polynomial in T through their unknowns. They use the same number of unknowns, unless that number is too small.
   std::span<const Prediction* const> near;
 };
 

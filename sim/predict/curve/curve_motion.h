@@ -7,9 +7,9 @@
 
 namespace reachlab::predict {
 
-/// How the masses follow a hand along the curve: Gauss collocation with eight stages on equal intervals of [0, T] (order 16 at their
-/// ends), with the exact derivatives of its own result, so that an optimisation may take it for the equations themselves. All
-/// masses rest at s = 0 at t = 0. Borrows curve and object. One thread.
+/// The masses as they follow a hand along the curve. Gauss collocation with eight stages on equal intervals of [0, T] has order 16 at their
+/// ends. The derivatives of the computed result are exact, so that an optimisation may treat it as the equations themselves. All masses
+/// rest at s = 0 at t = 0. Borrows curve and object. One thread.
 class CurveMotion {
  public:
   static constexpr int kStages = 8;
@@ -18,8 +18,8 @@ class CurveMotion {
 
   int nodes() const { return intervals_ * kStages; }
   double timeOf(int node) const;
-  /// Solves for the masses, given the hand's arc length and speed at all nodes. False when Newton's method does not settle in a
-  /// interval; the motion is then not to be used.
+  /// Solves for the masses, given the hand's arc length and speed at all nodes. False when Newton's method does not settle in an interval.
+  /// The motion must not be used in that case.
   bool follow(const Eigen::VectorXd& handPosition, const Eigen::VectorXd& handSpeed);
   /// Arc lengths, then speeds of all masses at T.
   const Eigen::VectorXd& end() const { return end_; }

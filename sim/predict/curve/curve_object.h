@@ -7,9 +7,10 @@
 
 namespace reachlab::predict {
 
-/// Chain or parallel object on a curve: node 0 is the hand, nodes 1 … N the masses, all at arc lengths s [m] with speeds v [m/s].
-/// Springs and dampers act along the chords in space and are projected on the tangent (docs/theory/motion.md, "Chains": Eq. (11) in arc
-/// length): m_i s_i'' = T_i . sum_j (k (r_j - r_i) + b (T_j v_j - T_i v_i)) - viscosity_i v_i.
+/// Chain or parallel object on a curve. Node 0 is the hand, and nodes 1 … N are the masses, at arc lengths s [m] with speeds v [m/s].
+/// Springs and dampers act along the chords in space and are projected on the tangent. See docs/theory/motion.md, "Chains", for Eq. (11) in
+/// arc length:
+/// m_i s_i'' = T_i . sum_j (k (r_j - r_i) + b (T_j v_j - T_i v_i)) - viscosity_i v_i.
 struct CurveObject {
   struct Link {
     int inner = 0, outer = 0;  // nodes; the inner one may be the hand
@@ -26,8 +27,8 @@ struct CurveObject {
 };
 CurveObject makeCurveObject(const LineObject& object);
 
-/// Accelerations a (N) at one instant; with `jacobian` (N x 2(N+1), by s_0 … s_N, v_0 … v_N) their first derivatives; with `hessian`
-/// (2(N+1) square) it adds the second derivatives of sum_i weight_i a_i.
+/// Accelerations a (N) at one instant. `jacobian` (N x 2(N+1), by s_0 … s_N, v_0 … v_N) receives their first derivatives. `hessian` (2(N+1)
+/// square) has the second derivatives of sum_i weight_i a_i added to it.
 void expandAccelerations(const constraints::ArcCurve& curve, const CurveObject& object, const double* s, const double* v, double* a,
                          Eigen::MatrixXd* jacobian = nullptr, const double* weight = nullptr, Eigen::MatrixXd* hessian = nullptr);
 

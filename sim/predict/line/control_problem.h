@@ -7,9 +7,9 @@
 
 namespace reachlab::predict {
 
-/// x' = A x + b u from x(0) = 0 to x(T) = target with least integral of u^2 (docs/theory/criteria.md, "Pontryagin's conditions"). The
-/// first `controlled` states are the problem; those after them only follow (a massless hand behind a damper) and are driven by the first.
-/// Springs and masses are energy coordinates, sqrt(k) elongation and sqrt(m) velocity, so that exp(A t) does not grow.
+/// x' = A x + b u from x(0) = 0 to x(T) = target with least integral of u^2 (docs/theory/criteria.md, "Pontryagin's conditions"). Only the
+/// first `controlled` states have conditions. The states after them are driven by these (a massless hand behind a damper). Springs and
+/// masses are energy coordinates, sqrt(k) elongation and sqrt(m) velocity, so that exp(A t) does not grow.
 struct ControlProblem {
   int size = 0, controlled = 0;
   int elongations = 0, velocities = 0;            // states 0 … elongations-1, then the velocities
@@ -20,7 +20,7 @@ struct ControlProblem {
   bool handVelocityJumps = false;
 };
 
-/// Criteria 1, 4, 5, 6 and the hand-crackle variant; any damping.
+/// Criteria 1, 4, 5, 6 and the hand-crackle variant, with any damping.
 ControlProblem makeControlProblem(const LineObject& object, Criterion criterion, double distance);
 
 }  // namespace reachlab::predict

@@ -36,7 +36,7 @@ class EnergyMovement {
         lane_(memory_, 5 * 2 * size_, 1), control_(memory_, lanesFor<kBatchLanes>(count_) * terms_, kBatchLanes),
         state(memory_, count_, size_) {}
 
-  // u = b^T adjoint, the adjoint backwards from `weights` at T; the states under it, from rest. What they arrive at.
+  // The control is u = b^T adjoint, with the adjoint backwards from `weights` at T. The states follow it from rest. Returns the end state.
   std::vector<Real> follow(const std::vector<Real>& weights) {
     const int n = size_;
     for (int i = 0; i < n; ++i) row_.set(0, i, weights[i]);
@@ -61,8 +61,8 @@ class EnergyMovement {
   const Batch& control(int first, int k) const { return control_.row(first / kBatchLanes * terms_ + k)[0]; }
 
  private:
-  // The control of kCount batches from the interval `first` on, and the states under it from zero in the middle of each interval to both
-  // of its ends.
+  // The control of kCount batches, beginning with the interval `first`. Also the states under it, from zero in the middle of each interval
+  // to both of its ends.
   template <int kCount>
   void respond(int first) {
     const int n = size_, part = n * kCount;

@@ -35,7 +35,7 @@ Span<Real> makeShortSpan(const ControlProblem& system, const SparseRows& a, cons
   return {std::move(e), transpose(impulse) * (integral * impulse)};
 }
 
-/// W(2s) = W(s) + e^{A s} W(s) e^{A^T s}. What one doubling needs is kept for the next one.
+/// W(2s) = W(s) + e^{A s} W(s) e^{A^T s}. The products of each doubling are kept for the next doubling.
 template <class Real>
 class Doubling {
  public:
@@ -54,8 +54,8 @@ class Doubling {
   LaneMatrix<Real> turned_, product_, sum_;
 };
 
-/// Right and left singular vectors of the coupling C of velocities and elongations, from those of C^T C; the left ones by themselves
-/// where some C v are too small to tell them. Each state is then about one mode of the object.
+/// Right and left singular vectors of the coupling C of velocities and elongations, from those of C^T C. The left vectors are computed
+/// separately where some C v are too small to determine them. Each state then belongs to about one mode of the object.
 inline Eigen::MatrixXd makeTurn(const ControlProblem& system) {
   constexpr double kTellsLeft = 1e-6;
   const int m = system.controlled, e = system.elongations, v = system.velocities;
@@ -71,7 +71,7 @@ inline Eigen::MatrixXd makeTurn(const ControlProblem& system) {
   return turn;
 }
 
-/// Of a triangle; the smallest singular value as the largest of the inverse, so that it has its own digits.
+/// Condition of a triangle. The smallest singular value is computed as the largest of the inverse, so that it keeps its digits.
 template <class Real>
 double computeCondition(const std::pmr::vector<Real>& l, Eigen::Index n) {
   Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(n, n), inverse = Eigen::MatrixXd::Identity(n, n);
@@ -92,7 +92,7 @@ inline double computeCondition(const LaneMatrix<double>& w) {
   return sizes[0] > 0 ? std::sqrt(sizes[sizes.size() - 1] / sizes[0]) : std::numeric_limits<double>::infinity();
 }
 
-/// W factorised in the object's modes, its diagonal scaled to one.
+/// W factorised in the object's modes, with its diagonal scaled to 1.
 template <class Real>
 class Gramian {
  public:

@@ -6,8 +6,9 @@
 
 namespace reachlab::predict {
 
-/// The object on a straight line as the criteria see it (docs/theory/criteria.md, "The object on a line"): a spring network whose node 0
-/// is the hand. Chain: springs[0] is the coupling, springs[i] joins masses i and i+1. Parallel: springs[i] joins mass i+1 to the hand.
+/// The object on a straight line as the criteria see it (docs/theory/criteria.md, "The object on a line"). It is a spring network, and its
+/// node 0 is the hand. Chain: springs[0] is the coupling, springs[i] joins masses i and i+1. Parallel: springs[i] joins mass i+1 to the
+/// hand.
 struct LineObject {
   bool parallel = false;
   std::vector<double> masses;     // [kg]
@@ -23,16 +24,16 @@ struct LineObject {
   double totalMass() const;  // [kg] with the hand
 };
 
-/// Takes the object out of the experiment. Throws FaultError for an object that has no form on a line, RefusedError for a spring
-/// of zero stiffness (what hangs on it cannot be brought to rest).
+/// Takes the object out of the experiment. Throws FaultError for an object that has no form on a line. Throws RefusedError for a spring of
+/// zero stiffness, because a mass that hangs on it cannot be brought to rest.
 LineObject makeLineObject(const experiment::Experiment& experiment, double handMass, double handDamping);
 
-/// Parallel masses whose frequencies (and decay rates) differ by less than 1e-9/T move alike under any hand: they become one
-/// mass. What was merged is said in `warnings`. Otherwise frequencies are never merged: the limit is not the merged solution
+/// Parallel masses whose frequencies (and decay rates) differ by less than 1e-9/T move alike under any hand, and become one mass.
+/// `warnings` names the merged masses. Otherwise frequencies are never merged: the limit is not the merged solution
 /// (docs/theory/criteria.md, "Equal frequencies").
 LineObject mergeEqualFrequencies(const LineObject& object, double duration, std::vector<std::string>& warnings);
 
-/// Two-way wave travel time along a chain, 2 sum sqrt(m_i / k_[i-1]) [s]; below it costs and peaks explode.
+/// Two-way wave travel time along a chain, 2 sum sqrt(m_i / k_[i-1]) [s]. Costs and peaks explode for shorter durations.
 double computeTravelTime(const LineObject& object);
 
 }  // namespace reachlab::predict

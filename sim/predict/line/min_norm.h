@@ -5,9 +5,8 @@ namespace reachlab::predict {
 
 /// Least-norm motion from rest at -L/2 to rest at L/2 within tau in [-H, H] whose r-th derivative
 ///   g = sum_k polynomial_k P_k(tau/H) + sum_j trig_j c(W_j tau),   c = cos and k even for odd r, sin and k odd for even r,
-/// minimises the integral of g^2 under int g tau^k = 0 (k < r-1), int g tau^(r-1) = (-1)^(r-1) (r-1)! L and
-/// int g cos W_j tau = int g sin W_j tau = 0 (docs/theory/criteria.md, "Least norm form"; P_k are Legendre polynomials, for the sake of
-/// conditioning).
+/// Minimises the integral of g^2 under int g tau^k = 0 (k < r-1), int g tau^(r-1) = (-1)^(r-1) (r-1)! L and int g cos W_j tau = int g sin
+/// W_j tau = 0. See docs/theory/criteria.md, "Least norm form". P_k are Legendre polynomials, which improve the conditioning.
 struct MinNormMotion {
   int order = 3;               // r
   double halfTime = 0;         // [s] H

@@ -10,7 +10,7 @@
 
 namespace reachlab::predict {
 
-/// What the digits of the arithmetic ask for.
+/// The limits that depend on the digits of the arithmetic.
 template <class Real>
 struct Precision;
 template <>
@@ -21,7 +21,7 @@ struct Precision<double> {
 template <>
 struct Precision<DoubleDouble> {
   static constexpr int kShortTerms = 25;  // < 1e-32
-  // Condition below which no correction is asked for, and the part of the control that is none.
+  // Condition below which no correction is made, and the part of the control below which a correction ends.
   static constexpr double kNeedsNoCorrection = 1e5, kCorrected = 1e-15;
 };
 
@@ -64,7 +64,7 @@ struct ScaledSystem {
       }
     }
   }
-  // to = start + factor s A m; `start` may be null; `to` is neither of the others.
+  // to = start + factor s A m. `start` may be null. `to` differs from both operands.
   void multiply(const LaneMatrix<Real>& m, const Real& factor, const LaneMatrix<Real>* start, LaneMatrix<Real>& to) const {
     int first = 0;
     for (; first + 2 <= m.batches(); first += 2) multiplyPart<2>(m, first, factor, start, to);
@@ -88,7 +88,7 @@ struct ScaledSystem {
   std::pmr::vector<Real> entry, drive;
 };
 
-/// 1, 1, 1/2, 1/3 …: what the k-th term of a Taylor series has beside the one before.
+/// 1, 1, 1/2, 1/3 …: the factor of the k-th term of a Taylor series over the preceding term.
 template <class Real>
 std::pmr::vector<Real> makeInverses(std::pmr::memory_resource* memory, int count) {
   std::pmr::vector<Real> inverse(static_cast<size_t>(count), Real(1.0), memory);

@@ -3,8 +3,8 @@
 
 namespace reachlab::predict {
 
-/// An unevaluated sum hi + lo of two doubles, about 32 significant digits (Dekker 1971; the error-free sums and products are
-/// Knuth's and the fused multiply-add's). For the few predictions whose conditioning asks for more than a double. Any thread.
+/// An unevaluated sum hi + lo of two doubles, about 32 significant digits (Dekker 1971). The error-free sums are Knuth's, and the
+/// error-free products use the fused multiply-add. For the few predictions whose conditioning needs more than a double. Any thread.
 struct DoubleDouble {
   double hi = 0, lo = 0;
 

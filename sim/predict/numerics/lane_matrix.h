@@ -10,8 +10,8 @@
 
 namespace reachlab::predict {
 
-/// A dense matrix of doubles or DoubleDoubles, row by row, each row in whole batches of lanes (what is beyond the last column is zero).
-/// It takes its place from `memory`, which outlives it and is the same for all matrices of one computation.
+/// A dense matrix of doubles or DoubleDoubles, row by row. Each row has whole batches of lanes, with zeros beyond the last column. Its
+/// storage comes from `memory`, which outlives it and is the same for all matrices of one computation.
 template <class Real>
 class LaneMatrix {
  public:
@@ -51,7 +51,7 @@ class LaneMatrix {
   std::pmr::vector<Batch> value_;
 };
 
-/// kRows rows of to = a m from row i on, kCount batches of each from the batch `first` on: independent sums do not wait for each other.
+/// kRows rows of to = a m from row i on, kCount batches of each from the batch `first` on. Independent sums do not wait for each other.
 template <int kRows, int kCount, class Real>
 void multiplyPart(const LaneMatrix<Real>& a, int i, const LaneMatrix<Real>& m, int first, LaneMatrix<Real>& to) {
   std::array<std::array<BatchOf<Real>, kCount>, kRows> sum{};
@@ -81,7 +81,7 @@ void multiplyRows(const LaneMatrix<Real>& a, int i, const LaneMatrix<Real>& m, L
   if (first < m.batches()) multiplyPart<kRows, 1>(a, i, m, first, to);
 }
 
-/// to = a m; `to` has the product's size and is neither factor.
+/// to = a m. `to` has the product's size and differs from both factors.
 template <class Real>
 void multiply(const LaneMatrix<Real>& a, const LaneMatrix<Real>& m, LaneMatrix<Real>& to) {
   int i = 0;
@@ -89,7 +89,7 @@ void multiply(const LaneMatrix<Real>& a, const LaneMatrix<Real>& m, LaneMatrix<R
   for (; i < a.rows(); ++i) multiplyRows<1>(a, i, m, to);
 }
 
-/// kCount batches of to = start + row m from the batch `first` on; even and odd terms do not wait for each other.
+/// kCount batches of to = start + row m from the batch `first` on. Even and odd terms do not wait for each other.
 template <int kCount, class Real>
 void multiplyRowPart(const BatchOf<Real>* row, const LaneMatrix<Real>& m, int first, const BatchOf<Real>* start, BatchOf<Real>* to) {
   std::array<BatchOf<Real>, kCount> even{}, odd{};
@@ -109,7 +109,7 @@ void multiplyRowPart(const BatchOf<Real>* row, const LaneMatrix<Real>& m, int fi
   }
 }
 
-/// to = start + row m, one row each; `start` may be null; `to` is neither of the others.
+/// to = start + row m, one row each. `start` may be null. `to` differs from both operands.
 template <class Real>
 void multiplyRow(const BatchOf<Real>* row, const LaneMatrix<Real>& m, const BatchOf<Real>* start, BatchOf<Real>* to) {
   int first = 0;
@@ -134,7 +134,7 @@ LaneMatrix<Real>& operator+=(LaneMatrix<Real>& to, const LaneMatrix<Real>& more)
   return to;
 }
 
-/// to = a transposed; `to` has its size and is not a.
+/// to = a transposed. `to` has its size and is not a.
 template <class Real>
 void transpose(const LaneMatrix<Real>& a, LaneMatrix<Real>& to) {
   for (int i = 0; i < a.rows(); ++i)
@@ -148,8 +148,8 @@ LaneMatrix<Real> transpose(const LaneMatrix<Real>& a) {
   return turned;
 }
 
-/// The lower triangle L with L L^T = a symmetric matrix (its lower triangle is read), n numbers a row; NaN where the matrix is not positive
-/// definite to its digits.
+/// The lower triangle L with L L^T = a symmetric matrix, n numbers per row. Only the lower triangle of the matrix is read. The result is
+/// NaN if the matrix is not positive definite to its digits.
 template <class Real>
 std::pmr::vector<Real> factoriseCholesky(const LaneMatrix<Real>& a) {
   using std::sqrt;

@@ -6,7 +6,7 @@
 
 namespace reachlab::predict {
 
-/// Eight DoubleDoubles. Sums may leave lo as large as the terms' rounding; settle() makes it small again.
+/// Eight DoubleDoubles. Sums may leave lo as large as the rounding of the terms. settle() makes it small again.
 struct WideBatch {
   LaneBatch hi, lo;
 };

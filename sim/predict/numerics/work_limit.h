@@ -2,7 +2,8 @@
 
 namespace reachlab::predict {
 
-/// What the search for one minimum may cost. Counted in multiplications, not in time, so that what is refused is the same on every computer.
+/// Limit of the work of one search for a minimum. It counts multiplications instead of time, so that every computer refuses the same
+/// searches.
 class WorkLimit {
  public:
   /// Throws RefusedError once all that was spent is more than a prediction may cost.

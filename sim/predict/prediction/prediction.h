@@ -9,8 +9,8 @@
 
 namespace reachlab::predict {
 
-/// What a `point` is to the hand: a mass behind the coupling's spring, or the hand itself (one mass with it). On a line the first is
-/// meant, on curves and surfaces the second (docs/predictions.md says why), unless an option asks for the other.
+/// The role of an object `point`: a mass behind the coupling's spring, or the hand itself (a single mass together with it). On a line the
+/// default is BehindSpring, and on curves and surfaces it is Hand (docs/predictions.md says why). An option can change it.
 enum class PointIs { BehindSpring, Hand };
 std::string_view nameOf(PointIs point);  // "behind-spring", "hand"
 
@@ -19,18 +19,18 @@ struct PredictedHand {
   double position = 0, velocity = 0, acceleration = 0;  // [m], [m/s], [m/s^2]
 };
 
-/// What the hand should do for one experiment under one criterion. Profiles are functions of time on [0, T] (inner limits at 0
-/// and T: end jumps and pulses are numbers here, never samples). Immutable after predict(); any thread; `at…` may allocate
-/// nothing but is not meant for the haptic thread: sample it beforehand.
+/// The predicted movement of the hand for one experiment under one criterion. Profiles are functions of time on [0, T], with inner limits
+/// at 0 and T: end jumps and pulses are numbers here, never samples. Immutable after predict(). Any thread. The functions `…At` never
+/// allocate, but the haptic thread must not call them: sample the prediction beforehand.
 class Prediction {
  public:
   virtual ~Prediction() = default;
   virtual PredictedHand handAt(double t) const = 0;
-  /// Positions and velocities of all masses at t; spans of massCount().
+  /// Positions and velocities of all masses at t, in spans of massCount().
   virtual void massesAt(double t, std::span<double> position, std::span<double> velocity) const = 0;
   /// Velocity of the last mass [m/s].
   virtual double objectVelocityAt(double t) const;
-  /// Velocities of hand and last mass at equally spaced times from 0 to T; as many places in both, two or more.
+  /// Velocities of hand and last mass at equally spaced times from 0 to T. Both spans have the same size, two or more.
   virtual void sampleVelocities(std::span<double> hand, std::span<double> object) const;
   int massCount() const { return massCount_; }
   /// Equal parts of [0, T] that are fine enough to see every wave of the profiles.

@@ -36,8 +36,8 @@ struct SweepRow {
   ProfileShape shape;
   std::string refusal;
 };
-/// Predictions for every value of the sweep, on all cores; `progress` (may be empty) is called after each from any of the
-/// threads, one at a time, with how many are done.
+/// Predictions for every value of the sweep, on all cores. `progress` (may be empty) is called after each value with the number that is
+/// done. The calls come from any of the threads, one at a time.
 std::vector<SweepRow> computeSweep(const experiment::CompiledExperiment& experiment, Criterion criterion, const PredictOptions& options,
                                    const Sweep& sweep, const std::function<void(int done, int total)>& progress = {});
 

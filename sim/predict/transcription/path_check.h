@@ -17,9 +17,9 @@ struct PathCheck {
   double brokenAt = 0;  // [s] the first place where it is not, or where there is no value
 };
 
-/// Looks at a movement in 96 equal intervals of [0, T], on sixteen Gauss nodes in each and at its ends: over each of them r, velocity
-/// and acceleration must change by the integral of their rates. A kink, a jump, a step of the curvature and a bump between the places
-/// that the movement was computed at are found so, wherever they lie.
+/// Examines a movement in 96 equal intervals of [0, T], on sixteen Gauss nodes in each and at its ends. Over each interval r, velocity and
+/// acceleration must change by the integral of their rates. This finds a kink, a jump, a step of the curvature, and a bump between the
+/// nodes of the computation.
 PathCheck checkPath(double duration, const std::function<PathPoint(double t)>& at);
 
 }  // namespace reachlab::predict

@@ -6,10 +6,10 @@
 
 namespace reachlab::predict {
 
-/// Motions y from rest to rest on x in [-1, 1] with derivatives 1 … order-1 zero at both ends: y^(order) = g P_(order-1) +
-/// sum_k c_k sqrt(2n+1) P_n, n = order + k. The first column goes from 0 to 1, the others from 0 to 0, so that the ends hold for
-/// any c and the highest derivative is an orthonormal expansion (docs/theory/methods.md, "Predictions: transcription": [s(1-s)]^order
-/// times polynomials, in its best basis).
+/// Motions y from rest to rest on x in [-1, 1] with derivatives 1 … order-1 zero at both ends:
+/// y^(order) = g P_(order-1) + sum_k c_k sqrt(2n+1) P_n, n = order + k.
+/// The first column runs from 0 to 1 and the others from 0 to 0, so that the ends hold for any c. The highest derivative is an orthonormal
+/// expansion. See docs/theory/methods.md, "Predictions: transcription": [s(1-s)]^order times polynomials, in its best basis.
 class RestToRestBasis {
  public:
   RestToRestBasis(int order, int unknowns);

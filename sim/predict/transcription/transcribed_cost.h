@@ -10,8 +10,8 @@
 
 namespace reachlab::predict {
 
-/// Least integral of |R(a)|^2 over [0, T], where the local variables a(t) are linear in the unknown motions: the problem of
-/// criterion 2 and of jerk on curves and surfaces. Several motions may be unknown, each in the same RestToRestBasis.
+/// Least integral of |R(a)|^2 over [0, T], where the local variables a(t) are linear in the unknown motions. It is the problem of criterion
+/// 2 and of jerk on curves and surfaces. Several motions may be unknown, each in the same RestToRestBasis.
 struct TranscribedProblem {
   double duration = 0;  // [s]
   int order = 3;        // conditions per end of each motion
@@ -20,14 +20,14 @@ struct TranscribedProblem {
   std::vector<double> detour;    // how far bent starts leave each motion's straight one; empty: the way it goes, at least 1e-3
   /// locals x (order+1) for each motion: a = sum over motions and m of local[motion][l*(order+1)+m] * y^(m)(t), time derivatives.
   std::vector<std::vector<double>> local;
-  /// R, dR/da (residuals x locals) and d2R/da2 (residuals x locals x locals) at one instant; R alone when ra is null.
+  /// R, dR/da (residuals x locals) and d2R/da2 (residuals x locals x locals) at one instant. R alone when ra is null.
   std::function<void(const double* a, double* r, double* ra, double* raa)> residual;
   /// Of all searches for its minimum together.
   std::shared_ptr<WorkLimit> work = std::make_shared<WorkLimit>();
 };
 
-/// That integral as a function of the unknowns (those of the first motion, then of the second …), by Gauss-Legendre with three
-/// nodes for two unknowns; gradient and Hessian are exact. Borrows the problem, and throws RefusedError where its work has no end.
+/// That integral as a function of the unknowns, motion after motion, by Gauss-Legendre with three nodes for two unknowns. Gradient and
+/// Hessian are exact. Borrows the problem. Throws RefusedError when its work exceeds the limit.
 class TranscribedCost {
  public:
   TranscribedCost(const TranscribedProblem& problem, const RestToRestBasis& basis);
