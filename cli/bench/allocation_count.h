@@ -3,7 +3,7 @@
 
 namespace reachlab::cli {
 
-/// How often this thread has asked operator new for memory since it began. The program replaces operator new to know; any thread.
+/// How often this thread has asked operator new for memory since it began. The program replaces operator new to count. Any thread.
 std::uint64_t countAllocations() noexcept;
 
 }  // namespace reachlab::cli

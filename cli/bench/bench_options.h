@@ -6,7 +6,7 @@
 
 namespace reachlab::cli {
 
-/// What `reach bench` was asked for. `reach` and the program that measures read the same options by the same definition.
+/// The options of `reach bench`. `reach` and the program that measures read the same options by the same definition.
 struct BenchOptions {
   std::vector<std::string> scenes, methods;  // empty: all
   int rounds = 7;
@@ -20,7 +20,7 @@ inline constexpr const char* kBenchProgram = "reachlab-bench";
 inline constexpr const char* kBenchSummary =
     "Sets speed against error: scenes S1 to S8, every method, against references of over 20 digits";
 
-/// Puts the options and the footer on `command`; what is parsed ends in `options`, which must outlive it.
+/// Puts the options and the footer on `command`. Parsed values end in `options`, which must outlive it.
 void addBenchOptions(CLI::App& command, BenchOptions& options);
 
 }  // namespace reachlab::cli

@@ -12,7 +12,7 @@ struct ConstraintEvalRow {
   double apart = 0;        // most of any component of r and its derivatives beside the hand-written form's [m]
 };
 
-/// Measures all of them, about a second. The three forms share flags, call and sine; they differ in the code between.
+/// Measures all of them, about a second. The three forms share flags, call and sine. They differ only in the code between.
 std::vector<ConstraintEvalRow> benchConstraintEval(int repetitions = 25);
 
 }  // namespace reachlab::cli

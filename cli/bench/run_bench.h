@@ -3,7 +3,7 @@
 
 namespace reachlab::cli {
 
-/// Measures and prints what `options` asks for. Throws reachlab::Error for a fault.
+/// Carries out the benchmarks of `options` and prints the results. Throws reachlab::Error for a fault.
 void runBench(const BenchOptions& options);
 
 }  // namespace reachlab::cli

@@ -4,7 +4,7 @@
 
 namespace reachlab::cli {
 
-/// Each adds one subcommand to `reach`. The callback throws reachlab::Error for a fault; other exits set `exitCode`.
+/// Each adds one subcommand to `reach`. The callback throws reachlab::Error for a fault. Other exits set `exitCode`.
 void addListCommand(CLI::App& app, int& exitCode);
 void addValidateCommand(CLI::App& app, int& exitCode);
 void addRunCommand(CLI::App& app, int& exitCode);

@@ -9,7 +9,7 @@
 namespace reachlab::cli {
 
 /// The hand of `reach simulate`: hold, min-jerk, min-jerk-along, or the name of a CSV file with time_s, x_m, y_m, z_m. `breaks`: times at
-/// which the hand's law is not smooth, which a step should end at. Throws RefusedError (no task, zero chord) or FaultError (bad file).
+/// which the hand's law is not smooth. A step should end there. Throws RefusedError (no task, zero chord) or FaultError (bad file).
 struct HandLaw {
   dynamics::HandFunction function;
   /// At `time` by the law that holds at `within`: a step that begins or ends at a break sees its own side of it. Empty: `function`.

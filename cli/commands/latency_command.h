@@ -3,7 +3,7 @@
 
 namespace reachlab::cli {
 
-/// As those of commands.h.
+/// Like the commands of commands.h.
 void addLatencyCommand(CLI::App& app, int& exitCode);
 
 }  // namespace reachlab::cli

@@ -3,9 +3,9 @@
 
 namespace reachlab::cli {
 
-/// Does a session block by block: conducts every trial, prints one line each on stdout once it is safe on the disk, writes the
-/// dataset at each block's end and the success table at the end. Returns the exit code: 0, or 130 after Ctrl-C (the trial under
-/// way is kept as interrupted). Throws what planning, device, scene and disk throw; finished trials are then on the disk.
+/// Conducts a session block by block. It prints one line per trial on stdout once the trial is safe on the disk. It writes the dataset at
+/// each block's end and the success table at the end. Returns the exit code: 0, or 130 after Ctrl-C (the trial under way is kept as
+/// interrupted). Throws the errors of planning, device, scene and disk. Finished trials are then on the disk.
 int runSession(const session::SessionRequest& request);
 
 }  // namespace reachlab::cli

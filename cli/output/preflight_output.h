@@ -6,7 +6,7 @@
 
 namespace reachlab::cli {
 
-/// A line each, warnings first.
+/// One line per finding, warnings first.
 std::string preflightText(const std::vector<devices::PreflightLine>& lines);
 /// `[{hand, name, verdict, asked, limit, unit, sentence, remedy}]`.
 std::string preflightJson(const std::vector<devices::PreflightLine>& lines);

@@ -6,14 +6,14 @@
 
 namespace reachlab::cli {
 
-/// The logs of a dataset, a session's folder or one log, and what cannot be read among them.
+/// The logs of a dataset, a session's folder or one log, and those logs that cannot be read.
 struct ReadableLogs {
   std::vector<record::RunLog> runs;
   std::vector<std::string> unreadable;  // one sentence each, with the log's name
-  /// To be called when the work on the others is done. Throws ResourceError naming the logs.
+  /// To be called after the work on the readable logs. Throws ResourceError naming the unreadable logs.
   void tellUnreadable() const;
 };
-/// Throws what the first log throws where none can be read.
+/// Throws the error of the first log where no log can be read.
 ReadableLogs openReadableLogs(const std::string& what);
 
 }  // namespace reachlab::cli

@@ -12,7 +12,7 @@ study::Shard shardOf(const std::string& text);
 /// The subjects of this program's simulated device.
 study::PrepareSubjects prepareSimulated();
 
-/// Progress with rate and time left on stderr: a line that is rewritten on a terminal, a line every so often in a log.
+/// Progress with rate and time left on stderr: a line that is rewritten on a terminal, and a line from time to time in a log.
 class ProgressLine {
  public:
   ProgressLine();

@@ -7,10 +7,10 @@
 
 namespace reachlab::cli {
 
-/// Counts of a run, as printed at its end; the exported trials.csv gives the same.
+/// Counts of a run, as printed at its end. The exported trials.csv gives the same.
 struct OutcomeCounts {
   int trials = 0, success = 0, failure = 0, aborted = 0, interrupted = 0;
-  std::map<std::string, int> reasons;  // of what was no success
+  std::map<std::string, int> reasons;  // of trials without success
 };
 
 /// Outcomes by condition, in the order in which the conditions came.
@@ -24,7 +24,7 @@ class SuccessTable {
   std::vector<std::pair<std::string, OutcomeCounts>> rows_;
 };
 
-/// `trial=3 outcome=failure reason=velocity mass=5 by=0.004 time_s=1.31`; what does not apply is left out.
+/// `trial=3 outcome=failure reason=velocity mass=5 by=0.004 time_s=1.31`. Parts that do not apply are left out.
 std::string trialLine(int trial, const trial::TrialResult& result);
 
 }  // namespace reachlab::cli

@@ -7,9 +7,9 @@
 
 namespace reachlab::cli {
 
-/// What a recorded trial looked like at its samples, from where it was put up to its end.
+/// A recorded trial at its samples, from its preparation to its end.
 struct ShownTrial {
-  std::vector<double> time;        // [s] since onset; since the trial was put up where the hand never set off
+  std::vector<double> time;        // [s] since onset, or since the preparation where there is no onset
   std::vector<double> handSpeed;   // [m/s]
   std::vector<double> firstSpeed;  // [m/s] of the driven mass
   std::vector<double> lastSpeed;   // [m/s] of the last mass
@@ -17,7 +17,7 @@ struct ShownTrial {
   bool sinceOnset = true;
 };
 
-/// Reads the trial's rows; throws FaultError if the log has changed meanwhile.
+/// Reads the trial's rows. Throws FaultError if the log has changed meanwhile.
 ShownTrial profileOf(const record::RunLog& log, const record::RecordedTrial& trial);
 /// Speeds with the task's T and T ± dT, and the coupling force, over time.
 figure::Figure drawTrial(const record::RunLog& log, const record::RecordedTrial& trial);

@@ -6,7 +6,8 @@
 
 namespace reachlab::cli {
 
-/// Does what writes to the place that an option gave; a fault of the disk then begins with the option, so that it is clear which to change.
+/// Calls a function that writes to the file of an option. A fault of the disk then begins with the option's name, so that it is clear which
+/// option to change.
 template <class Action>
 auto atOption(const std::string& option, Action&& action) {
   try {

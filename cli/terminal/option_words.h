@@ -6,10 +6,10 @@
 
 namespace reachlab::cli {
 
-/// The option that gives what `key` means in a request ("disk_reserve" is `--disk-reserve`); empty where no option does.
+/// The option for `key` of a request ("disk_reserve" is `--disk-reserve`). Empty where there is no such option.
 std::string optionOf(const std::string& key);
 
-/// Faults in the command line's words: what stands in no file was given by an option, and is told by its name.
+/// Rewords faults for the command line. A value that is in no file came from an option, and the fault names the option.
 std::vector<Fault> inOptionWords(std::vector<Fault> faults);
 
 }  // namespace reachlab::cli

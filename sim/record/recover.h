@@ -12,9 +12,9 @@ struct Recovery {
   bool interruptedTrial = false;
 };
 
-/// Mends a log in place: everything before the first damage stays byte for byte, a trial that was under way there is closed as
-/// `interrupted`, and the log is ended in order. The log as found is kept beside it (`….damaged`). A healthy log is left alone.
-/// Throws FaultError (no log, configuration damaged) or ResourceError (disk, or the log is being written).
+/// Repairs a log in place. Everything before the first damage stays byte for byte. A trial that was under way there is closed as
+/// `interrupted`, and the log is ended in order. The log as found is kept beside it (`….damaged`). A healthy log is not changed. Throws
+/// FaultError (no log, configuration damaged) or ResourceError (disk, or the log is being written).
 Recovery recoverLog(const std::string& path);
 
 }  // namespace reachlab::record

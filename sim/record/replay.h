@@ -10,7 +10,7 @@
 
 namespace reachlab::record {
 
-/// A recorded run simulated again from its inputs, held against what was recorded.
+/// A recorded run that is simulated again from its inputs and compared with the record.
 struct Replay {
   std::uint64_t ticks = 0, rows = 0;  // simulated, compared
   std::uint64_t rowsThatDiffer = 0;   // in any bit of any channel but the computer's clock
@@ -20,12 +20,12 @@ struct Replay {
   bool identical() const { return rowsThatDiffer == 0 && trialsThatDiffer == 0; }
 };
 
-/// Feeds every recorded tick to a fresh engine of the recorded experiment. Bit-identical with the program that recorded, on
-/// every level of processor; another compiler or version may round differently. Throws FaultError when ticks are missing in the log (dropped while recording),
-/// and what the engine's construction throws.
+/// Feeds every recorded tick to a fresh engine of the recorded experiment. The result is bit-identical with the program that recorded, on
+/// every level of processor. Another compiler or version may round differently. Throws FaultError when ticks are missing in the log
+/// (dropped while recording), and the errors of the engine's construction.
 Replay replayRun(const RunLog& log);
 
-/// What a run needs that was moved at several stations: an engine on a copy, and what the others sent, between two ticks.
+/// The parts that the replay of a run at several stations needs: an engine on a copy, and the other stations' samples between two ticks.
 struct ReplayHooks {
   std::function<std::unique_ptr<haptics::TickEngine>(const experiment::CompiledExperiment&, const haptics::EngineOptions&)> makeEngine;
   std::function<void(const haptics::TickState& state)> afterTick;

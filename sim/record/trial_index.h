@@ -27,15 +27,15 @@ struct TrialIndex {
   std::size_t trialCount() const;
 };
 
-/// Called before each log that must be opened; false gives up (the index is then of what was read so far).
+/// Called before each log that must be opened. False gives up, and the index then has the logs that were read so far.
 using IndexProgress = std::function<bool(std::size_t done, std::size_t of)>;
 
-/// The trials of every log that findLogs finds at `path`. What has not changed since the last time is taken from `indexFile` (empty: there
-/// is none), which is written anew when anything has; one that is damaged or of another version is as good as none, and one that cannot be
-/// written costs the next opening its time and nothing else. Throws FaultError where there are no logs.
+/// The trials of every log that findLogs finds at `path`. Logs that have not changed are taken from `indexFile` (empty: no such file),
+/// which is written again after a change. A damaged file, or a file of another version, is ignored. If the file cannot be written, only the
+/// next opening takes longer. Throws FaultError where there are no logs.
 TrialIndex openTrialIndex(const std::string& path, const std::string& indexFile, const IndexProgress& progress = {});
 
-/// The name of the index file of `path` in the folder of such files: its own for every dataset.
+/// The name of the index file of `path` in the folder of such files. Every dataset has a different name.
 std::string indexFileFor(const std::string& path, const std::string& folder);
 
 }  // namespace reachlab::record

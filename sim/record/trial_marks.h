@@ -7,7 +7,7 @@
 
 namespace reachlab::record {
 
-/// What a person says of a recorded trial, while the run goes on or long after. SI, seconds since the trial was armed.
+/// A person's remarks about a recorded trial, made during the run or long after it. SI, seconds since the trial was armed.
 struct TrialMark {
   int trial = 0;                                  // as recorded
   bool flagged = false;                           // to be looked at again; counts like any other
@@ -22,19 +22,19 @@ struct TrialMark {
 struct RunMarks {
   std::vector<TrialMark> trials;
   const TrialMark* find(int trial) const;  // null: nothing was said of it
-  /// In place of what was said of that trial; an empty one forgets it.
+  /// Replaces the mark of that trial. An empty mark removes it.
   void set(const TrialMark& mark);
   bool operator==(const RunMarks&) const = default;
 };
 
-/// Where the marks of a log stand: beside it, `…_log.reach` and `…_marks.json`. The log itself is never touched.
+/// The file of a log's marks, beside it: `…_log.reach` and `…_marks.json`. The log itself is never touched.
 std::string marksPathOf(const std::string& logPath);
-/// None where there is no such file. Throws FaultError with every fault of the file at its place, ResourceError. A trial that is named twice
-/// is refused, because the later line would undo the exclusion of the earlier one.
+/// Reads the marks. A missing file gives no marks. Throws ResourceError, and FaultError with every fault of the file at its position. A
+/// trial that is named twice is refused, because the later line would undo the exclusion in the earlier line.
 RunMarks readMarks(const std::string& logPath);
-/// The same of a run that is over: a trial that the run does not have is refused too, because another one was meant.
+/// The same for a finished run: a trial that the run does not have is refused too, because it is a mistake.
 RunMarks readMarks(const RunLog& run);
-/// Replaces the file in one step; without marks there is none. Throws ResourceError.
+/// Replaces the file in one step. Without marks the file is removed. Throws ResourceError.
 void writeMarks(const std::string& logPath, const RunMarks& marks);
 
 }  // namespace reachlab::record

@@ -12,25 +12,26 @@ struct BackupState {
   std::string sentence;  // for a person; empty while idle
 };
 
-/// Keeps a second data folder up to date on a thread of its own, so that nobody waits for its disk. Members: the controlling thread's.
+/// Keeps a second data folder up to date on a separate thread, so that no person waits for its disk. The controlling thread calls the
+/// members.
 class BackupWorker {
  public:
   BackupWorker(std::string dataset, std::string backup);
-  /// Finishes what was asked for.
+  /// Finishes the requested copy.
   ~BackupWorker();
   BackupWorker(const BackupWorker&) = delete;
   BackupWorker& operator=(const BackupWorker&) = delete;
 
-  /// A run has ended: it is copied soon, with all that is not in the backup yet.
+  /// A run has ended. It is copied soon, with all other runs that the backup lacks.
   void request();
   BackupState state() const;
-  /// Waits until what was requested is done.
+  /// Waits until the requested copy is done.
   BackupState finish();
 
  private:
   void work(const std::stop_token& stop);
   std::string dataset_, backup_;
-  mutable std::mutex mutex_;  // guards what follows
+  mutable std::mutex mutex_;  // guards the members below
   std::condition_variable_any changed_;
   bool asked_ = false;
   BackupState state_;

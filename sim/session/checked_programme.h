@@ -5,8 +5,8 @@
 
 namespace reachlab::session {
 
-/// A plan's file with the experiments that it names, each compiled once, and whether their tasks can be carried out. Throws FaultError with every
-/// fault of all of them, each at its place.
+/// Reads a plan's file and its experiments, compiles each once, and checks that their tasks can be carried out. Throws FaultError with
+/// every fault, each at its position.
 Programme checkedProgramme(const std::string& file);
 
 }  // namespace reachlab::session

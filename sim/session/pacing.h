@@ -4,8 +4,8 @@
 
 namespace reachlab::session {
 
-/// When the next trial and the next block may begin: the pause between two trials, and the plan's rest between two blocks. Both run from the
-/// end of the trial before. Time is given, not asked for.
+/// The times at which the next trial and the next block may begin. They follow from the pause between two trials and the plan's rest
+/// between two blocks. Both start at the end of the trial before. The caller gives the time.
 class Pacing {
  public:
   using Time = std::chrono::steady_clock::time_point;
@@ -19,9 +19,9 @@ class Pacing {
     return true;
   }
   void cancelPause() { nextTrial_.reset(); }
-  /// A rest was begun and not ended, whether it is over or not.
+  /// A rest was begun and not ended, even if its time is over.
   bool rests() const { return nextBlock_.has_value(); }
-  /// [s] until the next block may begin; 0: it may.
+  /// [s] until the next block may begin. 0: it may begin now.
   double restLeft(Time now) const { return rests() && now < *nextBlock_ ? std::chrono::duration<double>(*nextBlock_ - now).count() : 0; }
 
  private:

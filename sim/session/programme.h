@@ -7,18 +7,18 @@
 
 namespace reachlab::session {
 
-/// What is to be done in a session: one experiment, or a plan with the experiments of its blocks. A value; it is read once, and nothing is
-/// looked up in files again however often it is recorded.
+/// The content of a session: one experiment, or a plan with the experiments of its blocks. It is a value that is read once. No file is read
+/// again, however often it is recorded.
 struct Programme {
-  Plan plan;                                                // of a single experiment: one block and no text
+  Plan plan;                                                // a single experiment has one block and no text
   std::vector<experiment::CompiledExperiment> experiments;  // one for each of plan.blocks
   bool isPlan() const { return !plan.text.empty(); }
 };
 
 /// Reads a plan or an experiment: a file, or the name of a shipped one. Throws FaultError with every fault.
 Programme readProgramme(const std::string& fileOrName);
-/// The same of a plan that is edited in a window: its text is what `toJson` gives, experiments are looked for beside `file` first.
-/// Throws FaultError with every fault.
+/// The same for a plan that is edited in a window. Its text comes from `toJson`. Experiments are first looked for beside `file`. Throws
+/// FaultError with every fault.
 Programme programmeOf(const Plan& plan, const std::string& file);
 /// A single experiment, as it is edited in a window or made by a program.
 Programme programmeOf(const experiment::CompiledExperiment& experiment);

@@ -3,7 +3,7 @@
 
 namespace reachlab::session {
 
-/// Throws FaultError where a recording of this could not be read again; planSession asks the same of what it has planned.
+/// Throws FaultError where a recording of this programme could not be read again. planSession checks the same.
 void checkRecordable(const Programme& programme);
 
 }  // namespace reachlab::session

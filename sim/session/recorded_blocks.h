@@ -7,17 +7,17 @@
 
 namespace reachlab::session {
 
-/// One block as far as it is recorded: its first run and those that resumed it.
+/// The recorded part of a block: its first run and the runs that resumed it.
 struct RecordedBlock {
   record::RunConfiguration configuration;  // of the first run
-  std::set<int> done = {};                  // planned indices that were finished, and are not to be repeated
-  std::set<int> putUpAgain = {};           // or to be repeated, once
+  std::set<int> done = {};                  // planned indices that are finished and not to be repeated
+  std::set<int> putUpAgain = {};           // planned indices that are to be repeated once
   bool complete() const { return done.size() >= configuration.trials.size(); }
   int lastTrial = 0;  // largest trial number used so far
 };
 
-/// The session's blocks as recorded, by first run. Logs that cannot be read at all are left out, with a sentence in `faults`; with `mustRead` one
-/// that the disk does not give is a ResourceError: whoever resumes would do again what it holds.
+/// The session's recorded blocks, by first run. Logs that cannot be read are left out, with a sentence in `faults`. With `mustRead` a log
+/// that the disk does not give is a ResourceError, since resuming would repeat its trials.
 std::vector<RecordedBlock> readRecordedBlocks(const SessionPlace& place, std::vector<std::string>& faults, bool mustRead = false);
 
 }  // namespace reachlab::session

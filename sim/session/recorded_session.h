@@ -9,37 +9,38 @@
 
 namespace reachlab::session {
 
-/// Makes the device that was asked for, for one block: its experiment and its seed. Throws as devices' makeDevice does.
+/// Makes the requested device for one block, from its experiment and its seed. Throws as devices' makeDevice does.
 using DeviceMaker = std::function<std::unique_ptr<haptics::HapticDevice>(
     const std::string& device, const experiment::CompiledExperiment& experiment, std::uint64_t seed)>;
 
-/// A session as it is recorded: its blocks in order, one run each, one open at a time. The command line goes through it with `conduct`; a
-/// window opens run after run. The controlling thread owns it.
+/// A session while it is recorded. Its blocks are in order, with one run each, and one run is open at a time. The command line uses
+/// `conduct`, and a window opens run after run. The controlling thread owns it.
 class RecordedSession {
  public:
-  /// Plans the session; opens nothing. `watcher` (may be null) sees every tick of every run and outlives the session; so do `instruments`. Throws FaultError.
+  /// Plans the session and opens nothing. `watcher` (may be null) sees every tick of every run. `watcher` and `instruments` outlive the
+  /// session. Throws FaultError.
   RecordedSession(const Programme& programme, const SessionRequest& request, DeviceMaker makeDevice, haptics::RunSink* watcher = nullptr,
                   record::InstrumentLink* instruments = nullptr);
-  /// What is changed of every run's options before it is opened: whose engine it has, who else sees its ticks.
+  /// A change to the options of every run before it is opened, such as its engine or its watchers.
   void prepareRuns(std::function<void(RecordedRunOptions&)> prepare) { prepare_ = std::move(prepare); }
 
-  /// What is worth a word before it begins.
+  /// The warnings before it begins.
   const SessionNotice& notice() const { return notice_; }
   std::uint64_t seed() const { return seed_; }
   std::size_t blocksLeft() const { return blocks_.size(); }
-  const BlockToRun* nextBlock() const { return blocks_.empty() ? nullptr : &blocks_.front(); }  // null: none is left
+  const BlockToRun* nextBlock() const { return blocks_.empty() ? nullptr : &blocks_.front(); }  // null: no block is left
 
-  /// To be called when a trial of the run has ended: begins the plan's pause before the run's next trial or, after its last, the plan's rest
-  /// before the next block. `ownPause` [s] stands where the plan has no pause; without it the next trial waits to be asked for. On the
-  /// virtual clock nobody pauses or rests.
+  /// To be called when a trial of the run has ended. It begins the plan's pause before the next trial or, after the last trial, the plan's
+  /// rest before the next block. `ownPause` [s] holds where the plan has no pause. Without both, the next trial waits for a request. The
+  /// virtual clock has no pauses and no rests.
   void trialEnded(Pacing::Time now, std::optional<double> ownPause);
   Pacing& pacing() { return pacing_; }
-  /// Finishes the run that is open, if any, and opens that of the next block; false when no block is left. A block whose run could not be
-  /// opened is still left.
+  /// Finishes the open run, if any, and opens the run of the next block. False when no block is left. A block whose run could not be opened
+  /// is still left.
   bool openNext();
-  /// Finishes the run that is open. The blocks after it stay.
+  /// Finishes the open run. The blocks after it stay.
   void closeRun();
-  RecordedRun* run() { return run_.get(); }  // null: none is open
+  RecordedRun* run() { return run_.get(); }  // null: no run is open
 
  private:
   SessionRequest request_;
@@ -49,26 +50,26 @@ class RecordedSession {
   std::function<void(RecordedRunOptions&)> prepare_;
   SessionNotice notice_;
   std::uint64_t seed_ = 0;
-  std::deque<BlockToRun> blocks_;  // to be opened yet
+  std::deque<BlockToRun> blocks_;  // still to be opened
   std::unique_ptr<RecordedRun> run_;
   Pacing pacing_;
 };
 
-/// What a front end is told while a session is conducted to its end.
+/// Calls to a front end while a session is conducted to its end.
 struct SessionWords {
-  std::function<void(const BlockToRun& next)> resting;  // the plan rests before this block, from the end of the last trial; may be empty
+  std::function<void(const BlockToRun& next)> resting;  // the plan rests before this block, from the end of the last trial. May be empty
   std::function<void(const RecordedRun& run)> opened;   // before the loop starts
-  std::function<void(const RecordedRun& run)> checked;  // RecordedRun::timingVerdict is there; in real time only, before the first trial
-  /// In real time, 3 s after a trial was put up and every 10 s from then on, while the hand does not rest at its start: a person waits for
-  /// nothing else, and where no window shows the start nothing else says so. May be empty.
+  std::function<void(const RecordedRun& run)> checked;  // RecordedRun::timingVerdict is known. In real time only, before the first trial
+  /// In real time, 3 s after a trial was prepared and then every 10 s, while the hand does not rest at its start. Without a window nothing
+  /// else tells the person what the trial waits for. May be empty.
   std::function<void(const RecordedRun& run)> waiting;
   std::function<void(const RecordedRun& run, const haptics::ConductedTrial& trial)> ended;  // the trial is safe on the disk
-  std::function<void(const RecordedRun& run)> logClosed;                                    // all that was recorded is in order
-  std::function<void(const RecordedRun& run)> closed;                                       // and in the dataset
+  std::function<void(const RecordedRun& run)> logClosed;                                    // the recording is complete
+  std::function<void(const RecordedRun& run)> closed;                                       // the run is in the dataset
 };
 
-/// Does every block that is left, trial by trial, with the plan's pauses; when `stop` becomes true the trial under way is kept as
-/// interrupted, its run is closed in order, and the rest is left. Returns true when nothing is left.
+/// Conducts every remaining block, trial by trial, with the plan's pauses. When `stop` becomes true, the trial under way is kept as
+/// interrupted and its run is closed in order. The remaining blocks stay. Returns true when no block is left.
 bool conduct(RecordedSession& session, const std::atomic<bool>& stop, const SessionWords& words);
 
 }  // namespace reachlab::session

@@ -22,16 +22,16 @@ struct RunOnDisk {
 std::string logPath(const SessionPlace& place, const std::string& task, int run);
 /// A BIDS label of a name: its letters and digits ("chain-moderate" gives "chainmoderate").
 std::string labelOf(const std::string& name);
-/// The session's logs, by run number. Empty when there are none.
+/// The session's logs, by run number. Empty when there are no logs.
 std::vector<RunOnDisk> recordedRuns(const SessionPlace& place);
-/// The next free run number, or the one asked for. Throws FaultError with a proposal when that is taken: nothing is overwritten.
+/// The next free run number, or `asked`. Throws FaultError with a proposal when that number is taken: nothing is overwritten.
 int chooseRun(const SessionPlace& place, std::optional<int> asked);
 
-/// Keeps a dataset to itself among the programs that record into it, while a run number is taken or a shared table is rewritten; waits for
+/// Locks a dataset against other programs that record into it, while a run number is taken or a shared table is rewritten. Waits for
 /// another holder.
 class FolderHold {
  public:
-  /// Makes the folder of the logs if there is none. Throws ResourceError, also where a file system has no locks.
+  /// Makes the folder of the logs if it is missing. Throws ResourceError, also where a file system has no locks.
   explicit FolderHold(const std::string& data);
   ~FolderHold();
   FolderHold(const FolderHold&) = delete;

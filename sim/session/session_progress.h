@@ -6,7 +6,7 @@
 
 namespace reachlab::session {
 
-/// One block of a session: what is to be done, and how much of it is recorded.
+/// One block of a session, and how much of it is recorded.
 struct BlockProgress {
   int block = 0;  // from 1, in this subject's order
   std::string condition, experiment;
@@ -18,7 +18,7 @@ struct BlockProgress {
   bool complete() const { return done >= trials; }
 };
 
-/// A session's blocks in this subject's order of this day, as far as they are recorded.
+/// A session's blocks in this subject's order of this day, with their recorded parts.
 struct SessionProgress {
   std::vector<BlockProgress> blocks;
   std::vector<std::string> unreadable;  // logs that are left out, a sentence each
@@ -27,7 +27,7 @@ struct SessionProgress {
   bool complete() const { return blocksDone() == static_cast<int>(blocks.size()); }
 };
 
-/// Looks at the disk; opens and writes nothing. Throws what planSession throws.
+/// Looks at the disk, but opens and writes nothing. Throws the errors of planSession.
 SessionProgress progressOf(const SessionRequest& request, const Programme& programme);
 
 }  // namespace reachlab::session

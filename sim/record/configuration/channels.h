@@ -8,7 +8,7 @@
 
 namespace reachlab::record {
 
-/// One column of the recording, in the words of BIDS channels.tsv.
+/// One column of the recording, as BIDS channels.tsv describes it.
 struct Channel {
   std::string name;          // "hand_pos_x", "mass3_vel_y"
   std::string component;     // x | y | z | n/a
@@ -19,9 +19,9 @@ struct Channel {
   std::string column;  // its name in CSV files, with the unit: "hand_x_m"
 };
 
-/// What is sampled in this scene, in the order of fillRow: time; hand (estimated); device (raw); coupling, feedback and device
-/// force; energy; phase, trial and validity; then position, velocity, acceleration and constraint parameters of each mass; then what
-/// further hands have.
+/// The channels of a scene, in the order of fillRow. First come time, hand (estimated), device (raw), forces of coupling, feedback and
+/// device, energy, phase, trial and validity. Position, velocity, acceleration and constraint parameters of each mass follow. The columns
+/// of further hands are last.
 struct ChannelTable {
   std::vector<Channel> channels;
   int massCount = 0;
@@ -31,7 +31,7 @@ struct ChannelTable {
   int hands = 1;            // with more than one, the first hand's work and then each other hand's own columns follow
 
   std::size_t size() const { return channels.size(); }
-  /// Index of a channel; throws FaultError when there is none of that name.
+  /// Index of a channel; throws FaultError for an unknown name.
   std::size_t indexOf(const std::string& name) const;
 };
 
@@ -41,11 +41,11 @@ ChannelTable makeChannelTable(const experiment::Experiment& experiment, int para
 /// Numbers in a row of such a table.
 std::size_t rowWidth(const ChannelTable& table);
 
-/// One row of the table: table.size() doubles; measured time is that of the state, the recorder takes off the run's start. Haptic
-/// thread; never allocates.
+/// Fills one row of the table with table.size() doubles. Measured time is that of the state, and the recorder subtracts the run's start.
+/// Runs on the haptic thread and never allocates.
 void fillRow(const ChannelTable& table, const haptics::TickState& state, double* row) noexcept;
 
-/// Turns the engine's count of trials in a row (from 1; 0 before the first) into trial numbers that begin with `firstTrial`.
+/// Turns the engine's count of trials in a row (from 1, and 0 before trial 1) into trial numbers that begin with `firstTrial`.
 void numberTrial(const ChannelTable& table, int firstTrial, double* row) noexcept;
 
 }  // namespace reachlab::record

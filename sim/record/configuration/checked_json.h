@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-/// Members of a JSON object that came out of a file, whoever wrote it: each is there, of its kind and within its bounds, or a FaultError
-/// says `KEY: what is wrong; allowed: …`. (nlohmann's own conversions cut a number to whatever type it is given to.)
+/// Members of a JSON object from a file of unknown origin. Each is present, of its kind and within its bounds, or a FaultError names key,
+/// fault and allowed values. (The conversions of nlohmann cut a number to the type that it is assigned to.)
 namespace reachlab::record {
 
 /// A whole number from `lo` to `hi`.

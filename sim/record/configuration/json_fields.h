@@ -10,8 +10,8 @@
 #include "base/math/vec3.h"
 #include "sim/record/configuration/checked_json.h"
 
-/// Plain structs as JSON objects by one list of their fields: `visitFields(value, visit)` calls `visit(Field, member)` for each, and what is
-/// there is read, written and compared. A member that is a struct, or a list of structs, has a list of its own.
+/// Plain structs as JSON objects by one list of their fields: `visitFields(value, visit)` calls `visit(Field, member)` for each. The same
+/// list serves for reading, writing and comparing. A member that is a struct, or a list of structs, has its own list.
 namespace reachlab::record {
 
 struct Field {
@@ -26,7 +26,7 @@ nlohmann::json writeFields(const T& value);
 
 namespace fieldsDetail {
 
-/// What is wrong in there is told with its whole key: "trials[3].index".
+/// A fault inside names the whole key: "trials[3].index".
 template <class T>
 void readInside(const std::string& key, const nlohmann::json& object, T& member) {
   try {
@@ -86,7 +86,7 @@ nlohmann::json memberToJson(const std::vector<T>& member) {
 
 }  // namespace fieldsDetail
 
-/// Throws FaultError `KEY: …` for what is missing, of another kind, or out of its bounds. A std::optional may be missing.
+/// Throws FaultError `KEY: …` for a member that is missing, of another kind, or out of its bounds. A std::optional may be missing.
 template <class T>
 void readFields(const nlohmann::json& object, T& value) {
   visitFields(value, [&](const Field& field, auto& member) { fieldsDetail::readMember(object, field, member); });

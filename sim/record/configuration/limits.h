@@ -1,7 +1,7 @@
 #pragma once
 #include <cstddef>
 
-/// What a log's reader takes and its writer keeps to.
+/// Limits that a log's reader accepts and its writer keeps.
 namespace reachlab::record {
 
 inline constexpr int kMaxRun = 99'999;

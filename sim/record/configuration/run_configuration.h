@@ -13,14 +13,14 @@
 
 namespace reachlab::record {
 
-/// What is known of a person, under the pseudonym that is the subject label. Empty or nullopt: not told.
+/// Facts about a person, whose pseudonym is the subject label. Empty or nullopt: not given.
 struct Participant {
   std::optional<double> age;  // [years]
   std::string sex;            // F | M | O
   std::string handedness;     // R | L | A
 };
 
-/// What is known of a further hand's device; the first hand's stands in the configuration itself.
+/// Facts about the device of a further hand. The device of the first hand is in the configuration itself.
 struct HandDevice {
   std::string name, version;
   double maxForce = 0;         // [N]
@@ -32,8 +32,8 @@ struct HandDevice {
   std::string mapping;  // DeviceInfo::mapping
 };
 
-/// The first record of a log: everything that is needed to know what was done, and to do it again. A plain value. Its fields are read, written
-/// and compared by one list, in run_fields.h.
+/// The first record of a log: everything that is needed to understand the run and to compute it again. A plain value. Its fields are read,
+/// written and compared by one list, in run_fields.h.
 struct RunConfiguration {
   std::string subject = "01", session = "01", task = "reach";
   int run = 1;         // as in the file name
@@ -76,30 +76,32 @@ struct RunConfiguration {
   ChannelTable table;
 };
 
-/// The condition of its trials: the plan's, else the experiment's name.
+/// The condition of its trials: that of the plan, else the experiment's name.
 inline const std::string& conditionOf(const RunConfiguration& c) { return c.condition.empty() ? c.experimentName : c.condition; }
 
 std::string toJson(const RunConfiguration& configuration);
-/// Throws FaultError naming `origin` when the text is no configuration, or one that no recording of ours could have (checkConfiguration).
+/// Throws FaultError naming `origin` when the text is no configuration, or a configuration that no recording could have
+/// (checkConfiguration).
 RunConfiguration configurationFromJson(std::string_view text, const std::string& origin);
 
 /// The experiment that was recorded, with the constraint as it was then: neither the catalogue nor the user's folder is asked.
 /// Throws FaultError when its text cannot be understood.
 experiment::CompiledExperiment recordedExperiment(const RunConfiguration& configuration);
-/// The same for who only tells what it said: its constraint is not compiled. Throws FaultError when its text cannot be understood.
+/// The same for a reader that only describes the experiment: its constraint is not compiled. Throws FaultError when its text cannot be
+/// understood.
 experiment::Experiment recordedValues(const RunConfiguration& configuration);
 
-/// How the names begin of channels behind those of the scene (FurtherColumns).
+/// The names of channels behind those of the scene (FurtherColumns) begin so.
 inline constexpr std::string_view kFurtherName = "station";
 
-/// What a configuration from a file says of itself holds: labels are labels (they become names of files), every count within its bounds, and
-/// the table has the channels that its counts ask for, and behind them none but further ones. Throws FaultError.
+/// Checks that a configuration from a file is consistent. Labels are labels, since they become names of files. Every count is within its
+/// bounds. The table has the channels that its counts ask for, followed only by further channels. Throws FaultError.
 void checkConfiguration(const RunConfiguration& configuration);
 
-/// Labels are letters and digits only (BIDS), at most 60: what is wrong with the one under `key`, if anything.
+/// Returns the fault of the label under `key`, if any. A label has letters and digits only (BIDS), at most 60.
 std::optional<Fault> labelFault(const std::string& label, const std::string& key);
 inline constexpr double kMaxAge = 130;  // [years]
-/// An age is 0 to kMaxAge, so that the record can be written and read; empty when fine.
+/// Returns the fault of an age outside 0 to kMaxAge, so that the record can be written and read.
 std::vector<Fault> problems(const Participant& participant);
 
 }  // namespace reachlab::record

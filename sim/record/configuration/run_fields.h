@@ -7,7 +7,7 @@
 #include "sim/record/configuration/limits.h"
 #include "sim/record/configuration/run_configuration.h"
 
-/// What a run's configuration holds, as its JSON has it: the one list for reading, writing and comparing. A new field is one member in
+/// The fields of a run's configuration in JSON: the only list for reading, writing and comparing. A new field is one member in
 /// run_configuration.h and one line here. The member is a std::optional, since recordings of 0.2.0 do not have it.
 namespace reachlab::record {
 
@@ -15,7 +15,7 @@ template <class T, class Of>
 concept MaybeConst = std::same_as<std::remove_const_t<T>, Of>;
 
 inline constexpr double kMaxTrials = 1e7, kMaxForeperiod = 1e9, kMaxChannels = 1e4, kMaxNewtons = 1e6;
-inline constexpr double kAny = std::numeric_limits<double>::max();  // what was asked for has no bound
+inline constexpr double kAny = std::numeric_limits<double>::max();  // a request has no bound
 
 template <MaybeConst<Channel> T, class Visit>
 void visitFields(T& c, const Visit& visit) {

@@ -6,32 +6,32 @@
 
 namespace reachlab::record {
 
-/// Writes one run as Motion-BIDS 1.9 into the dataset at `folder`: motion, channels and events, each with its description, its experiment, and
-/// its line in the session's scans table. One run is one block, recorded continuously; trials are rows of events.tsv. Returns the
-/// files written. Throws ResourceError.
+/// Writes one run as Motion-BIDS 1.9 into the dataset at `folder`. The files are motion, channels and events with their descriptions, the
+/// experiment, and a line in the session's scans table. One run is one block, recorded continuously. Its trials are rows of events.tsv.
+/// Returns the files written. Throws ResourceError.
 std::vector<std::string> writeBidsRun(const RunLog& run, const std::string& folder);
 
-/// Writes what describes the dataset as a whole: dataset_description.json and README.md (only where there is none, a person may
-/// have edited them), participants and sessions. Rows and columns that are there already are kept.
+/// Writes the files that describe the dataset as a whole: dataset_description.json, README.md, participants and sessions. A description or
+/// README that exists is kept, since a person may have edited it. So are rows and columns that exist.
 std::vector<std::string> writeBidsTables(const std::vector<RunConfiguration>& runs, const std::string& folder);
 
 /// Both, for these runs.
 std::vector<std::string> writeBids(const std::vector<RunLog>& runs, const std::string& folder);
 
-/// Where a run's experiment lies in the dataset: code/experiments/…_experiment.json, beside what BIDS knows of (motion.json takes no keys of
-/// our own).
+/// The file of a run's experiment in the dataset: code/experiments/…_experiment.json. BIDS does not describe this file, and motion.json
+/// takes no further keys.
 std::string experimentPath(const RunConfiguration& configuration);
 /// The experiment as it was recorded, as an experiment file under `experiment`, with its constraint's definition, and the run's settings.
 std::string experimentJson(const RunConfiguration& configuration);
 /// Reads it back. Throws FaultError naming `origin`.
 experiment::CompiledExperiment experimentFromJson(const std::string& text, const std::string& origin);
-/// TaskDescription of motion.json: the experiment's name, and in words what was moved and asked.
+/// TaskDescription of motion.json: the experiment's name, and sentences about object and task.
 std::string describeTask(const RunConfiguration& configuration);
-/// The experiment's name in such a description; empty where there is none.
+/// The experiment's name in such a description; empty where it is missing.
 std::string experimentNameIn(const std::string& description);
 
-// The texts of the files, for who wants to look at them before they are written; what grows with the run is given piece by piece.
-// Each hand is a tracking system of its own, from 1; the object and what is no hand's belong to the first.
+// The texts of the files, for a caller that looks at them before they are written. Texts that grow with the run come piece by piece. Each
+// hand is one tracking system, from 1. The object and channels that belong to no single hand are listed under the first hand.
 void motionTsv(const RunLog& run, const TakePiece& take, int hand = 1);
 std::string motionJson(const RunLog& run, int hand = 1);
 std::string channelsTsv(const RunConfiguration& configuration, int hand = 1);

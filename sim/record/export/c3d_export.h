@@ -7,9 +7,9 @@
 
 namespace reachlab::record {
 
-/// One trial as C3D has it: hand, device and masses as points in mm, everything else that is sampled but the clocks as analog channels in its
-/// SI unit, a frame a sample, go, onset and end as events. Where no sample was recorded, or the device gave none, the point is not seen and a
-/// signal is NaN.
+/// One trial in the form of C3D, with one frame per sample. Hand, device and masses are points in mm. All other channels except the clocks
+/// are analog channels in their SI units. Go, onset and end are events. Where a sample is missing, or the device gave no value, the point
+/// is not seen and a signal is NaN.
 C3dFile c3dOf(const RunLog& run, const RecordedTrial& trial);
 
 /// Writes `sub-…_run-…_trial-….c3d` for each trial of these runs that has samples. Returns the files written. Throws ResourceError.

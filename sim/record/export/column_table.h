@@ -7,7 +7,7 @@
 
 namespace reachlab::record {
 
-/// A small table held column by column, for formats that are written so; filled cell by cell like TableText. One thread.
+/// A small table that is held column by column, for formats that are written so. It is filled cell by cell like TableText. One thread.
 class ColumnTable {
  public:
   struct Column {

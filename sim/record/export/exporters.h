@@ -7,23 +7,23 @@
 
 namespace reachlab::record {
 
-/// A way to write recorded runs for other programs. A new format is a file with its `write`, and its line in exporters.cpp; the command line's
-/// help and choice, and the end of every recorded run, follow from the list.
+/// A way to write recorded runs for other programs. A new format is a file with its `write`, and its line in exporters.cpp. The help of the
+/// command line, its choices, and the end of every recorded run follow from the list.
 struct Exporter {
   std::string_view name;         // as asked for: "bids"
   std::string_view description;  // a few words for lists and help
   std::string_view folder;       // where in the dataset, unless another is asked for; empty: the dataset itself
   bool withEachRun = false;      // written at the end of every recorded run, so that the dataset is up to date
-  /// Adds these runs to what is in the folder; returns the files written. Throws ResourceError. Other programs may not write at once.
+  /// Adds these runs to the folder and returns the files written. Throws ResourceError. Other programs may not write at once.
   std::vector<std::string> (*write)(const std::vector<RunLog>& runs, const std::string& folder) = nullptr;
 };
 
 const std::vector<Exporter>& exporters();
-/// Where it writes to in a dataset unless told otherwise.
+/// The folder in a dataset that it writes to by default.
 std::string folderIn(const std::string& dataset, const Exporter& exporter);
-/// Writes these runs there; a folder of derivatives then also says what it is. Throws ResourceError.
+/// Writes these runs there. A folder of derivatives then also has its description. Throws ResourceError.
 std::vector<std::string> writeInto(const std::string& dataset, const Exporter& exporter, const std::vector<RunLog>& runs);
-/// Null when there is none of that name.
+/// Null for an unknown name.
 const Exporter* findExporter(std::string_view name);
 
 }  // namespace reachlab::record

@@ -9,23 +9,23 @@
 /// A run as tables of columns, for formats that are written so.
 namespace reachlab::record {
 
-/// One row a trial, the columns of trials.csv.
+/// One row per trial, the columns of trials.csv.
 ColumnTable trialTable(const RunLog& run);
-/// One row an event: time_s since the run began, event, trial (0: none), value and text as docs/recording.md lists them.
+/// One row per event: time_s since the run began, event, trial (0: outside a trial), value and text as docs/recording.md lists them.
 ColumnTable eventTable(const RunLog& run);
 
-/// Gives every channel of the samples, in the table's order, as one column over the whole run. Few at a time are in memory: a run that is
-/// longer than `mostNumbers` is read several times.
+/// Gives every channel of the samples, in the table's order, as one column over the whole run. Only a few columns are in memory at a time:
+/// a run that is longer than `mostNumbers` is read several times.
 void eachSampleColumn(const RunLog& run, const std::function<void(std::size_t channel, std::span<const double> values)>& take,
                       std::size_t mostNumbers = std::size_t{1} << 22);
 
 /// The one clock of an export: seconds since the run's first sample, from which BIDS counts events. The log itself counts ticks from the
-/// run's first one.
+/// start of the run.
 class ExportClock {
  public:
   explicit ExportClock(const RunLog& run);
   double at(std::uint64_t tick) const;
-  /// A cell of the samples; the two channels of time are turned to this clock.
+  /// A cell of the samples. The two channels of time are converted to this clock.
   double cell(const SampleRows& rows, std::size_t row, std::size_t column) const;
 
  private:
@@ -34,9 +34,9 @@ class ExportClock {
   static constexpr std::size_t kNone = static_cast<std::size_t>(-1);
 };
 
-/// Which clock the times of an export are of, in one sentence: every file that has times carries it.
+/// The sentence that names the clock of an export's times. Every file that has times carries it.
 std::string clockStatement(const RunLog& run);
-/// The same of a stream while it is recorded, whose times count from the run's first tick.
+/// The same for a stream while it is recorded. Its times count from the run's first tick.
 std::string clockStatement(const RunConfiguration& configuration);
 
 }  // namespace reachlab::record

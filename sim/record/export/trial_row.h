@@ -8,7 +8,7 @@
 /// The columns of trials.csv, as every export of tables has them: names, sentences of the dictionary and cells follow one table.
 namespace reachlab::record {
 
-/// What the experiment asked for; an experiment that this version cannot read any more leaves these cells empty.
+/// The task of the experiment. An experiment that this version cannot read any more leaves these cells empty.
 experiment::Task taskOf(const RunConfiguration& configuration);
 
 /// The cells of one trial, in the order of trialColumnNames.

@@ -7,25 +7,25 @@
 
 namespace reachlab::record {
 
-/// A file that only grows, held under an exclusive lock so that no second program writes or mends it. Move-only; one thread at a
-/// time. Members throw ResourceError naming the file, the fault and the remedy.
+/// A file that only grows, held under an exclusive lock so that no second program writes or repairs it. Move-only. One thread at a time.
+/// Members throw ResourceError naming the file, the fault and the remedy.
 class AppendFile {
  public:
-  /// A new file; one that exists is refused.
+  /// Creates a new file. A file that exists is refused.
   static AppendFile create(const std::string& path);
-  /// An existing one, cut back to `size` bytes.
+  /// Opens an existing file, cut back to `size` bytes.
   static AppendFile openAt(const std::string& path, std::uint64_t size);
   ~AppendFile();
   AppendFile(AppendFile&& other) noexcept;
   AppendFile& operator=(AppendFile&& other) noexcept;
 
-  /// All or nothing: what a full disk lets through only in part is cut off again. Where it cannot be cut off, nothing is written behind it
-  /// until it can, since reading ends at a record that is not whole.
+  /// All or nothing: a part that a full disk has let through is cut off again. While it cannot be cut off, nothing is written behind it,
+  /// since reading ends at an incomplete record.
   void append(std::span<const std::uint8_t> bytes);
-  /// Returns when everything appended is on the disk (fdatasync) and the file is still found under its name: a folder that was
-  /// unmounted or deleted under an open file takes writes without a word.
+  /// Returns when everything appended is on the disk (fdatasync) and the file still has its name. Without this check a folder that was
+  /// unmounted or deleted under an open file would take writes silently.
   void sync();
-  /// Of what was appended whole.
+  /// Size of the complete appended data [bytes].
   std::uint64_t size() const { return size_; }
   const std::string& path() const { return path_; }
 
@@ -34,14 +34,14 @@ class AppendFile {
   int descriptor_ = -1;
   std::string path_;
   std::uint64_t size_ = 0;  // of the good part
-  bool torn_ = false;       // a part of a record stands behind the good part
+  bool torn_ = false;       // a part of a record follows the good part
 };
 
 /// Takes a long text piece by piece.
 using TakePiece = std::function<void(std::string_view piece)>;
 
-/// Replaces `path` in one step (temporary file, fsync, rename) by what is appended piece by piece: a reader sees the old file or the new
-/// one, never a part. Makes the folders above it. Without `commit` nothing is left of it. One thread; members throw ResourceError.
+/// Replaces `path` in one step (temporary file, fsync, rename) by text that is appended piece by piece. A reader sees the old or the new
+/// file, never a part. Makes the folders above it. Without `commit` nothing is left. One thread. Members throw ResourceError.
 class AtomicFile {
  public:
   explicit AtomicFile(const std::string& path);
@@ -51,7 +51,7 @@ class AtomicFile {
 
   void append(std::string_view piece);
   void commit();
-  /// Puts the file in place only where nothing has that name yet. False: something has, and it is left alone.
+  /// Puts the file in place only if the name is free. False: a file has the name, and it is not changed.
   bool commitNew();
 
  private:
@@ -63,7 +63,7 @@ class AtomicFile {
 };
 /// The same with the whole text at once.
 void writeFileAtomically(const std::string& path, std::string_view text);
-/// The same for a new file: of several programs that write it at once, one succeeds. False: it is there already.
+/// The same for a new file: of several programs that write it at once, one program succeeds. False: the file exists already.
 bool createFileAtomically(const std::string& path, std::string_view text);
 
 /// While it lives no other program holds the same folder, so that files that belong together come from one program. Where the file system
@@ -78,17 +78,17 @@ class FolderHold {
  private:
   int descriptor_;
 };
-/// Removes what programs that were killed while they wrote left behind in a folder and those below it (`.….reachlab-tmp`, older than ten
-/// minutes). Throws nothing: what cannot be removed stays.
+/// Removes the temporary files of killed programs in a folder and the folders below it (`.….reachlab-tmp`, older than ten minutes). Throws
+/// nothing: files that cannot be removed stay.
 void removeLeftovers(const std::string& folder);
 /// The whole file. Throws ResourceError (also for a pipe or a device, which might never end), FaultError beyond kMaxBytesOfAFile.
 inline constexpr std::int64_t kMaxBytesOfAFile = 1ll << 30;
 std::string readWholeFile(const std::string& path);
-/// Makes a folder and those above it. Throws ResourceError.
+/// Makes a folder and the folders above it. Throws ResourceError.
 void makeFolders(const std::string& path);
 /// True while another program holds the file's lock (a run is being recorded into it).
 bool isBeingWritten(const std::string& path);
-/// " (process 1234)", who holds it; empty when nobody does or the system does not say.
+/// The holder of the lock, as " (process 1234)". Empty without a holder, or when the system does not name it.
 std::string writerOf(const std::string& path);
 
 }  // namespace reachlab::record

@@ -3,8 +3,9 @@
 
 namespace reachlab::record {
 
-/// AtomicFile for a library that writes by name: it is given `temporary()` and closes it, then `commit` puts it in the place of `path` once
-/// it is on the disk. Without `commit` nothing is left, also where the program is killed. One thread; members throw ResourceError.
+/// AtomicFile for a library that writes by name. The library writes `temporary()` and closes it. Then `commit` puts the file in the
+/// position of `path` once it is on the disk. Without `commit` nothing is left, also where the program is killed. One thread. Members throw
+/// ResourceError.
 class ForeignFile {
  public:
   explicit ForeignFile(const std::string& path);
@@ -14,7 +15,7 @@ class ForeignFile {
 
   const std::string& temporary() const { return temporary_; }
   void commit();
-  /// The library could not write: says so as every other write does, with what was being written.
+  /// Reports that the library could not write, in the form of every other write, with the name of the content.
   [[noreturn]] void giveUp(const std::string& what);
 
  private:

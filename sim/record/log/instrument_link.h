@@ -8,17 +8,17 @@
 
 namespace reachlab::record {
 
-/// Other instruments of the laboratory that follow a run on the same clock: told what happens, asked what they saw. Ticks come as to any sink
-/// and are handed on without waiting; all else is of the controlling thread.
+/// Other instruments of the laboratory that follow a run on the same clock. They get the run's events and return theirs. Ticks come as to
+/// any sink and are handed on without waiting. All other members belong to the controlling thread.
 class InstrumentLink : public haptics::RunSink {
  public:
-  /// What is kept of them in the run's configuration: their names as they were asked for.
+  /// Their names as they were requested, for the run's configuration.
   virtual std::string names() const = 0;
   /// A run begins: `onTick` comes from now on.
   virtual void begin(const RunConfiguration& configuration) = 0;
-  /// What was sent and received since the last call (EventKind::Instrument), for the recording.
+  /// The events sent and received since the last call (EventKind::Instrument), for the recording.
   virtual std::vector<RecordedEvent> takeEvents() = 0;
-  /// What a person must know, a sentence each: an instrument that is gone. Each once.
+  /// Warnings for a person, one sentence each, such as a lost instrument. Each comes once.
   virtual std::vector<std::string> takeWarnings() = 0;
 };
 

@@ -14,8 +14,8 @@
 ///     record = u32 payload length | u16 type | u16 zero | u32 sequence number, from 0 | payload | u32 CRC-32 of all before in
 ///     this record
 ///
-/// A record counts only if its CRC, its sequence number and its type are right, and reading ends at the first that is not: a
-/// flipped bit, a cut, a zero-filled or a duplicated stretch can end a log early, never change a number in it.
+/// A record counts only if its CRC, its sequence number and its type are right. Reading ends at the first wrong record. A flipped bit, a
+/// cut, zeros or a repeated part can end a log early, but never change a number in it.
 namespace reachlab::record {
 
 inline constexpr std::uint32_t kLogSchemaVersion = 2;
@@ -25,7 +25,7 @@ inline constexpr std::size_t kRecordFrameBytes = kRecordHeaderBytes + 4;
 inline constexpr std::uint32_t kMaxPayloadBytes = 64u << 20;
 
 enum class RecordType : std::uint16_t {
-  Configuration = 1,  // JSON text: RunConfiguration; always the first record
+  Configuration = 1,  // JSON text of RunConfiguration, always the first record
   Ticks = 2,          // every tick's raw device input and command
   Samples = 3,        // rows of derived channels
   Event = 4,          // one thing that happened at a tick
@@ -36,7 +36,7 @@ enum class RecordType : std::uint16_t {
   PeerTicks = 9,      // what other stations' samples were in force at those ticks
 };
 
-/// Bytes of a payload being put together, and read back; both little-endian. Reading past the end gives zeros and clears `ok`.
+/// Bytes of a payload that is written or read, little-endian. Reading past the end gives zeros and clears `ok`.
 class ByteWriter {
  public:
   template <typename T>
@@ -87,12 +87,12 @@ class ByteReader {
   bool ok_ = true;
 };
 
-/// Appends records to a new log. Move-only; one thread at a time. Every member may throw ResourceError ("disk full …").
+/// Appends records to a new log. Move-only. One thread at a time. Every member may throw ResourceError ("disk full …").
 class LogWriter {
  public:
-  /// Creates the file with its header; refuses (ResourceError) one that exists.
+  /// Creates the file with its header. A file that exists is refused (ResourceError).
   static LogWriter create(const std::string& path);
-  /// Goes on after the last good record of a log that was scanned; the caller has made sure of `nextSequence` and `size`.
+  /// Continues after the last good record of a log that was scanned. The caller has checked `nextSequence` and `size`.
   static LogWriter resume(const std::string& path, std::uint64_t size, std::uint32_t nextSequence);
 
   /// Hands the record to the kernel in one write and returns its offset in the file. A write cut short by a full disk is taken
@@ -119,9 +119,9 @@ struct RecordView {
   std::span<const std::uint8_t> payload;  // into the reader's memory, until its next member is called
 };
 
-/// Reads a log through a window onto the file, not a map of it: a log that another program cuts short meanwhile ends early, where a map
-/// would end the program. Any thread, one at a time. Records are checked as they are read; a disk that cannot be read is a ResourceError
-/// from any member.
+/// Reads a log through a window onto the file, not through a map. A log that another program cuts short meanwhile ends early, where a map
+/// would end the program. Any thread, one at a time. Records are checked as they are read. If the disk cannot be read, any member throws
+/// ResourceError.
 class LogReader {
  public:
   /// Throws FaultError when the file is no log or of a newer schema, ResourceError when it cannot be opened.
@@ -130,13 +130,13 @@ class LogReader {
   LogReader(LogReader&&) noexcept;
   LogReader& operator=(LogReader&&) noexcept;
 
-  /// The next good record; false at the end or at the first damage (`goodEnd() < fileSize()` tells them apart).
+  /// The next good record. False at the end or at the first damage (`goodEnd() < fileSize()` tells them apart).
   bool next(RecordView& record);
-  /// Goes on reading at `offset`, where record number `sequence` is expected (from an index).
+  /// Continues reading at `offset`, where record number `sequence` is expected (from an index).
   void seek(std::uint64_t offset, std::uint32_t sequence);
-  /// True when the bytes at `offset` could be the header of such a record; whether it is good, only next() tells.
+  /// True when the bytes at `offset` could be the header of such a record. Only next() tells whether the record is good.
   bool looksLike(std::uint64_t offset, RecordType type, std::uint32_t length);
-  /// The sequence number that stands in the header at `offset`.
+  /// The sequence number in the header at `offset`.
   std::uint32_t sequenceAt(std::uint64_t offset);
   /// Where the last good record that was read ends.
   std::uint64_t goodEnd() const { return at_; }

@@ -9,12 +9,12 @@
 
 namespace reachlab::record {
 
-/// What stands in a row behind what the engine knows, as many numbers as the table has channels beyond its scene's: how a station's copy stands to
-/// the others.
+/// Further numbers at the end of a row, one for each channel beyond those of the scene. A station uses them to record how its copy differs
+/// from the other copies.
 class FurtherColumns {
  public:
   virtual ~FurtherColumns() = default;
-  /// Haptic thread; never allocates.
+  /// Haptic thread. Never allocates.
   virtual void fill(double* columns) const noexcept = 0;
 };
 
@@ -25,8 +25,8 @@ struct RecorderOptions {
   const FurtherColumns* further = nullptr;    // outlives the ticks; null where the table is the scene's
 };
 
-/// The history unit: turns ticks into the log of one run. In real time the haptic thread hands ticks over without waiting and a
-/// thread of the recorder writes; blocks reach the kernel at least every 100 ms.
+/// The history unit: turns ticks into the log of one run. In real time the haptic thread hands ticks over without waiting, and a thread of
+/// the recorder writes. Blocks reach the kernel at least every 100 ms.
 class Recorder : public haptics::RunSink {
  public:
   /// Creates the log at `path` and writes the configuration. Throws ResourceError.
@@ -35,32 +35,32 @@ class Recorder : public haptics::RunSink {
   Recorder(const Recorder&) = delete;
   Recorder& operator=(const Recorder&) = delete;
 
-  /// Haptic thread, every tick; never waits, allocates or throws. False when the queue was full: the tick is lost and must be
-  /// counted (LoopFaults::droppedRecords).
+  /// Haptic thread, every tick. Never waits, allocates or throws. False when the queue was full: the tick is lost and must be counted
+  /// (LoopFaults::droppedRecords).
   bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override;
 
-  /// Its rows; more often where the window's picture would lag behind (a hundredth of a second).
+  /// Ticks between two rows, at most a hundredth of a second, so that the window's picture does not lag.
   std::uint32_t massesEvery() const noexcept override;
 
-  /// Controlling thread, before a trial is put up: what the engine's `trial`-th (from 1) stands for. Throws ResourceError.
+  /// Controlling thread, before a trial starts: the planned trial of the engine's `trial`-th trial (from 1). Throws ResourceError.
   void announce(std::int32_t trial, const trial::PlannedTrial& planned) override;
-  /// Controlling thread, after the engine's `trial`-th has ended: returns once its record is on the disk (fdatasync). Throws
-  /// ResourceError when the disk is full or gone; what was synced before stays good.
+  /// Controlling thread, after the engine's `trial`-th trial has ended. Returns once its record is on the disk (fdatasync). Throws
+  /// ResourceError when the disk is full or gone. Earlier synced records stay good.
   void awaitTrial(std::int32_t trial) override;
-  /// The trial that awaitTrial has seen to the disk.
+  /// The last trial that awaitTrial has confirmed on the disk.
   RecordedTrial lastTrial() const;
   /// A note by the experimenter. Controlling thread.
   void note(const std::string& text);
-  /// A record of somebody else's, as it is. Controlling thread; throws ResourceError.
+  /// Appends a record of another component unchanged. Controlling thread. Throws ResourceError.
   void append(RecordType type, std::span<const std::uint8_t> payload);
-  /// What others saw, with ticks of their own. Controlling thread.
+  /// Appends events of other instruments, which carry their own ticks. Controlling thread.
   void add(const std::vector<RecordedEvent>& events);
   /// Ends the log in order. Throws like awaitTrial.
   void close() override;
 
   /// The first fault of the disk, empty while all is well. Any thread.
   std::string fault() const;
-  /// Processor time of the recorder's thread so far [s]; 0 when not threaded.
+  /// Processor time of the recorder's thread so far [s], 0 when not threaded.
   double processorSeconds() const;
 
  private:

@@ -6,8 +6,7 @@
 #include "sim/record/log/log.h"
 #include "sim/record/log/run_log.h"
 
-/// Payloads of the log's records, to bytes and back (docs/recording.md). Decoding throws FaultError on bytes that no writer of
-/// ours made.
+/// Payloads of the log's records, to bytes and back (docs/recording.md). Decoding throws FaultError on bytes that no writer makes.
 namespace reachlab::record {
 
 /// Collects the ticks of one block.
@@ -17,7 +16,7 @@ class TickBlock {
   void add(const TickStamp& tick, const haptics::DeviceSample& device);
   bool empty() const { return count_ == 0; }
   std::uint32_t count() const { return count_; }
-  /// The payload so far; `clear` before the next block.
+  /// The payload so far. Call `clear` before the next block.
   std::span<const std::uint8_t> payload();
   void clear();
 
@@ -76,7 +75,7 @@ RecordedEvent decodeEvent(std::span<const std::uint8_t> payload);
 void encode(const TrialSetup& setup, ByteWriter& out);
 TrialSetup decodeSetup(std::span<const std::uint8_t> payload);
 
-/// A trial's result, with the way back to the trial record before it (offset 0: none).
+/// A trial's result, with the position of the trial record before it (offset 0: this is the first trial).
 struct TrialLink {
   std::uint64_t offset = 0;
   std::uint32_t sequence = 0;

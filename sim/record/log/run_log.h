@@ -12,21 +12,20 @@
 
 namespace reachlab::record {
 
-/// A trial as it was put up, before it began: what its number stands for in the planned order.
+/// A trial as it was prepared before it began. It links the trial's number to the planned order.
 struct TrialSetup {
   std::int32_t trial = 0;  // as the recording numbers it, never used twice in a run
   trial::PlannedTrial planned;
 };
 
-/// What is logged of a tick beside its hands.
+/// The logged values of a tick beside its hands.
 struct TickStamp {
   std::uint64_t tick = 0;
   std::int64_t measuredNs = 0;  // monotonic clock of the computer
   trial::Command command = trial::Command::None;
   std::uint32_t missedTicks = 0;  // whole periods skipped before this tick
 };
-/// A raw tick as its log record has it: with the samples of further hands and the configuration, all that is needed to simulate the run
-/// again.
+/// A raw tick as in its log record. With the samples of further hands and the configuration it is enough to simulate the run again.
 struct RecordedTick : TickStamp {
   haptics::DeviceSample device;  // of the first hand
 };
@@ -46,7 +45,7 @@ enum class EventKind : std::uint8_t {
   Note = 12,          // by the experimenter
   DeviceState = 13,   // of a device that renders force; `value` is its haptics::DeviceState, `text` its name
   Intervention = 14,  // of the safety layer, `text` its name; `value` 1 when it begins, 0 when it has ended
-  // sent to another instrument or received from it, `text` says which; `value` of what was sent: [s] after the tick's clock
+  // sent to another instrument or received from it, as `text` says. `value` of a sent event: [s] after the tick's clock
   Instrument = 15,
 };
 std::string_view nameOf(EventKind kind);
@@ -88,8 +87,8 @@ struct SampleRows {
   double at(std::size_t row, std::size_t column) const { return values[row * columns + column]; }
 };
 
-/// Everything: every record's CRC, up to the first damage. Trials: only the chain of trial records, last to first, so that the
-/// cost follows the number of trials and not the bytes; rows are checked when they are read.
+/// Everything: every record's CRC, up to the first damage. Trials: only the chain of trial records, last to first. The cost then follows
+/// the number of trials and not the bytes. Rows are checked when they are read.
 enum class LogCheck { Everything, Trials };
 
 /// One recorded run, read to its last good record. Rows and ticks are read when asked for. Any thread, one at a time.
@@ -112,12 +111,12 @@ class RunLog {
   /// Rows of a trial (from trials()), from where it was put up to its end.
   SampleRows rows(const RecordedTrial& trial) const { return rows(trial.startTick, trial.lastTick); }
   SampleRows allRows() const;
-  /// Tick of the first row, from which every export counts its times; 0 where there are no rows.
+  /// Tick of the first row, from which every export counts its times. 0 where there are no rows.
   std::uint64_t firstSampleTick() const;
-  /// The rows block by block as they were written, for runs longer than memory; a block is gone when `take` returns.
+  /// The rows block by block as they were written, for runs longer than memory. A block is valid only until `take` returns.
   void eachBlock(const std::function<void(const SampleRows& block)>& take) const;
   std::vector<RecordedTick> ticks() const;
-  /// The further hands' raw samples, the second's first, each as long as `ticks()` unless the log broke off between the two; empty where
+  /// The raw samples of the further hands, from hand 2. Each list is as long as `ticks()` unless the log broke off in between. Empty where
   /// there is one hand.
   std::vector<std::vector<haptics::DeviceSample>> otherTicks() const;
   std::vector<RecordedEvent> events() const;
@@ -138,7 +137,7 @@ class RunLog {
   std::uint64_t goodBytes_ = 0, fileBytes_ = 0;
 };
 
-/// The logs of a dataset, a session's folder or a single file, sorted by name. Throws FaultError when there are none.
+/// The logs of a dataset, a session's folder or a single file, sorted by name. Throws FaultError when no log is found.
 std::vector<std::string> findLogs(const std::string& path);
 
 }  // namespace reachlab::record

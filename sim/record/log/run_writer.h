@@ -9,18 +9,18 @@
 
 namespace reachlab::record {
 
-/// The configuration as a log holds it, having gone through the rules of the log's reader. Throws FaultError with what is wrong.
+/// The configuration as a log holds it, checked by the rules of the log's reader. Throws FaultError.
 std::string readableText(const RunConfiguration& configuration, const std::string& origin);
 
-/// Why nothing more is written beside `path`: its disk has less than `diskReserve` [bytes] left, or than a twentieth of it where that is
-/// less. Empty while there is enough, or where nothing is known of the disk.
+/// The reason why nothing more is written beside `path`: its disk has less than `diskReserve` [bytes], or than a twentieth of the disk,
+/// left. Empty while there is enough space, or where nothing is known of the disk.
 std::string reserveFault(const std::string& path, const os::DiskSpace& disk, std::uint64_t diskReserve);
 
-/// Writes one run's log from its ticks, in blocks. One thread; every member may throw ResourceError.
+/// Writes one run's log from its ticks, in blocks. One thread. Every member may throw ResourceError.
 class RunWriter {
  public:
-  /// What the blocks of the log are cut by: the wall clock too, so that little is lost when the program is killed, or ticks alone, so that
-  /// the same run gives the same bytes.
+  /// The rule that cuts the log into blocks. The wall clock limits the loss when the program is killed. Ticks alone give the same bytes for
+  /// the same run.
   enum class CutBy { Clock, Ticks };
   /// `diskReserve`: see RecorderOptions.
   RunWriter(const std::string& path, const RunConfiguration& configuration, std::uint64_t diskReserve = 0, CutBy cutBy = CutBy::Clock);
@@ -29,10 +29,10 @@ class RunWriter {
   /// True when this tick ended a trial, whose record is then on the disk: `lastTrial()`.
   bool add(const QueuedTick& tick, std::span<const haptics::DeviceSample> devices, const double* row);
   void note(const std::string& text);
-  /// A record of somebody else's, as it is.
+  /// Appends a record of another component unchanged.
   void append(RecordType type, std::span<const std::uint8_t> payload) { log_.append(type, payload); }
   void add(const std::vector<RecordedEvent>& events);
-  /// Hands what has gathered to the kernel; done by `add` when 1000 ticks or, by the clock, 100 ms have gathered.
+  /// Hands the gathered ticks to the kernel. `add` does so after 1000 ticks or, by the clock, after 100 ms.
   void flush();
   void flushIfDue();
   void close();

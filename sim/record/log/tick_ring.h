@@ -9,21 +9,21 @@
 
 namespace reachlab::record {
 
-/// One tick on its way to the recorder. Its hands' samples and its row, when it has one, lie in stores of the ring.
+/// One tick for the recorder. The samples of its hands and its row, if any, lie in stores of the ring.
 struct QueuedTick {
   TickStamp stamp;
   TickFacts facts;
   bool hasRow = false;
 };
 
-/// Bounded queue of ticks with rows of a length known at the start. One writer (haptic thread), one reader (recorder); neither
-/// waits. A row is `columns` numbers, and only every so manieth tick has one, so rows have a store of their own.
+/// Bounded queue of ticks with rows of a length known at the start. It has one writer (haptic thread) and one reader (recorder), and no
+/// thread waits. A row is `columns` numbers. Only some ticks have a row, so rows have a separate store.
 class TickRing {
  public:
   TickRing(std::size_t ticks, std::size_t rows, std::size_t columns, std::size_t hands)
       : columns_(columns), slots_(ticks), rows_(rows * columns), rowCount_(rows), hands_(hands), devices_(ticks * hands) {}
 
-  /// Writer: a slot to fill, or nullptr when full; `rowSpace` is set when a row fits too. `publish` makes it visible.
+  /// Writer: a slot to fill, or nullptr when full. `rowSpace` is set when a row fits too. `publish` makes it visible.
   QueuedTick* beginPush(double*& rowSpace) noexcept {
     const std::size_t head = head_.load(std::memory_order_relaxed);
     if (head - tail_.load(std::memory_order_acquire) == slots_.size()) return nullptr;
@@ -40,7 +40,7 @@ class TickRing {
     head_.store(head_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
   }
 
-  /// Reader: the oldest tick, or nullptr; `row` is its row or nullptr. Valid until `pop`.
+  /// Reader: the oldest tick, or nullptr. `row` is its row or nullptr. Valid until `pop`.
   const QueuedTick* front(const double*& row) const noexcept {
     const std::size_t tail = tail_.load(std::memory_order_relaxed);
     if (tail == head_.load(std::memory_order_acquire)) return nullptr;

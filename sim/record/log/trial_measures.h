@@ -13,8 +13,8 @@ struct TrialTimes {
 };
 TrialTimes timesOf(const RecordedTrial& trial, std::uint64_t firstSampleTick);
 
-/// What the haptic ticks of a trial measured. Exports, their dictionaries, `reach show`, studies and the inspector follow this table.
-/// What the analysis measures from filtered samples stands in analysis/measures/measures.h, under other names.
+/// A measure that the haptic ticks of a trial give. Exports, their dictionaries, `reach show`, studies and the inspector follow this table.
+/// Measures of the analysis from filtered samples are in analysis/measures/measures.h, under other names.
 struct TickMeasure {
   std::string_view name;      // with its unit, as in every table
   std::string_view sentence;  // of every dictionary

@@ -6,7 +6,7 @@
 
 namespace reachlab::record {
 
-/// What the recording needs of a tick besides its raw input and its row.
+/// The values of a tick that the recording needs besides its raw input and its row.
 struct TickFacts {
   trial::Phase phase = trial::Phase::Idle;
   dynamics::StepStatus status = dynamics::StepStatus::Ok;
@@ -21,27 +21,27 @@ struct TickFacts {
 };
 TickFacts factsOf(const haptics::TickState& state) noexcept;
 
-/// Follows a run tick by tick and tells what happened and how each trial went. A function of the ticks alone, so that the
-/// recorder and a reader of the log come to the same trial. One thread.
+/// Follows a run tick by tick and reports its events and the result of each trial. A function of the ticks alone, so that the recorder and
+/// a reader of the log get the same trial. One thread.
 class TrialTracker {
  public:
-  /// Trials are numbered from `firstTrial`; the engine counts them from 1.
+  /// Trials are numbered from `firstTrial`. The engine counts them from 1.
   explicit TrialTracker(int firstTrial = 1) : firstTrial_(firstTrial) {}
-  /// What the next trials stand for in the planned order.
+  /// The position of the next trials in the planned order.
   void announce(const TrialSetup& setup) { setups_.push_back(setup); }
 
   struct Step {
     bool started = false;   // this tick is the first of a trial
     bool finished = false;  // `trial()` is complete
   };
-  /// Appends to `events` what happened at this tick.
+  /// Appends the events of this tick to `events`.
   Step add(const TickStamp& tick, const TickFacts& facts, std::vector<RecordedEvent>& events);
 
-  /// The trial under way or just finished; trial number 0 before the first.
+  /// The trial under way or just finished. Its number is 0 before trial 1.
   const RecordedTrial& trial() const { return trial_; }
   RecordedTrial& trial() { return trial_; }
   bool underWay() const { return underWay_; }
-  /// The trial under way as it is when the record breaks off here: interrupted by the program.
+  /// The trial under way if the record breaks off here: interrupted by the program.
   RecordedTrial brokenOff() const;
 
  private:
