@@ -18,15 +18,15 @@
 /// From recorded trials to everything that tables, figures and report show. Pure: the same trials and options give the same numbers.
 namespace reachlab::analysis {
 
-/// What T the paper's epsilon predicts for. Task: the task's. Moved: for each criterion the T whose movement lasts as long as the trials did.
-/// The fits choose their own durations and do not ask.
+/// The duration T for which predictions of the paper's epsilon are made. Task: the duration of the task. Moved: for each criterion the T
+/// whose movement lasts as long as the trials did. The fits choose their durations themselves and do not use this.
 enum class PredictionDuration { Task, Moved };
 
 struct AnalysisOptions {
   MeasureOptions measure;
   bool includePractice = false;
-  std::vector<predict::Criterion> criteria;  // that are compared; empty: all that are defined for the object
-  std::vector<predict::Criterion> drawn;     // of the figures, predictions and the paper's epsilon; empty: those that are compared
+  std::vector<predict::Criterion> criteria;  // compared criteria, empty: all criteria that are defined for the object
+  std::vector<predict::Criterion> drawn;     // in figures, predictions and the paper's epsilon, empty: the compared criteria
   std::optional<double> handMass;            // [kg] of the predictions; nullopt: the experiment's
   std::vector<double> handMasses{kHandMasses.begin(), kHandMasses.end()};  // [kg] that the fits of (4) to (6) try where no mass is given
   double handDamping = 0;                                                  // [N s/m]
@@ -35,21 +35,21 @@ struct AnalysisOptions {
   bool keepScatter = false;  // of people's movements, for recovery
 };
 
-/// What a condition asks, and the experiment it was recorded with.
+/// A condition's name, and the experiment that it was recorded with.
 struct Condition {
   std::string name;
   experiment::CompiledExperiment compiled;
   const experiment::Experiment& experiment() const { return compiled.experiment(); }
 };
 
-/// Recorded trials in any order, each of a condition (index): of a whole dataset or of those that somebody chose.
+/// Recorded trials in any order, each with the index of its condition. They are a whole dataset or chosen trials.
 struct AnalysisInput {
   std::vector<Condition> conditions;
   std::vector<TrialData> trials;
   std::vector<std::size_t> conditionOf;  // one a trial
 };
 
-/// One trial after measurement; its signals are in the study's store.
+/// One trial after measurement. Its signals are in `Analysis::signals`.
 struct AnalyzedTrial {
   TrialKey key;
   std::size_t condition = 0;
@@ -79,7 +79,7 @@ struct ConditionCounts {
   std::size_t otherWay = 0;       // round a closed curve the other way
 };
 
-/// A criterion's paper's epsilon in one condition, over all samples of the used trials; the interval is over people.
+/// The paper's epsilon of one criterion in one condition, over all samples of the used trials. The interval is over people.
 struct EpsilonPlace {
   std::size_t criterion = 0;                 // index into ConditionResult::signals
   double epsilon = 0;                        // [m/s]
@@ -166,7 +166,7 @@ class AnalysisBuilder {
 
 Analysis analyzeTrials(AnalysisInput input, const AnalysisOptions& options, const FittingProgress& progress = {});
 
-/// The conclusion of one condition, or of several together, from people's fits; also what recovery judges by.
+/// The conclusion of one condition from people's fits. Recovery judges simulated studies by the same function.
 Conclusion concludeCondition(const std::vector<PersonResult>& people, std::size_t condition, const CandidateSet& candidates);
 PersonScores scoresOf(const PersonResult& person);
 

@@ -14,9 +14,9 @@ struct ChosenTrials {
   std::vector<int> trials;
 };
 
-/// The chosen trials as `readDataset` would have given them, marks and all, in the order of the choice; trials that a log does not have,
-/// and those of an experiment without a task, are left out. `goOn` is asked before each log: false leaves out the rest. Throws what reading a
-/// log throws.
+/// The chosen trials as `readDataset` gives them, with their marks, in the order of the choice. Trials that a log does not have are left
+/// out, and so are trials of an experiment without a task. `goOn` is asked before each log. If it answers false, the remaining logs are
+/// left out. Throws as the reader of logs does.
 AnalysisInput readChosen(std::span<const ChosenTrials> chosen, const std::function<bool()>& goOn = {});
 
 }  // namespace reachlab::analysis

@@ -11,7 +11,7 @@
 
 namespace reachlab::analysis {
 
-/// One recorded run, for the report's list of what was analysed.
+/// One recorded run, for the report's list of analysed runs.
 struct RunProvenance {
   std::string file, subject, session, condition, experiment, device, method, software, startedUtc, clock;
   int run = 0, block = 0, day = 0;
@@ -22,7 +22,7 @@ struct RunProvenance {
   bool healthy = true;
 };
 
-/// What a dataset is made of, but for its trials.
+/// The content of a dataset without its trials.
 struct DatasetIndex {
   std::vector<Condition> conditions;
   std::vector<RunProvenance> runs;
@@ -30,7 +30,7 @@ struct DatasetIndex {
   std::vector<std::string> unreadable;  // of those the runs that the disk did not give
 };
 
-/// Takes the trials run by run, so that none need stay in memory.
+/// Takes the trials run by run, so that no trial has to stay in memory.
 struct TrialSink {
   std::function<void(TrialData&& trial, std::size_t condition)> add;  // of the condition with that index
   std::function<void(std::size_t count)> takeBack;                    // the last so many: their run could not be read to its end
@@ -38,26 +38,26 @@ struct TrialSink {
 
 using DatasetProgress = std::function<void(std::size_t done, std::size_t of, const std::string& file)>;
 
-/// Reads the dataset at `folder` (a session's folder or a single log do too): from the logs in sourcedata/, or where there are none from
-/// the BIDS files, whose experiment must then be a shipped one or given in `experimentFile`. A damaged log is read to its last good
-/// record and noted. A run is in or out: one that cannot be read to its end (a disk that fails) leaves no trial behind. Throws FaultError
-/// when there is nothing to read.
+/// Reads the dataset at `folder`, which may also be a session's folder or a single log. The logs in sourcedata/ are read. A dataset without
+/// logs is read from its BIDS files, whose experiment must then be shipped or given in `experimentFile`. A damaged log is read to its last
+/// good record and noted. If a run cannot be read to its end because the disk fails, all its trials are left out. Throws FaultError when
+/// there is nothing to read.
 DatasetIndex readDataset(const std::string& folder, const TrialSink& sink, const std::string& experimentFile = "",
                          const DatasetProgress& progress = {});
 
-/// What a run's rows are turned into; `rowsOf` gives the rows between two ticks. Shared by both ways of reading.
+/// One run, ready to be made into trials. `rowsOf` gives the rows between two ticks. Logs and BIDS files are both read into this.
 struct RunSource {
   record::RunConfiguration configuration;
   std::vector<record::RecordedTrial> trials;
   std::function<record::SampleRows(std::uint64_t first, std::uint64_t last)> rowsOf;
   record::RunMarks marks;  // what was said of the trials afterwards
 };
-/// Hands on the run's trials; the day of a run without one is 0.
+/// Passes the run's trials to `sink`. The day of a run without a day is 0.
 void addRun(const RunSource& run, const experiment::CompiledExperiment& experiment, DatasetIndex& index, const TrialSink& sink);
 
-/// The runs of a dataset without logs, by their motion files, in order.
+/// The motion files of a dataset without logs, in order. Each file is a run.
 std::vector<std::string> findBidsRuns(const std::string& folder);
-/// One of them, from its motion, channels and events files.
+/// Reads such a run from its motion, channels and events files.
 RunSource readBidsRun(const std::string& motionFile);
 
 }  // namespace reachlab::analysis

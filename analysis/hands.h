@@ -6,7 +6,7 @@
 #include "base/math/vec3.h"
 #include "sim/record/log/run_log.h"
 
-/// Objects that several hands move together: what each did, and how they shared it.
+/// Objects that several hands move together: the measures of each hand, and how the hands share the work.
 namespace reachlab::analysis {
 
 /// One hand in one trial, over the movement (the task's own window).
@@ -17,7 +17,7 @@ struct HandMeasures {
   double work = 0;                      // [J] done on the object from arming to the trial's end
   double positiveWork = 0;              // [J] the sum of what it has put in, without what it has taken out, over the movement
   double share = 0;                     // of the positive work of all; NaN where there is none
-  // [s] behind the first hand, by the largest correlation of their speeds within half a second; NaN: none
+  // [s] behind the first hand, by the largest correlation of their speeds within half a second. NaN: not measured
   double lag = 0;
   double lagCorrelation = 0;  // there
 };
@@ -35,9 +35,9 @@ struct HandSignals {
 /// `rate` [Hz]. All signals of one length.
 TogetherMeasures measureTogether(const std::vector<HandSignals>& hands, double rate);
 
-/// A row for each hand of each trial with a movement, of those runs in which several hold the object; empty where there is none.
+/// A row for each hand of each trial with a movement, in runs in which several hands hold the object. Empty without such a run.
 std::string handsTable(const std::vector<record::RunLog>& runs);
-/// The same of the runs that were analysed. Logs are opened again only where several hands were recorded. Throws ResourceError.
+/// The same table for the analysed runs. Only logs with several hands are opened again. Throws ResourceError.
 std::string handsTable(const DatasetIndex& dataset);
 
 }  // namespace reachlab::analysis

@@ -7,8 +7,8 @@
 
 namespace reachlab::analysis {
 
-/// How often this very design names the truth: people who follow a candidate are simulated with the recorded people's number, trials,
-/// durations and scatter, and judged by the same code as the recorded ones.
+/// How often this very design names the truth. Simulated people follow a candidate. Their number, trials, durations and scatter are those
+/// of the recorded people, and the same code judges both.
 struct TruthRecovery {
   std::size_t trials = 0;  // recorded ones whose count, durations and scatter were taken
   int studies = 0;         // simulated for each truth

@@ -9,7 +9,8 @@
 
 namespace reachlab::analysis {
 
-/// A table that goes to its file piece by piece. Its header is that of tableColumns; columns that differ from analysis to analysis follow.
+/// A table that goes to its file piece by piece. Its header is that of tableColumns. Columns that differ from
+/// analysis to analysis follow.
 class Sheet {
  public:
   Sheet(const TableWriter& write, const char* file, const std::vector<std::string>& further = {}) : write_(write), name_(file) {

@@ -8,8 +8,8 @@
 
 namespace reachlab::analysis {
 
-/// The columns of one of the files that an analysis writes, in order, each with its sentence; empty for another file. A name that ends in `*`
-/// stands for a column a criterion. Header and dictionary of a file both follow from this.
+/// The columns of a file that an analysis writes, in order, each with its sentence. Empty for an unknown file. A name that ends in `*`
+/// means a column for each criterion. Header and dictionary of a file both follow from this.
 std::span<const record::ColumnMeaning> tableColumns(std::string_view file);
 
 /// The dictionary of such a file, as JSON. `header` is its first line.

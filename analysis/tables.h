@@ -9,11 +9,11 @@
 
 namespace reachlab::analysis {
 
-/// Takes a piece of the file of that name; the pieces of one file come in order.
+/// Takes a piece of the file of that name. The pieces of a file come in order.
 using TableWriter = std::function<void(const std::string& name, std::string_view piece)>;
 
-/// The analysis as tidy CSV files, with the columns of tableColumns. Every number of a figure or of the report is in one. Numbers read back
-/// equal; an empty cell is what could not be measured.
+/// The analysis as tidy CSV files, with the columns of tableColumns. Every number of a figure or of the report is in a table. Numbers
+/// read back equal. An empty cell is a value that could not be measured.
 void writeTables(const Analysis& analysis, const TableWriter& write);
 
 /// One row of fits.csv, and of `fits` in JSON.
@@ -31,14 +31,14 @@ struct FitRow {
 };
 std::vector<FitRow> fitRows(const Analysis& analysis);
 
-/// A prediction as it is, neither cut nor stretched: velocities at equal steps from its beginning to T, time counted from where the onset
-/// rule would find it, as for trials.
+/// A prediction as it is, neither cut nor stretched: velocities at equal steps from its beginning to T. As for trials, time is counted from
+/// the onset that the onset rule finds.
 struct PredictedCurve {
   std::vector<double> time, hand, object;  // [s], [m/s]
 };
 PredictedCurve curveOf(const ConditionResult& result, std::size_t criterion);
 
-/// "(1) min-hand-jerk", with the paper's number; "(3h)" is the literal hand-crackle variant.
+/// "(1) min-hand-jerk", with the paper's number. "(3h)" is the literal hand-crackle variant.
 std::string numberedName(predict::Criterion criterion);
 /// A candidate in one word: its first criterion, or "reference".
 std::string nameOfCandidate(const std::vector<predict::Criterion>& criteria);

@@ -7,20 +7,21 @@
 #include "analysis/adaptation/adaptation_series.h"
 #include "analysis/measures/statistics.h"
 
-/// Trial-by-trial learning as one or two linear states (Smith, Ghazizadeh & Shadmehr 2006, PLoS Biology 4:e179). Pure functions; any thread.
+/// Trial-by-trial learning as one or two linear states (Smith, Ghazizadeh & Shadmehr 2006, PLoS Biology 4:e179). Pure functions for any
+/// thread.
 ///
 ///     e(n) = p(n) - x(n), and e(n) = 0 in a channel;   x = x_f + x_s;   x_k(n + 1) = A_k x_k(n) + B_k e(n)
 ///
 /// x(n) is the response in trial n, before the error of that trial is learned. x(1) = 0.
 namespace reachlab::analysis {
 
-/// What a state keeps of itself from one trial to the next, and what it learns of an error; both from 0 to 1.
+/// The share of a state that is kept from one trial to the next, and the share of an error that is learned. Both are from 0 to 1.
 struct LearningState {
   double retention = 0;     // A
   double learningRate = 0;  // B
 };
 
-/// x of every trial. The states are added: one, or a fast and a slow one.
+/// x of every trial. The states are added: a single state, or a fast and a slow state.
 std::vector<double> simulateLearning(const std::vector<LearningState>& states, const AdaptationSeries& series);
 
 struct LearningFit {
@@ -30,7 +31,7 @@ struct LearningFit {
   std::vector<std::array<Bounds, 2>> intervals;  // of each state's retention and learning rate: 95 %
 };
 
-/// What the series says about the number of states. Undecided: the criteria differ by less than 6 (Kass & Raftery 1995: less than strong).
+/// The number of states by the series. Undecided: the criteria differ by less than 6 (Kass & Raftery 1995: less than strong).
 enum class StateCount { One, Two, Undecided };
 
 struct AdaptationFit {
@@ -39,9 +40,9 @@ struct AdaptationFit {
   std::size_t responses = 0, channels = 0;  // measured responses; channel trials
 };
 
-/// Least squares within 0 <= A_f <= A_s <= 1 and 0 <= B_s <= B_f <= 1, from several starts. The intervals come from `resamples` bootstrap series
-/// whose residuals are drawn in blocks of neighbouring trials, so that what is slow in them stays together.
-/// Throws RefusedError where nothing is perturbed or fewer than 12 responses are measured, which is three for each parameter of two states.
+/// Least squares within 0 <= A_f <= A_s <= 1 and 0 <= B_s <= B_f <= 1, from several starts. The intervals come from `resamples` bootstrap
+/// series whose residuals are drawn in blocks of neighbouring trials, which keeps slow drifts together. Throws RefusedError where nothing
+/// is perturbed or fewer than 12 responses are measured, which is three for each parameter of two states.
 AdaptationFit fitAdaptation(const AdaptationSeries& series, int resamples, std::uint64_t seed);
 
 }  // namespace reachlab::analysis

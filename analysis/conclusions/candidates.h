@@ -10,7 +10,7 @@
 
 namespace reachlab::analysis {
 
-/// A candidate for what a person's movements follow: a criterion, or several that predict the same hand, with every hand mass tried.
+/// A criterion that a person's movements may follow, or several criteria that predict the same hand, with every hand mass tried.
 struct Candidate {
   std::vector<predict::Criterion> criteria;  // named together; the first is the one that is predicted. Empty: the reference
   std::vector<double> masses;                // [kg] one a family; empty where the hand's mass changes nothing
@@ -18,8 +18,8 @@ struct Candidate {
   bool reference() const { return criteria.empty(); }
 };
 
-/// Hand masses [kg] that are tried where nothing gives the mass: up to a whole arm with the handle of a heavy device. With 2 kg as the largest,
-/// a hand of 3 or 4 kg that follows criterion (4) was taken for one that follows (5).
+/// Hand masses [kg] that are tried where nothing gives the mass: up to a whole arm with the handle of a heavy device. With 2 kg as the
+/// largest, a hand of 3 or 4 kg that follows criterion (4) was taken for one that follows (5).
 inline constexpr std::array kHandMasses{0.0, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0};
 
 struct CandidateOptions {
@@ -31,8 +31,9 @@ struct CandidateOptions {
   double rate = 100;                                                       // [Hz] of the recording
 };
 
-/// What can be predicted for an experiment, and the reference: a minimum jerk of the hand that ignores the object, 30 s^2 (1 - s)^2, last.
-/// Candidates whose hand velocities agree within 1e-6 of the peak at every mass are one. Refusals say what cannot be predicted and why.
+/// The candidates of an experiment. The last is the reference: a minimum jerk of the hand that ignores the object, 30 s^2 (1 - s)^2.
+/// Criteria whose hand velocities agree within 1e-6 of the peak at every mass share a candidate. Refusals name the criteria that cannot be
+/// predicted, with the reason.
 struct CandidateSet {
   std::vector<Candidate> candidates;
   std::vector<std::string> refusals;

@@ -6,7 +6,7 @@
 
 #include "analysis/measures/statistics.h"
 
-/// Tests and intervals over people, or over one person's trials. Distributions are Boost.Math's. Pure functions; any thread.
+/// Tests and intervals over people, or over one person's trials. Distributions are Boost.Math's. Pure functions for any thread.
 namespace reachlab::analysis {
 
 /// Student's t of a mean against 0.
@@ -23,18 +23,19 @@ TTest computeTTest(std::span<const double> values);
 double computeSerialCorrelation(std::span<const double> values);
 /// One person's trials in their order: the number of trials counts as n (1 - rho) / (1 + rho), rho their serial correlation.
 TTest computeSerialTTest(std::span<const double> values);
-/// The mean of several conditions' means, each judged as above; degrees of freedom by Welch and Satterthwaite.
+/// The mean of several conditions' means, each judged as above. Degrees of freedom by Welch and Satterthwaite.
 TTest combineTTests(std::span<const TTest> conditions);
 
-/// The mean over people of numbers that are estimates themselves, `variance` each (shares of few trials): by t as above, but never narrower, and
-/// p never smaller, than those variances alone make it (normal distribution). Else two people whose shares agree by chance were certain.
+/// The mean over people of estimates that have a `variance` each, such as shares of few trials. It is judged by t as above. The interval is
+/// never narrower, and p never smaller, than those variances alone make it (normal distribution). Otherwise two people whose shares agree
+/// by chance would be certain.
 struct PeopleMean {
   TTest test;
   Bounds interval;  // infinite for fewer than two people
 };
 PeopleMean computePeopleMean(std::span<const double> values, std::span<const double> variance, double level = 0.95);
 
-/// mean -+ t * standard error at `level`; infinite for fewer than two values.
+/// mean -+ t * standard error at `level`. Infinite for fewer than two values.
 Bounds computeMeanInterval(std::span<const double> values, double level = 0.95);
 
 /// Two-sided p of the mean under exchange of signs: every one of the 2^n up to n = 20. Nothing is assumed but symmetry.

@@ -6,7 +6,7 @@
 
 #include "analysis/conclusions/comparison.h"
 
-/// Which candidate a person's, or people's, movements follow, and when nothing may be said. Pure functions; any thread.
+/// The rule that names the candidate that one person's or several people's movements follow, or refuses to. Pure functions for any thread.
 namespace reachlab::analysis {
 
 /// One person in one condition: the held-out scores y = ln S [candidate][trial], in the order the trials were made.
@@ -27,8 +27,9 @@ enum class Obstacle { None, TooFewTrials, TooFewSubjects, Reference, NotToldApar
 /// "", "too_few_trials", "too_few_subjects", "reference", "not_told_apart", "subjects_differ", "poor", "nothing_to_compare".
 std::string_view nameOf(Obstacle reason);
 
-/// Of ln S: a candidate whose squared errors are less than 10 % above the closest one's is not told from it, whatever p says. Trials of one
-/// hand tell such neighbours apart significantly, and now and then the wrong way round (docs/analysis.md, "Does it find the truth?").
+/// Of ln S: a candidate whose squared errors are less than 10 % above the closest candidate's is not told from it, whatever p says.
+/// Trials of one hand tell such neighbours apart significantly, and now and then the wrong way round (docs/analysis.md, "Does it find the
+/// truth?").
 inline constexpr double kLeastDifference = 0.1;
 inline constexpr double kTrialsLevel = 0.01, kSubjectsLevel = 0.05, kMinExceedance = 0.85, kPoor = 0.1;
 inline constexpr std::size_t kFewestSubjects = 5, kFewestForSignFlip = 6;
@@ -57,13 +58,14 @@ struct Conclusion {
   bool told(std::size_t candidate) const { return against[candidate].p < level && against[candidate].mean >= kLeastDifference; }
 };
 
-/// `reference` is the index of the candidate that ignores the object; `candidates` counts it. One person, however many conditions:
-/// decided if it is told from every other candidate and the reference at p < 0.01 (an intersection-union test). Says nothing of other people.
+/// The conclusion about one person in any number of conditions. A candidate is named if it is told from every other candidate and from the
+/// reference at p < 0.01 (an intersection-union test). `reference` is the index of the candidate that ignores the object, and `candidates`
+/// counts it. The conclusion says nothing about other people.
 Conclusion concludePerson(const PersonScores& person, std::size_t candidates, std::size_t reference);
 
-/// People: with one, concludePerson. From two on one number a person, decided for from five on if told from every other at p < 0.05 (paired t
-/// over people), and the protected exceedance probability of the same candidate is 0.85 or more, and no person is decided for another.
-/// People without conditions are left out.
+/// The conclusion about several people, with one number per person. A single person is judged by concludePerson. A candidate is named if
+/// all of this holds: there are five people or more, it is told from every rival at p < 0.05 (paired t over people), its protected
+/// exceedance probability is 0.85 or more, and no person is decided for a rival. People without conditions are left out.
 Conclusion concludePeople(const std::vector<PersonScores>& people, std::size_t candidates, std::size_t reference);
 
 }  // namespace reachlab::analysis

@@ -6,9 +6,9 @@
 
 namespace reachlab::analysis {
 
-/// What every candidate is compared with: from 0.3 s before the hand's velocity first exceeds 5 % of its peak to 50 ms before the record
-/// ends (there the filter has only one side), at about 100 samples a second, weights 1. The recording alone decides it, whatever the onset
-/// rule and the candidates. nullopt: nothing moved along the path, or fewer than ten samples.
+/// The part of a trial that every candidate is compared with, at about 100 samples a second, with weights 1. It begins 0.3 s before the
+/// hand's velocity first exceeds 5 % of its peak. It ends 50 ms before the record does, since the filter has only one side there. The
+/// recording alone decides it, not the onset rule or the candidates. nullopt: nothing moved along the path, or fewer than ten samples.
 std::optional<FitWindow> makeFitWindow(const TrialData& trial, const TrialSignals& signals);
 
 }  // namespace reachlab::analysis

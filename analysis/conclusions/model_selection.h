@@ -4,7 +4,7 @@
 namespace reachlab::analysis {
 
 /// Which of several models is the most frequent among people, when people may differ: random-effects Bayesian model selection
-/// (Stephan et al. 2009, NeuroImage 46:1004; Rigoux et al. 2014, NeuroImage 84:971).
+/// (Stephan et al. 2009, NeuroImage 46:1004, and Rigoux et al. 2014, NeuroImage 84:971).
 struct ModelSelection {
   std::vector<double> alpha;                // of the Dirichlet posterior of the frequencies; prior 1 each
   std::vector<double> exceedance;           // probability that the model is the most frequent one

@@ -23,14 +23,14 @@ struct MovementFit {
   bool found = false;
 };
 
-/// Centre and width (SD) of phi^2 over s; what a fit is started from.
+/// Centre and width (SD) of phi^2 over s. A fit is started from them.
 struct ProfileMoments {
   double centre = 0, width = 0;
 };
 ProfileMoments momentsOf(const Profile& profile);
 /// The same of a window's v^2 over time [s].
 ProfileMoments momentsOf(const FitWindow& window);
-/// Onset and duration at which phi's moments are the window's, the duration times `factor`.
+/// Onset and duration at which phi has the moments of the window, the duration times `factor`.
 MovementFit startFrom(const ProfileMoments& window, const ProfileMoments& profile, double factor = 1);
 
 /// When a fit has arrived: after so many steps, or when one improves the cost by less than that part.
@@ -52,7 +52,7 @@ struct ProfilePieces {
 /// from `start` (its onset and duration). The profile is held.
 MovementFit fitMovement(const FitWindow& window, const ProfilePieces& pieces, const MovementFit& start, FitEffort effort = {});
 MovementFit fitMovement(const FitWindow& window, const Profile& profile, const MovementFit& start, FitEffort effort = {});
-/// The same with a profile that is planned anew for every duration; found is false where the start cannot be predicted. `scratch` is
+/// The same with a profile that is planned anew for every duration. found is false if the start cannot be predicted. `scratch` is
 /// overwritten and holds the profile of the result.
 MovementFit fitMovement(const FitWindow& window, const ProfileFamily& family, const MovementFit& start, Profile& scratch,
                         FitEffort effort = {});

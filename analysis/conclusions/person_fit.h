@@ -38,13 +38,13 @@ struct CandidateFit {
 inline constexpr std::size_t kFewestTrials = 10;
 inline constexpr int kFolds = 5;
 
-/// One person's trials in one condition, judged by every candidate of the set; `candidates` parallel to CandidateSet::candidates.
+/// One person's trials in one condition, fitted by every candidate of the set. `candidates` is parallel to CandidateSet::candidates.
 struct PersonFit {
   PersonTemplate own;
   std::vector<CandidateFit> candidates;
 };
 
-/// `windows` in the order that the trials were made (a trial's fold is its place modulo 5), `durations` [s] by the onset rule; weights are
+/// `windows` are in the order of the trials. A trial's fold is its position modulo 5. `durations` [s] are by the onset rule. Weights are
 /// written into the windows. At least kFewestTrials. `keepApart`: see makeTemplate.
 PersonFit fitPerson(std::span<FitWindow> windows, std::span<const double> durations, const CandidateSet& set, bool keepApart = false);
 

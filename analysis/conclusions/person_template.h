@@ -6,8 +6,8 @@
 
 namespace reachlab::analysis {
 
-/// A person's own movement in one condition: the mean of the trials after each was shifted, stretched and scaled onto it, and how much the
-/// trials scatter about it at every phase. It weighs the samples for all candidates alike, and says how well anything can describe
+/// A person's own mean movement in one condition, and how much the trials scatter about it at every phase. Each trial is shifted, stretched
+/// and scaled onto the mean. The scatter weighs the samples for all candidates alike. The mean also tells how well any profile can describe
 /// these trials.
 struct PersonTemplate {
   Profile mean;                           // [m/s], over s; `change` empty
@@ -19,9 +19,9 @@ struct PersonTemplate {
   double effectiveSamples = 1;            // of a trial: samples / sum of squared autocorrelations of the residuals
 };
 
-/// Three rounds of aligning and averaging, started from the moments of v^2; then w(s) = 1 / max(sigma(s), 0.1 max sigma), whose square is
-/// written into every window's weights. `durations` [s] is what the trials last by the onset rule: it fixes what s = 0 … 1 means. Two
-/// trials or more. `apart`, 2 kB a trial, is left empty unless asked for.
+/// Three rounds of aligning and averaging, started from the moments of v^2. The square of w(s) = 1 / max(sigma(s), 0.1 max sigma) is then
+/// written into every window's weights. `durations` [s] are the trials' durations by the onset rule, which set s = 0 and s = 1. Two trials
+/// or more. `apart`, 2 kB per trial, is filled only if `keepApart` is true.
 PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double> durations, bool keepApart = false);
 
 }  // namespace reachlab::analysis

@@ -10,8 +10,8 @@
 
 namespace reachlab::analysis {
 
-/// A dimensionless hand velocity phi(s) on an even grid of s (0 onset, 1 end), 0 outside the grid, and its derivative by the logarithm of
-/// the duration that it was planned for (empty where that is held).
+/// A dimensionless hand velocity phi(s) on an even grid of s (0 onset, 1 end), 0 outside the grid. `change` is its derivative by the
+/// logarithm of the planned duration, and is empty for a plan that is held.
 struct Profile {
   double first = 0, step = 1;         // s of value[0], spacing
   std::vector<double> value, change;  // phi, d phi / d ln T
@@ -21,12 +21,12 @@ struct Profile {
   double at(double s) const;
 };
 
-/// One candidate's hand velocity for every duration: phi(s; T) = (T/L) v(sT), exact on a few durations, filtered there as a recording is,
-/// and interpolated between them (eight points; below 1e-6 of the peak when they lie 0.4 / w apart, w the highest frequency in the
-/// prediction). Durations are computed when they are first asked for. Any thread, several at a time.
+/// One candidate's hand velocity for every duration T: phi(s, T) = (T/L) v(sT). It is exact on a few durations and filtered there as a
+/// recording is. Between them it is interpolated by eight points. The error is below 1e-6 of the peak when the durations lie 0.4 / w apart,
+/// where w is the highest frequency in the prediction. A duration is computed at its first use. Any thread, several at a time.
 class ProfileFamily {
  public:
-  /// Fills phi at equally spaced s from 0 to 1, inner limits at the ends; false where nothing can be predicted for that duration.
+  /// Fills phi at equally spaced s from 0 to 1, with inner limits at the ends. False if nothing can be predicted for that duration.
   using Sampler = std::function<bool(double duration, std::span<double> phi)>;
   struct Grid {
     std::size_t parts = 400;  // of [0, 1]
@@ -35,9 +35,9 @@ class ProfileFamily {
   };
   ProfileFamily(Sampler sampler, const RecordingFilter& filter, const Grid& grid);
 
-  /// phi and its change at `duration` [s]; false (and `out` as it was) where it cannot be predicted or is shorter than the grid holds.
+  /// phi and its change at `duration` [s]. False, and `out` unchanged, if it cannot be predicted or is shorter than the grid's shortest.
   bool at(double duration, Profile& out) const;
-  /// Largest difference over s between what at() gives and the exact profile, in parts of its peak; 1 where neither can be had.
+  /// Largest difference over s between the profile of at() and the exact profile, in parts of its peak. 1 if there is no profile.
   double errorAt(double duration) const;
   const Grid& grid() const { return grid_; }
 
@@ -57,7 +57,7 @@ class ProfileFamily {
   std::size_t margin_ = 0;
   mutable std::mutex mutex_;
   mutable std::vector<std::unique_ptr<Node>> nodes_;               // guarded by mutex_ while it is filled
-  mutable std::unique_ptr<std::atomic<const Node*>[]> published_;  // what may be read without it
+  mutable std::unique_ptr<std::atomic<const Node*>[]> published_;  // nodes that may be read without it
   int count_ = 0;
 };
 

@@ -6,7 +6,8 @@
 #include "analysis/conclusions/comparison.h"
 #include "analysis/measures/statistics.h"
 
-/// Success: by person and day, over trials, and what day and pace do to it, with people as the unit. Pure functions; any thread.
+/// Success by person and day and over trials, and the effects of day and pace on it, with people as the unit. Pure functions for any
+/// thread.
 namespace reachlab::analysis {
 
 /// One attempt, in the order they were made.
@@ -35,7 +36,7 @@ struct LearningPoint {
   std::size_t successes = 0, trials = 0;
   Bounds interval;  // exact
 };
-/// Success over consecutive groups of `bin` attempts of one subject and condition; a group never spans two sessions.
+/// Success over consecutive groups of `bin` attempts of one subject and condition. A group never spans two sessions.
 std::vector<LearningPoint> learningCurves(const std::vector<Attempt>& attempts, int bin);
 
 /// A mean over people with its 95 % interval.
@@ -44,13 +45,15 @@ struct MeanInterval {
   Bounds interval;
   std::size_t people = 0;
 };
-/// The share of a typical person in one condition, on one day or on all: the mean over people of the empirical logits ln((s + 1/2) / (f + 1/2)),
-/// back as a share. (About the mean of shares a t interval covers too seldom where some are near 0 or 1.) nullopt for fewer than two people.
+/// The share of a typical person in one condition, on one day or on all days. It is the mean over people of the empirical logits
+/// ln((s + 1/2) / (f + 1/2)), turned back into a share. A t interval about the mean of shares covers too seldom if shares are near 0 or 1.
+/// nullopt for fewer than two people.
 std::optional<MeanInterval> typicalShare(const std::vector<SuccessCell>& cells, std::size_t condition, std::optional<int> day = {});
 
-/// A paired difference over people: D2 - D1 within a condition, or one condition against another. In percentage points, and as the
-/// logarithm of an odds ratio from a logistic model of two stages: the empirical logit ln((s + 1/2) / (f + 1/2)) of each person's cell,
-/// then a paired t over people, never surer than the binomial scatter of their own trials allows.
+/// A paired difference over people: D2 - D1 within a condition, or the difference of two conditions. It is given in percentage points,
+/// and as the logarithm of an odds ratio. The odds ratio comes from a logistic model of two stages. The first is the empirical logit
+/// ln((s + 1/2) / (f + 1/2)) of each person's cell. The second is a paired t over people. The binomial scatter of the trials limits its
+/// certainty.
 struct Effect {
   bool ofDay = false;  // day `to` - day `from` of condition `condition`; else condition `to` - `from` on all common days
   std::size_t condition = 0;

@@ -21,7 +21,7 @@ class Canvas {
   double textWidth(const std::string& text) const;
   /// `y` is the baseline.
   void text(double x, double y, const std::string& text, Align align = Align::Left);
-  /// Reads upwards; `x` is the baseline, `y` the middle of the text.
+  /// Reads upwards. `x` is the baseline, `y` the middle of the text.
   void textUpwards(double x, double y, const std::string& text);
 
   void line(double x0, double y0, double x1, double y1);

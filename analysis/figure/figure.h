@@ -4,8 +4,8 @@
 #include <utility>
 #include <vector>
 
-/// The one painter of figures for print and report: the same description becomes SVG, PDF or PNG, byte for byte the same for the same
-/// values (no dates, no counters). Plain values in, bytes out; any thread. Nothing here knows what is plotted.
+/// Paints the figures of the report and for print. A description becomes SVG, PDF or PNG. The same values give the same bytes, without
+/// dates or counters. Any thread. Nothing here depends on the plotted quantity.
 namespace reachlab::figure {
 
 /// sRGB with opacity, each 0 … 1.
@@ -18,17 +18,17 @@ namespace palette {
 inline constexpr Color kBlack{0.0, 0.0, 0.0}, kGrey{0.45, 0.45, 0.45}, kOrange{0.902, 0.624, 0.0}, kSky{0.337, 0.706, 0.914},
     kGreen{0.0, 0.620, 0.451}, kYellow{0.941, 0.894, 0.259}, kBlue{0.0, 0.447, 0.698}, kVermilion{0.835, 0.369, 0.0},
     kPurple{0.800, 0.475, 0.655};
-/// The i-th colour for series of equal standing; repeats after seven.
+/// The i-th colour for series of equal standing. The colours repeat after seven.
 Color series(int i);
 constexpr Color faded(Color c, double alpha) { return {c.red, c.green, c.blue, alpha}; }
 }  // namespace palette
 
 enum class Dash { Solid, Dashed, Dotted, DashDot };
 enum class MarkerShape { None, Circle, Square, Triangle, Diamond, Cross };
-/// The i-th marker for series of equal standing; never None.
+/// The i-th marker for series of equal standing. It is always visible.
 MarkerShape markerOf(int i);
 
-/// Usual widths: one trial among many, an ordinary line, what the eye should find first.
+/// Usual widths: a trial among many, an ordinary line, the most important line.
 inline constexpr double kThin = 0.45, kNormal = 1.0, kThick = 2.0;  // [pt]
 
 /// A line, points, or both. Gaps are where x or y is not finite (or not positive on a logarithmic axis).
@@ -106,10 +106,10 @@ std::string renderPng(const Figure& figure, double dpi = 150);
 /// Writes FILE.svg, FILE.pdf or FILE.png as its ending says. Throws FaultError for another ending, ResourceError when it cannot write.
 void writeFigure(const Figure& figure, const std::string& path);
 
-/// Round numbers that divide [from, to] into about `wanted` parts (steps 1, 2 or 5 times a power of ten), within the interval.
-/// from < to, both finite; empty otherwise.
+/// Round numbers within [from, to] that divide it into about `wanted` parts. Steps are 1, 2 or 5 times a power of ten. Empty unless
+/// from < to and both are finite.
 std::vector<double> niceTicks(double from, double to, int wanted);
-/// A tick as text: as few digits as tell neighbours `step` apart; minus is U+2212.
+/// A tick as text, with the fewest digits that tell neighbours `step` apart. The minus sign is U+2212.
 std::string tickText(double value, double step);
 
 }  // namespace reachlab::figure

@@ -4,7 +4,7 @@
 
 namespace reachlab::figure {
 
-/// What stands around the plotting area of a panel [pt].
+/// The space around the plotting area of a panel [pt].
 struct Margins {
   double left = 0, right = 0, top = 0, bottom = 0;
 };
@@ -15,7 +15,7 @@ class PanelPainter {
   PanelPainter(Canvas& canvas, const Panel& panel, double width, double height);
 
   Margins margins() const { return margins_; }
-  /// Draws with the top left corner of the plotting area at (left, top); the title stands at the top of `topMargin`.
+  /// Draws with the top left corner of the plotting area at (left, top). The title is at the top of `topMargin`.
   void draw(double left, double top, double topMargin);
 
  private:

@@ -7,7 +7,7 @@
 
 namespace reachlab::figure {
 
-/// Where an axis begins and ends, and what is written along it.
+/// The beginning and the end of an axis, and the labels along it.
 struct AxisTicks {
   double from = 0, to = 1;
   std::vector<std::pair<double, std::string>> major;

@@ -12,7 +12,7 @@ struct MeasureOptions {
   double cutoff = 10;  // [Hz] of the zero-lag Butterworth on the hand's velocity; 0: none
 };
 
-/// What one trial measured; NaN where it does not exist (no movement, no go signal …). `measures` says what each number is.
+/// The measures of one trial. A measure that does not exist is NaN, for example without a movement. `measures` explains each number.
 struct TrialMeasures {
   bool beforeGo = false;                                                // the hand left before the go signal
   double reactionTime = kNotMeasured;                                   // [s] go signal to onset; none where the hand left before it
@@ -32,8 +32,8 @@ struct TrialMeasures {
   double peakForce = kNotMeasured, meanForce = kNotMeasured;  // [N] coupling force
 };
 
-/// One measure of a trial. Tables, their dictionaries, studies and the report follow from `measures`. What the haptic ticks measured stands in
-/// sim/record/log/trial_measures.h, under other names.
+/// One measure of a trial. Tables, their dictionaries, studies and the report follow from `measures`. The measures of the haptic ticks
+/// are in sim/record/log/trial_measures.h, under other names.
 struct Measure {
   std::string_view name;         // with its unit, as in every table
   std::string_view sentence;     // of every dictionary
@@ -44,7 +44,7 @@ struct Measure {
 };
 std::span<const Measure> measures();
 
-/// A trial's filtered signals; what profiles and errors are made of.
+/// A trial's filtered signals. Profiles and errors are made of them.
 struct TrialSignals {
   Movement movement;                   // of the hand, in seconds since sample 0; ends with the trial at the latest
   std::vector<double> speed;           // [m/s] of the hand, >= 0

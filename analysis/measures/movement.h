@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-/// Where a movement begins and ends, and how movements of unlike duration are laid over one another. Pure functions; any thread.
+/// The onset and offset of a movement, and the scaling of movements of unlike duration onto one another. Pure functions for any thread.
 namespace reachlab::analysis {
 
 enum class OnsetRule {
@@ -30,15 +30,16 @@ struct Movement {
   double duration() const { return offset - onset; }
 };
 
-/// Onset: the last upward crossing of the threshold before the first hump (the first sample above half the peak), found by searching back
-/// from it; offset: the last downward crossing of a stretch of at least `holdSeconds` above the threshold. `speed` >= 0 sampled at `rate` [Hz]. OnsetRule::Task is not for this function: give the window yourself.
+/// Onset: the last upward crossing of the threshold before the first sample above half the peak. Offset: the last downward crossing of a
+/// stretch of at least `holdSeconds` above the threshold. `speed` >= 0 is sampled at `rate` [Hz]. OnsetRule::Task is not for this function:
+/// use movementWithin.
 Movement findMovement(std::span<const double> speed, double rate, const OnsetOptions& options);
 /// The same fields for a window that is already known [s].
 Movement movementWithin(std::span<const double> speed, double rate, double onset, double offset);
 
 /// Value at `time` [s], linear between samples (time normalisation asks for no more), held beyond the ends.
 double valueAt(std::span<const double> signal, double rate, double time);
-/// Derivative-free cubic (Catmull-Rom) through four neighbours; linear near the ends. Used where 100 Hz must not cost accuracy.
+/// Derivative-free cubic (Catmull-Rom) through four neighbours, linear near the ends. Used where 100 Hz must not cost accuracy.
 double smoothValueAt(std::span<const double> signal, double rate, double time);
 
 inline constexpr std::size_t kProfilePoints = 101;

@@ -8,8 +8,8 @@
 
 namespace reachlab::analysis {
 
-/// A prediction as if it had been recorded: the hand through the same filter, at rest before and after. Jumps of the hand at the ends
-/// (criteria 4 and 6, criterion 5 without a hand mass) are numbers of the prediction, not part of its velocity, and stay out.
+/// A prediction as if it had been recorded: the hand through the same filter, at rest before and after. Jumps of the hand at the ends stay
+/// out, since they are separate numbers of the prediction (criteria 4 and 6, criterion 5 without a hand mass).
 struct PredictedSignal {
   predict::Criterion criterion{};
   double plannedDuration = 0;         // [s] T it was predicted for
@@ -21,11 +21,12 @@ struct PredictedSignal {
   std::vector<std::string> warnings;  // of the prediction
 };
 
-/// `options` as for the trials; for OnsetRule::Task the movement begins where the hand has moved `task.onset`.
+/// `options` are those of the trials. With OnsetRule::Task the movement begins when the hand has moved `task.onset`.
 PredictedSignal recordPrediction(const predict::Prediction& prediction, const MeasureOptions& options, const experiment::Task& task);
 
-/// [s] from the prediction's onset to where the hand's speed last falls below `endLevel` of its peak: where a trial's speed stood at its
-/// end, be that the rule's threshold, or higher because every mass was judged to have arrived while the hand still moved.
+/// [s] from the prediction's onset to the moment when the hand's speed last falls below `endLevel` of its peak. `endLevel` is the level
+/// that a trial's speed had at its end. It may be above the rule's threshold, since every mass can have arrived while the hand still
+/// moves.
 double durationUntil(const PredictedSignal& signal, double endLevel);
 
 /// One trial's velocities at 101 instants from onset to end, as they were measured.
@@ -37,14 +38,14 @@ struct TrialProfile {
 TrialProfile makeTrialProfile(const TrialData& trial, const TrialSignals& signals);
 
 /// The paper's epsilon of one trial (sec. 5): sqrt(1/N sum (v_pred - v_exp)^2) over 101 instants. The trial is time-scaled to the
-/// prediction (its velocities keep the distance), never the other way round, and both are compared from onset to the same phase. [m/s]
-/// Of a series it is the root of the mean of the trials' squares: all have as many samples. NaN without a movement.
+/// prediction, never the prediction to the trial, and its velocities keep the distance. Both are compared from onset to the same phase.
+/// [m/s] The error of a series is the root of the mean of the trials' squares, since every trial has 101 samples. NaN without a movement.
 struct PaperError {
   double hand = 0, object = 0;
 };
 PaperError computePaperError(const TrialProfile& trial, const PredictedSignal& predicted);
 
-/// The paper's formula itself. Both of the same length; NaN for none.
+/// The paper's formula itself. Both arrays have the same length. NaN for empty arrays.
 double computeRmsError(std::span<const double> predicted, std::span<const double> measured);
 
 }  // namespace reachlab::analysis

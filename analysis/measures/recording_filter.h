@@ -4,12 +4,12 @@
 
 namespace reachlab::analysis {
 
-/// What the zero-lag Butterworth of a recording does to a movement that is known as a function of time:
-/// |H(f)|^2 = 1 / (1 + (tan(pi f / rate) / tan(pi cutoff / rate))^4) for f < rate / 2, nothing above.
-/// Immutable; any thread.
+/// The zero-lag Butterworth filter of a recording, applied to a movement that is known as a function of time.
+///   |H(f)|^2 = 1 / (1 + (tan(pi f / rate) / tan(pi cutoff / rate))^4) for f < rate / 2, and 0 above
+/// Immutable, for any thread.
 class RecordingFilter {
  public:
-  /// `cutoff` [Hz], 0: no filter; `rate` [Hz] of the recording. 0 <= cutoff < rate / 2, FaultError otherwise.
+  /// `cutoff` [Hz], with 0 for no filter, and `rate` [Hz] of the recording. Throws FaultError unless 0 <= cutoff < rate / 2.
   RecordingFilter(double cutoff, double rate);
 
   bool active() const { return cutoff_ > 0; }
@@ -17,7 +17,7 @@ class RecordingFilter {
   double rate() const { return rate_; }
   /// |H(f)|^2, f in Hz.
   double gain(double frequency) const;
-  /// Beyond that lag [s] the kernel is below 1e-6 of its peak; 0 without a filter.
+  /// The lag [s] beyond which the kernel is below 1e-6 of its peak. 0 without a filter.
   double reach() const { return reach_; }
   /// Impulse response at a lag of `seconds` [1/s].
   double kernel(double seconds) const;
@@ -31,8 +31,8 @@ class RecordingFilter {
   std::vector<double> table_;  // kernel at 0, step_, 2 step_ … and a few beyond reach_
 };
 
-/// Weights of a sum over equally spaced samples that integrates exactly to eighth order (Gregory's end corrections of the trapezoidal
-/// rule), in units of the spacing; the trapezoidal rule for fewer than 16 samples.
+/// Weights of a sum over equally spaced samples that integrates to eighth order, in units of the spacing. They are Gregory's end
+/// corrections of the trapezoidal rule. Fewer than 16 samples get the trapezoidal rule.
 std::vector<double> gregoryWeights(std::size_t samples);
 
 }  // namespace reachlab::analysis

@@ -2,7 +2,7 @@
 #include <cstddef>
 #include <span>
 
-/// How smooth a movement is, from its speed alone. Pure functions; any thread.
+/// How smooth a movement is, from its speed alone. Pure functions for any thread.
 namespace reachlab::analysis {
 
 struct SparcOptions {
@@ -12,16 +12,16 @@ struct SparcOptions {
 };
 
 /// Spectral arc length (Balasubramanian et al. 2015, J. NeuroEng. Rehab. 12:112): minus the length of the amplitude spectrum's curve,
-/// frequency and amplitude each scaled to 1. `speed` >= 0 of the movement alone, at `rate` [Hz]; at least two samples and one that is
-/// not zero, NaN otherwise. Smoother is nearer to -1.4. No unit.
+/// frequency and amplitude each scaled to 1. `speed` >= 0 of the movement alone, at `rate` [Hz]. NaN for fewer than two samples
+/// or only zeros. Smoother is nearer to -1.4. No unit.
 double computeSparc(std::span<const double> speed, double rate, const SparcOptions& options = {});
 
 /// Log dimensionless jerk (same source): -ln( T^3 / v_max^2 * integral |v''|^2 dt ), T = samples / rate, second differences, no mean
 /// removed. At least three samples, NaN otherwise. Smoother is larger. No unit.
 double computeLogDimensionlessJerk(std::span<const double> speed, double rate);
 
-/// Local maxima whose prominence is at least that share of the largest value: how far one must go down from it before going up to a
-/// higher one (to the ends where there is none). A bell-shaped profile has 1.
+/// The number of local maxima with at least that prominence, as a share of the largest value. Prominence is the descent from a maximum
+/// before the signal rises to a higher one or ends. A bell-shaped profile has 1.
 std::size_t countPeaks(std::span<const double> speed, double prominence = 0.05);
 
 }  // namespace reachlab::analysis

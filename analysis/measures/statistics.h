@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-/// The few statistics that the tables need, each by its textbook formula. Pure functions; any thread.
+/// The few statistics that the tables need, each by its textbook formula. Pure functions for any thread.
 namespace reachlab::analysis {
 
-/// Mean and sample standard deviation (n - 1) of the finite values; NaN where there are none (SD: fewer than two).
+/// Mean and sample standard deviation (n - 1) of the finite values. The mean of no values and the SD of fewer than two values are NaN.
 struct MeanSd {
   double mean = 0, sd = 0;
   std::size_t count = 0;

@@ -16,22 +16,22 @@ struct NamedFigure {
   figure::Figure figure;
 };
 
-// What leads: who follows what. In conclusion_figures.cpp.
+// The conclusions. In conclusion_figures.cpp.
 
-/// Scores of subjects by criterion, against the reference; lines join a subject. A panel a condition, and one over all.
+/// Scores of subjects by criterion, against the reference. Lines join a subject. There is a panel for each condition and a panel over all.
 NamedFigure scoreFigure(const Analysis& analysis);
-/// Protected exceedance probability of each candidate; no panels with one subject.
+/// Protected exceedance probability of each candidate. No panels with one subject.
 NamedFigure posteriorFigure(const Analysis& analysis);
-/// Of each truth, how many simulated studies named what.
+/// For each truth, the number of simulated studies that named each candidate.
 NamedFigure recoveryFigure(const TruthRecovery& recovery);
 
 // The movements. In movement_figures.cpp.
 
-/// The paper's Figs. 5 and 6 of one condition: hand and object velocity; thin lines trials time-scaled to their average, thick solid
-/// criterion (1), thick dashed criterion (3), each for the task's T, neither cut nor stretched.
+/// The paper's Figs. 5 and 6 of one condition: hand and object velocity. Thin lines are trials, time-scaled to their average. Thick lines
+/// are criterion (1), solid, and criterion (3), dashed, each for the task's T, neither cut nor stretched.
 NamedFigure paperFigure(const Analysis& analysis, std::size_t condition);
-/// Figs. 9 and 10: the last five successful trials thin, criterion (1) thick grey, the average of all thick black. `subject` empty: of the
-/// only one, else of the first.
+/// Figs. 9 and 10: the last five successful trials thin, criterion (1) thick grey, the average of all thick black. The subject is the
+/// first.
 NamedFigure lastFiveFigure(const Analysis& analysis, std::size_t condition);
 /// Small multiples: each subject's mean and scatter with the fitted mean of the closest candidates and of the reference, residuals below.
 NamedFigure peopleFigure(const Analysis& analysis, std::size_t condition);
@@ -52,8 +52,9 @@ struct CriterionLook {
 CriterionLook lookOf(const std::vector<predict::Criterion>& criteria);
 /// "(1)", "(4, 6)", "reference": for axes.
 std::string shortNameOf(const std::vector<predict::Criterion>& criteria);
-/// Where a subject stands among the study's; its line, with the colour and marker that it has everywhere.
+/// A subject's position among all subjects.
 int subjectIndex(const Analysis& analysis, const std::string& subject);
+/// A subject's line, with the colour and marker that it has in every figure.
 figure::Series subjectSeries(const Analysis& analysis, const std::string& subject);
 /// An axis with a place for each candidate, from 1 on.
 void addCandidates(figure::Axis& axis, std::span<const std::vector<predict::Criterion>> candidates);

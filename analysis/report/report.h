@@ -7,13 +7,13 @@
 
 namespace reachlab::analysis {
 
-/// What the report says of itself.
+/// The header of a report.
 struct ReportHeader {
   std::string dataset, version, command;
 };
 
-/// One self-contained HTML page. It leads with one plain sentence and a figure, the numbers stand in tables beneath; then success and
-/// learning, condition by condition figures and measures, the methods paragraph, limits, provenance. Needs no network, no script, and
+/// One self-contained HTML page. It begins with one plain sentence, a figure, and tables of the numbers. Success and learning follow, then
+/// figures and measures of each condition, the methods paragraph, limits and provenance. The page needs no network and no script, and
 /// prints.
 std::string makeReport(const ReportHeader& header, const Analysis& analysis, const std::vector<NamedFigure>& figures,
                        const std::vector<RunProvenance>& runs, const std::vector<std::string>& notes,

@@ -14,11 +14,11 @@ std::string describeCandidate(const std::vector<predict::Criterion>& criteria);
 /// The candidates of a condition, as the conclusion indexes them.
 std::vector<std::vector<predict::Criterion>> candidatesOf(const ConditionResult& result);
 
-/// The one plain sentence: which criterion, and how sure; or that nothing may be concluded, and why.
+/// The one plain sentence. It names the criterion with its certainty, or says that nothing may be concluded, with the reason.
 std::string describeConclusion(const Conclusion& conclusion, const std::vector<std::vector<predict::Criterion>>& candidates);
-/// What always stands beside it: trials, nearest rival, exceedance, R^2 and its ceiling.
+/// The numbers beside every conclusion: trials, nearest rival, exceedance, R^2 and its ceiling.
 std::string describeEvidence(const Conclusion& conclusion, const std::vector<std::vector<predict::Criterion>>& candidates);
-/// Which conditions the overall conclusion is over, and which are left out; empty with one condition.
+/// The conditions that the overall conclusion is over, and the conditions that are left out. Empty with one condition.
 std::string describeTogether(const Analysis& analysis);
 /// Hand masses and time laws that were tried, and how often each was chosen for the candidate that is closest.
 std::string describeChoices(const Analysis& analysis, const std::vector<std::size_t>& conditions,
@@ -26,9 +26,9 @@ std::string describeChoices(const Analysis& analysis, const std::vector<std::siz
 
 /// The methods paragraph, ready to be pasted: every option that changes numbers.
 std::string describeMethods(const Analysis& analysis);
-/// What none of this can show.
+/// The limits of the conclusions.
 std::string describeLimits(const Analysis& analysis);
-/// What went into a condition and what did not: "18 of 20 trials succeeded …".
+/// The counts of a condition's trials: "18 of 20 trials succeeded …".
 std::string describeCounts(const ConditionResult& result);
 /// An effect on success: "D2 − D1, chain-slow: +21 points [5, 37] …".
 std::string describeEffect(const Analysis& analysis, const Effect& effect);
@@ -36,7 +36,7 @@ std::string describeSlope(const Analysis& analysis, const LearningSlope& slope);
 
 /// A number with three significant digits and a real minus sign.
 std::string shortNumber(double value);
-/// p in words: "p = 0.012", "p < 0.0001".
+/// p as text: "p = 0.012", "p < 0.0001".
 std::string pText(double p);
 
 }  // namespace reachlab::analysis

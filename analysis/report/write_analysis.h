@@ -13,8 +13,8 @@ struct AnalysisFiles {
   std::vector<std::string> tables, figures;
 };
 
-/// Writes tables (CSV, each with the dictionary of its columns beside it as JSON), figures (SVG and PDF, in figures/) and report.html into
-/// `folder`; each file replaced in one step. The same study gives the same bytes. Throws ResourceError.
+/// Writes tables, figures and report.html into `folder`. Tables are CSV, each with the dictionary of its columns as JSON. Figures are SVG
+/// and PDF in figures/. Each file is replaced in one step. The same study gives the same bytes. Throws ResourceError.
 AnalysisFiles writeAnalysis(const Analysis& analysis, const DatasetIndex& dataset, const ReportHeader& header, const std::string& folder,
                             const std::optional<TruthRecovery>& recovery = {});
 

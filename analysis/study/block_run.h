@@ -10,17 +10,16 @@
 
 namespace reachlab::study {
 
-/// One virtual subject in one block, then the next on the same scene: physics and judgement, tick for tick as a recorded run on the virtual
-/// clock has them, and nothing else. Without samples a trial allocates only what its hand prepares for it. One thread.
+/// Runs the blocks of virtual subjects on one scene, one after another. Physics and judgement are those of a recorded run on the virtual
+/// clock, tick for tick. Without samples, only the hand allocates memory in a trial, when it prepares for it. One thread.
 class BlockRun {
  public:
   static constexpr std::uint64_t kSampleEvery = 10;  // [ticks] as recordings have it unless they are asked for more
 
-  /// `withSamples`: the rows that a recording would hold are kept of the latest trial. Throws as compileScene does. Keeps the reference.
+  /// `withSamples`: keeps the latest trial's rows as a recording has them. Throws as compileScene does. Keeps the reference.
   BlockRun(const experiment::CompiledExperiment& experiment, bool withSamples);
 
-  /// Begins a block: what a new BlockRun with this hand would be. Throws FaultError for a hand that is not virtual or that a watch would
-  /// look after.
+  /// Begins a block, as a new BlockRun with this hand would. Throws FaultError for a hand that is not virtual or that needs a watch.
   void begin(std::unique_ptr<haptics::HapticDevice> hand);
   /// Runs one trial to its end. Valid until the next call.
   const record::RecordedTrial& runTrial(const trial::PlannedTrial& planned);

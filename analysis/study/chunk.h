@@ -6,7 +6,7 @@
 #include "analysis/study/columns.h"
 
 /// A study is computed in chunks of whole subjects, since a learner's trials depend on one another. A chunk that is there is done: it is
-/// written under another name, synced and renamed. The same design gives the same chunks, whoever computes them and in whatever order.
+/// written under another name, synced and renamed. The same design gives the same chunks on every computer and in every order.
 namespace reachlab::study {
 
 /// Pairs of point and subject (point * subjects + subject - 1) of a chunk: [first, end).
@@ -14,7 +14,7 @@ struct PairRange {
   std::int64_t first = 0, end = 0;
 };
 
-/// How a design is cut up: by its size alone, never by who computes it.
+/// The division of a design into chunks. It depends on the design's size alone, never on the computer.
 struct ChunkPlan {
   std::int64_t pairs = 0, pairsPerChunk = 1;
   std::int64_t count() const { return (pairs + pairsPerChunk - 1) / pairsPerChunk; }
@@ -25,7 +25,7 @@ struct ChunkPlan {
 };
 ChunkPlan planChunks(const Design& design);
 
-/// Rows of a chunk: as text, compressed on its own so that members can be put one behind the other, and as numbers, column by column.
+/// Rows of a chunk, as compressed text and as numbers, column by column. Each text is a whole gzip member, so that texts can be joined.
 struct ChunkRows {
   std::int64_t rows = 0;
   std::size_t columns = 0;

@@ -11,14 +11,14 @@
 
 namespace reachlab::study {
 
-/// Computes chunks, one at a time, and keeps what the last points had in common: experiments compiled, plans and gains made, predictions.
-/// One thread; as many workers as threads.
+/// Computes chunks, one at a time. It keeps compiled experiments, plans, gains and predictions for the next points. Each thread has its
+/// worker.
 class ChunkWorker {
  public:
   ChunkWorker(const Design& design, PrepareSubjects prepare);
 
-  /// `stop` is looked at between subjects; when it is true the chunk is left (nullopt). Throws FaultError (a point that is no experiment),
-  /// RefusedError (one that cannot be computed), each naming the point.
+  /// `goOn` is asked between subjects. If it answers false, the chunk is left and the result is nullopt. Throws FaultError for a point that
+  /// is no experiment and RefusedError for a point that cannot be computed. Both name the point.
   std::optional<ChunkRows> compute(const PairRange& pairs, const std::function<bool(std::int64_t trials)>& goOn);
 
  private:
@@ -43,8 +43,8 @@ class ChunkWorker {
   std::deque<Kit> kits_;  // newest first
 };
 
-/// Throws FaultError, RefusedError where a point is no experiment, or its subject has no plan. What was looked at is added to `seen` and not
-/// looked at again.
+/// Throws FaultError, RefusedError where a point is no experiment, or its subject has no plan. Checked devices and experiments are added to
+/// `seen` and not checked again.
 void checkPoint(const Design& design, std::int64_t index, const PrepareSubjects& prepare,
                 std::set<std::pair<std::string, std::string>>& seen);
 

@@ -6,13 +6,13 @@
 
 namespace reachlab::study {
 
-/// A column of a study's table. All are numbers while they are computed and kept; what is text is a place in `words`.
+/// A column of a study's table. Every column is kept as numbers. A text is kept as its index in `words`.
 struct Column {
   std::string name;
   std::vector<std::string> words;  // empty: a number
 };
 
-/// What has to be computed for the measures that are asked for, beside how each trial was judged.
+/// The computations that the requested measures need, beside the judgement of each trial.
 struct Needs {
   bool samples = false;  // the recording at 100 Hz, in memory
   bool errors = false;   // predictions, and the paper's epsilon of each trial
@@ -20,16 +20,16 @@ struct Needs {
 };
 Needs needsOf(const Design& design);
 
-/// Every column in order: who, which trial, its seed, what was varied, how it was judged, what was measured. `conditions`: of a plan.
+/// Every column in order: subject, trial, seed, varied keys, judgement, measures.
 std::vector<Column> columnsOf(const Design& design);
-/// Columns up to the last varied one.
+/// The number of columns up to the last varied key.
 std::size_t identityColumns(const Design& design);
-/// What each column is, beside the table (record/column_dictionary.h).
+/// The dictionary of the columns (record/column_dictionary.h).
 std::string dictionaryOf(const Design& design);
 
-/// Names of the measures: columns of their own, and the families `epsilon` and `score`, a column a criterion.
+/// Names of the measures: single columns, and the families `epsilon` and `score` with a column for each criterion.
 std::vector<std::string> measureNames();
-/// Those of a design that names none.
+/// The measures of a design that names no measures.
 std::vector<std::string> usualMeasures();
 /// Faults of `measures` and `criteria`.
 std::vector<Fault> measureProblems(const Design& design);

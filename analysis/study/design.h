@@ -11,7 +11,7 @@
 
 namespace reachlab::study {
 
-/// What is varied: a key of the experiment, `subject.KEY`, `plan.KEY`, `experiment` (names) or `trials`.
+/// A varied key: a key of the experiment, `subject.KEY`, `plan.KEY`, `experiment` (names) or `trials`.
 struct VariedKey {
   std::string path;
   std::vector<std::string> values;                   // as JSON; of a grid
@@ -43,7 +43,7 @@ struct Design {
 
 inline constexpr std::int64_t kMaxPoints = 100'000'000, kMaxSubjects = 100'000'000, kMaxTrialsOfStudy = 1'000'000'000'000;
 
-/// What a design names, given with it instead of being looked up: for one that is kept in a folder.
+/// The texts that a design names. A design that is kept in a folder has them beside it, so that nothing is looked up.
 struct NamedTexts {
   std::string planFile, plan;  // its name, its text
   std::map<std::string, std::string> experiments;

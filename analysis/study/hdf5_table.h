@@ -7,10 +7,10 @@
 
 namespace reachlab::study {
 
-/// trials.h5: a group /trials with one dataset a column, all of one length; text as codes with their words in the attribute `words`; each
-/// with its `Description` and `Units`. /profiles/hand_m_per_s and object_m_per_s, 101 points a trial, where they are kept. No times are
-/// stored, so the same rows give the same bytes. Written under another name and put in place by commit; without it nothing is left.
-/// Throws ResourceError. One thread.
+/// trials.h5: a group /trials with a dataset for each column, all of one length. Each has a `Description` and `Units`. Text is stored as
+/// codes, and the attribute `words` has the texts. /profiles/hand_m_per_s and object_m_per_s have 101 points per trial if profiles are
+/// kept. No times are stored, so the same rows give the same bytes. The file is written under another name until commit. Without commit
+/// no file is left. Throws ResourceError. One thread.
 class Hdf5Table {
  public:
   Hdf5Table(const std::string& path, const std::vector<Column>& columns, const std::string& dictionary, std::size_t profileNumbers);

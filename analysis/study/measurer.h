@@ -11,8 +11,8 @@
 
 namespace reachlab::study {
 
-/// Measures the trials of one experiment as `analyze` measures recorded ones. Predictions and candidates are made once, for every subject
-/// of it; criteria that are not defined for the experiment leave their columns empty. One thread.
+/// Measures the trials of one experiment as `analyze` measures recorded trials. Predictions and candidates are made once for all subjects.
+/// Criteria that are not defined for the experiment leave their columns empty. One thread.
 class Measurer {
  public:
   Measurer(const Design& design, const experiment::CompiledExperiment& experiment);

@@ -9,18 +9,18 @@
 
 namespace reachlab::study {
 
-/// One combination of what is varied.
+/// One combination of values of the varied keys.
 struct Point {
   std::int64_t index = 0;
   std::vector<experiment::Patch> ofAxes;  // parallel to Design::axes
 };
 
-/// One experiment of a point, patched: what a recorded run of it would be given.
+/// One experiment of a point, patched, as a recorded run would receive it.
 struct PointExperiment {
   std::string name, text;
 };
 
-/// A point worked out: what all its subjects do.
+/// The task that all subjects of a point perform.
 struct PointTask {
   std::string device;                        // "simulated:…"
   session::Plan plan;                        // of an experiment: one block, in every session
@@ -33,13 +33,13 @@ std::int64_t pairCount(const Design& design);  // points times subjects
 Point pointAt(const Design& design, std::int64_t index);
 /// Throws FaultError under "point N: KEY".
 PointTask taskOf(const Design& design, const Point& point);
-/// "coupling.stiffness_n_per_m=300, subject.noise=1"; empty where nothing is varied.
+/// "coupling.stiffness_n_per_m=300, subject.noise=1". Empty if nothing is varied.
 std::string describe(const Point& point);
 /// The most that any point asks of a subject, without working the points out.
 std::int64_t mostTrialsOfSubject(const Design& design);
 
-/// Seed of a subject's session: Philox of the study's name and seed by point, subject and day, 53 bits, so that every reader of a table keeps
-/// it exact.
+/// Seed of a subject's session: Philox of the study's name and seed by point, subject and day. It has 53 bits, so that every reader of a
+/// table keeps it exact.
 std::uint64_t seedOf(const Design& design, std::int64_t point, std::int64_t subject, int day);
 /// Label of a subject: its number from 1, two digits or more, as a plan's order takes it.
 std::string labelOfSubject(std::int64_t subject);

@@ -21,15 +21,15 @@ struct LearningAt {
   std::size_t firstTrial = 1, lastTrial = 1, successes = 0, trials = 0;
 };
 
-/// How often studies of so many people and trials name the truth: people are drawn without replacement from the virtual subjects of one
-/// truth, and judged by the rule for recorded ones.
+/// How often studies of so many people and trials name the truth. People are drawn without replacement from the virtual subjects of one
+/// truth, and judged by the rule for recorded people.
 struct PowerAt {
   std::string truth, cell;  // what was varied beside the criterion
   std::size_t subjects = 0, trials = 0;
-  std::size_t studies = 0, right = 0, wrong = 0;  // the rest undecided
+  std::size_t studies = 0, right = 0, wrong = 0;  // the remaining studies are undecided
 };
 
-/// The least subjects times trials of those looked at whose share of right studies reaches the level; 0 subjects: none did.
+/// The smallest examined design (subjects times trials) whose share of right studies reaches the level. 0 subjects: no design did.
 struct SmallestDesign {
   std::string truth, cell;
   double level = 0.8;
@@ -62,8 +62,8 @@ struct ReportOptions {
 
 /// Reads the study's chunks. Throws FaultError where some are missing.
 StudyReport makeReport(const StudyFolder& folder, const ReportOptions& options);
-/// success.csv, confusion.csv, power.csv, smallest.csv with their dictionaries, figures as SVG and PDF, and report.md into `out`. Returns the
-/// files. Throws ResourceError.
+/// success.csv, confusion.csv, power.csv, smallest.csv with their dictionaries, figures as SVG and PDF, and report.md into `out`. Returns
+/// the files. Throws ResourceError.
 std::vector<std::string> writeReport(const StudyReport& report, const std::string& out);
 
 }  // namespace reachlab::study

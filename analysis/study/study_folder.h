@@ -18,15 +18,15 @@ struct StudyFolder {
 
 /// Makes the folder of a design, or finds it there. Throws ResourceError: it cannot be written, or another study is in it.
 StudyFolder makeFolder(const Design& design, const std::string& path);
-/// One that is there. Throws FaultError.
+/// Opens an existing folder. Throws FaultError.
 StudyFolder openFolder(const std::string& path);
 
-/// Which share of the chunks: those with chunk % of == index - 1.
+/// A share of the chunks: all chunks with chunk % of == index - 1.
 struct Shard {
   int index = 1, of = 1;
   bool has(std::int64_t chunk) const { return chunk % of == index - 1; }
 };
-/// Chunks of the shard that are not there, in order; `there` is how many are.
+/// Missing chunks of the shard, in order. `there` is the number of existing chunks.
 struct ChunksToDo {
   std::vector<std::int64_t> missing;
   std::int64_t there = 0;
@@ -37,7 +37,7 @@ ChunksToDo chunksToDo(const StudyFolder& folder, const Shard& shard = {});
 bool mergeTables(const StudyFolder& folder);
 bool areTablesThere(const StudyFolder& folder);
 
-/// How far a study is, by what lies in its folder.
+/// The progress of a study by the files in its folder.
 struct StudyStatus {
   std::int64_t chunks = 0, chunksDone = 0, trials = 0, trialsDone = 0;
   double rate = 0;         // [trials/s] of the chunks of the last hour that work went on, 0: unknown

@@ -9,12 +9,12 @@
 
 namespace reachlab::study {
 
-/// The hand of one subject for one block of a day. `learnt`: what the subject keeps from block to block, null at first; the hand takes it up and leaves
-/// it there.
+/// The hand of one subject for one block of a day. `learnt` is the subject's memory from block to block. It is null at first, and the hand
+/// reads and updates it.
 using SubjectHands = std::function<std::unique_ptr<haptics::HapticDevice>(std::uint64_t seed, int day, std::shared_ptr<void>& learnt)>;
 
-/// Makes what is alike in all subjects of an experiment (the plan, gains), once. Devices stand above the study, so whoever starts it brings
-/// this. `device`: "simulated:KEY=VALUE,…". Throws FaultError, RefusedError (the subject cannot plan this movement).
+/// Makes plan and gains once for all subjects of an experiment. Devices are a layer above the study, so the caller provides this function.
+/// `device`: "simulated:KEY=VALUE,…". Throws FaultError, RefusedError (the subject cannot plan this movement).
 using PrepareSubjects = std::function<SubjectHands(const std::string& device, const experiment::CompiledExperiment& experiment)>;
 
 }  // namespace reachlab::study

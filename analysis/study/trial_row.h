@@ -8,7 +8,7 @@
 
 namespace reachlab::study {
 
-/// All that is known of one trial when it is entered into the table.
+/// The values of one trial that are entered into the table.
 struct MeasuredTrial {
   record::RecordedTrial recorded;
   analysis::TrialMeasures measures;                 // with Needs::samples

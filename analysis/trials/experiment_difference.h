@@ -6,8 +6,8 @@
 
 namespace reachlab::analysis {
 
-/// What `other` has and `first` has not, in words with unit, in the order of an experiment file: "duration 1.5 s", "masses 5 x 0.6 kg",
-/// "no coupling". Empty when they ask the same, however their files are written.
+/// The values of `other` that differ from `first`, as texts with unit, in the order of an experiment file. Examples are "duration 1.5 s",
+/// "masses 5 x 0.6 kg" and "no coupling". Empty for equal experiments, however their files are written.
 std::vector<std::string> differences(const experiment::Experiment& first, const experiment::Experiment& other);
 
 }  // namespace reachlab::analysis

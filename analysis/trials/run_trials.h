@@ -9,7 +9,7 @@
 
 namespace reachlab::analysis {
 
-/// Turns the rows of one run into trials as the analysis takes them. A value; any thread.
+/// Turns the rows of one run into trials as the analysis takes them. A value, for any thread.
 class RunTrials {
  public:
   /// `every`: ticks between two rows.
@@ -17,12 +17,12 @@ class RunTrials {
 
   /// Gives the rows between two ticks, both included.
   using RowsBetween = std::function<record::SampleRows(std::uint64_t first, std::uint64_t last)>;
-  /// The trial from its arming to its end, without key and practice. What the hand does after the trial, or where it is put for the next
-  /// one, is no part of the movement.
+  /// The trial from its arming to its end, without key and practice. The movement ends with the trial: a later
+  /// motion of the hand is no part of it.
   TrialData read(const record::RecordedTrial& recorded, const RowsBetween& rowsOf) const;
 
  private:
-  struct Columns {  // where they stand in the table
+  struct Columns {  // their positions in the table
     std::size_t hand = 0, force = 0, object = 0, velocity = 0;
     std::size_t parameter = 0;  // of mass 1, on curves
   };

@@ -8,11 +8,11 @@
 
 namespace reachlab::analysis {
 
-/// Numbers put aside, row by row: in memory while they are few, in a nameless temporary file beyond, so that memory does not grow with the
-/// number of trials. One thread at a time.
+/// Keeps numbers row by row. A few stay in memory, and more go to a nameless temporary file. So memory does not grow with the number of
+/// trials. One thread at a time.
 class SignalStore {
  public:
-  /// Where a row is; as small as a handle should be.
+  /// The position of a row.
   struct Row {
     std::size_t place = 0;
     std::uint32_t size = 0;

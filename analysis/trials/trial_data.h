@@ -11,14 +11,14 @@ namespace reachlab::analysis {
 
 inline constexpr double kNotMeasured = std::numeric_limits<double>::quiet_NaN();
 
-/// Who did it, when, and in which series.
+/// The subject, the session and the series of a trial.
 struct TrialKey {
   std::string subject, session, condition;
   int day = 0;  // from the plan, else the session's place among the subject's sessions, from 1
   int run = 0, block = 0, trial = 0;
 };
 
-/// One recorded trial as plain arrays, evenly sampled from arming to its end; sample i is at first + i / rate after arming. Nothing is
+/// One recorded trial as plain arrays, evenly sampled from arming to its end. Sample i is at first + i / rate after arming. Nothing is
 /// filtered.
 struct TrialData {
   TrialKey key;
@@ -33,10 +33,11 @@ struct TrialData {
   std::vector<Vec3> objectVelocity;                           // [m/s] of the simulation
   std::vector<double> force;                                  // [N] coupling force on the object
   double peakForce = kNotMeasured, meanForce = kNotMeasured;  // [N] over every tick, where the log has them
-  /// Direction of the path: one for a straight task, one a sample on a curve, none where only speed makes sense (a surface).
+  /// Direction of the path: a single vector for a straight task, a vector per sample on a curve, empty on a surface (only speed is
+  /// defined).
   std::vector<Vec3> along;
   bool closed = false;  // the path is a closed curve
-  // What a person marked beside the recording (record/trial_marks.h).
+  // The experimenter's marks beside the recording (record/trial_marks.h).
   std::string excluded;                                            // why the trial is not to count; empty: it counts
   double markedOnset = kNotMeasured, markedOffset = kNotMeasured;  // [s] of the movement, in place of the rule's
   Vec3 start, target;                                              // [m] of the object
