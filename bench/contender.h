@@ -13,7 +13,7 @@ namespace reachlab::bench {
 
 inline constexpr int kTicksPerSample = 10;  // errors are taken at 100 Hz
 
-/// What one run of a scene gave. Rows are laid out as in Reference; empty unless asked for.
+/// The result of one run of a scene. The rows have the layout of Reference and are empty unless the caller asked for them.
 struct Trajectory {
   std::vector<double> states, positions;
   std::uint64_t steps = 0, rhsEvaluations = 0;
@@ -21,17 +21,18 @@ struct Trajectory {
   std::string failure;          // empty: reached the end
 };
 
-/// One way to compute one scene: a method of ours, a library, or a form written for this scene alone.
+/// One method of computing one scene: a method of ours, a library, or a form that was written for this scene alone.
 struct Contender {
   std::string method;
   double step = kTickSeconds;  // [s]
-  double tolerance = 0;        // 0: the method has none
-  std::string form;            // what was chosen, in words
+  double tolerance = 0;        // 0: the method has no tolerance
+  std::string form;            // the chosen form of the equations
   /// Computes the whole reach from the start with a result every millisecond. `out` null: only the time matters.
   std::function<void(Trajectory* out)> run;
 };
 
-/// The hand of every step of the scene, prepared: what the haptic loop gives a plant. The same for every contender and never timed.
+/// The hand of every step of the scene, prepared as the haptic loop gives it to a plant. It is the same for every contender and is never
+/// timed.
 using Segments = std::shared_ptr<const std::vector<dynamics::HandSegment>>;
 Segments makeSegments(const BenchScene& scene, double step);
 

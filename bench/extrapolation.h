@@ -8,9 +8,9 @@
 
 namespace reachlab::bench {
 
-/// Integrates y' = f(t, y) with the extrapolated midpoint rule (Gragg 1965; Bulirsch & Stoer 1966; step numbers 2, 4, 6 … after
-/// Hairer, Norsett & Wanner, Solving ODEs I, II.9) in the arithmetic of T. For references: slow, of order 2·columns, and sure of itself:
-/// a step counts once its last two extrapolations differ by less than `tolerance` times the largest |y| so far.
+/// Integrates y' = f(t, y) with the extrapolated midpoint rule, in the arithmetic of T (Gragg 1965; Bulirsch & Stoer 1966). The step
+/// numbers 2, 4, 6 … follow Hairer, Norsett & Wanner, Solving ODEs I, II.9. The method makes references: it is slow, of order 2·columns,
+/// and checks itself. A step counts once its last two extrapolations differ by less than `tolerance` times the largest |y| so far.
 template <class T, class Rate>
 class Extrapolation {
  public:
@@ -18,7 +18,7 @@ class Extrapolation {
       : rate_(std::move(rate)), size_(size), columns_(columns), tolerance_(tolerance), slope_(size), previous_(size), current_(size),
         inner_(size), table_(columns, std::vector<T>(size)), result_(size) {}
 
-  /// From t to `end`; y is updated. The step length is remembered between calls.
+  /// From t to `end`. Updates y and remembers the step length for the next call.
   void advance(T t, const T& end, std::vector<T>& y) {
     while (t < end) {
       if (step_ <= 0) step_ = end - t;
@@ -39,7 +39,7 @@ class Extrapolation {
   }
 
  private:
-  // Number of columns used, 0 if even all of them were not enough.
+  // The number of columns used. 0 if all of them were not enough.
   int tryStep(const T& t, const T& h, const std::vector<T>& y) {
     rate_(t, y.data(), slope_.data());
     for (int j = 0; j < columns_; ++j) {

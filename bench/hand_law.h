@@ -6,7 +6,8 @@
 
 namespace reachlab::bench {
 
-/// The hand of a scene as a function of time: minimum jerk from 0 to 1 over `duration`, along a chord or along a curve's parameter.
+/// The hand of a scene as a function of time. It is a minimum jerk from 0 to 1 over `duration`, along a chord or along the parameter of a
+/// curve.
 struct HandLaw {
   enum class Kind { None, Straight, Ellipse, Epitrochoid };
   Kind kind = Kind::None;
@@ -35,8 +36,8 @@ void evaluate(const HandLaw& law, const T& t, T* r, T* v) {
   for (int i = 0; i < 3; ++i) v[i] = d[i] * (law.sweep * rate);
 }
 
-/// The law over [t0, t0 + dt] within [0, T] as the polynomial that a plant is driven with: its Taylor series, cut where the rest is below
-/// rounding (5th degree is exact for a chord).
+/// The law over [t0, t0 + dt] within [0, T] as the polynomial that drives a plant. It is the Taylor series, cut where the rest is below
+/// rounding. Degree 5 is exact for a chord.
 dynamics::HandSegment makeSegment(const HandLaw& law, double t0, double dt);
 
 dynamics::HandSample makeSample(const HandLaw& law, double t);

@@ -3,7 +3,7 @@
 
 namespace reachlab::bench {
 
-/// One row of the bench: a contender, its error against the reference, and its price.
+/// One row of the bench: a contender, its error against the reference, and its computation time.
 struct Row {
   std::string scene, method, form;
   double step = 0, tolerance = 0;
@@ -11,7 +11,7 @@ struct Row {
   double nsPerMs = 0;            // processor time per simulated millisecond, median of the rounds
   double nsLow = 0, nsHigh = 0;  // quarter and three-quarter points of the rounds
   std::uint64_t steps = 0, rhsEvaluations = 0, worstTick = 0;
-  std::string failure;  // why it did not; empty if it did
+  std::string failure;  // why it did not reach the end; empty if it did
 };
 
 struct Effort {
@@ -19,12 +19,12 @@ struct Effort {
   double secondsPerRound = 2e-3;  // a round repeats the reach until it has taken this long
 };
 
-/// Errors at 100 Hz, then the times, all contenders of a scene in turn, round after round, so that what else the machine does falls on
-/// all of them. Processor time of this thread.
+/// Measures the errors at 100 Hz, then the processor time of this thread. The contenders of a scene take turns, round after round, so that
+/// other work of the machine slows all of them.
 std::vector<Row> measure(const BenchScene& scene, const Reference& reference, const std::vector<Contender>& contenders,
                          const Effort& effort);
 
-/// Largest difference of a trajectory from the reference; NaN where it holds NaN or ended early.
+/// Largest difference of a trajectory from the reference. NaN where the trajectory holds NaN or ended early.
 Deviation computeError(const Trajectory& trajectory, const Reference& reference);
 
 }  // namespace reachlab::bench

@@ -5,8 +5,8 @@
 
 namespace reachlab::bench {
 
-/// A hand-written right-hand side with its hand: only the axes and the degree that the scene uses are evaluated. Time counts from the
-/// beginning of the current tick.
+/// A hand-written right-hand side with its hand. Only the axes and the degree that the scene uses are evaluated. Time counts from the start
+/// of the current tick.
 template <class System>
 struct PeerSystem {
   static constexpr int kStates = 2 * System::kCoordinates;
@@ -42,7 +42,7 @@ struct PeerSystem {
   }
 };
 
-/// The scene's initial numbers, as the right-hand side counts them.
+/// The initial numbers of the scene, in the coordinates of the right-hand side.
 template <class System>
 void setInitialState(const BenchScene& scene, double* y) {
   constexpr int n = System::kCoordinates, perMass = n / System::kMasses;
@@ -53,7 +53,7 @@ void setInitialState(const BenchScene& scene, double* y) {
   }
 }
 
-/// Appends the state (past a pole: position and velocity in the world) and the positions.
+/// Appends the state and the positions. Past a pole the state is position and velocity in the world.
 template <class System>
 void appendSample(const System& system, const double* y, Trajectory& out) {
   std::vector<double> r(3 * System::kMasses);
@@ -68,7 +68,7 @@ void appendSample(const System& system, const double* y, Trajectory& out) {
   out.positions.insert(out.positions.end(), r.begin(), r.end());
 }
 
-/// Drives `tick(segment index)` through a reach and takes samples; `tick` returns false when it gave up. `y` points to the state.
+/// Drives `tick(segment index)` through a reach and takes samples. `tick` returns false when it gave up. `y` points to the state.
 template <class System, class Tick>
 void runReach(PeerSystem<System>& peer, const std::vector<dynamics::HandSegment>& segments, const double* y, Trajectory* out, Tick tick) {
   peer.evaluations = 0;

@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 
-/// Arithmetic of references: 113-bit numbers (34 decimal digits), with the two functions that the scenes need. Kept apart from the
-/// simulator, so that a reference shares nothing with what it judges.
+/// Arithmetic of references: 113-bit numbers (34 decimal digits) with the two functions that the scenes need. It is separate from the
+/// simulator, so that a reference shares no code with the results that it judges.
 namespace reachlab::bench {
 
 #ifdef __SIZEOF_FLOAT128__
@@ -19,7 +19,7 @@ struct SineCosine {
 
 inline SineCosine<double> sineCosine(double x) { return {std::sin(x), std::cos(x)}; }
 
-/// Reduction by multiples of pi/2 (three doubles carry it to 1e-49), then the series; |x| < 1e6. Error below 1e-33.
+/// Reduces x by multiples of pi/2 (three doubles carry it to 1e-49) and sums the series. |x| < 1e6, error below 1e-33.
 inline SineCosine<Quad> sineCosine(Quad x) {
   const double turns = std::nearbyint(static_cast<double>(x) / 1.5707963267948966);
   const Quad n = turns;
@@ -49,7 +49,7 @@ inline SineCosine<Quad> sineCosine(Quad x) {
 inline double absolute(double x) { return std::abs(x); }
 inline Quad absolute(Quad x) { return x < 0 ? -x : x; }
 
-/// Newton from the double's root; two rounds reach 113 bits.
+/// Newton's method from the double's root. Two rounds reach 113 bits.
 inline double squareRoot(double x) { return std::sqrt(x); }
 inline Quad squareRoot(Quad x) {
   if (!(x > 0)) return 0;

@@ -8,8 +8,8 @@ namespace reachlab::bench {
 
 inline constexpr double kSampleEvery = 0.01;  // [s] errors are taken at these times
 
-/// A scene's true motion at 0, 0.01, 0.02 … s. A row of `states` holds all generalised coordinates, then their rates (on a line: metres
-/// from the start, m/s; past a pole: x, y, z and their rates); a row of `positions` holds x, y, z of every mass.
+/// The true motion of a scene at 0, 0.01, 0.02 … s. A row of `states` holds all generalised coordinates, then their rates. On a line these
+/// are metres from the start and m/s, past a pole x, y, z and their rates. A row of `positions` holds x, y, z of every mass.
 struct Reference {
   int stateSize = 0, massCount = 0, samples = 0;
   std::vector<Quad> states, positions;
@@ -20,13 +20,14 @@ struct ReferenceSettings {
   double tolerance = 1e-29;  // of a step, relative to the largest state
 };
 
-/// A scene's reference by the quickest sure way: the great circle, the chain's modes, the matrix exponential, or extrapolation. Well over
-/// 20 digits each; shares nothing with sim/dynamics. Under a second.
+/// The reference of a scene by its quickest reliable method: the great circle, the modes of the chain, the matrix exponential, or
+/// extrapolation. It has well over 20 digits, shares no code with sim/dynamics, and takes less than a second.
 Reference computeReference(const BenchScene& scene);
-/// Any scene but the geodesics, from its hand-written right-hand side in 113-bit arithmetic by extrapolation. Minutes for S1b500.
+/// Any scene except the geodesics, from its hand-written right-hand side in 113-bit arithmetic by extrapolation. It takes minutes for
+/// S1b500.
 Reference extrapolatedReference(const BenchScene& scene, const ReferenceSettings& settings = {});
 
-/// Largest differences of two references: states, and positions [m].
+/// Largest differences of two references in the states and in the positions [m].
 struct Deviation {
   double state = 0, position = 0;
 };

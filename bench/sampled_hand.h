@@ -5,9 +5,9 @@
 
 namespace reachlab::bench {
 
-/// What it costs that the hand comes as samples once a millisecond: the largest position error [m] at 100 Hz against the reference of
-/// the true hand. The path goes through the newest `samples` positions (1: held for the step, 2: line, 3: parabola, 4: cubic) and its
-/// velocity is that of the same polynomial at the newest sample, so nothing but positions is measured.
+/// The cost of a hand that comes as samples once a millisecond: the largest position error [m] at 100 Hz against the reference of the true
+/// hand. The path goes through the newest `samples` positions (1: held for the step, 2: line, 3: parabola, 4: cubic). Its velocity is that
+/// of the same polynomial at the newest sample, so that only positions are measured.
 struct SampledRow {
   std::string scene, method;
   int samples = 4;
@@ -19,7 +19,7 @@ struct SampledRow {
 inline constexpr double kNoise = 10e-6;    // [m]
 inline constexpr double kQuantum = 60e-6;  // [m]
 
-/// S1, S2a, S3, S6 by every method that accepts the scene. Seeded: the same rows every time.
+/// S1, S2a, S3 and S6 by every method that accepts the scene. The noise has a fixed seed, so the rows are the same every time.
 std::vector<SampledRow> measureSampledHand(const std::function<void(const std::string&)>& progress);
 std::string formatSampledHand(const std::vector<SampledRow>& rows);
 

@@ -5,9 +5,9 @@
 
 #include "bench/quad.h"
 
-/// The scenes' right-hand sides written out by hand, in any arithmetic: in Quad they give the references, in double they are what a
-/// library's user would hand to odeint or CVODE. Deliberately independent of sim/dynamics. Units SI; y holds all coordinates, then all
-/// their rates. `r`, `v` are the hand's position and velocity in the world.
+/// The right-hand sides of the scenes, written by hand, in any arithmetic. In Quad they give the references. In double they are the
+/// functions that a user of a library would hand to odeint or CVODE. They are deliberately independent of sim/dynamics. SI units. y holds
+/// all coordinates, then all their rates. `r` and `v` are the position and the velocity of the hand in the world.
 namespace reachlab::bench {
 
 /// (0, a cos phi, b sin phi).
@@ -81,7 +81,7 @@ struct SphereShape {
     ruv[0] = -rv[1], ruv[1] = rv[0], ruv[2] = 0;
     rvv[0] = -r[0], rvv[1] = -r[1], rvv[2] = -r[2];
   }
-  /// Place and velocity in the world of the numbers u, v and their rates.
+  /// Position and velocity in the world for the numbers u, v and their rates.
   template <class T>
   void placeAndVelocity(const T& u, const T& v, const T& du, const T& dv, T* r, T* velocity) const {
     T ru[3], rv[3], ruu[3], ruv[3], rvv[3];
@@ -95,14 +95,14 @@ T dot3(const T* a, const T* b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
-/// 1/x as far as T carries it; a double was divided beforehand, as one would by hand.
+/// 1/x to the digits of T. A double is divided beforehand, as in code written by hand.
 template <class T>
 T inverseOf([[maybe_unused]] double x, [[maybe_unused]] double inverse) {
   if constexpr (std::is_same_v<T, double>) return inverse;
   else return T(1) / x;
 }
 
-/// Chain of N equal masses on the x axis; coordinates are displacements from x0 [m]. The hand pulls mass 1.
+/// Chain of N equal masses on the x axis. The coordinates are displacements from x0 [m]. The hand pulls mass 1.
 template <int N>
 struct LineChain {
   static constexpr int kCoordinates = N, kMasses = N, kHandDegree = 5;
@@ -131,7 +131,7 @@ struct LineChain {
   }
 };
 
-/// Two masses on the x axis, each tied to the hand by its own spring.
+/// Two masses on the x axis, each held by the hand through a separate spring.
 struct LineParallel {
   static constexpr int kCoordinates = 2, kMasses = 2, kHandDegree = 5;
   static constexpr unsigned kHandAxes = 1;
@@ -215,7 +215,7 @@ struct SurfaceBead {
   }
 };
 
-/// A chain of N equal masses on a curve; springs run straight through space.
+/// A chain of N equal masses on a curve. The springs run straight through space.
 template <class Shape, int N, unsigned Axes>
 struct CurveChain {
   static constexpr int kCoordinates = N, kMasses = N, kHandDegree = 7;

@@ -7,7 +7,7 @@
 
 namespace reachlab::bench {
 
-/// Calls f(system) with the hand-written right-hand side of the scene, its numbers taken from the scene's experiment.
+/// Calls f(system) with the hand-written right-hand side of the scene. Its numbers are those of the experiment of the scene.
 template <class F>
 auto visitSystem(const BenchScene& scene, F&& f) {
   const experiment::Object& o = scene.experiment.object;

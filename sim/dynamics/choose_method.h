@@ -4,7 +4,7 @@
 
 namespace reachlab::dynamics {
 
-/// What the choice of a method looks at.
+/// Properties of a scene on which the choice of a method depends.
 struct SceneFacts {
   bool linear = false;
   bool elasticEnds = false;  // a straight line whose ends throw the masses back
@@ -14,8 +14,8 @@ struct SceneFacts {
   double duration = 1.35;    // [s]
 };
 
-/// Fills method, reason, fastestMode, predictedError and warnings for `asked` (auto or a method's name). Throws RefusedError with
-/// the numbers and a remedy when the method asked for is unstable, or cannot do the scene.
+/// Fills method, reason, fastestMode, predictedError and warnings for `asked` (auto or the name of a method). Throws RefusedError with the
+/// numbers and a remedy when the requested method is unstable or cannot compute the scene.
 MethodChoice chooseMethod(const std::string& asked, const ObjectModel& model, const SceneFacts& facts);
 
 }  // namespace reachlab::dynamics

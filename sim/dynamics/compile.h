@@ -20,13 +20,13 @@ struct MethodRequest {
   double tolerance = 0;  // 0: default
 };
 
-// The ways a scene can be computed, one function and one file each: the templates behind them are instantiated there only.
+// The forms in which a scene can be computed, one function and one file per form. Only that file instantiates the templates behind it.
 
 std::unique_ptr<Plant> makeExactPlant(const ObjectModel& model, const LinearSpace& space, double dt);
 std::unique_ptr<Plant> makeLinePlant(const ObjectModel& model, const LinearSpace& space, const MethodRequest& request);
 std::unique_ptr<Plant> makeFreePlant(const ObjectModel& model, const MethodRequest& request);
 std::unique_ptr<Plant> makeBodyPlant(const ObjectModel& model, const experiment::Object& object, const MethodRequest& request);
-/// Of a curve's equations: `tangential` is the speed along the curve as velocity, for curves that are hard somewhere.
+/// Choices for the equations of a curve. `tangential` takes the speed along the curve as velocity, for curves that are hard somewhere.
 struct CurveForm {
   bool tangential = false;
   double largestSpeed = 1;  // [m] |r_phi|
@@ -44,7 +44,7 @@ std::unique_ptr<Plant> makeChartPlant(const ObjectModel& model, const constraint
 std::unique_ptr<Plant> makeQuadricPlant(const ObjectModel& model, const constraints::Constraint& constraint, const Quadric& quadric,
                                         bool edges, const MethodRequest& request);
 
-/// A straight scene's space: the line's axis, or free space when `constraint` is Free.
+/// The space of a straight scene: the axis of the line, or free space when `constraint` is Free.
 LinearSpace linearSpace(const constraints::Constraint& constraint);
 
 }  // namespace reachlab::dynamics

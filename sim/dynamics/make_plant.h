@@ -10,7 +10,7 @@
 
 namespace reachlab::dynamics {
 
-/// The method's name to its type, for one system.
+/// Maps the name of the method to its type, for one system.
 template <class System>
 std::unique_ptr<Plant> makePlant(const ObjectModel& model, const System& system, const MethodRequest& request) {
   if (request.method == "rk4") return std::make_unique<SystemPlant<System, Rk4>>(model, system, request.tolerance);

@@ -4,7 +4,7 @@
 
 namespace reachlab::dynamics {
 
-/// What `method: auto` chose and why; shown before the trial and stored in the recording.
+/// The method that `method: auto` chose, and the reason. The program shows it before the trial and stores it in the recording.
 struct MethodChoice {
   std::string method;         // rk4 | exact | abm | adaptive | stiff
   std::string form;           // "line, 10 states" / "curve in phi" / "surface in ambient coordinates" …

@@ -6,10 +6,10 @@
 
 namespace reachlab::dynamics {
 
-/// What RK4 with `step` [s] errs in position over the reach itself: the plant is driven along the chord from start to target by a minimum-jerk
-/// hand twice, with the step and with half of it, and the largest distance between any mass's two places, times 16/15 (order 4), is the
-/// estimate [m]. A reach that ends early counts up to there; nothing where start and target are one place. Leaves the plant at rest at the start.
-/// Allocates; not for a tick.
+/// The position error [m] of RK4 with `step` [s] over the reach. A minimum-jerk hand drives the plant along the chord from start to target
+/// twice, with the step and with half of it. The estimate is the largest distance between the two positions of any mass, times 16/15 (order
+/// 4). A reach that ends early counts up to its end. Returns no value where start and target coincide. Leaves the plant at rest at the
+/// start. Allocates and is not for a tick.
 std::optional<double> measureRk4Error(Plant& plant, const experiment::Task& task, const constraints::Constraint& constraint, double step);
 
 }  // namespace reachlab::dynamics

@@ -28,11 +28,11 @@ struct Scene {
   std::shared_ptr<const constraints::Constraint> constraint;
 };
 
-/// Compiles the experiment. Throws RefusedError (method unstable here, singular start …) with numbers and a remedy.
+/// Compiles the experiment. Throws RefusedError (unstable method, singular start …) with numbers and a remedy.
 Scene compileScene(const experiment::Experiment& experiment, const SceneOptions& options = {});
-/// The same for an experiment that is valid, with the constraint it has already.
+/// The same for a valid experiment whose constraint has been made already.
 Scene compileScene(const experiment::CompiledExperiment& experiment, const SceneOptions& options = {});
-/// The same for an experiment that was changed but for its constraint.
+/// The same for an experiment that was changed, except for its constraint.
 Scene compileScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const SceneOptions& options = {});
 
 }  // namespace reachlab::dynamics

@@ -9,7 +9,7 @@
 
 namespace reachlab::dynamics {
 
-/// A System stepped by a Method: the plant of every scene that has no exact propagator, or for which another method was asked.
+/// A System stepped by a Method: the plant of every scene without an exact propagator, or with another requested method.
 template <ObjectSystem System, template <class> class Method>
 class SystemPlant : public PlantBase {
  public:
@@ -100,7 +100,7 @@ class SystemPlant : public PlantBase {
     return false;
   }
 
-  /// The part of the tick after which every mass is still on the constraint, and the state then; at an elastic end the rest of the tick
+  /// The part of the tick with every mass still on the constraint, and the state at its end. At an elastic end the rest of the tick
   /// follows.
   StepStatus meetEnds(const HandSegment& hand, double dt, StepStatus status, StepReport& report) noexcept {
     const State before = now();
@@ -112,7 +112,7 @@ class SystemPlant : public PlantBase {
     State at = before;
     double begun = 0;
     HandSegment rest = hand;
-    // A step over an end that is a cusp is known only to the method; the locator comes up to it.
+    // Only the method knows a step over an end that is a cusp. The locator comes up to the cusp.
     const bool seen = status == StepStatus::Ok && !system_.inside(next());
     for (bool first = true; report.rhs < kMaxRhsPerTick; first = false) {
       typename Adaptive<System>::Meeting meeting{false, 1, now()};
@@ -136,7 +136,7 @@ class SystemPlant : public PlantBase {
         at = now();  // masses that passed, and a place at which the formula has a limit, stay
       }
       system_.meetEnd(meeting.beyond, now(), system_.bounces());
-      // Where an end is degenerate (a cusp, a collapsed line) the parameters hold no velocity: it stops just before, elastic or not.
+      // Where an end is degenerate (a cusp, a collapsed line) the parameters hold no velocity. The mass stops just before, elastic or not.
       const bool degenerate = !sameSpeed(at, now()) || !hasRates(rest, now());
       if (degenerate) now() = at;
       if (degenerate || !system_.bounces()) {
@@ -177,11 +177,11 @@ class SystemPlant : public PlantBase {
     return true;
   }
 
-  static constexpr double kTypicalPlace = 0.1;  // [m] the scale of a place, in which a method states its error
+  static constexpr double kTypicalPlace = 0.1;  // [m] the unit of position in which a method states its error
 
   Method<System> method_;
   Adaptive<System> locator_;
-  std::array<State, 2> states_;  // now and after the step, by turns: nothing is copied
+  std::array<State, 2> states_;  // now and after the step, by turns, without copies
   int current_ = 0;
   double error_ = 0;
   StepStatus stopped_ = StepStatus::Ok;

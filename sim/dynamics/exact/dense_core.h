@@ -9,7 +9,8 @@
 
 namespace reachlab::dynamics {
 
-/// One exact step of a chain by its propagator: 2N columns, all sizes known to the compiler (N = 0: known when compiled).
+/// One exact step of a chain by its propagator of 2N columns. All sizes are known to the compiler, except that N = 0 is known when the
+/// scene is compiled.
 template <int N>
 class DenseCore {
  public:
@@ -45,7 +46,7 @@ class DenseCore {
     }
   }
 
-  /// `next` must not be `state`. False if the result is not finite.
+  /// `next` must not be `state`. Returns false if the result is not finite.
   bool advance(const State& state, const AxisHand& hand, State& next) const noexcept {
     return withDegree(hand.degree, [&](auto degree) { return advance<degree.value>(state, hand, next); });
   }

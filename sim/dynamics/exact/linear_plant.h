@@ -11,8 +11,8 @@
 
 namespace reachlab::dynamics {
 
-/// Linear scenes, stepped exactly by `Core` (DenseCore or OscillatorCore): the state is that of the differential equation at each tick to
-/// rounding, for any stiffness and damping and any polynomial hand.
+/// Linear scenes, stepped exactly by `Core` (DenseCore or OscillatorCore). At each tick the state is that of the differential equation to
+/// rounding, for any stiffness, damping and polynomial hand.
 template <class Core, int Axes>
 class LinearPlant final : public PlantBase, public EndMasses {
  public:
@@ -74,7 +74,7 @@ class LinearPlant final : public PlantBase, public EndMasses {
       if (!core.advance(state()[a], axisHand, next()[a])) return StepStatus::NotFinite;
     }
     if (bounded_ && leaves()) return StepStatus::AtEnd;
-    now_ = 1 - now_;  // swapped vectors would be read wider than they were written, and waited for
+    now_ = 1 - now_;  // a read of swapped vectors is wider than the write, and waits for it
     return StepStatus::Ok;
   }
   bool needsHandVelocity() const noexcept override {
@@ -104,7 +104,7 @@ class LinearPlant final : public PlantBase, public EndMasses {
     MassState first;
     for (int a = 0; a < Axes; ++a) put(a, endsAlong(a).x[0], endsAlong(a).v[0], first);
     Vec3 force;
-    force += handForce(model_, {hand, coupled_, extra_}, first, 0);  // as the sum over many, for the sign of -0
+    force += handForce(model_, {hand, coupled_, extra_}, first, 0);  // as the sum over many masses, for the sign of -0
     return force;
   }
   std::string stopReason() const override { return fraction_ < 1 ? "a mass reached the end of the line's domain" : std::string(); }
@@ -127,12 +127,13 @@ class LinearPlant final : public PlantBase, public EndMasses {
   }
   using Coefficients = std::array<Vec3, HandSegment::kMaxDegree + 1>;
   static const double* component(const Coefficients& c, int a) noexcept { return a == 0 ? &c[0].x : a == 1 ? &c[0].y : &c[0].z; }
-  // This and selectStep are calls, so that the usual step needs neither their registers nor their room on the stack.
+  // This function and selectStep are calls, so that the usual step needs neither their registers nor their stack.
   [[gnu::noinline]] const double* project(const Coefficients& c, int degree, double* out) const noexcept {
     for (int k = 0; k <= degree; ++k) out[k * AxisHand::kStride] = dot(c[k], axis_);
     return out;
   }
-  /// Another step than the compiled one (the last row of a simulation): computed once and kept. Allocates; a haptic loop never does it.
+  /// A step other than the compiled one, for the last row of a simulation. It is computed once and kept. Allocates, so a haptic loop never
+  /// does it.
   [[gnu::noinline]] void selectStep(double dt) noexcept {
     for (const auto& cores : cores_)
       if (cores->dt == dt) {
@@ -155,12 +156,12 @@ class LinearPlant final : public PlantBase, public EndMasses {
       (a == 0 ? mass.v.x : a == 1 ? mass.v.y : mass.v.z) = v;
     }
   }
-  /// Two masses cost less than all.
+  /// Reading two masses costs less than reading all.
   bool readsEnds() const noexcept {
     if constexpr (requires { core().hasEnds(); }) return !fresh_ && core().hasEnds();
     return false;
   }
-  /// Of masses 1 and N now, read once a step; only where readsEnds().
+  /// Positions and velocities of masses 1 and N now, read once per step. Only where readsEnds().
   const EndPlaces& endsAlong(int a) const noexcept {
     if constexpr (requires { core().readEnds(state()[0]); })
       for (int b = 0; b < Axes && !freshEnds_; ++b) ends_[b] = core().readEnds(state()[b]);
@@ -175,8 +176,8 @@ class LinearPlant final : public PlantBase, public EndMasses {
     }
   }
 
-  /// True if a mass is beyond an end after the step; then the state is put where the first mass meets it (cubic through both ends of
-  /// the step, error dt^4 x''''/384).
+  /// True if a mass is beyond an end after the step. The state then becomes that at which the first mass meets the end. It follows a cubic
+  /// through both ends of the step with error dt^4 x''''/384.
   bool leaves() noexcept {
     const int n = model_.count();
     std::vector<double>&x1 = x_, &v1 = v_;
@@ -221,12 +222,12 @@ class LinearPlant final : public PlantBase, public EndMasses {
   std::array<std::array<double, AxisHand::kStride * kForceTerms>, 2> projected_{};  // scratch: the hand along a slanted line
   std::vector<std::unique_ptr<Cores>> cores_;
   Cores* current_ = nullptr;
-  std::array<std::vector<typename Core::State>, 2> states_;  // now and after the step, by turns; one an axis
+  std::array<std::vector<typename Core::State>, 2> states_;  // now and after the step, by turns, one for each axis
   int now_ = 0;
   mutable std::vector<double> x_, v_;  // scratch
-  mutable bool fresh_ = false;         // one axis: the masses' places now, read once a step (N^2 from modes)
+  mutable bool fresh_ = false;         // one axis: positions of the masses now, read once per step (N^2 from modes)
   mutable std::array<EndPlaces, Axes> ends_{};
-  mutable bool freshEnds_ = false;  // `ends_` is of now
+  mutable bool freshEnds_ = false;  // `ends_` belongs to the current state
 };
 
 }  // namespace reachlab::dynamics

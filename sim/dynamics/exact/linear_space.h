@@ -4,7 +4,7 @@
 
 namespace reachlab::dynamics {
 
-/// Where a linear object lives: one axis of a straight line r(phi) = origin + phi * tangent, or the three axes of free space.
+/// The space of a linear object: one axis of a straight line r(phi) = origin + phi * tangent, or the three axes of free space.
 struct LinearSpace {
   int axes = 1;
   Vec3 origin;                 // [m] r(0)

@@ -10,8 +10,8 @@
 
 namespace reachlab::dynamics {
 
-/// Independent oscillators e_j'' + c_j e_j' + w_j^2 e_j = g_j f, four at a time, each by its own exact propagator. A parallel object is
-/// one as it stands; a chain is one in its modes, where N masses cost O(N) a step.
+/// Independent oscillators e_j'' + c_j e_j' + w_j^2 e_j = g_j f, four at a time, each by its exact propagator. A parallel object consists
+/// of such oscillators. The modes of a chain are oscillators too, and N masses then cost O(N) per step.
 class OscillatorCore {
  public:
   static constexpr int kLanes = 4;
@@ -20,16 +20,16 @@ class OscillatorCore {
     std::vector<Lanes> x, v;
   };
 
-  /// Parallel objects, or chains whose damping the modes diagonalise (canBeModal).
+  /// Parallel objects, or chains with damping that the modes diagonalise (canBeModal).
   OscillatorCore(const ObjectModel& model, bool coupled, double dt);
 
   State makeState() const;
   void place(State& state, std::span<const double> x, std::span<const double> v) const noexcept;
   void read(const State& state, std::span<double> x, std::span<double> v) const noexcept;
-  /// Masses 1 and N alone, in the bits of read(), by O(N); only where hasEnds().
+  /// Masses 1 and N alone, in O(N), with the bits of read(). Only where hasEnds().
   bool hasEnds() const noexcept { return !endShapes_.empty(); }
   EndPlaces readEnds(const State& state) const noexcept;
-  /// `next` must not be `state`. False if the result is not finite.
+  /// `next` must not be `state`. Returns false if the result is not finite.
   bool advance(const State& state, const AxisHand& hand, State& next) const noexcept;
 
  private:
@@ -44,15 +44,15 @@ class OscillatorCore {
     std::array<Lanes, kForceTerms> handX{}, handV{};  // by position coefficients
     std::array<Lanes, kForceTerms> rateX{}, rateV{};  // by velocity coefficients
   };
-  /// A chain without damping, extra force or gravity. About the place where it would follow the hand's polynomial h for ever,
-  /// p = rest (h - h2/w^2 + h4/w^4) with h2, h4 the second and fourth derivative of h, each mode turns freely. A third of a Group's
-  /// numbers, so that 500 modes stay near the processor.
+  /// A chain without damping, extra force or gravity. Each mode turns freely about the position p at which it would follow the polynomial h
+  /// of the hand for ever. There p = rest (h - h2/w^2 + h4/w^4), with h2 and h4 the second and fourth derivative of h. A third of the
+  /// numbers of a Group, so that 500 modes remain in the cache.
   struct FreeGroup {
     Lanes turn, vx, xv;  // cos(w dt) - 1, -w sin(w dt), sin(w dt)/w
     Lanes rest, period;  // period: 1/w^2 [s^2]
   };
-  static constexpr int kFewestFree = 128;   // masses: fewer fit as they are
-  static constexpr int kFewestEnds = 3;     // masses: fewer have nothing between
+  static constexpr int kFewestFree = 128;   // masses: fewer fit into the cache as Groups
+  static constexpr int kFewestEnds = 3;     // masses: fewer have no masses between the ends
   static constexpr int kFreeDegree = 5;     // of the hand's polynomial
   static constexpr double kSlowest = 3e-4;  // w dt below which 1/w^2 would magnify rounding
   bool advanceFree(const State& state, const AxisHand& hand, State& next) const noexcept;
@@ -66,7 +66,8 @@ class OscillatorCore {
   std::vector<std::array<double, 2>> endShapes_;  // toMasses_, rows 1 and N, mode by mode; empty for few masses
 };
 
-/// True if K's modes diagonalise the damping to rounding (none, viscosity on equal masses, damping proportional to stiffness).
+/// True if the modes of K diagonalise the damping to rounding. This holds without damping, for viscosity on equal masses, and for damping
+/// proportional to stiffness.
 bool canBeModal(const ObjectModel& model);
 
 }  // namespace reachlab::dynamics

@@ -6,7 +6,7 @@ namespace reachlab::dynamics {
 inline constexpr int kForceTerms = HandSegment::kMaxDegree + 1;
 static_assert(sizeof(Vec3) == 3 * sizeof(double));
 
-/// The hand over one step as one axis of a linear object sees it: a view of a segment's coefficients, one component of each Vec3.
+/// The hand over one step along one axis of a linear object. It is a view of the coefficients of a segment, one component of each Vec3.
 struct AxisHand {
   static constexpr int kStride = 3;
   const double* position = nullptr;  // coefficient k at [k * kStride], k = 1 … degree [m]

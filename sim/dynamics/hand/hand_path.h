@@ -5,28 +5,28 @@
 
 namespace reachlab::dynamics {
 
-/// Farther than that in one tick, 20 m/s, no hand moves: the device has jumped.
+/// A hand that moves farther in one tick (20 m/s) does not exist: the device has jumped.
 inline constexpr double kLargestJump = 0.02;  // [m]
 
-/// The last device samples, and the polynomial that the hand follows over the tick that ends at the newest. One sample: held; two: a
-/// straight line; three: a parabola; four: a cubic. Position and velocity are interpolated alike, each through its own samples.
-/// Measured on the chain of five at 1 ms against the true hand: held 2e-4 m, line 1e-7, parabola 5e-10, cubic 4e-11.
-/// Haptic thread: neither allocates nor throws.
+/// The last device samples, and the polynomial that the hand follows over the tick that ends at the newest sample. One sample is held, two
+/// make a straight line, three a parabola, four a cubic. Position and velocity are interpolated separately, each through the samples of its
+/// kind. Errors on the chain of five at 1 ms against the true hand: held 2e-4 m, line 1e-7, parabola 5e-10, cubic 4e-11. Haptic thread.
+/// Neither allocates nor throws.
 class HandPath {
  public:
-  /// `mostSamples` 1 … 4 bounds the degree; `jump` [m] is how far a hand can move in one tick: beyond it the path is broken.
+  /// `mostSamples` (1 … 4) bounds the degree. `jump` [m] is the largest movement of a hand in one tick. A larger movement breaks the path.
   explicit HandPath(int mostSamples = 4, double jump = kLargestJump) noexcept : most_(mostSamples), jump_(jump) {}
 
-  /// Forgets everything; the next sample is held.
+  /// Forgets all samples. The next sample is held.
   void reset() noexcept { count_ = 0; }
-  /// Takes the sample at the end of this tick. True if the path is continuous; false after a jump: this tick then follows a straight
-  /// line to the new place, older samples are forgotten, and multistep methods must restart. An invalid or non-finite sample is not
-  /// taken: the path ends (`reset`) and holds the last good place.
+  /// Takes the sample at the end of this tick. Returns true if the path is continuous, and false after a jump. After a jump this tick
+  /// follows a straight line to the new position, older samples are forgotten, and multistep methods must restart. An invalid or non-finite
+  /// sample is not taken: the path ends (`reset`) and holds the last good position.
   bool push(const HandSample& sample) noexcept;
-  /// The hand over the tick that ends at the newest sample. `withVelocity` false: zero velocity, for who does not look at it
+  /// The hand over the tick that ends at the newest sample. `withVelocity` false sets the velocity to zero, for plants that do not read it
   /// (Plant::needsHandVelocity).
   HandSegment segment(bool withVelocity = true) const noexcept;
-  /// Samples that the segment goes through.
+  /// The number of samples that the segment goes through.
   int samples() const noexcept { return count_; }
 
  private:

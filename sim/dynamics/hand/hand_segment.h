@@ -7,10 +7,10 @@
 
 namespace reachlab::dynamics {
 
-/// The HIP during one step, a polynomial in s = t/dt in [0, 1]: r(s) = sum position[k] s^k [m], v(s) = sum velocity[k] s^k [m/s].
-/// Velocity has its own polynomial, because for a device it comes from an estimator and not from the positions; for a hand given as a
-/// function it is the exact derivative. Degree 3 carries device samples, 7 a smooth function to rounding at 1 ms. Coefficients beyond
-/// the degree are zero.
+/// The HIP during one step, a polynomial in s = t/dt in [0, 1]. Position is r(s) = sum position[k] s^k [m], velocity is v(s) = sum
+/// velocity[k] s^k [m/s]. Velocity has a separate polynomial, because a device gives it through an estimator. For a hand that is a function
+/// it is the exact derivative. Degree 3 carries device samples, degree 7 a smooth function to rounding at 1 ms. Coefficients beyond the
+/// degree are zero.
 struct HandSegment {
   static constexpr int kMaxDegree = 7;
   int degree = 0;
@@ -24,7 +24,7 @@ inline Vec3 valueAt(const std::array<Vec3, HandSegment::kMaxDegree + 1>& c, int 
   for (int k = degree - 1; k >= 0; --k) value = mulAdd(s, value, c[k]);
   return value;
 }
-/// The part of a segment between s0 and s1, as a segment of its own.
+/// The part of a segment between s0 and s1 as a new segment.
 HandSegment part(const HandSegment& whole, double s0, double s1) noexcept;
 
 inline HandSample sampleAt(const HandSegment& hand, double s) noexcept {
@@ -34,7 +34,8 @@ inline HandSample sampleAt(const HandSegment& hand, double s) noexcept {
 inline HandSample startOf(const HandSegment& hand) noexcept { return {hand.position[0], hand.velocity[0], true}; }
 /// The sum of all coefficients, the lowest first.
 inline Vec3 sumOf(const std::array<Vec3, HandSegment::kMaxDegree + 1>& c) noexcept {
-  // Three lanes of four, the last being the next coefficient's: number by number the compiler takes three times as many instructions.
+  // Three lanes of four. The last lane holds x of the next coefficient. Component by component the compiler takes three times as many
+  // instructions.
   const double* from = &c[0].x;
   Lanes<4> sum = loadLanes<Lanes<4>>(from);
   for (int k = 1; k < HandSegment::kMaxDegree; ++k) sum += loadLanes<Lanes<4>>(from + 3 * k);

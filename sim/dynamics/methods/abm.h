@@ -9,19 +9,19 @@
 
 namespace reachlab::dynamics {
 
-/// Adams-Bashforth-Moulton, predict-evaluate-correct-evaluate (Hairer, Norsett, Wanner I, III.1): at most two right-hand sides and one
-/// hand sample a tick. Predictor of order 7, corrector of order 8: y = p + dt gamma_7 nabla^7 f(p). Where the correction is near
-/// rounding, f(p) stands for f(y) and the second right-hand side is spared (PEC), but for q' of y = (q, q'), which costs nothing: that
-/// keeps an undamped mode stable up to |eigenvalue| dt = 0.1, where f(p) alone would up to 0.025. Beyond, the correction grows and brings
-/// PECE back. The correction also estimates the error; where it is too large, and in the first ticks after a start or a break, the tick is done by
-/// `Fallback` instead (the adaptive pair), and f at the ticks keeps its place in the history.
+/// Adams-Bashforth-Moulton, predict-evaluate-correct-evaluate (Hairer, Norsett, Wanner I, III.1): at most two right-hand sides and one hand
+/// sample per tick. The predictor has order 7, the corrector order 8: y = p + dt gamma_7 nabla^7 f(p). Where the correction is near
+/// rounding, f(p) replaces f(y) and saves the second right-hand side (PEC). The exception is q' of y = (q, q'), which costs nothing. This
+/// keeps an undamped mode stable up to |eigenvalue| dt = 0.1, where f(p) alone would be stable up to 0.025. Beyond this limit the
+/// correction grows and brings PECE back. The correction also estimates the error. `Fallback` (the adaptive pair) computes a tick where the
+/// error is too large, and the first ticks after a start or a break. f at these ticks still enters the history.
 namespace adams {
 inline constexpr int kHistory = 7;
 inline constexpr double kGamma[kHistory + 1] = {1.0, 1.0 / 2, 5.0 / 12, 3.0 / 8, 251.0 / 720, 95.0 / 288, 19087.0 / 60480, 5257.0 / 17280};
 inline constexpr double kCorrectorError = 275.0 / 24192;  // of order 7, |gamma*_7|
 inline constexpr double kSparedShare = 0.5;  // of the largest good correction: below, f(p) is wrong by less than the tick's own error
 
-/// S numbers in rows of lanes; S = 0: as many as there are. Lanes beyond the last number hold zeros.
+/// S numbers in rows of lanes. S = 0: the number is known when the scene is compiled. Lanes beyond the last number hold zeros.
 template <int S>
 struct Rows {
   static constexpr int kWidth = S == 0 || Numbers<S>::kHalves ? 4 : S >= 8 ? 8 : static_cast<int>(std::bit_ceil(static_cast<unsigned>(S)));
@@ -43,7 +43,7 @@ struct Rows {
       if (c * kWidth + i < y.size()) y[c * kWidth + i] = row[i];
   }
 
-  /// Number kBy + i in lane i of the first kBy, zero in the others.
+  /// Number kBy + i in lane i of the first kBy lanes, zero in the rest.
   template <int kBy, std::size_t... I>
   static Lanes shifted(const Lanes& row, std::index_sequence<I...>) noexcept {
     return __builtin_shufflevector(row, Lanes{}, (static_cast<int>(I) < kBy ? kBy + static_cast<int>(I) : kWidth)...);
@@ -129,8 +129,8 @@ class AbmWith {
   using Lanes = typename Rows::Lanes;
   using Marks = LaneMarks<Rows::kWidth>;
 
-  /// The history of some numbers as backward differences of f: sums[j] = nabla^j f + ... + nabla^6 f, so that sums[0] extrapolates f to
-  /// the next tick and sums[j] + (f - sums[0]) is nabla^j f there. Only `ahead` waits for the newest f. Rounding dies out in seven ticks,
+  /// The history of some numbers as backward differences of f: sums[j] = nabla^j f + ... + nabla^6 f. So sums[0] extrapolates f to the next
+  /// tick, and sums[j] + (f - sums[0]) is nabla^j f there. Only `ahead` waits for the newest f. Rounding errors vanish after seven ticks,
   /// since an error of nabla^j reaches higher differences alone.
   struct Row {
     Lanes sums[adams::kHistory]{};
@@ -151,7 +151,7 @@ class AbmWith {
     }
   };
 
-  /// q' of the corrected state in place of the predicted one's.
+  /// q' of the corrected state in place of q' of the predicted state.
   [[gnu::always_inline]] static void addCorrectedRates(double factor, int n, Lanes* deviation) noexcept {
     constexpr int kWidth = Rows::kWidth, kHalf = System::kStates / 2;
     if constexpr (kHalf > 0 && Rows::kCapacity == 1) {
@@ -194,7 +194,7 @@ class AbmWith {
     count_ = 0;
     keep(f);
   }
-  /// By the fallback.
+  /// One tick by the fallback.
   [[gnu::noinline]] StepStatus stepOtherwise(const System& system, const HandSegment& hand, const State& y, State& next,
                                              StepReport& report) noexcept {
     const StepStatus status = fallback_.step(system, hand, dt_, y, next, report);

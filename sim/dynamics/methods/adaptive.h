@@ -24,14 +24,14 @@ class Adaptive {
     return advance(system, hand, dt, y, next, reached, report, [](auto&&...) { return false; });
   }
 
-  /// Where a mass meets an end of the constraint within the tick.
+  /// The meeting of a mass with an end of the constraint within the tick.
   struct Meeting {
     bool met = false;
-    double share = 1;  // of dt: the last moment at which every mass is on the constraint, to rounding; as far as it came if not Ok
+    double share = 1;  // of dt: the last moment with every mass on the constraint, to rounding; where the step failed, if not Ok
     State beyond;      // just behind it
   };
-  /// The tick up to the first meeting; `y` is the state then, or at the tick's end. The moment is found in the dense output of the
-  /// sub-step that crosses, so that a meeting costs four right-hand sides.
+  /// The tick up to the first meeting. `y` is the state at the meeting, or at the end of the tick. The moment is found in the dense output
+  /// of the sub-step that crosses, so that a meeting costs four right-hand sides.
   StepStatus stepInside(const System& system, const HandSegment& hand, double dt, const State& y0, State& y, Meeting& meeting,
                         StepReport& report) noexcept {
     State inside = y0;
@@ -57,14 +57,14 @@ class Adaptive {
 
  private:
   static constexpr double kGrowth = 5;           // largest ratio of a sub-step to the one before it; 1 right after a rejection
-  static constexpr double kRounding = 4.5e-16;   // of phi, two units in its last place: a smaller error is not to be had
-  static constexpr double kNearlyLast = 1.01;    // of a sub-step: a rest that is no longer is done in one
+  static constexpr double kRounding = 4.5e-16;   // of phi, two units in its last place: a smaller error cannot be reached
+  static constexpr double kNearlyLast = 1.01;    // of a sub-step: a shorter rest is taken in one sub-step
 
   static bool mayHaveTurned(const System& system, const State& from, const State& to, double h) noexcept {
     if constexpr (System::kHas.branches) return system.turned(from, to, h);
     return false;
   }
-  /// A share of a sub-step at which a mass is beyond an end, though it is back at the sub-step's end; 0 if there is none.
+  /// A share of a sub-step at which a mass is beyond an end, although it is back at the end of the sub-step. 0 if no mass is.
   template <class Dense>
   static double findTurnOutside(const System& system, const Dense& dense, const State& from, State& beyond) noexcept {
     if constexpr (System::kHas.pieces) return findReversalOutside(system, dense, from, beyond);
@@ -100,8 +100,8 @@ class Adaptive {
     beyond = at;
     return true;
   }
-  /// The last share of a sub-step at which every mass is on the constraint, by halving from 0 to a share at which one is `outside`; with
-  /// the states before and behind it.
+  /// The last share of a sub-step with every mass on the constraint, and the states before and behind it. Halving finds it between 0 and a
+  /// share at which a mass is `outside`.
   template <class Dense>
   static double findLastInside(const System& system, const Dense& dense, double outside, State& inside, State& beyond) noexcept {
     State at(system.states());
@@ -130,8 +130,8 @@ class Adaptive {
     void lookAt(const State& y) noexcept {
       if constexpr (System::kHas.pieces) steep_ = system_.steepness(y);
     }
-    /// The error of a sub-step from y, in units of what its end allows: towards an end without bound of r_phi an error is what it moves the
-    /// mass there.
+    /// The error of a sub-step from y, in units of the error that its end allows. Near an end where r_phi has no bound, an error counts by
+    /// the distance that it moves the mass.
     double atEnd(const State& y, const State& end, double error) noexcept {
       if constexpr (System::kHas.pieces) {
         const double ahead = system_.steepness(end);
@@ -149,7 +149,8 @@ class Adaptive {
     double steep_ = 1;  // how many times more than usual a unit of phi moves a mass
   };
 
-  /// Sub-steps from 0 to dt, until `stops(rate, t, h, y, stages, next)` says of an accepted one that it is the last. `t`: how far they came.
+  /// Sub-steps from 0 to dt, until `stops(rate, t, h, y, stages, next)` returns true for an accepted sub-step. `t` returns the time
+  /// reached.
   template <class Stops>
   StepStatus advance(const System& system, const HandSegment& hand, double dt, const State& y0, State& y, double& t, StepReport& report,
                      const Stops& stops) noexcept {

@@ -6,11 +6,12 @@
 
 namespace reachlab::dynamics {
 
-/// Ticks near and through cusps, for curves in their tangential form. Where |r_phi| is small the independent variable becomes a
-/// fictitious time tau with dt = |r_phi|/c dtau (Sundman's transformation; |r_phi| of the mass nearest its cusp): then
+/// Ticks near and through cusps, for curves in their tangential form. Where |r_phi| is small the independent variable becomes a fictitious
+/// time tau with dt = |r_phi|/c dtau (Sundman's transformation). |r_phi| is that of the mass nearest its cusp. Then
 ///   phi' = v/c,   v' = |r_phi|/c dv/dt,   t' = |r_phi|/c
-/// and nothing is divided by |r_phi|. A true cusp (|r_phi| = 0, found where r_phi.r_phiphi changes sign) ends a sub-step exactly there:
-/// arc length and speed run on, only the tangent turns, so the bead passes with its energy and the methods see smooth pieces.
+/// and no term is divided by |r_phi|. At a true cusp |r_phi| = 0. It is found where r_phi.r_phiphi changes sign, and a sub-step ends
+/// exactly there. Arc length and speed continue and only the tangent turns. So the bead passes with its energy and the methods see smooth
+/// pieces.
 template <Equations System>
 class CuspAdaptive {
  public:
@@ -23,7 +24,7 @@ class CuspAdaptive {
   }
 
   StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next, StepReport& report) noexcept {
-    bool timeAlone = false;  // where |r_phi| is large it is time in which phi is smooth, and narrow places are known to sub-steps in time
+    bool timeAlone = false;  // where |r_phi| is large: phi is smooth in time there, and sub-steps in time resolve narrow places
     if constexpr (System::kHas.care) timeAlone = system.wantsSubSteps(y);
     if (timeAlone || nearest(system, y).speed > kFar * system.speedScale) {
       StepReport tried;
@@ -38,11 +39,11 @@ class CuspAdaptive {
   }
 
  private:
-  static constexpr double kFar = 0.25;               // of the largest |r_phi|: nothing hard within a tick, mostly
+  static constexpr double kFar = 0.25;               // of the largest |r_phi|: mostly no hard place within a tick
   static constexpr std::uint64_t kSuspicious = 100;  // right-hand sides of a tick that was not regular after all
   static constexpr double kCusp = 1e-9;              // |r_phi| over c below which a minimum is a true cusp
   static constexpr double kOnCusp = 1e-13;           // |r_phi| over c of a mass that is on it
-  static constexpr double kAtRest = 1e-14;           // [m/s] slower, nothing tells which way a mass on a cusp would leave
+  static constexpr double kAtRest = 1e-14;           // [m/s] below it the side to which a mass leaves a cusp is undetermined
   static constexpr double kLongest = 0.3;            // in phi: a longer sub-step could go over a minimum of |r_phi|
   static constexpr double kGrowth = 5;               // largest ratio of a sub-step to the one before it; 1 right after a rejection
   static constexpr double kLeast = 1e-300;           // instead of a divisor that is zero
@@ -60,7 +61,7 @@ class CuspAdaptive {
     return lead;
   }
 
-  /// One tick in fictitious time, sub-step by sub-step: `y` is where it has come to, `trial` where the next sub-step leads.
+  /// One tick in fictitious time, sub-step by sub-step. `y` is the state reached, `trial` the state to which the next sub-step leads.
   struct Passage {
     const System& system;
     const HandSegment& hand;
@@ -90,7 +91,7 @@ class CuspAdaptive {
       d[lead.mass] = at[system.rates() + lead.mass] / c;
       d[n] = factor;
     }
-    /// A sub-step of tau from y to `trial`; its estimated error, 1 being the most allowed.
+    /// A sub-step of tau from y to `trial`. Returns its estimated error, where 1 is the most allowed.
     double attempt(double tau) noexcept {
       rhs += dop853::kStages - 1;
       return dop853::attempt<kSize>([&](double, const Extended& at, Extended& d) { rate(at, d); },
@@ -98,7 +99,7 @@ class CuspAdaptive {
                                     0, tau, y, k, trial);
     }
 
-    /// Takes the mass that is nearest its cusp now. False where it rests on it.
+    /// Selects the mass that is nearest its cusp now. False where it rests on the cusp.
     bool chooseLead() noexcept {
       for (int i = 0; i < n; ++i) plain[i] = y[i];
       lead = nearest(system, plain);
@@ -107,7 +108,7 @@ class CuspAdaptive {
       ++rhs;
       return true;
     }
-    /// The longest sub-step that does not go over a minimum of |r_phi|, nor beyond the tick's end.
+    /// The longest sub-step that crosses neither a minimum of |r_phi| nor the end of the tick.
     double limit(double h) const noexcept {
       const double speed = std::abs(y[system.rates() + lead.mass]);
       h = std::min(h, kLongest * c / std::max(speed, kLeast));
@@ -118,15 +119,15 @@ class CuspAdaptive {
       const constraints::CurvePoint p = evaluate(system.curveOf(lead.mass), phi);
       return dot(p.rPhi, p.rPhiPhi);
     }
-    /// |r_phi| falls at the sub-step's begin and rises at its end.
+    /// |r_phi| falls at the start of the sub-step and rises at its end.
     bool crossesMinimum(double error) const noexcept {
       const double from = y[lead.mass], to = trial[lead.mass];
       if (!std::isfinite(error) || from == to || onCusp) return false;
       const double direction = to > from ? 1 : -1;
       return direction * slope(from) < 0 && direction * slope(to) > 0;
     }
-    /// Shortens the sub-step of h so that it ends on the true cusp that it crosses, by Newton's method in tau; false if there is none, or
-    /// it is not met. `error` becomes that of the shortened one.
+    /// Shortens the sub-step of h so that it ends on the true cusp that it crosses, by Newton's method in tau. False if there is no cusp,
+    /// or if the method does not reach it. `error` becomes that of the shortened sub-step.
     bool endOnCusp(double h, double& error) noexcept {
       constexpr int kRounds = 12;
       constexpr double kMet = 4e-16, kNear = 1e-12;  // of 1 + |phi|: rounding, and what Newton's last step comes to
@@ -146,8 +147,8 @@ class CuspAdaptive {
       trial[lead.mass] = phi;
       return true;
     }
-    /// Shortens the sub-step of h, which leads beyond the tick's end, until its time is that end: Newton's method in tau, kept between
-    /// bounds by halving.
+    /// Shortens the sub-step of h, which leads beyond the end of the tick, to end there. Newton's method in tau, kept between bounds by
+    /// halving.
     void endOnTick(double h, double& error) noexcept {
       constexpr int kRounds = 40;
       constexpr double kMet = 2e-16;  // of dt
@@ -220,8 +221,8 @@ class CuspAdaptive {
     return StepStatus::Ok;
   }
 
-  /// The fictitious time after which `left` seconds have gone by, by Simpson's rule over |r_phi| along phi + rate tau + turn tau^2/2; good
-  /// to some thousandths. Infinite where it is not within reach.
+  /// The fictitious time in which `left` seconds pass, good to some thousandths. Simpson's rule over |r_phi| along phi + rate tau + turn
+  /// tau^2/2. Infinite where the time cannot be reached.
   static double aim(const System& system, int mass, double phi, double rate, double turn, double left) noexcept {
     const double c = system.speedScale, begin = system.speedAt(mass, phi) / c;
     double tau = left / std::max(begin, 1e-3);
@@ -235,8 +236,8 @@ class CuspAdaptive {
     }
     return std::numeric_limits<double>::infinity();
   }
-  /// From `at`, whose time is nearly dt, to dt by one RK4 step in time, forwards or back, where the tangent turns so little in it that its
-  /// error is below rounding: kTurn^5/120. Not where |r_phi| is another at its last stage.
+  /// From `at`, whose time is nearly dt, to dt by one RK4 step in time, forwards or back. Only where the tangent turns so little that the
+  /// error is below rounding: kTurn^5/120. Not where |r_phi| differs at the last stage.
   static bool endInTime(const System& system, const HandSegment& hand, double dt, int mass, Extended& at, State& plain, State& rates,
                         int& rhs) noexcept {
     constexpr double kTurn = 4e-3, kChange = 5 * kTurn;
@@ -262,7 +263,8 @@ class CuspAdaptive {
     return true;
   }
 
-  /// The minimum of |r_phi| between two places where it falls and rises; true if it is a cusp. Gauss-Newton on r_phi = 0.
+  /// The minimum of |r_phi| between two values of phi where it falls and rises, by Gauss-Newton on r_phi = 0. True if the minimum is a
+  /// cusp.
   static bool findCusp(const System& system, int mass, double from, double to, double& phi) noexcept {
     double low = std::min(from, to), high = std::max(from, to);
     phi = 0.5 * (low + high);

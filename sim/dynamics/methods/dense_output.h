@@ -20,7 +20,7 @@ struct DenseOutput {
   }
 };
 
-/// From the stages of an accepted step of h from y at t to `next`. Four right-hand sides.
+/// From the stages of an accepted step of h from y at t to `next`. Costs four right-hand sides.
 template <int S, class Rate>
 DenseOutput<S> makeDenseOutput(const Rate& rate, double t, double h, const Numbers<S>& y, const Stages<S>& k,
                                const Numbers<S>& next) noexcept {

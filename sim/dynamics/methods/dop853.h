@@ -10,8 +10,8 @@
 
 namespace reachlab::dynamics {
 
-/// Dormand and Prince's pair of order 8 with error estimators of order 5 and 3 (Hairer, Norsett, Wanner: Solving Ordinary Differential
-/// Equations I, 2nd ed., II.5 and II.10), sub-stepping inside a tick.
+/// Dormand and Prince's pair of order 8 with error estimators of order 5 and 3, sub-stepping inside a tick. Source: Hairer, Norsett,
+/// Wanner: Solving Ordinary Differential Equations I, 2nd ed., II.5 and II.10.
 namespace dop853 {
 inline constexpr int kStages = 12;
 inline constexpr double kC[kStages] = {0,
@@ -97,8 +97,8 @@ Stages<S> makeStages(int n) noexcept {
   return makeMany<S, kStages>(n);
 }
 
-/// One trial of h from y at t: k[0] holds the rate there. Returns the estimated error over `unit(i, y_i)`, 1 being the most allowed;
-/// infinite when the result is not finite. Eleven right-hand sides.
+/// One trial of h from y at t. k[0] holds the rate there. Returns the estimated error over `unit(i, y_i)`, where 1 is the most allowed. The
+/// error is infinite when the result is not finite. Costs eleven right-hand sides.
 template <int S, class Rate, class Unit>
 double attempt(const Rate& rate, const Unit& unit, double t, double h, const Numbers<S>& y, Stages<S>& k, Numbers<S>& next) noexcept {
   const int n = y.size();
@@ -129,7 +129,7 @@ double attempt(const Rate& rate, const Unit& unit, double t, double h, const Num
   return std::isfinite(error) ? error : std::numeric_limits<double>::infinity();
 }
 
-/// The next step's size over this one's, for an estimated error of order 8.
+/// The ratio of the next step's size to this one's, for an estimated error of order 8.
 inline double growth(double error, double most) noexcept {
   if (!std::isfinite(error)) return 0.1;
   return std::clamp(0.9 * elementary::pow(std::max(error, 1e-12), -0.125), 0.2, most);

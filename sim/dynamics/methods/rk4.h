@@ -5,7 +5,7 @@
 
 namespace reachlab::dynamics {
 
-/// The paper's method: classic fourth-order Runge-Kutta, one step a tick.
+/// The method of the paper: classic fourth-order Runge-Kutta, one step per tick.
 template <Equations System>
 class Rk4 {
  public:

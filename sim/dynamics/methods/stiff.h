@@ -14,9 +14,9 @@
 
 namespace reachlab::dynamics {
 
-/// Radau IIA of order 5, L-stable (Hairer, Wanner: Solving Ordinary Differential Equations II, IV.8), for damped light masses on curves,
-/// whose modes are too fast for explicit methods. Simplified Newton on the three stages together; the error of a sub-step is taken from
-/// the same sub-step in two halves.
+/// Radau IIA of order 5, L-stable, for damped light masses on curves, whose modes are too fast for explicit methods. Source: Hairer,
+/// Wanner: Solving Ordinary Differential Equations II, IV.8. Simplified Newton on the three stages together. The error of a sub-step comes
+/// from a second computation in two halves.
 template <Equations System>
 class Stiff {
  public:
@@ -102,7 +102,7 @@ class Stiff {
     return matrix_.diagonal().cwiseAbs().minCoeff() > 0;
   }
 
-  /// right := (L U)^-1 right, without the temporary that solve() would ask memory for.
+  /// right := (L U)^-1 right, without the temporary for which solve() would allocate memory.
   void substitute() noexcept {
     sorted_.noalias() = factors_.permutationP() * right_;
     matrix_.template triangularView<Eigen::UnitLower>().solveInPlace(sorted_);
@@ -110,7 +110,7 @@ class Stiff {
     right_ = sorted_;
   }
 
-  /// Stage increments Z = h A f(y + Z); y + Z_3 is the end.
+  /// Stage increments Z = h A f(y + Z). The step ends at y + Z_3.
   bool solve(const System& system, const HandSegment& hand, double t, double h, double dt, const State& y, State& end, int& rhs) noexcept {
     std::fill(stages_.begin(), stages_.end(), 0.0);
     std::array<State, 3> f{State(n_), State(n_), State(n_)};

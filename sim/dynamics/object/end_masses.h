@@ -6,17 +6,18 @@
 
 namespace reachlab::dynamics {
 
-/// One axis of the first and of the last mass.
+/// Position and velocity of the first and of the last mass along one axis.
 struct EndPlaces {
   std::array<double, 2> x{}, v{};  // [m], [m/s]
 };
 
-/// A plant whose masses cost far more to observe than a step (N^2 numbers from a chain's modes): its first and its last mass alone.
+/// A plant whose first and last mass can be read alone, because observing all masses costs far more than a step (N^2 numbers from the modes
+/// of a chain).
 class EndMasses {
  public:
   virtual ~EndMasses() = default;
-  /// r, v, q and q' of masses 1 and N, the same bits as observe() gives; masses.size() >= massCount(), the others stay as they were. Never
-  /// allocates. False, and nothing done, where observing all is as cheap.
+  /// Writes r, v, q and q' of masses 1 and N, with the bits of observe(). masses.size() >= massCount(). The masses between keep their
+  /// values. Never allocates. Returns false and changes nothing where observing all masses is as cheap.
   virtual bool observeEnds(std::span<MassState> masses) const noexcept = 0;
 };
 

@@ -6,7 +6,7 @@
 
 namespace reachlab::dynamics {
 
-/// What acts on the object from outside at one instant.
+/// Influences on the object from outside at one instant.
 struct Surroundings {
   HandSample hand;
   bool coupled = true;
@@ -18,9 +18,9 @@ inline Vec3 handForce(const ObjectModel& model, const Surroundings& around, cons
   if (!around.coupled) return {};
   return model.handStiffness[i] * (around.hand.position - mass.r) + model.handDamping[i] * (around.hand.velocity - mass.v);
 }
-/// Sum of all forces on mass i but the constraint's own [N].
+/// Sum of all forces on mass i except the constraint force [N].
 Vec3 netForce(const ObjectModel& model, const Surroundings& around, std::span<const MassState> masses, int i) noexcept;
-/// Kinetic + elastic (springs and coupling) + gravity energy [J], without a body's rotation.
+/// Kinetic + elastic (springs and coupling) + gravity energy [J], without the rotation of a body.
 double computeEnergy(const ObjectModel& model, const Surroundings& around, std::span<const MassState> masses) noexcept;
 
 }  // namespace reachlab::dynamics

@@ -7,12 +7,12 @@
 
 namespace reachlab::dynamics {
 
-/// How a step ended; everything but Ok leads to zero force. Counted per kind, never thrown.
+/// The end of a step. Every status except Ok leads to zero force. Statuses are counted per kind and never thrown.
 enum class StepStatus : std::uint8_t { Ok, HandLost, NotFinite, Capped, AtEnd, NoContinuation, PeerLost };
 inline constexpr int kStepStatusCount = 7;
 std::string_view describe(StepStatus status);
 
-/// One mass in world coordinates, with its constraint parameters (unused ones 0; none for a free object).
+/// One mass in world coordinates, with its constraint parameters. Unused parameters are 0. A free object has no parameters.
 struct MassState {
   Vec3 r, v, a;                        // [m], [m/s], [m/s^2]
   std::array<double, 2> q{}, qRate{};  // phi or u, v (no unit), and their rates [1/s]

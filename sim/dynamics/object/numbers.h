@@ -7,10 +7,10 @@
 
 namespace reachlab::dynamics {
 
-/// S numbers on the stack with the size known to the compiler; S = 0: the size is known when the scene is compiled, within a bound, so
-/// that a step allocates nothing either way. Left uninitialised: every method writes before it reads. Room beyond
-/// the last number holds zeros, so that vectors are loaded and stored whole. Six are a place and a velocity in space, each in a vector of
-/// four: a vector of eight is two on most processors, and g++ 12 makes it number by number, in memory.
+/// S numbers on the stack, with the size known to the compiler. S = 0: the size is known when the scene is compiled, within a bound, so
+/// that a step never allocates. They are left uninitialised, because every method writes before it reads. Room beyond the last number holds
+/// zeros, so that vectors are loaded and stored whole. Six numbers are a position and a velocity in space, each in a vector of four. A
+/// vector of eight takes two registers on most processors, and g++ 12 builds it in memory, number by number.
 template <int S>
 struct Numbers {
   static constexpr bool kHalves = S == 6;
@@ -21,8 +21,8 @@ struct Numbers {
     else
       for (int i = S; i < kRoom; ++i) values[i] = 0;
   }
-  /// All numbers in one store: a vector that is loaded where its numbers were stored one by one waits for the last of them to leave
-  /// the store buffer, which costs as much as a third of a step.
+  /// Writes all numbers in one store. A vector load waits until the last of several single stores has left the store buffer. This costs as
+  /// much as a third of a step.
   template <class... Each>
   [[gnu::always_inline]] void assign(Each... each) noexcept requires(sizeof...(Each) == S && kRoom <= 8) {
     if constexpr (kHalves) {

@@ -6,23 +6,23 @@
 
 namespace reachlab::dynamics {
 
-/// The numbers that every form of the equations of motion needs of an object and its coupling; the hand's springs stand beside each
-/// mass (a chain's only on mass 1, Eq. (8); a parallel object's on all, paper sec. 5).
+/// The numbers of an object and its coupling that every form of the equations of motion needs. The springs of the hand belong to the
+/// masses. A chain has a hand spring on mass 1 only, Eq. (8). A parallel object has a hand spring on each mass, paper sec. 5.
 struct ObjectModel {
   experiment::ObjectKind kind = experiment::ObjectKind::Point;
   std::vector<double> mass;                        // [kg] N
   std::vector<double> stiffness, damping;          // [N/m], [N s/m] between neighbours, N-1; empty for parallel
-  std::vector<double> handStiffness, handDamping;  // [N/m], [N s/m] to the hand, N; of several hands the sum
+  std::vector<double> handStiffness, handDamping;  // [N/m], [N s/m] to the hand, N; the sum over several hands
   double viscosity = 0;                            // [N s/m] on every mass
   Vec3 gravity;                                    // [m/s^2]
 
   int count() const { return static_cast<int>(mass.size()); }
 };
 
-/// Throws RefusedError for what no method can integrate (a mass that is not positive, numbers that are not finite, wrong counts).
+/// Throws RefusedError for a model that no method can integrate: a mass that is not positive, numbers that are not finite, wrong counts.
 ObjectModel makeObjectModel(const experiment::Experiment& experiment);
 
-/// 1/s; the largest |eigenvalue| of the object with every spring along one line, by Gershgorin's discs: an upper bound.
+/// The largest |eigenvalue| [1/s] of the object with every spring along one line. An upper bound by Gershgorin's discs.
 double boundFastestMode(const ObjectModel& model);
 
 }  // namespace reachlab::dynamics

@@ -7,7 +7,7 @@
 
 namespace reachlab::dynamics {
 
-/// What every plant has in common: the object, its surroundings, forces and energy from the masses' places, and counters.
+/// The common part of all plants: the object, its surroundings, counters, and forces and energy from the positions of the masses.
 class PlantBase : public Plant {
  public:
   explicit PlantBase(ObjectModel model) : model_(std::move(model)), located_(static_cast<std::size_t>(model_.count())) {}
@@ -33,7 +33,7 @@ class PlantBase : public Plant {
   double lastStepFraction() const noexcept override { return fraction_; }
 
  protected:
-  /// Places and velocities (r, v) of the first masses; q and qRate where the state is made of them.
+  /// Positions and velocities (r, v) of the first masses. Also q and qRate where the state consists of them.
   virtual void locate(std::span<MassState> masses) const noexcept = 0;
 
   ObjectModel model_;
@@ -42,7 +42,7 @@ class PlantBase : public Plant {
   std::uint64_t rhs_ = 0;
   double fraction_ = 1;
 
-  mutable std::vector<MassState> located_;  // room of the scene's size: clearing room for the most masses took most of a tick
+  mutable std::vector<MassState> located_;  // sized for the scene: clearing the largest size took most of a tick
 };
 
 }  // namespace reachlab::dynamics

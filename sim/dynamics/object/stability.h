@@ -6,8 +6,8 @@
 
 namespace reachlab::dynamics {
 
-/// Eigenvalues of the object's linear dynamics along one line [1/s], conjugates included; above 100 masses only the bound of
-/// boundFastestMode, as one undamped and one real mode. Allocates.
+/// Eigenvalues [1/s] of the linear dynamics of the object along one line, conjugates included. Above 100 masses only the bound of
+/// boundFastestMode is returned, as one undamped and one real mode. Allocates.
 std::vector<std::complex<double>> computeEigenvalues(const ObjectModel& model);
 
 inline constexpr double kRk4ImaginaryLimit = 2.8284271247461903;  // 2 sqrt 2: |R(iy)| = 1
@@ -15,13 +15,13 @@ inline constexpr double kRk4RealLimit = 2.7852935634052817;       // |R(-x)| = 1
 
 /// |1 + z + z^2/2 + z^3/6 + z^4/24|, by which classic RK4 multiplies a mode with z = eigenvalue times step.
 double rk4Amplification(std::complex<double> z);
-/// No mode grows.
+/// True if no mode grows.
 bool isRk4Stable(const std::vector<std::complex<double>>& eigenvalues, double step);
 /// The longest stable step [s].
 double findRk4StepLimit(const std::vector<std::complex<double>>& eigenvalues);
 
-/// Error of RK4 over one reach of `length` [m] in `duration` [s], a position: phase errors |z|^5/120 a step of every mode, whose amplitude
-/// under a minimum-jerk hand is at most 60 length / (w T)^3 (the jump of its jerk).
+/// Position error of RK4 [m] over one reach of `length` [m] in `duration` [s]. Each step adds a phase error of |z|^5/120 to every mode.
+/// Under a minimum-jerk hand the amplitude of a mode is at most 60 length / (w T)^3, from the jump of the jerk.
 double predictRk4Error(const std::vector<std::complex<double>>& eigenvalues, double step, double length, double duration);
 
 }  // namespace reachlab::dynamics

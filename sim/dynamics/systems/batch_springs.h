@@ -20,7 +20,7 @@ inline LaneBatch squareRoot(const LaneBatch& x) noexcept {
   for (int lane = 0; lane < kBatchLanes; ++lane) root[lane] = std::sqrt(x[lane]);
   return root;
 }
-/// x of the next mass in each lane; of the mass before.
+/// x of the next mass in each lane. `previous` gives x of the mass before.
 inline LaneBatch next(const LaneBatch& x, const LaneBatch& after) noexcept {
   return __builtin_shuffle(x, after, LaneIndex{1, 2, 3, 4, 5, 6, 7, 8});
 }
@@ -33,7 +33,7 @@ struct BatchMotion {
   LaneBatch measure;              // see BatchSystem::rate
 };
 
-/// Springs and masses in lanes; numbers of lanes without a mass are zero.
+/// Springs and masses in lanes. The numbers of lanes without a mass are zero.
 template <int Batches, bool Parallel>
 struct BatchSprings {
   struct Row {
@@ -67,8 +67,8 @@ struct BatchSprings {
   }
   int batches() const noexcept { return Batches > 0 ? Batches : static_cast<int>(row.size()); }
 
-  /// Force over mass plus gravity, coordinate k of batch o [m/s^2]. `tension` [N]: of the springs of the batch before to their next
-  /// masses, and on return of this one's.
+  /// Force over mass plus gravity, coordinate k of batch o [m/s^2]. `tension` [N] holds the tension of the springs from the masses of the
+  /// batch before to their next masses. On return it holds the tension of the springs of this batch.
   LaneBatch acceleration(const HandSample& hand, const BatchMotion* motions, int o, int k, LaneBatch& tension) const noexcept {
     const Row& s = row[o];
     const LaneBatch x = motions[o].r[k], v = motions[o].v[k];

@@ -8,8 +8,8 @@
 
 namespace reachlab::dynamics {
 
-/// The equations of CurveSystem for two and more masses, eight at a time in the lanes of vector registers. `Batches` registers for the
-/// masses, 0: as many as they need. Lanes without a mass rest at the first mass's start.
+/// The equations of CurveSystem for two and more masses, eight at a time in the lanes of vector registers. `Batches` is the number of
+/// registers for the masses, or 0 for as many as they need. Lanes without a mass rest at the start of the first mass.
 template <int Batches, bool Parallel, bool Tangential>
 struct BatchSystem : CurvePlaces<0, Batches * kBatchLanes, Tangential>, SpaceSystem<BatchSprings<Batches, Parallel>> {
   using Places = CurvePlaces<0, Batches * kBatchLanes, Tangential>;
@@ -30,7 +30,7 @@ struct BatchSystem : CurvePlaces<0, Batches * kBatchLanes, Tangential>, SpaceSys
       BatchMotion& m = motions.value[o];
       const LaneBatch tx = load(p.rPhi[0]), ty = load(p.rPhi[1]), tz = load(p.rPhi[2]), square = mulAdd(tx, tx, mulAdd(ty, ty, tz * tz));
       if constexpr (Tangential)
-        m.measure = 1.0 / atLeast(squareRoot(square), 1e-290);  // on a cusp T is nothing, and nothing is asked of it
+        m.measure = 1.0 / atLeast(squareRoot(square), 1e-290);  // on a cusp T is undefined and unused
       else m.measure = 1.0 / square;
       const LaneBatch w = load(&y[rates() + o * kBatchLanes]), speed = Tangential ? w * m.measure : w;
       m.r[0] = load(p.r[0]), m.r[1] = load(p.r[1]), m.r[2] = load(p.r[2]);

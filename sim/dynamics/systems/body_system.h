@@ -10,8 +10,8 @@ inline Vec3 times(const Matrix3& m, const Vec3& v) noexcept {
           m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
 }
 
-/// A rigid body in free space: the hand's force acts at the FP, at `fpOffset` from the centre of mass in body axes, so that it turns the
-/// body as well (c_i of Eq. 7 are force and moment). y = (r, v, quaternion w x y z, angular velocity in body axes).
+/// A rigid body in free space. The force of the hand acts at the FP, at `fpOffset` from the centre of mass in body axes, and so also turns
+/// the body. c_i of Eq. 7 are force and moment. y = (r, v, quaternion w x y z, angular velocity in body axes).
 ///   m r'' = F + m g - lambda v,   q' = q (0, w)/2,   I w' = R^T ((R offset) x F) - w x I w
 struct BodySystem : SpaceSystem<Springs<1, true>> {
   static constexpr int kStates = 13;
@@ -28,7 +28,7 @@ struct BodySystem : SpaceSystem<Springs<1, true>> {
   struct Pose {
     Vec3 r, v, turn;    // turn: angular velocity, body axes
     double w, x, y, z;  // unit quaternion
-    /// Body axes to world and back.
+    /// From body axes to world axes and back.
     Vec3 toWorld(const Vec3& a) const noexcept {
       const Vec3 u{x, y, z}, t = 2.0 * cross(u, a);
       return a + w * t + cross(u, t);
@@ -51,7 +51,7 @@ struct BodySystem : SpaceSystem<Springs<1, true>> {
     const Vec3 held = handForce(p, hand);
     const Vec3 force = held + springs.extraForce;
     const Vec3 a = springs.inverseMass[0] * (force - springs.viscosity * p.v) + springs.gravity;
-    // The extra force acts on mass 1 itself, its centre; the hand's at the FP.
+    // The extra force acts on mass 1 at its centre. The force of the hand acts at the FP.
     const Vec3 moment = cross(fpOffset, p.toBody(held)) - cross(p.turn, times(inertia, p.turn));
     const Vec3 spin = times(inverseInertia, moment);
     const Vec3& o = p.turn;

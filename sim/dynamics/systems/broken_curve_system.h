@@ -9,12 +9,12 @@
 
 namespace reachlab::dynamics {
 
-/// A curve whose formula is smooth by pieces only: each mass moves on the branch of the piece it is in, with the speed along the curve as
-/// velocity, and events (Adaptive::stepInside) bring it onto the piece's ends.
+/// A curve whose formula is smooth by pieces only. Each mass moves on the branch of its piece, with the speed along the curve as velocity.
+/// Events (Adaptive::stepInside) bring the mass onto the ends of the piece.
 ///   Passed (kink, bend, hole): it goes on into the next piece with the speed it has; the forces act along the new tangent.
 ///   Not passed (jump, pole, end, spike): what `at_end` says.
-/// In a kink that both sides push it into, a mass rests as soon as its swing would last less than kSwing of a step; it leaves when a side
-/// pulls it out.
+/// A mass rests in a kink into which both sides push it, as soon as its swing would last less than kSwing of a step. It leaves the kink
+/// when a side pulls it out.
 template <int N, bool Parallel>
 struct BrokenCurveSystem : SpaceSystem<Springs<N, Parallel>> {
   using Space = SpaceSystem<Springs<N, Parallel>>;
@@ -48,7 +48,7 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N, Parallel>> {
   const constraints::Curve& curveOf(int i) const noexcept { return pieceOf(i).curve; }
   double speedAt(int i, double phi) const noexcept { return norm(evaluate(curveOf(i), phi).rPhi); }
   double scale(int) const noexcept { return 0.1; }
-  /// [s] Within which no mass goes further than a part of a narrow piece it is in, so that sub-steps see what is there.
+  /// The time [s] in which no mass crosses more than a part of a narrow piece, so that sub-steps see the piece.
   double reach(const State&, const State& rates) const noexcept {
     constexpr double kParts = 24;
     double least = std::numeric_limits<double>::infinity();
@@ -57,7 +57,7 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N, Parallel>> {
         least = std::fmin(least, (piece.hi - piece.lo) / (kParts * std::abs(rates[i])));
     return least;
   }
-  /// Sub-steps alone know how to go on: phi is needed more exactly than usual, or something narrow is being passed.
+  /// True where only sub-steps can continue: phi is needed more exactly than usual, or a mass passes a narrow piece.
   bool wantsSubSteps(const State& y) const noexcept {
     constexpr double kSteep = 4;
     for (int i = 0; i < n(); ++i)
@@ -65,7 +65,8 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N, Parallel>> {
     return steepness(y) > kSteep;
   }
   double tightening() const noexcept { return 1; }
-  /// How many times more than usual a unit of phi moves a mass; without bound towards the end of an arc, a root or a power.
+  /// The distance that a unit of phi moves a mass, relative to the usual distance. It has no bound towards the end of an arc, a root or a
+  /// power.
   double steepness(const State& y) const noexcept {
     double most = 1;
     for (int i = 0; i < n(); ++i) most = std::fmax(most, speedAt(i, y[i]) / speedScale);
@@ -77,7 +78,7 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N, Parallel>> {
     Vec3& operator[](int i) noexcept { return all[i]; }
     const Vec3& operator[](int i) const noexcept { return all[i]; }
   };
-  /// Force over mass on each mass [m/s^2], without viscosity; and what the equations need of the curve.
+  /// Force over mass on each mass [m/s^2], without viscosity, and the quantities of the curve that the equations need.
   void push(const Hand& hand, const State& y, Vectors& drive, Vectors& tangent, std::array<double, kMassCapacity<N>>& measure,
             int lead = -1, double* speed = nullptr) const noexcept {
     Vectors r, v;
@@ -149,7 +150,7 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N, Parallel>> {
       if (const constraints::CurvePiece& piece = pieceOf(i); !(y[i] >= piece.lo && y[i] <= piece.hi)) return false;
     return true;
   }
-  /// A mass turned round within the step so near an end that it may have been beyond it in between.
+  /// True if a mass turned round within the step so near an end that it may have been beyond it in between.
   bool turned(const State& from, const State& to, double dt) const noexcept {
     for (int i = 0; i < n(); ++i) {
       const double v = from[n() + i];
@@ -163,7 +164,7 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N, Parallel>> {
 
   auto branch() const noexcept { return where; }
   void takeBack(const std::array<Where, kMassCapacity<N>>& before) noexcept { where = before; }
-  /// Each mass that `beyond` shows behind a passed end goes on in the next piece; false if one may not.
+  /// Moves each mass that `beyond` shows behind a passed end into the next piece. False if a mass may not pass.
   bool passEnds(const State& beyond, State& y, const Hand& hand, double dt) noexcept {
     for (int i = 0; i < n(); ++i) {
       const constraints::CurvePiece& piece = pieceOf(i);
@@ -180,7 +181,7 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N, Parallel>> {
       const double ahead = slopeOf(i, y, hand), side = low ? -1 : 1, v = std::abs(y[n() + i]);
       if (side * behind > 0 && side * ahead < 0 && 2 * v < kSwing * dt * std::abs(ahead)) {
         y[n() + i] = 0;
-        if (low) ++where[i].piece;  // held at its piece's lower end
+        if (low) ++where[i].piece;  // held at the lower end of its piece
         where[i].held = true;
       }
     }
@@ -226,7 +227,7 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N, Parallel>> {
     return mass + fmt::format(" left what was examined: kinks and jumps of the formula were looked for from {:.6g} to {:.6g} only",
                               regularity->lo, regularity->hi);
   }
-  /// Where the masses are when no step leads on: nearest to what.
+  /// The positions of the masses when no step can continue, relative to the nearest place of the curve.
   std::string troubleReason(const State& y) const {
     std::string told;
     double nearest = std::numeric_limits<double>::infinity();

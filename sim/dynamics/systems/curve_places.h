@@ -11,13 +11,14 @@
 
 namespace reachlab::dynamics {
 
-inline constexpr double kFarPhi = 512;  // beyond it phi's rounding is looked at, or turns are taken off
-/// [m] How far a mass may move by a rounding of phi: it adds up, tick by tick. On a curve that lies far away r itself has no more digits.
+inline constexpr double kFarPhi = 512;  // beyond it the rounding of phi is checked, or turns are taken off
+/// The largest movement [m] of a mass by a rounding of phi, since such movements add up tick by tick. On a curve that lies far away r
+/// itself has no more digits.
 inline double allowedRounding(const constraints::CurvePoint& p) { return 1e-13 + 1e-15 * norm(p.r); }
 inline double roundingOfPhi(const constraints::CurvePoint& p, double phi) { return 0x1p-53 * std::abs(phi) * norm(p.rPhi); }
 
-/// Where the masses of a curve's system are: phi_i is number i of its state, omega_i (Tangential: the speed v_i) number rates() + i.
-/// `N` masses, 0: as many as the model has; `Room` numbers for the phi, 0: as many as masses.
+/// The masses of a system on a curve. phi_i is number i of the state. omega_i (Tangential: the speed v_i) is number rates() + i. `N` is the
+/// number of masses, or 0 for the number in the model. `Room` is the number of places for the phi, or 0 for as many as masses.
 template <int N, int Room, bool Tangential>
 struct CurvePlaces {
   static constexpr bool kTangential = Tangential;
@@ -42,7 +43,7 @@ struct CurvePlaces {
   double speedAt(int, double phi) const noexcept { return norm(evaluate(curve, phi).rPhi); }
   double scale(int i) const noexcept { return i < rates() ? 0.1 : Tangential ? 0.1 : 1.0; }
 
-  /// All masses at one place; room beyond them rests there too.
+  /// Puts all masses at one place, and the unused room too.
   template <class State>
   void place(std::span<const double> q, std::span<const double> qRate, State& y) noexcept {
     for (int i = 0; i < rates(); ++i) {
@@ -63,7 +64,7 @@ struct CurvePlaces {
   double phiOf(int i, double phi) const noexcept {
     return turns[i] == 0 ? phi : std::fma(turns[i], period.turn, std::fma(turns[i], period.rest, phi));
   }
-  /// phi that has grown large loses digits of the place: whole turns go, or the motion ends.
+  /// A phi that has grown large loses digits of the position. Whole turns are taken off, or the motion ends.
   template <class State>
   Settled settle(const State&, State& y) noexcept {
     constexpr int kLookEvery = 64;  // ticks
@@ -117,7 +118,7 @@ struct CurvePlaces {
     }
   }
 
-  /// Where no step leads on: a curve of finite length whose end phi never reaches.
+  /// The reason where no step can continue: a curve of finite length whose end phi never reaches.
   template <class State>
   std::string troubleReason(const State& y) const {
     constexpr double kFar = 1e3, kStill = 1e-5;

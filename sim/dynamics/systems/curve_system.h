@@ -3,10 +3,10 @@
 
 namespace reachlab::dynamics {
 
-/// Chain, parallel object or point on a curve; springs act along the chords in space (paper sec. 4), Eq. (11) for each mass.
-/// Tangential = false: y = (phi_i, omega_i), phi' = omega, |r_phi|^2 omega' = r_phi.(F/m - r_phiphi omega^2).
-/// Tangential = true:  y = (phi_i, v_i), v the speed along the curve, phi' = v/|r_phi|, v' = r_phi.F/(m |r_phi|): neither omega^2 nor
-/// 1/M, for curves that are hard somewhere.
+/// Chain, parallel object or point on a curve, Eq. (11) for each mass. Springs act along the chords in space (paper sec. 4). Tangential =
+/// false: y = (phi_i, omega_i), phi' = omega, |r_phi|^2 omega' = r_phi.(F/m - r_phiphi omega^2). Tangential = true: y = (phi_i, v_i) with v
+/// the speed along the curve. phi' = v/|r_phi|, v' = r_phi.F/(m |r_phi|). This form has neither omega^2 nor 1/M and suits curves that are
+/// hard somewhere.
 template <int N, bool Parallel, bool Tangential>
 struct CurveSystem : CurvePlaces<N, N, Tangential>, SpaceSystem<Springs<N, Parallel>> {
   using Places = CurvePlaces<N, N, Tangential>;
@@ -35,7 +35,7 @@ struct CurveSystem : CurvePlaces<N, N, Tangential>, SpaceSystem<Springs<N, Paral
 
  private:
   [[gnu::always_inline]] void computeRate(const Hand& hand, const State& y, State& dy, int lead, double* speed) const noexcept {
-    // Each point stays where the curve wrote it; what follows is copied component by component.
+    // Each point remains where the curve wrote it. The other values are copied component by component.
     constraints::Unfilled<std::array<constraints::CurvePoint, kMassCapacity<N>>> points;
     Vectors r, v, force, tangent;
     std::array<double, kMassCapacity<N>> measure, bend;  // Tangential: 1/|r_phi| or 1/|r_phi|^2, r_phi.r_phiphi
@@ -46,7 +46,7 @@ struct CurveSystem : CurvePlaces<N, N, Tangential>, SpaceSystem<Springs<N, Paral
       if constexpr (Tangential) {
         const double length = std::sqrt(square);
         if (speed != nullptr && i == lead) *speed = length;
-        measure[i] = 1 / std::fmax(length, 1e-290);  // on a cusp itself T is nothing, and nothing is asked of it
+        measure[i] = 1 / std::fmax(length, 1e-290);  // on a cusp T is undefined and unused
         tangent.set(i, measure[i] * p.rPhi);
       } else {
         measure[i] = 1 / square;

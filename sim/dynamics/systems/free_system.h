@@ -3,7 +3,7 @@
 
 namespace reachlab::dynamics {
 
-/// A point, chain or parallel object in free space, y = (r_1 … r_N, v_1 … v_N). For methods other than the exact one.
+/// A point, chain or parallel object in free space, y = (r_1 … r_N, v_1 … v_N). For all methods except the exact method.
 template <int N, bool Parallel>
 struct FreeSystem : SpaceSystem<Springs<N, Parallel>> {
   using Space = SpaceSystem<Springs<N, Parallel>>;

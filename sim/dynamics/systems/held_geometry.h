@@ -9,8 +9,8 @@
 #include "constraints/constraint.h"
 #include "sim/dynamics/systems/body_system.h"
 
-/// Where the masses of an object are that several hands hold: its coordinates and their rates, to r and v of each mass, and the masses'
-/// forces to accelerations of the rates (shared_plant.h).
+/// The geometry of an object that several hands hold (shared_plant.h). It maps coordinates and their rates to r and v of each mass, and the
+/// forces on the masses to accelerations of the rates.
 namespace reachlab::dynamics {
 
 inline Vec3 at3(std::span<const double> numbers, int i) noexcept { return {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]}; }
@@ -19,7 +19,7 @@ inline void put3(std::span<double> numbers, int i, const Vec3& v) noexcept {
 }
 inline void put3(std::vector<double>& numbers, int i, const Vec3& v) noexcept { put3(std::span<double>(numbers), i, v); }
 
-/// What is the same for everything that does not turn.
+/// The common part of all objects that do not turn.
 struct Unturned {
   static constexpr bool kTurns = false;
   static Vec3 arm(const Vec3&) noexcept { return {}; }
@@ -101,7 +101,8 @@ struct CurveMasses : Unturned {
   }
 };
 
-/// A rigid body, BodySystem's equations with more hands: places r, quaternion; rates v, angular velocity in body axes.
+/// A rigid body with the equations of BodySystem and several hands. The places are r and the quaternion. The rates are v and the angular
+/// velocity in body axes.
 struct FreeBody {
   static constexpr bool kTurns = true;
   Matrix3 inertia{}, inverseInertia{};

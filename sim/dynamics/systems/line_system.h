@@ -5,7 +5,7 @@
 namespace reachlab::dynamics {
 
 /// A chain or parallel object on a straight line, y = (x_1 … x_N, v_1 … v_N) in metres along it. For the methods that an experimenter may
-/// ask for beside the exact one.
+/// request instead of the exact method.
 template <int N, bool Parallel>
 struct LineSystem {
   static constexpr int kStates = 2 * N;
@@ -74,7 +74,7 @@ struct LineSystem {
       if (!(y[i] >= space.domain.lo * length && y[i] <= space.domain.hi * length)) return false;
     return true;
   }
-  /// Puts the mass that is nearest beyond an end onto it, and turns it round if it `bounces`.
+  /// Puts the mass that is nearest beyond an end onto the end, and turns it round if it `bounces`.
   void meetEnd(const State& beyond, State& y, bool bounce) const noexcept {
     for (int i = 0; i < n(); ++i) {
       const bool low = beyond[i] < space.domain.lo * length;

@@ -3,9 +3,9 @@
 
 namespace reachlab::dynamics {
 
-/// A local chart about a pole of a surface r(u, v), where a whole parameter line is one point: the line's own parameter is the angle
-/// and the distance of the other from the pole the radius of (xi, eta) = radius (cos angle, sin angle). In xi, eta the surface is smooth
-/// there and its equations of motion are those of any other chart. Angles must have the period 2 pi.
+/// A local chart about a pole of a surface r(u, v), where a whole parameter line is one point. The parameter along this line is the angle.
+/// The distance of the second parameter from the pole is the radius, (xi, eta) = radius (cos angle, sin angle). In xi, eta the surface is
+/// smooth there and its equations of motion are those of any other chart. Angles must have the period 2 pi.
 struct PolarChart {
   constraints::Surface base;
   int fixed = 1;          // which parameter is constant on the pole's line
@@ -13,7 +13,7 @@ struct PolarChart {
   double side = 1;        // +1: the surface lies at larger values
   double nearest = 1e-6;  // closer, the derivatives are taken at this radius: rounding would grow like 1/radius
 
-  /// The chart as a surface of its own; `this` must outlive it.
+  /// The chart as a surface. `this` must outlive the surface.
   constraints::Surface surface() const noexcept { return {evaluateChart, this, {}}; }
   std::array<double, 2> toLocal(double u, double v) const noexcept;
   std::array<double, 2> toBase(double xi, double eta) const noexcept;

@@ -7,9 +7,9 @@
 
 namespace reachlab::dynamics {
 
-/// A surface of second degree, F(r) = d.A d + b.d + c = 0 with d = r - centre [m]; F is scaled so that its gradient is of order one.
-/// Spheres, ellipsoids, paraboloids, cones, cylinders, hyperboloids: on them a mass can be followed in world coordinates, where no
-/// parametrisation has its poles.
+/// A surface of second degree, F(r) = d.A d + b.d + c = 0 with d = r - centre [m]. F is scaled so that its gradient has a length of about
+/// 1. Examples are spheres, ellipsoids, paraboloids, cones, cylinders and hyperboloids. On them a mass can be followed in world
+/// coordinates, where the poles of a parametrisation do not matter.
 struct Quadric {
   std::array<double, 6> a{};  // A: xx, yy, zz, xy, xz, yz [1/m]
   Vec3 b;                     // no unit
@@ -27,24 +27,25 @@ struct Quadric {
   }
 };
 
-/// A ball's surface.
+/// The surface of a ball.
 struct Sphere {
   Vec3 middle;        // [m]
   double radius = 0;  // [m]
 };
-/// The sphere that a quadric is, to rounding; nothing for every other form.
+/// The sphere that a quadric is, to rounding. Empty for every other form.
 std::optional<Sphere> sphereOf(const Quadric& quadric);
 
-/// F and its gradient vanish together somewhere near the samples: a cone's apex, or the line in which two planes meet.
+/// True if F and its gradient vanish together somewhere near the samples: at the apex of a cone, or on the line in which two planes meet.
 bool hasApex(const Quadric& quadric);
 
-/// The quadric on which the whole parametrised surface lies, found from samples of r(u, v) alone (the null vector of their monomials), or
-/// nothing: not of second degree, not unique (a plane), or not finite. Infinite domains are sampled over `start` ± 3. Allocates.
+/// The quadric on which the whole parametrised surface lies, found from samples of r(u, v) alone (the null vector of their monomials).
+/// Empty if the surface is not of second degree, not unique (a plane), or not finite. Infinite domains are sampled over `start` ± 3.
+/// Allocates.
 std::optional<Quadric> fitQuadric(const constraints::Surface& surface, const std::array<constraints::Domain, 2>& domain,
                                   const std::array<double, 2>& start);
 
-/// F(r(u, v)) vanishes identically: shown on the formula itself, as a polynomial in its sines, roots … with their identities, and so on
-/// the whole domain, narrow bumps between samples included. The formula must be analytic there. Allocates.
+/// True if F(r(u, v)) vanishes identically on the whole domain, also in narrow bumps between samples. It is proved on the formula, as a
+/// polynomial in its sines, roots … with their identities. The formula must be analytic there. Allocates.
 bool provesQuadric(const constraints::Constraint& surface, const Quadric& quadric);
 
 }  // namespace reachlab::dynamics

@@ -5,9 +5,9 @@
 
 namespace reachlab::dynamics {
 
-/// A point on a surface of second degree in world coordinates, y = (r, v): r'' = f - n (n.f + v.H v)/n.n with n the gradient, H = 2A and
-/// f = F/m. No parametrisation, so no poles. The parameters are recovered only when asked for. On a sphere where nothing pulls, the motion
-/// is a great circle in closed form.
+/// A point on a surface of second degree in world coordinates, y = (r, v). r'' = f - n (n.f + v.H v)/n.n with n the gradient, H = 2A and f
+/// = F/m. There is no parametrisation and so no pole. The parameters are computed only on request. On a sphere without forces the motion is
+/// a great circle in closed form.
 struct QuadricSystem : SpaceSystem<Springs<1, true>> {
   static constexpr int kStates = 6;
   static constexpr bool kSecondOrder = true;
@@ -18,12 +18,12 @@ struct QuadricSystem : SpaceSystem<Springs<1, true>> {
   Quadric quadric;
   constraints::Surface surface;
   std::array<constraints::Domain, 2> domain;
-  bool apex = true;    // somewhere on it there is no normal (a cone)
+  bool apex = true;    // some point has no normal (a cone)
   bool edges = false;  // the domain has an edge that is not a pole: parameters are followed
   int ticks = 0;
   mutable std::array<double, 2> parameters{};  // last known u, v: where the search for the next begins
   std::optional<Sphere> sphere;
-  bool gliding = false;  // on a sphere, and nothing pulls
+  bool gliding = false;  // on a sphere without forces
 
   QuadricSystem(const ObjectModel& model, const constraints::Constraint& constraint, const Quadric& q)
       : SpaceSystem(model), quadric(q), surface(constraint.surface), domain(constraint.domain), sphere(sphereOf(q)) {
@@ -50,15 +50,15 @@ struct QuadricSystem : SpaceSystem<Springs<1, true>> {
   }
   double scale(int i) const noexcept { return i < 3 ? 0.1 : 1.0; }
 
-  /// One step along the great circle: d and v turn by |v| dt / R in the plane that they span. False where something pulls, or where the
-  /// turn is too large for the series.
+  /// One step along the great circle: d and v turn by |v| dt / R in the plane that they span. False where a force acts, or where the turn
+  /// is too large for the series.
   bool glide(double dt, const State& y, State& next) const noexcept {
     if (!gliding) return false;
     const Vec3 d = Vec3{y[0], y[1], y[2]} - sphere->middle, v{y[3], y[4], y[5]};
     const double share = dt / sphere->radius, turn2 = fusedDot(v, v) * (share * share);
     if (!(turn2 <= kMostTurn2)) return false;
-    // cos x - 1 and sin x / x to rounding; x^2 = turn2. What is added is small, so that its rounding, the same at each tick, adds up to
-    // nothing.
+    // cos x - 1 and sin x / x to rounding, with x^2 = turn2. The sums are small, so that their rounding, the same at each tick, does not
+    // accumulate.
     const double less = turn2 * mulAdd(mulAdd(mulAdd(turn2, 1.0 / 40320, -1.0 / 720), turn2, 1.0 / 24), turn2, -0.5);
     const double sine = mulAdd(mulAdd(mulAdd(mulAdd(turn2, 1.0 / 362880, -1.0 / 5040), turn2, 1.0 / 120), turn2, -1.0 / 6), turn2, 1.0);
     const Vec3 r = mulAdd(sine * dt, v, less * d), w = mulAdd(-(sine * (turn2 / dt)), d, less * v);
@@ -66,8 +66,8 @@ struct QuadricSystem : SpaceSystem<Springs<1, true>> {
     return true;
   }
 
-  /// Back onto the surface every few ticks: rounding's drift, far below what a multistep history notices. Lost where the normal turned
-  /// round within the step: a cone's apex, beyond which nothing says where to go.
+  /// Projects the state onto the surface every few ticks. This removes the drift of rounding, far below the errors that a multistep history
+  /// notices. Lost where the normal turned round within the step, at the apex of a cone, because the continuation is undetermined there.
   Settled settle(const State& before, State& y) noexcept {
     const bool project = ++ticks % kProjectEvery == 0;
     if (!project && !apex) return Settled::Same;
@@ -75,14 +75,15 @@ struct QuadricSystem : SpaceSystem<Springs<1, true>> {
     const Vec3 n = quadric.gradient(r), nBefore = quadric.gradient({before[0], before[1], before[2]});
     if (dot(n, nBefore) < 0 && lost(before)) return Settled::Lost;
     if (!project) return Settled::Same;
-    // The normal's length of the tick before does: what a step drifts is rounding, and waiting for this tick's would cost a division.
+    // The length of the normal at the tick before is enough, because the drift is rounding. Waiting for the length at this tick would cost
+    // a division.
     const double square = 1 / fusedDot(nBefore, nBefore);
     r = mulAdd(-(quadric.value(r) * square), n, r);
     v = mulAdd(-(fusedDot(n, v) * square), n, v);
     y.assign(r.x, r.y, r.z, v.x, v.y, v.z);
     return Settled::Same;
   }
-  /// Beside a place without a normal (the gradient is of order one elsewhere).
+  /// True beside a place without a normal. The gradient has a length of about 1 elsewhere.
   bool lost(const State& y) const noexcept { return norm(quadric.gradient({y[0], y[1], y[2]})) < 0.1; }
 
   void place(std::span<const double> q, std::span<const double> qRate, State& y) noexcept {
@@ -119,7 +120,8 @@ struct QuadricSystem : SpaceSystem<Springs<1, true>> {
   }
   void meetEnd(const State& beyond, State& y, bool bounce) const noexcept;
 
-  /// Follows the parameters to r by Gauss-Newton from where they were; far off, from the nearest of a grid.
+  /// Follows the parameters to r by Gauss-Newton from their last values. If r is far off, the search starts from the nearest point of a
+  /// grid.
   void follow(const Vec3& r) const noexcept;
 
  private:

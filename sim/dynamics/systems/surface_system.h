@@ -11,13 +11,13 @@
 
 namespace reachlab::dynamics {
 
-/// A point on a surface in its own parameters, or near a pole in a polar chart about it (found on the way, whatever the surface is
-/// called); y = (u, v, u', v'), Eq. (13): G q'' = a^T (F/m - w), w = r_uu u'^2 + 2 r_uv u'v' + r_vv v'^2.
+/// A point on a surface in the parameters of the surface, or in a polar chart near a pole. Poles are found during the motion on any
+/// surface. y = (u, v, u', v'), Eq. (13): G q'' = a^T (F/m - w), w = r_uu u'^2 + 2 r_uv u'v' + r_vv v'^2.
 struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
   static constexpr int kStates = 4;
   static constexpr bool kSecondOrder = true;
   static constexpr Hooks kHas{.ends = true, .branches = true, .settling = true, .losing = true, .care = true};
-  /// Squared sine of the angle between r_u and r_v below which the rates' tolerance, and their rounding, would show in the speed.
+  /// Squared sine of the angle between r_u and r_v. Below it the tolerance of the rates, and their rounding, would show in the speed.
   static constexpr double kOblique = 1e-3, kParallel = 1e-6;
   static constexpr double kDegenerate = 1e-7;  // of the largest |r_u x r_v|^2: below, r_u and r_v span no plane
   static constexpr double kLong = 1;           // [m^2] |r_u|^2 or |r_v|^2 above which the rates' tolerance would show in the speed
@@ -33,28 +33,30 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
   int ticks = 0, waiting = 0;                          // between looks for a pole
   double largestU = 0, largestV = 0, largestArea = 0;  // [m^2], [m^2], [m^4] the largest |r_u|^2, |r_v|^2, |r_u x r_v|^2 seen so far
 
-  /// Lines across which the formula is not smooth; null for a surface without them. A crease (abs) is passed as the geodesic does: what of
-  /// the velocity is along it stays, what is across it turns into the other side's tangent plane. Jumps, poles and ends are never crossed.
+  /// Lines across which the formula is not smooth. Null for a surface without them. A crease (abs) is passed as the geodesic does. The
+  /// velocity along the crease stays. The part across it turns into the tangent plane of the new side. Jumps, poles and ends are never
+  /// crossed.
   std::shared_ptr<const constraints::SurfaceBranches> branches;
   struct Where {
     int branch = 0;
     std::array<signed char, constraints::SurfaceBranches::kMaxGuards> side{};  // sign of each line's argument - level
   };
   Where where;
-  int metLine = -1;  // that stopped the mass
-  /// What the right-hand sides of this step met.
+  int metLine = -1;  // the line that stopped the mass
+  /// Places that the right-hand sides of this step met.
   struct Met {
     bool flat = false;     // r_u and r_v spanned next to no plane
-    bool oblique = false;  // they came near to each other, see kOblique and kParallel
+    bool oblique = false;  // r_u and r_v came near each other, see kOblique and kParallel
     bool parallel = false;
     bool longRate = false;   // |r_u|^2 or |r_v|^2 was above kLong
     bool besideEnd = false;  // a line at which the formula ends was near
   };
   mutable Met met;
-  /// Where the parameter lines are oblique the rates nearly cancel in the velocity; where r_u is long a parameter's error is one of many
-  /// metres; beside an end r_u grows without bound: there parameters and rates are needed more exactly.
+  /// True where parameters and rates are needed more exactly. Where the parameter lines are oblique the rates nearly cancel in the
+  /// velocity. Where r_u is long an error of the parameter is an error of many metres. Beside an end r_u grows without bound.
   bool careful = false;
-  /// How near a mass comes to a line at which the formula ends, in its argument: nearer, its rounding shows in the speed.
+  /// The smallest distance of a mass from a line at which the formula ends, in the argument of the line. Nearer, the rounding of the
+  /// argument shows in the speed.
   std::array<double, constraints::SurfaceBranches::kMaxGuards> margin{};
 
   SurfaceSystem(const ObjectModel& model, const constraints::Constraint& constraint)
@@ -74,7 +76,8 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
     const double e = fusedDot(p.rU, p.rU), f = fusedDot(p.rU, p.rV), g = fusedDot(p.rV, p.rV);
     const double determinant = mulAdd(e, g, -(f * f));
     const double a = fusedDot(p.rU, drive), b = fusedDot(p.rV, drive), inverse = 1 / determinant;
-    // Whoever is not oblique by more than what is flat is neither flat nor parallel: one comparison tells it of nearly all.
+    // If the lines are less oblique than the limit of flatness, they are neither flat nor parallel. One comparison decides this in nearly
+    // all cases.
     const double awayFromOblique = mulAdd(-kOblique * e, g, determinant), flatBelow = kDegenerate * largestArea;
     if (!(awayFromOblique > flatBelow && std::max(e, g) <= kLong)) [[unlikely]] {
       met.flat |= determinant < flatBelow;
@@ -115,9 +118,9 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
     masses[0].qRate = solveRates(constraints::evaluate(surface, masses[0].q[0], masses[0].q[1]), masses[0].v);
   }
 
-  /// Every few ticks: is a pole near, or has it been left?
+  /// Checks every few ticks if a pole is near, or has been left.
   Settled settle(const State&, State& y) noexcept {
-    // Across a place where r_u and r_v span no plane the parameters carry no velocity: what comes out of such a step is nothing.
+    // Across a place where r_u and r_v span no plane the parameters carry no velocity, and such a step has no valid result.
     const bool degenerate = met.flat || met.parallel;
     careful = met.oblique || met.longRate || met.besideEnd;
     met = {};
@@ -126,13 +129,13 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
     return ++ticks % kLookEvery != 0 ? Settled::Same : chooseChart(y);
   }
   Settled chooseChart(State& y) noexcept;
-  /// From the polar chart back into the surface's own parameters.
+  /// From the polar chart back into the parameters of the surface.
   void leavePolar(State& y) noexcept;
-  /// The surface's own parameters, whatever the chart.
+  /// The parameters of the surface, in any chart.
   std::array<double, 2> inBase(const State& y) const noexcept { return inPolar ? polar.toBase(y[0], y[1]) : std::array{y[0], y[1]}; }
-  /// A rounding of u or v changes |r_u| or |r_v|, and with them the speed, by more than kShows of it.
+  /// True if a rounding of u or v changes |r_u| or |r_v|, and so the speed, by more than kShows of it.
   bool roundingShows(const State& y) const noexcept;
-  /// Beside a place where r_u and r_v do not span a plane.
+  /// True beside a place where r_u and r_v do not span a plane.
   bool lost(const State& y) const noexcept {
     if (endingLine(y) >= 0) return true;
     const constraints::SurfacePoint p = evaluate(active, y[0], y[1]);
@@ -146,8 +149,8 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
     largestV = std::max(largestV, vv);
     largestArea = std::max(largestArea, area);
   }
-  /// The pole ahead where the lines of parameter `fixed` = const collapse, if there is one: Newton on r_(other) = 0 along it, then a look
-  /// round the whole line.
+  /// The pole ahead, where the lines of parameter `fixed` = const collapse, if a pole exists. Newton on r_(other) = 0 along the line finds
+  /// it. A check round the whole line confirms it.
   bool findPole(const State& y, int fixed) noexcept;
   bool wantsSubSteps(const State&) const noexcept { return careful; }
   double tightening() const noexcept { return careful ? kTightening : 1; }
@@ -166,7 +169,7 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
       if (!domain[k].periodic && !(y[k] >= domain[k].lo && y[k] <= domain[k].hi)) return false;
     return true;
   }
-  /// Takes the branch at q; on a line itself the one that the rates lead to.
+  /// Takes the branch at q. On a line itself it takes the branch to which the rates lead.
   void findBranch(std::span<const double> q, std::span<const double> qRate) noexcept;
   Where branch() const noexcept { return where; }
   void takeBack(const Where& before) noexcept {
@@ -179,16 +182,16 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
     if (!inPolar) active = surface;
   }
   bool onBranch(const State& y) const noexcept;
-  /// Whether the formula has its limit on line k itself, at q: atan2(0, 0) is a number, but none.
+  /// True if the formula has a limit at q on line k. atan2(0, 0) is a number but no limit.
   bool hasLimit(const std::array<double, 2>& q, int k, double alongU, double alongV) const noexcept;
-  /// The mass may have crossed a line and come back within a step.
+  /// True if the mass may have crossed a line and come back within a step.
   bool turned(const State& from, const State& to, double dt) const noexcept;
-  /// The mass goes on behind the line that it crosses; false where it may not, or where it met an end of the domain.
+  /// Continues the mass behind the line that it crosses. False where it may not pass, or where it met an end of the domain.
   bool passEnds(const State& beyond, State& y, const Hand& hand, double dt) noexcept;
-  /// A line at which the formula ends, if the mass is beside it; else -1.
+  /// A line at which the formula ends, if the mass is beside it. Otherwise -1.
   int endingLine(const State& y) const noexcept;
   std::string stopReason(StepStatus status, const State& y) const;
-  /// An elastic edge turns the velocity's part across it, which is not the parameter's rate where the lines are oblique.
+  /// An elastic edge turns the part of the velocity across it. Where the lines are oblique this part is not the rate of the parameter.
   void meetEnd(const State& beyond, State& y, bool bounce) const noexcept {
     for (int k = 0; k < 2; ++k) {
       const bool low = beyond[k] < domain[k].lo;
@@ -204,10 +207,10 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
   }
 
  private:
-  /// On a line where the formula has no limit nothing can be told: a little behind it.
+  /// A point a little behind the line, because nothing can be computed on a line where the formula has no limit.
   std::array<double, 2> behindTheLines(std::array<double, 2> q) const noexcept;
-  /// Over line k, a crease: what of the velocity is along it stays, what is across it turns into the other side's tangent plane. False where
-  /// r jumps there, or the other side carries no velocity.
+  /// Carries the mass over line k, a crease. The velocity along the crease stays. The part across it turns into the tangent plane of the
+  /// new side. False where r jumps there, or the new side carries no velocity.
   bool crossLine(std::size_t k, const std::array<double, 2>& behind, State& y) noexcept;
   std::string endReason() const;
   std::string lostReason(const State& y) const;

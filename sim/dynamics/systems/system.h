@@ -13,12 +13,12 @@
 
 namespace reachlab::dynamics {
 
-/// What becomes of a state after a step, before the next.
+/// The result of `settle` for a state after a step, before the next step.
 enum class Settled { Same, OtherChart, Lost };
 
-/// What a system has beyond its equations of motion; each is absent unless the system says so in its `kHas`. The concept Equations holds this
-/// list against the functions: one that is named here and missing, misspelt or of other arguments does not compile, nor does one that is
-/// there and not named.
+/// The functions of a system beyond its equations of motion. Each one is absent unless the system sets it in its `kHas`. The concept
+/// Equations compares this list with the functions. A function that is set but missing, misspelt or has other arguments does not compile. A
+/// function that exists but is not set does not compile either.
 struct Hooks {
   bool ends = false;         // bounded, bounces, inside, meetEnd: the constraint may end
   bool branches = false;     // branch, takeBack, passEnds, turned: behind some ends another formula holds
@@ -33,7 +33,7 @@ struct Hooks {
 };
 
 namespace systemDetail {
-/// Each is there if it is declared, and only then.
+/// True if each function is present exactly when it is declared.
 consteval bool agree(bool declared, std::initializer_list<bool> present) {
   for (const bool one : present)
     if (one != declared) return false;
@@ -72,7 +72,7 @@ concept HooksAgree =
           }});
 }  // namespace systemDetail
 
-/// What a method integrates: a state of kStates numbers (0: known when compiled), and the hand as it enters.
+/// The equations that a method integrates: a state of kStates numbers (0: known when compiled), and the entry of the hand.
 ///   rate(hand, y, dy)            the equations of motion (7)
 ///   kSecondOrder                 y = (q, q'): the first half of dy is the second half of y
 ///   scale(i)                     the size below which an error of number i counts as absolute
@@ -104,7 +104,7 @@ concept ObjectSystem = Equations<S> && requires(S s, const S c, const ObjectMode
   { c.stopReason(StepStatus::AtEnd, at) } -> std::same_as<std::string>;
 };
 
-/// Why a step stopped, where a system has nothing to add; `noContinuation`: its words for NoContinuation.
+/// The reason for which a step stopped, where a system adds nothing. `noContinuation` is its text for NoContinuation.
 inline std::string plainReason(StepStatus status, const char* noContinuation) {
   if (status == StepStatus::AtEnd) return "a mass reached the end of the constraint's domain";
   return status == StepStatus::NoContinuation ? noContinuation : "";
@@ -113,8 +113,8 @@ inline std::string plainReason(StepStatus status, const char* noContinuation) {
 template <int N>
 inline constexpr int kMassCapacity = N > 0 ? N : experiment::kMaxMasses;
 
-/// Springs and masses as the step wants them; N = 0: as many as the model has. `Parallel`: every mass has its own spring to the hand and
-/// no neighbours.
+/// Springs and masses in the form that a step needs. N = 0: as many as the model has. `Parallel`: every mass has a separate spring to the
+/// hand and no neighbours.
 template <int N, bool Parallel>
 struct Springs {
   static constexpr int kCapacity = kMassCapacity<N>;
@@ -162,7 +162,7 @@ struct Springs {
   }
 };
 
-/// What the systems share whose hand acts in space and whose forces are those of `TheSprings`.
+/// The common part of the systems whose hand acts in space and whose forces are those of `TheSprings`.
 template <class TheSprings>
 struct SpaceSystem {
   using Hand = HandSample;
