@@ -5,7 +5,7 @@
 
 namespace reachlab::devices {
 
-/// How well a device is served by a clock. Times in seconds.
+/// How well a clock serves a device. Times are in seconds.
 struct ClockTiming {
   std::string clock;  // "device": its own calls are the clock; "computer": the tick samples it
   double rate = 0;    // [1/s] of ticks
@@ -14,8 +14,9 @@ struct ClockTiming {
   double ageP50 = 0, ageP99 = 0, ageMax = 0;           // from a sample to the force that was computed from it
 };
 
-/// Runs the whole tick on the device that `spec` names (make_device.h) for so long, without a force; a PHANToM by its own clock and by the
-/// computer's, one after the other, where the force counts when it is in effect. Throws FaultError (a simulated device), ResourceError.
+/// Runs the whole tick on the device that `spec` names (make_device.h) for so long, without a force. A PHANToM is measured twice: first by
+/// its own clock, then by the computer's. There the force counts from when it is in effect. Throws FaultError (a simulated device) or
+/// ResourceError.
 std::vector<ClockTiming> measureLatency(const std::string& spec, double seconds);
 
 }  // namespace reachlab::devices

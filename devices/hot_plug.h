@@ -4,12 +4,13 @@
 
 #include "devices/driver/registry.h"
 
-/// What is plugged in and out while the program runs, as far as it shows as a node of the system.
+/// Detects devices that are plugged in or out while the program runs, if they show as a node of the system.
 namespace reachlab::devices {
 
-/// Another number when a node has come, gone, or changed its rights. Some microseconds; any thread.
+/// Returns another number when a node has come, has gone, or has changed its rights. Takes some microseconds. Any thread.
 std::uint64_t pluggedFingerprint();
-/// The devices that are there now and need no vendor's library, which would open them: HID, serial lines, tablets.
+/// The devices that are present now and need no vendor's library: HID devices, serial lines and tablets. A vendor's library would open its
+/// devices.
 std::vector<FoundDevice> findPlugged();
 
 }  // namespace reachlab::devices

@@ -10,34 +10,34 @@
 
 namespace reachlab::devices {
 
-/// A device that is looked at and calibrated: the loop runs on it and nothing is put up, so it feels no force but what its own guards give
+/// A device that is viewed and calibrated. The loop runs on it without an object. So the device renders only the forces of its guards
 /// (wall, stylus). Controlling thread.
 class LiveDevice {
  public:
-  /// Opens it and starts the loop. Throws as makeDevice does.
+  /// Opens the device and starts the loop. Throws as makeDevice does.
   LiveDevice(const std::string& spec, const experiment::CompiledExperiment& experiment);
   ~LiveDevice();
   LiveDevice(const LiveDevice&) = delete;
   LiveDevice& operator=(const LiveDevice&) = delete;
 
   static constexpr std::size_t kBins = 40;
-  static constexpr double kBinSeconds = 0.25e-3;  // the last bin has all that is longer
+  static constexpr double kBinSeconds = 0.25e-3;  // the last bin has all longer intervals
   struct View {
     Vec3 position;  // [m] world
-    Vec3 force;     // [N] that it is told
+    Vec3 force;     // [N] sent to the device
     std::uint32_t buttons = 0;
     bool valid = false;
     double speed = 0;                          // [m/s]
-    double rate = 0;                           // [1/s] of its reports
+    double rate = 0;                           // [1/s] rate of the reports
     std::uint64_t reports = 0;                 // counted into the bins
-    std::array<std::uint64_t, kBins> between;  // reports: how long the time between two of them was
-    std::string fault;                         // what is wrong with it, a sentence; empty: nothing
+    std::array<std::uint64_t, kBins> between;  // number of reports by the time since the report before
+    std::string fault;                         // what is wrong, as a sentence; empty when the device is well
   };
   View look();
 
   haptics::DeviceInfo info() const { return device_->info(); }
   std::string calibrationHint() const { return device_->calibrationHint(); }
-  /// Throws ResourceError in the device's words.
+  /// Throws ResourceError with the device's message.
   void calibrate() { device_->calibrate(); }
 
  private:

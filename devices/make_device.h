@@ -9,19 +9,20 @@
 
 namespace reachlab::devices {
 
-/// Makes the device that `NAME[:ARGUMENT]` names, for this experiment, or of `A + B` one for each hand (hands/several_hands.h); `deviceDrivers` (registry.h) has all that there are. Of a virtual
-/// hand, trial i depends on (seed, i) alone. Throws FaultError (unknown name, key or value, a file that cannot be understood),
-/// ResourceError (no such file, the device cannot be had), RefusedError (the subject cannot plan this movement).
+/// Makes the device that `NAME[:ARGUMENT]` names, for this experiment. `A + B` makes one device for each hand (hands/several_hands.h).
+/// `deviceDrivers` (registry.h) lists all devices. For a virtual hand, trial i depends on (seed, i) alone. Throws FaultError (unknown name,
+/// key or value, an unreadable file), ResourceError (no such file, the device cannot be opened) or RefusedError (the subject cannot plan
+/// this movement).
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
                                                   std::uint64_t seed);
 /// Checks and compiles the experiment first.
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::Experiment& experiment, std::uint64_t seed);
 
-/// What is asked of the device beside its driver's own options: mapping and guards (docs/devices.md). Throws FaultError.
+/// The options of a device besides its driver's options: mapping and guards (docs/devices.md). Throws FaultError.
 HandOptions handOptionsOf(const std::string& spec);
 
-/// Trials of a run that is not told how many: a replayed source offers each of its reaches once, every other device one. Throws
-/// ResourceError when there is nothing to replay.
+/// The number of trials when a run names none: as many as a replayed source has reaches, one for every other device. Throws ResourceError
+/// when the source has no reach.
 int trialsOnOffer(const std::string& spec);
 
 }  // namespace reachlab::devices

@@ -1,7 +1,7 @@
 #pragma once
 #include "devices/driver/registry.h"
 
-/// Every driver's entry; each is defined beside its driver.
+/// The entry of every driver. Each entry is defined beside its driver.
 namespace reachlab::devices {
 
 DeviceDriver simulatedDriver();

@@ -5,14 +5,14 @@
 
 namespace reachlab::devices {
 
-/// Unit quaternion (w, x, y, z) of a rotation matrix (rows), by the largest of its components; nullopt when the matrix is none (not
-/// finite, or its columns are not of length 1 within 1 %).
+/// Unit quaternion (w, x, y, z) of a rotation matrix (rows), computed from its largest component. Returns nullopt when the matrix is no
+/// rotation: it is not finite, or the length of a column differs from 1 by more than 1 %.
 inline std::optional<std::array<double, 4>> quaternionOf(const std::array<std::array<double, 3>, 3>& m) noexcept {
   for (int column = 0; column < 3; ++column) {
     const double square = m[0][column] * m[0][column] + m[1][column] * m[1][column] + m[2][column] * m[2][column];
     if (!(std::abs(square - 1) < 0.02)) return std::nullopt;
   }
-  // 4 q_i^2 for w, x, y, z; their sum is 4, so the largest is at least 1.
+  // 4 q_i^2 for w, x, y, z. Their sum is 4, so the largest is at least 1.
   const std::array<double, 4> squares{1 + m[0][0] + m[1][1] + m[2][2], 1 + m[0][0] - m[1][1] - m[2][2], 1 - m[0][0] + m[1][1] - m[2][2],
                                       1 - m[0][0] - m[1][1] + m[2][2]};
   int largest = 0;

@@ -11,53 +11,54 @@
 
 namespace reachlab::devices {
 
-/// What a driver is given to make a device: NAME:ARGUMENT, and the run it is for.
+/// The input from which a driver makes a device: NAME:ARGUMENT and the run.
 struct DeviceRequest {
-  std::string name, argument;  // argument: behind the colon, empty without one
+  std::string name, argument;  // argument: the text behind the colon, empty without a colon
   const experiment::CompiledExperiment& experiment;
   std::uint64_t seed = 0;
-  /// For messages: "device phantom:Left".
+  /// The name in messages: "device phantom:Left".
   std::string words() const { return "device " + name + (argument.empty() ? "" : ":" + argument); }
 };
 
-/// One row of `reach list devices`: a device that is there, under the name that opens it, or a kind of which none is, once.
+/// One row of `reach list devices`: a device that is present, under the name that opens it. A kind without a present device has one row.
 struct FoundDevice {
   std::string name;
   std::string kind;  // the driver's name
   std::string description;
   bool present = false;
-  std::string whyNot;  // in the loader's, the system's or the device's own words, with what to do; empty when present
+  std::string whyNot;  // the reason as the loader, the system or the device tells it, with the remedy; empty when the device is present
   std::optional<int> degreesOfFreedom;
-  std::optional<double> maxForce, continuousForce;  // [N]; 0: it renders none
+  std::optional<double> maxForce, continuousForce;  // [N]; 0: the device renders no force
   std::optional<double> rate;                       // [1/s]
 };
 
-/// One kind of device. A new driver is a file that makes one of these and a line in registry.cpp; `reach list devices`, help texts and
-/// the window read it from there.
+/// One kind of device. A new driver is a file that makes one of these entries, and a line in registry.cpp. `reach list devices`, the help
+/// texts and the window read the entries there.
 struct DeviceDriver {
   std::string name;         // "phantom"
   std::string usage;        // "phantom[:NAME]"
   std::string description;  // one line
   bool inWindowOnly = false;
-  /// What of this kind is there, or one row that says why nothing is. Opens no more than it must, and leaves all as it was.
+  /// The devices of this kind, or one row with the reason why there is no device. Opens as few devices as possible and leaves every device
+  /// as it was.
   std::vector<FoundDevice> (*find)(const DeviceDriver& self);
-  /// Throws FaultError (a wrong argument), ResourceError (it cannot be had).
+  /// Throws FaultError (a wrong argument) or ResourceError (the device cannot be opened).
   std::unique_ptr<haptics::HapticDevice> (*make)(const DeviceRequest& request);
-  bool isMade = false;  // by this program: there are as many as are asked for
+  bool isMade = false;  // by this program: as many exist as are asked for
 };
 
 /// Every driver of this program, in the order of lists.
 std::span<const DeviceDriver> deviceDrivers();
-/// Null when there is none of that name.
+/// Null when no driver has that name.
 const DeviceDriver* findDriver(const std::string& name);
 /// All rows of all drivers.
 std::vector<FoundDevice> findDevices();
 
-/// Where the hand of this experiment is to begin [m], world frame; the origin without a task.
+/// The position [m] in the world frame where the hand of this experiment begins. It is the origin without a task.
 Vec3 startOf(const experiment::CompiledExperiment& experiment);
-/// For drivers whose device is always there.
+/// The row of a driver whose device is always present.
 std::vector<FoundDevice> alwaysThere(const DeviceDriver& self);
-/// A row of `self` that fills in what `info` says.
+/// Makes a row of `self` and completes it with the data of `info`.
 FoundDevice presentDevice(const DeviceDriver& self, const std::string& name, const haptics::DeviceInfo& info);
 FoundDevice absentDevice(const DeviceDriver& self, const std::string& whyNot);
 

@@ -7,13 +7,14 @@
 
 namespace reachlab::devices {
 
-/// The devices of one line, `simulated + mouse`: one for each hand, in the order of the experiment's hands.
+/// The devices of one text `simulated + mouse`: one device for each hand, in the order of the experiment's hands.
 std::vector<std::string> splitHands(const std::string& spec);
-/// The line of several devices.
+/// The text that names several devices.
 std::string joinHands(const std::vector<std::string>& specs);
 
-/// Several devices as one, in the first one's name: cues, calibration, health and the second path go to all. A hand that is simulated for one
-/// of them moves by tick count only if all are. Only the first may drive the clock; throws FaultError for another.
+/// Several devices as one device, under the name of the first. Cues, calibration, health and the second way to stop the force go to all of
+/// them. If one hand's motion is simulated, it moves by tick count only if all hands do. Only the first device may drive the clock. Throws
+/// FaultError if another device does.
 std::unique_ptr<haptics::HapticDevice> joinDevices(std::vector<std::unique_ptr<haptics::HapticDevice>> devices);
 
 }  // namespace reachlab::devices

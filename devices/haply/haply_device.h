@@ -10,19 +10,19 @@
 
 namespace reachlab::devices {
 
-/// A Haply Inverse3 through its service on this machine: one force out, one state back, strictly in turn, at most 2 kHz. Verified against
-/// the published protocol, not on a device.
+/// A Haply Inverse3 through its service on this machine: one force out, one state back, strictly in turn, at 2 kHz at most. Verified
+/// against the published protocol, not on a device.
 class HaplyInverse3 final : public Transport {
  public:
   struct Options {
-    std::string id;               // empty: the first that the service has
-    std::string grip;             // of the VerseGrip held with it; empty: the only one
-    double maxForce = 0;          // [N] 0: the data sheet's
-    bool deviceVelocity = false;  // the service's own velocity instead of our estimator's
+    std::string id;               // empty: the first device of the service
+    std::string grip;             // name of the VerseGrip that is held with it; empty: the only grip
+    double maxForce = 0;          // [N] 0: the value of the data sheet
+    bool deviceVelocity = false;  // use the service's velocity instead of our estimator's
   };
   using OpenLink = std::function<std::unique_ptr<MessageLink>()>;
 
-  /// Throws ResourceError: no service (`open`'s words), no such device, a service of another version.
+  /// Throws ResourceError when there is no service (message of `open`), no such device, or a service of another version.
   HaplyInverse3(const Options& options, OpenLink open);
 
   haptics::DeviceInfo info() const override { return info_; }
@@ -32,7 +32,7 @@ class HaplyInverse3 final : public Transport {
   bool reopen() override;
   void close() noexcept override;
   std::string lossText() const override { return loss_; }
-  /// Every Inverse3 that the service had when it was last connected to.
+  /// Every Inverse3 that the service listed at the latest connection.
   const std::vector<std::string>& there() const { return there_; }
 
  private:
@@ -48,8 +48,8 @@ class HaplyInverse3 final : public Transport {
   HaplyState state_;
   std::string loss_;
   std::vector<std::string> there_;
-  bool awaiting_ = false;  // an answer to what was sent
-  int garbled_ = 0;        // messages in a row that were none
+  bool awaiting_ = false;  // an answer to the sent command is missing
+  int garbled_ = 0;        // unreadable messages in a row
   std::int64_t sentNs_ = 0;
 };
 

@@ -8,10 +8,11 @@
 
 #include "base/math/vec3.h"
 
-/// Messages of Haply's Inverse service (docs.haply.co, websocket protocol of the services 3.1 to 3.5). Pure functions; any thread.
+/// Messages of Haply's Inverse service (docs.haply.co, websocket protocol of the services 3.1 to 3.5). Pure functions that any thread may
+/// call.
 namespace reachlab::devices {
 
-/// One message of the service, as far as we need it. Its own axes: x right, y away from the user, z up; m, m/s.
+/// One message of the service, as far as this program needs it. Axes of the device: x right, y away from the user, z up. Units: m, m/s.
 struct HaplyState {
   std::string id;
   Vec3 position;
@@ -22,27 +23,28 @@ struct HaplyState {
 
 enum class HaplyAnswer : std::uint8_t {
   State,
-  NotJson,       // or not as a service of any version speaks
-  OtherVersion,  // a service, but not of a protocol that we know
+  NotJson,       // no message of any version of the service
+  OtherVersion,  // a message of the service, in an unknown version of the protocol
   NoDevice,      // no Inverse3 (of this name) is connected to the service
 };
 
-/// Reads one message; `id`: of the device that is asked for, empty: the first. A coordinate that is not there is zero, as the service leaves
-/// out what equals its identity. `grip`: of the VerseGrip that is held with it; empty: the only one, and none where there are several, as
-/// the service does not tell which is at which device.
+/// Reads one message. `id` names the device, and an empty `id` means the first device. A missing coordinate is zero, because the service
+/// leaves out values that equal its identity. `grip` names the VerseGrip that is held with the device. An empty `grip` means the only grip.
+/// With several grips no grip is used, because the service does not tell which grip belongs to which device.
 HaplyAnswer readHaplyMessage(std::string_view message, const std::string& id, HaplyState& state, const std::string& grip = {});
-/// Names of all Inverse3, and of all grips, in a message.
+/// The names of all Inverse3 devices and of all grips in a message.
 std::vector<std::string> haplyDevices(std::string_view message);
 std::vector<std::string> haplyGrips(std::string_view message);
-/// What of the device's configuration changes what is felt (gravity compensation, filters), in the service's own words; empty: not told.
+/// The settings of the device that change the felt force (gravity compensation, filters), as the service names them. Empty when the service
+/// does not tell them.
 std::string haplySettings(std::string_view message, const std::string& id);
 
-/// The command that tells the device this force [N], its own axes; not finite: none.
+/// The command that tells the device this force [N] in the device's axes. A force that is not finite becomes zero force.
 std::string haplyForceCommand(const std::string& id, const Vec3& force);
-/// What a client says first, when the service waits for it.
+/// The first message of a client, for which the service waits.
 std::string haplyGreeting();
 
-/// Its axes to the world's (x to the right, y up, z towards the user), and back.
+/// From the device's axes to the world's (x to the right, y up, z towards the user), and back.
 constexpr Vec3 haplyToWorld(const Vec3& v) noexcept { return {v.x, v.z, -v.y}; }
 constexpr Vec3 worldToHaply(const Vec3& v) noexcept { return {v.x, -v.z, v.y}; }
 

@@ -7,7 +7,7 @@
 
 namespace reachlab::devices {
 
-/// A websocket client's link to `ws://host:port/`. Throws ResourceError in the system's words when nobody answers as a websocket there
+/// The link of a websocket client to `ws://host:port/`. Throws ResourceError with the system's message when no websocket answers there
 /// within two seconds.
 std::unique_ptr<MessageLink> openWebSocket(const std::string& host, std::uint16_t port);
 

@@ -11,8 +11,8 @@
 
 namespace reachlab::devices {
 
-/// An open WoodenHaptics or Polhem arm over HID: one report in, one out, strictly in turn. A report that does not come within 10 ms is
-/// asked for again with zero currents; what is not a whole report is not believed. Verified against the published firmware, not on a device.
+/// An open WoodenHaptics or Polhem arm over HID: one report in, one report out, strictly in turn. When no report comes within 10 ms, the
+/// program asks again with zero currents. A report that is not whole is ignored. Verified against the published firmware, not on a device.
 class OpenArm final : public Transport {
  public:
   struct Options {
@@ -24,7 +24,7 @@ class OpenArm final : public Transport {
   };
   using OpenPort = std::function<std::unique_ptr<HidPort>()>;
 
-  /// `open` throws ResourceError; called again after the device was lost.
+  /// `open` throws ResourceError. It is called again after the device was lost.
   OpenArm(const Options& options, const std::string& serial, OpenPort open);
 
   haptics::DeviceInfo info() const override;
@@ -36,7 +36,7 @@ class OpenArm final : public Transport {
   std::string calibrate() override;
   std::string lossText() const override;
 
-  /// Reports that were too short, so far.
+  /// The number of reports so far that were too short.
 
  private:
   int readNewest();
@@ -50,11 +50,11 @@ class OpenArm final : public Transport {
   std::array<UnwrappedCount, 3> counts_;
   std::array<std::uint8_t, 64> bytes_{};
   std::array<double, 3> angles_{};
-  std::size_t shortReport_ = 0;  // [bytes] of the last that was not whole
-  bool whole_ = false;           // one was
+  std::size_t shortReport_ = 0;  // [bytes] of the latest short report
+  bool whole_ = false;           // a whole report has come
 };
 
-/// Why an arm that sends reports of so many bytes cannot be driven, and what to do; empty: it can.
+/// The reason why an arm that sends reports of this many bytes cannot be driven, with the remedy. Empty when it can.
 std::string firmwareFault(std::size_t reportBytes);
 
 }  // namespace reachlab::devices

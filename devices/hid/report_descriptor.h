@@ -5,14 +5,14 @@
 #include <string>
 #include <vector>
 
-/// Report descriptors of HID 1.11, sec. 6.2.2. Pure functions but for the one that reads a file; any thread.
+/// Report descriptors of HID 1.11, sec. 6.2.2. The functions are pure, except the function that reads a file. Any thread may call them.
 namespace reachlab::devices {
 
-/// Bytes of an input report of a device whose reports have no number. 0: it is not known, because the descriptor is broken or of a form
-/// that is not read here (report numbers, long items, kept globals).
+/// The number of bytes of an input report, for a device whose reports have no number. 0 means unknown: the descriptor is broken, or it has
+/// a form that this function does not read (report numbers, long items, kept globals).
 std::size_t inputReportBytes(std::span<const std::uint8_t> descriptor) noexcept;
 
-/// The descriptor of /dev/hidrawN as the system keeps it. Empty: the system has none.
+/// The descriptor of /dev/hidrawN as the system keeps it. Empty when the system has no descriptor.
 std::vector<std::uint8_t> readSystemDescriptor(const std::string& hidraw);
 
 }  // namespace reachlab::devices

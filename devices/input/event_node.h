@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-/// Tablets as the kernel shows them (/dev/input/event*, linux/input.h).
+/// Tablets as the kernel lists them (/dev/input/event*, linux/input.h).
 namespace reachlab::devices {
 
-/// Range of one axis.
+/// The range of one axis.
 struct InputAxis {
   std::int32_t least = 0, most = 0;
   bool there() const noexcept { return most > least; }
@@ -24,16 +24,16 @@ struct TabletNode {
   std::string whyNot;  // the reason why the node cannot be opened, empty if it can
 };
 
-/// The tablets of the folder in the order of their numbers. A node that cannot be opened is listed too, since its kind is not known.
+/// The tablets of the folder in the order of their numbers. A node that cannot be opened is listed too, because its kind is unknown.
 std::vector<TabletNode> findTablets(const std::string& folder = "/dev/input");
 
-/// Keeps the state of the pen that events tell of. One thread.
+/// Keeps the state of the pen that the events report. One thread.
 class PenState {
  public:
   explicit PenState(const TabletNode& node) : x_(node.x), y_(node.y) {}
   /// True at the end of a report (SYN_REPORT).
   bool take(const input_event& event) noexcept;
-  /// Position as shares of the tablet about its middle, x to the right, y up. False while the pen is away.
+  /// The position on the tablet, measured from its middle as a share of its size, x to the right, y up. False while the pen is away.
   bool position(double& x, double& y) const noexcept;
   /// Bit 0: the pen touches the tablet.
   std::uint32_t buttons() const noexcept { return touching_ ? 1 : 0; }
@@ -50,17 +50,17 @@ class PenState {
   bool near_ = false, touching_ = false;
 };
 
-/// An open node: events with the monotonic clock's times. One thread at a time.
+/// An open node. Its events have times of the monotonic clock. One thread at a time.
 class InputPort {
  public:
-  /// Throws ResourceError in the system's words.
+  /// Throws ResourceError with the system's message.
   explicit InputPort(const std::string& path);
-  /// Takes over a descriptor that gives `input_event`s.
+  /// Takes over a descriptor that yields `input_event` records.
   explicit InputPort(int file) : file_(file) {}
   ~InputPort();
   InputPort(const InputPort&) = delete;
   InputPort& operator=(const InputPort&) = delete;
-  /// Events read, waiting at most this long for the first; -1: it is gone.
+  /// The number of events that were read, waiting at most this long for the first event. -1: the node is gone.
   int read(std::span<input_event> events, int milliseconds) noexcept;
 
  private:

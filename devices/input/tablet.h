@@ -7,10 +7,10 @@
 
 namespace reachlab::devices {
 
-using OpenInput = std::function<std::unique_ptr<InputPort>()>;  // throws ResourceError while it is not there
+using OpenInput = std::function<std::unique_ptr<InputPort>()>;  // throws ResourceError while the tablet is not present
 
-/// A pen on a tablet: its place on the tablet is the hand's place in the plane of x and y, `halfWidth` [m] from the middle to the right edge,
-/// played back by the events' own times as the mouse's are (mouse_device.h).
+/// A pen on a tablet. The position of the pen is the position of the hand in the plane of x and y. The distance from the middle to the
+/// right edge is `halfWidth` [m]. Events are played back by their own times, as those of the mouse are (mouse_device.h).
 std::unique_ptr<haptics::HapticDevice> makeTabletHand(const TabletNode& node, double halfWidth, const Vec3& start, OpenInput open);
 
 }  // namespace reachlab::devices

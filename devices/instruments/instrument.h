@@ -13,7 +13,7 @@ enum class Mark : std::uint8_t { Go, Onset, Success, End };
 inline constexpr int kMarkCount = 4;
 const char* nameOf(Mark mark);
 
-/// What happened at a tick of the run.
+/// The event at a tick of the run.
 struct Marker {
   Mark mark = Mark::Go;
   int trial = 0;
@@ -25,24 +25,24 @@ struct HandAtTick {
   Vec3 position, velocity;  // [m], [m/s]
 };
 
-/// What an instrument has to say for the recording. `ns`: monotonic clock when it happened.
+/// A message of an instrument for the recording. `ns`: time of the event on the monotonic clock.
 struct InstrumentNote {
   std::int64_t ns = 0;
   std::string text;
   double value = 0;
 };
 
-/// An instrument beside the haptic device, driven by one I/O thread: every member but the constructor and `name` is that thread's, and may take
-/// a while, but not wait for an answer. What cannot be sent throws ResourceError: the instrument is then lost.
+/// An instrument beside the haptic device, driven by one I/O thread. That thread calls every member except the constructor and `name`. A
+/// call may take a while, but must not wait for an answer. A send that fails throws ResourceError, and the instrument then counts as lost.
 class Instrument {
  public:
   virtual ~Instrument() = default;
   const std::string& name() const { return name_; }
   virtual void begin(const record::RunConfiguration&, std::vector<InstrumentNote>&) {}
-  /// True when this mark is one that it sends, and it has left this computer's hands.
+  /// True when the instrument sends this mark and the mark has left the computer.
   virtual bool send(const Marker& marker) = 0;
   virtual void hand(const HandAtTick&) {}
-  /// Several thousand times a second: ends pulses, asks the inputs.
+  /// Ends pulses and reads the inputs. Called several thousand times per second.
   virtual void look(std::int64_t, std::vector<InstrumentNote>&) {}
   /// The run has ended.
   virtual void end(std::vector<InstrumentNote>&) {}

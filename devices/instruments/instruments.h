@@ -8,12 +8,13 @@
 
 namespace reachlab::devices {
 
-/// Puts instruments beside a run: ticks go through a queue to one I/O thread, which finds what happened by the recording's own rules, tells each
-/// instrument, and notes with each sending how long after the tick's clock it was done. An instrument that fails is left out from then on.
+/// Runs instruments beside a run. Ticks go through a queue to one I/O thread. That thread finds the events by the recording's rules, tells
+/// each instrument, and notes the delay of each sending behind the tick's clock. An instrument that fails is left out from then on.
 std::unique_ptr<record::InstrumentLink> linkInstruments(std::vector<std::unique_ptr<Instrument>> instruments);
 
-/// Opens what was asked for: `lsl`, `parallel:PATH`, `rts:PATH`, `byte:PATH`, with `go=N,onset=N,success=N,end=N` (0: nothing), `pulse-ms=N`, `baud=N`.
-/// Null when nothing was. Throws FaultError (an unknown name, key or value), ResourceError (it cannot be had).
+/// Opens the requested instruments: `lsl`, `parallel:PATH`, `rts:PATH`, `byte:PATH`. Their keys are `go=N,onset=N,success=N,end=N` (0: no
+/// mark), `pulse-ms=N` and `baud=N`. Null when no instrument was requested. Throws FaultError (an unknown name, key or value) or
+/// ResourceError (the instrument cannot be opened).
 std::unique_ptr<record::InstrumentLink> openInstruments(const std::vector<std::string>& specs);
 
 }  // namespace reachlab::devices

@@ -4,7 +4,7 @@
 
 namespace reachlab::devices {
 
-/// The calls of the operating system that ports are driven by, errno and all: the lowest place at which a test can stand in for a port.
+/// The calls of the operating system that drive ports, with their errno. This is the lowest level at which a test can replace a port.
 struct PortCalls {
   int (*open)(const char* path, int flags);
   int (*close)(int file);

@@ -7,21 +7,22 @@
 
 namespace reachlab::devices {
 
-/// What goes out at each mark (0: nothing), and for how long a line stays up.
+/// The code that goes out at each mark (0: no code), and how long a line stays up.
 struct TriggerCodes {
   std::array<int, kMarkCount> code{1, 2, 4, 8};
   double pulse = 0.005;  // [s]
   int of(Mark mark) const { return code[static_cast<std::size_t>(mark)]; }
 };
 
-/// Parallel port by ppdev: the code on its eight data lines for the length of a pulse, then 0; a change of its status lines is noted. Throws
-/// ResourceError.
+/// Parallel port by ppdev. It puts the code on the eight data lines for the length of a pulse, then 0. A change of the status lines is
+/// noted. Throws ResourceError.
 std::unique_ptr<Instrument> openParallelPort(const std::string& name, const std::string& path, const TriggerCodes& codes,
                                              const PortCalls& calls = systemPortCalls());
-/// The control lines of a serial port: RTS goes up for the length of a pulse at every mark whose code is not 0; changes of CTS and DSR are noted.
+/// The control lines of a serial port. RTS goes up for the length of a pulse at every mark whose code is not 0. Changes of CTS and DSR are
+/// noted.
 std::unique_ptr<Instrument> openSerialLines(const std::string& name, const std::string& path, const TriggerCodes& codes,
                                             const PortCalls& calls = systemPortCalls());
-/// A byte on a serial line (an Arduino, a trigger box): the code as one byte; every byte that comes in is noted.
+/// A byte on a serial line (an Arduino, a trigger box). The code is sent as one byte, and every byte that comes in is noted.
 std::unique_ptr<Instrument> openByteLine(const std::string& name, const std::string& path, const TriggerCodes& codes, int baud,
                                          const PortCalls& calls = systemPortCalls());
 

@@ -10,30 +10,30 @@
 
 namespace reachlab::devices {
 
-/// How far a spring-centred device is pushed.
+/// The deflection of a spring-centred device.
 struct Deflection {
   Vec3 push;  // -1 … 1 on each axis, world frame
   std::uint32_t buttons = 0;
 };
 
-/// Where deflections come from. `wait` returns within some milliseconds: true with the newest deflection, false when there is none.
-/// Sets `lost` while the device is gone. Called by one thread of the hand's own.
+/// A source of deflections. `wait` returns within some milliseconds: true with the newest deflection, false without a deflection. It sets
+/// `lost` while the device is gone. One thread of the hand calls it.
 class DeflectionSource {
  public:
   virtual ~DeflectionSource() = default;
   virtual bool wait(Deflection& newest, bool& lost) = 0;
 };
 
-/// A hand that is steered by its speed, for devices that spring back: v = gain × push beyond a dead zone, integrated by the tick. The
-/// deflection is held over `kHoldTicks` without news and then fades to none with a time constant of kFadeTicks. At Cue::Place the hand
-/// is at the start again: such a device has no place of its own. Renders no force.
+/// A hand whose speed is steered, for devices that spring back: v = gain × push beyond a dead zone, integrated by the tick. Without a new
+/// report the deflection is held for `kHoldTicks`. Then it fades to zero with a time constant of kFadeTicks. At Cue::Place the hand is at
+/// the start again, because such a device has no position. Renders no force.
 class RateHand final : public haptics::HapticDevice {
  public:
   static constexpr int kHoldTicks = 40, kFadeTicks = 20;
   struct Options {
     double gain = 0.5;       // [m/s] at full push
     double deadZone = 0.05;  // of the full push
-    double reach = 0.5;      // [m] farthest from the start, on each axis
+    double reach = 0.5;      // [m] largest distance from the start, on each axis
   };
   RateHand(haptics::DeviceInfo info, const Options& options, const Vec3& start, std::shared_ptr<DeflectionSource> source);
   ~RateHand() override;

@@ -9,7 +9,7 @@
 
 namespace reachlab::devices {
 
-/// What may be asked of every device beside its driver's own options.
+/// The options of every device besides its driver's options.
 struct HandOptions {
   Mapping mapping;
   bool mapped = false;
@@ -17,7 +17,7 @@ struct HandOptions {
   std::optional<double> speedLimit;  // [m/s] of the hand in the world
   std::optional<double> stylusMass;  // [kg] held against its weight
   bool passivityControl = false;
-  int deadManButton = 0;  // from 1: force only while it is held; 0: none
+  int deadManButton = 0;  // counted from 1: force only while this button is held; 0: no such button
   bool any() const { return mapped || wall || speedLimit || stylusMass || passivityControl || deadManButton > 0; }
 };
 
@@ -25,7 +25,7 @@ struct HandOptions {
 /// `stylus-mass=KG`, `passivity=control`, `dead-man-button=N`. Throws FaultError.
 HandOptions takeHandOptions(DeviceOptions& options);
 
-/// The device as the world sees it: mapped, with its guards. With nothing asked for, the device itself.
+/// The device as the world sees it, with its mapping and its guards. Without any option it is the device itself.
 std::unique_ptr<haptics::HapticDevice> guardDevice(std::unique_ptr<haptics::HapticDevice> device, const HandOptions& options);
 
 }  // namespace reachlab::devices

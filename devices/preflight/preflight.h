@@ -8,45 +8,44 @@
 
 namespace reachlab::devices {
 
-/// How one number of an experiment stands against the device.
+/// The verdict on one number of an experiment for a device.
 enum class Verdict {
   Fine,
   Held,     // fine only while somebody holds the device
-  Warning,  // what is asked will not be felt as it is computed
-  Unknown,  // the device does not tell its number
+  Warning,  // the felt force will differ from the computed force
+  Unknown,  // the device does not tell its limit
 };
 std::string_view nameOf(Verdict verdict);  // "fine", "held", …
 
-/// One line of the check: what the experiment asks, what the device has, and what to do.
+/// One row of the check: the demand of the experiment, the limit of the device, and the remedy.
 struct PreflightLine {
   std::string name;  // "peak_force", "continuous_force", "passivity", "stability", "workspace"
   Verdict verdict = Verdict::Fine;
   double asked = 0;             // in `unit`
   std::optional<double> limit;  // nullopt: unknown
   std::string unit;             // "N", "N s/m", "N/m", "m"
-  std::string sentence;         // numbers in words
+  std::string sentence;         // the numbers as a sentence
   std::string remedy;           // empty where nothing is to be done
-  int hand = 0;                 // that it is of, from 1; 0: there is only one
+  int hand = 0;                 // the hand, from 1; 0: there is only one hand
 };
 
-/// What a block of this experiment will meet on this device:
+/// The demands of a block of this experiment on this device:
 ///   peak_force        largest force of a reach against DeviceInfo::maxForce (an experiment's lower limit holds)
 ///   continuous_force  root mean square of the movement's force against what the motors stand for ever, trials without a pause
 ///   passivity         Colgate and Schenkel: the friction K T/2 + |B| that is asked against the device's own viscous friction, T the slower
 ///                     of tick and reports. Encoder steps: Abbott and Okamura 2005, K <= 2 c/resolution with Coulomb friction c
 ///   stability         k_h against the largest that dies out on this device held by a relaxed hand (0.3 kg, 3 N s/m)
 ///   workspace         farthest place of the hand against the device's radius
-/// A device without force is asked for its workspace only. Takes some milliseconds, on a curve up to seconds. Throws FaultError (no task),
-/// RefusedError (the scene cannot be computed).
-/// `hand`: which of the experiment's hands holds it, from 0.
+/// For a device without force only the workspace is checked. Takes some milliseconds, on a curve up to seconds. Throws FaultError (no task)
+/// or RefusedError (the scene cannot be computed). `hand` is the hand of the experiment that holds the device, from 0.
 std::vector<PreflightLine> checkBeforeBlock(const experiment::CompiledExperiment& experiment, const haptics::DeviceInfo& device,
                                             std::size_t hand = 0);
-/// Of every hand of a device, one after another.
+/// The rows of every hand of a device, hand by hand.
 std::vector<PreflightLine> checkBeforeBlock(const experiment::CompiledExperiment& experiment, haptics::HapticDevice& device);
 
-/// One sentence of a line that is not fine, with its remedy: "peak force: …; …", "hand 2: peak force: …; …".
+/// One sentence for a row that is not fine, with its remedy: "peak force: …; …", "hand 2: peak force: …; …".
 std::string describe(const PreflightLine& line);
-/// What is said before a run, a sentence each: the warnings of those hands that feel a force. Nothing without a task.
+/// The messages before a run, as sentences: the warnings of those hands that feel a force. Empty without a task.
 std::vector<std::string> warningsBeforeBlock(const experiment::CompiledExperiment& experiment, haptics::HapticDevice& device);
 
 }  // namespace reachlab::devices

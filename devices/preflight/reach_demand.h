@@ -7,20 +7,20 @@
 
 namespace reachlab::devices {
 
-/// What one reach of an experiment asks of a device that holds the hand.
+/// The demand of one reach of an experiment on the device that holds the hand.
 struct ReachDemand {
   double peakForce = 0;  // [N] largest norm of the coupling's force while the object is held, unclamped
-  double rmsForce = 0;   // [N] its root mean square from onset to the trial's end: what motors stand for ever is held against it
+  double rmsForce = 0;   // [N] its root mean square from onset to the trial's end; compared with the continuous force of the motors
   double farthest = 0;   // [m] of the hand from the workspace's centre
   double duration = 0;   // [s] T that was asked for
-  std::string law;       // how it was computed, in words
+  std::string law;       // the method of computation, as text
 };
 
-/// The reach as a practised subject makes it without noise (minimum hand jerk for this very object, reach_plan.h), through the engine that
-/// computes the force: every object on every constraint. Where no such subject can plan it, a rigid body's minimum-jerk reach stands in for
-/// it: peak F = m (10/sqrt 3) d/T^2 + m g with m the whole mass, rms of x''(t) sqrt(120/7) d/T^2. `duration`: another T [s] than the task's; `centre` [m] of the
-/// device's workspace.
-/// Throws FaultError without a task, RefusedError when the scene cannot be computed.
+/// The reach of a practised subject without noise: minimum hand jerk for this very object (reach_plan.h). It runs through the engine that
+/// computes the force, for every object on every constraint. Where no such subject can plan it, a rigid body's minimum-jerk reach replaces
+/// it. Its peak force is F = m (10/sqrt 3) d/T^2 + m g with m the whole mass. Its root mean square is that of x''(t), sqrt(120/7) d/T^2.
+/// `duration`: another T [s] than the task's. `centre`: centre of the device's workspace [m]. Throws FaultError without a task,
+/// RefusedError when the scene cannot be computed.
 ReachDemand computeReachDemand(const experiment::CompiledExperiment& experiment, std::optional<double> duration = std::nullopt,
                                const Vec3& centre = {});
 

@@ -6,16 +6,17 @@
 
 namespace reachlab::devices {
 
-/// What is behind `replay:`: a file or a folder, and how its files are to be read.
+/// The source behind `replay:`: a file or a folder, and the options for reading its files.
 struct ReachSource {
   std::string path;
   ReachColumns columns;
 };
-/// PATH[,KEY=VALUE…]; a path that exists as it stands is one, whatever commas are in it. Throws FaultError for an unknown key or value.
+/// PATH[,KEY=VALUE…]. If the whole text is an existing path, it is the path, even with commas in it. Throws FaultError for an unknown key
+/// or value.
 ReachSource reachSourceOf(const std::string& argument);
 
-/// The files that `path` stands for: itself, or the folder's CSV files, BIDS motion files and C3D files in name order. Throws ResourceError when
-/// there are none.
+/// The files of `path`: the file itself, or the folder's CSV files, BIDS motion files and C3D files in the order of their names. Throws
+/// ResourceError when there is no file.
 std::vector<std::string> reachFiles(const std::string& path);
 
 /// Every reach of the source. Throws as readReach does.

@@ -9,11 +9,11 @@
 
 namespace reachlab::devices {
 
-/// A Polhem v3 over its serial line: one force out, one place back. Verified against the published host code, not on a device.
+/// A Polhem v3 over its serial line: one force out, one position back. Verified against the published host code, not on a device.
 class PolhemSerial final : public Transport {
  public:
   using OpenPort = std::function<std::unique_ptr<MessageLink>()>;
-  /// `open` throws ResourceError; called again after the device was lost.
+  /// `open` throws ResourceError. It is called again after the device was lost.
   PolhemSerial(std::string name, OpenPort open);
 
   haptics::DeviceInfo info() const override;
@@ -28,7 +28,7 @@ class PolhemSerial final : public Transport {
   OpenPort open_;
   std::unique_ptr<MessageLink> port_;
   bool awaiting_ = false;
-  int unanswered_ = 0;  // times in a row that nothing, or no line of its form, came back
+  int unanswered_ = 0;  // exchanges in a row without an answer of the right form
   std::int64_t sentNs_ = 0;
 };
 

@@ -5,20 +5,22 @@
 
 #include "base/math/vec3.h"
 
-/// The serial protocol of Polhem v3: lines of 64 bytes, padded with spaces, the last byte a line feed. Pure functions; any thread.
+/// The serial protocol of Polhem v3. Lines have 64 bytes and are padded with spaces. The last byte is a line feed. Pure functions that any
+/// thread may call.
 namespace reachlab::devices {
 
 inline constexpr std::size_t kPolhemLineBytes = 64;
 
-/// `x y z [mm] tA lambda tD tE [rad] info`, its own axes: x towards the user, y right, z up.
+/// `x y z [mm] tA lambda tD tE [rad] info` in the device's axes: x towards the user, y right, z up.
 struct PolhemState {
   Vec3 place;  // [m]
   int info = 0;
 };
-/// nullopt: not a whole line of that form, or not finite, or farther than a metre from its middle.
+/// Returns nullopt for an incomplete line, for a number that is not finite, and for a position more than a metre from the middle.
 std::optional<PolhemState> readPolhemLine(std::string_view line) noexcept;
 
-/// Fx Fy Fz in whole millinewtons and command 2 (a force), its own axes [N]; not finite: none. Bounded to 16 bits, direction kept.
+/// Fx Fy Fz in whole millinewtons and command 2 (a force), in the device's axes [N]. A force that is not finite becomes zero force. The
+/// values are limited to 16 bits, and the direction is kept.
 std::string polhemForceLine(const Vec3& force);
 
 }  // namespace reachlab::devices

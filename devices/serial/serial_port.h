@@ -6,8 +6,9 @@
 
 namespace reachlab::devices {
 
-/// A terminal device, raw, 115200 baud: a message is a line without its end. What is longer than kLongestLine without an end is thrown
-/// away. Receiving allocates nothing where the message has room for 2 * kLongestLine characters. Throws ResourceError in the system's words.
+/// A terminal device, raw, at 115200 baud. A message is a line without its line end. Text longer than kLongestLine without a line end is
+/// thrown away. Receiving allocates nothing where the message has room for 2 * kLongestLine characters. Throws ResourceError with the
+/// system's message.
 std::unique_ptr<MessageLink> openSerial(const std::string& path);
 inline constexpr std::size_t kLongestLine = 256;
 
