@@ -15,7 +15,7 @@ struct ClockTiming {
 };
 
 /// Runs the whole tick on the device that `spec` names (make_device.h) for so long, without a force. A PHANToM is measured twice: first by
-/// its own clock, then by the computer's. There the force counts from when it is in effect. Throws FaultError (a simulated device) or
+/// its own clock, then by the computer clock. There the force counts from when it is in effect. Throws FaultError (a simulated device) or
 /// ResourceError.
 std::vector<ClockTiming> measureLatency(const std::string& spec, double seconds);
 

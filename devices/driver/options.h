@@ -17,7 +17,7 @@ class DeviceOptions {
   const std::string& plain() const { return plain_; }
   /// The value of a key. The key then counts as taken.
   std::optional<std::string> take(const std::string& key);
-  /// A number within [least, most]; throws FaultError otherwise.
+  /// A number within [least, most]. Throws FaultError otherwise.
   double number(const std::string& key, double otherwise, double least, double most);
   /// One of the words. The first word is the default. Throws FaultError for any other value.
   std::string word(const std::string& key, const std::vector<std::string>& allowed);

@@ -7,20 +7,21 @@
 
 namespace reachlab::devices {
 
-/// A hand's motion from the go signal on, a sample a tick; at rest on the first sample before and on the last one after.
+/// A hand's motion from the go signal on, with a sample per tick. It rests on the first sample before, and on the last sample afterwards.
 struct PlayedReach {
   std::vector<Vec3> position;  // [m]
-  std::vector<Vec3> velocity;  // [m/s]; empty: not known, to be estimated
+  std::vector<Vec3> velocity;  // [m/s]; empty: unknown, so it is estimated
 };
 
 /// Minimum number of samples for a played reach is one.
 using PlanReach = std::function<PlayedReach(int trial)>;
 
-/// A virtual hand that plays one reach a trial, by tick count, so that the same reaches give the same run at any speed of the clock.
-/// Renders no force.
+/// A virtual hand that plays one reach per trial. It moves by tick count, so that the same reaches give the same run at any speed of the
+/// clock. Renders no force.
 class PlayedHand final : public haptics::HapticDevice, public haptics::BlindHand {
  public:
-  /// `plan` is called by prepareTrial, from the controlling thread; trial 0 at once, so that what cannot be planned is said at the start.
+  /// prepareTrial calls `plan` from the controlling thread. The constructor plans trial 0, so that an impossible plan is reported at the
+  /// start.
   PlayedHand(haptics::DeviceInfo info, PlanReach plan);
 
   haptics::DeviceInfo info() const override { return info_; }
@@ -32,7 +33,7 @@ class PlayedHand final : public haptics::HapticDevice, public haptics::BlindHand
  private:
   haptics::DeviceInfo info_;
   PlanReach plan_;
-  PlayedReach prepared_;      // the controlling thread's, until Cue::Place
+  PlayedReach prepared_;      // for the controlling thread, until Cue::Place
   bool firstIsThere_ = true;  // trial 0 as the constructor planned it
   PlayedReach playing_;
   std::size_t at_ = 0;

@@ -6,15 +6,16 @@
 
 namespace reachlab::devices {
 
-/// A plan on a grid of a tick or less, for hands that ask it a thousand times a trial: polynomials through six places, within kWithin of the
-/// plan halfway between every two of them. A plan that such polynomials do not meet (a kink, a pole) is asked itself. A value; any thread.
+/// A plan on a grid of a tick or less, for hands that read it a thousand times per trial. Polynomials run through six positions. Halfway
+/// between two positions they lie within kWithin of the plan. A plan that such polynomials do not meet (a kink, a pole) is evaluated
+/// directly. A value that any thread may use.
 class SampledPlan {
  public:
   static constexpr double kWithin = 2e-12;  // [m]
 
   explicit SampledPlan(ReachPlan plan);
   double duration() const noexcept { return plan_.duration; }
-  /// Where the hand is meant to be; 0 <= time <= duration.
+  /// The intended position of the hand. 0 <= time <= duration.
   Vec3 at(double time) const { return places_.empty() ? plan_.handAt(time) : interpolate(time); }
 
  private:
@@ -22,7 +23,7 @@ class SampledPlan {
 
   ReachPlan plan_;
   double step_ = 0;           // [s]
-  std::vector<Vec3> places_;  // empty: not smooth enough
+  std::vector<Vec3> places_;  // empty: the plan is not smooth enough
 };
 
 }  // namespace reachlab::devices

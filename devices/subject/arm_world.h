@@ -5,8 +5,8 @@
 
 namespace reachlab::devices {
 
-/// A hand with mass and muscle that holds an object, along one way: x' = A x + b u with x = [h, h', f, g, x_1 … x_N, v_1 … v_N]; positions
-/// are metres from the target, f [N] the muscle's force, g [N] its first stage, u [N] the command.
+/// A hand with mass and muscle that holds an object, along one line: x' = A x + b u with x = [h, h', f, g, x_1 … x_N, v_1 … v_N]. Positions
+/// are metres from the target. f [N] is the muscle's force, g [N] is its first stage, and u [N] is the command.
 ///   m h'' = f - d h' - F      tau f' = g - f      tau g' = u - g      F = c x the object's force on the hand
 struct ArmWorld {
   Eigen::MatrixXd a;
@@ -24,21 +24,22 @@ struct ArmSpec {
   double muscle = 0.04;  // [s] of each stage
 };
 
-/// What a subject takes the object for: all springs and all masses off by a factor each.
+/// The subject's errors about the object: all springs are off by one factor, and all masses by another factor.
 struct ModelError {
-  double stiffness = 0, mass = 0;  // ln of assumed over true
+  double stiffness = 0, mass = 0;  // ln of assumed over true value
 };
 
 ArmWorld makeArmWorld(const ArmSpec& arm, predict::LineObject object, const ModelError& error = {});
 
-/// x(t + dt) = A x + b u with u held.
+/// x(t + dt) = A x + b u with constant u.
 struct SteppedWorld {
   Eigen::MatrixXd a;
   Eigen::VectorXd b;
 };
 SteppedWorld stepWorld(const ArmWorld& world, double dt);
 
-/// The arm alone over dt, command and object's force held: [h, h', f, g] -> A [h, h', f, g] + u bCommand + F bForce, F on the hand.
+/// The arm alone over dt, with constant command and constant force of the object: [h, h', f, g] -> A [h, h', f, g] + u bCommand + F bForce.
+/// F acts on the hand.
 struct SteppedArm {
   Eigen::Matrix4d a;
   Eigen::Vector4d command, force;

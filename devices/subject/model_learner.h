@@ -5,14 +5,14 @@
 
 namespace reachlab::devices {
 
-/// What a subject commanded and sensed in one trial, a control step each; made as large as a trial can be beforehand.
+/// The commands and senses of a subject in one trial, one per control step. Memory for the longest trial is reserved beforehand.
 struct TrialTrace {
   std::vector<double> command;  // [step] u before its noise
-  std::vector<double> sensed;   // [step][sense] as they came, delayed and noisy
+  std::vector<double> sensed;   // [step][sense] as they arrived, delayed and noisy
   int steps = 0;
 };
 
-/// What is kept from trial to trial: two processes (Smith et al. 2006).
+/// The memory from trial to trial: two processes (Smith et al. 2006).
 struct LearntModel {
   ModelError first, fast, slow;
   int trials = 0, day = 0;
@@ -23,11 +23,11 @@ struct LearningRates {
   double learnFast = 0, keepFast = 0, learnSlow = 0, keepSlow = 1;
 };
 
-/// The step of Gauss and Newton that makes the trial's senses less surprising, from the model that was used: -(1.05 J'J + 20 I)^-1 J' r over
-/// the innovations in units of their SD, each component within 0.3. `worldOf` makes arm and object for a model.
+/// The Gauss-Newton step that makes the trial's senses less surprising, from the model that was used: -(1.05 J'J + 20 I)^-1 J' r. The
+/// innovations r are in units of their SD. Each component is limited to 0.3. `worldOf` makes arm and object for a model.
 ModelError computeModelStep(const FeedbackGains& gains, const TrialTrace& trace, const ModelError& used, const ArmSpec& arm,
                             const predict::LineObject& object, const SenseSpec& senses, double distance);
-/// Keeps what is kept, and adds the step.
+/// Decays both processes and adds the step.
 void learn(const LearningRates& rates, const ModelError& step, LearntModel& model);
 
 }  // namespace reachlab::devices

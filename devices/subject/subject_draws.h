@@ -9,7 +9,7 @@
 
 namespace reachlab::devices {
 
-/// Draws of one trial; the same on every machine (the standard library's distributions are not).
+/// Draws of one trial. They are the same on every machine, unlike the standard library's distributions.
 class SubjectDraws {
  public:
   SubjectDraws(std::uint64_t seed, std::uint64_t trial) : state_(seededBits(seed, trial)) {}
@@ -19,7 +19,7 @@ class SubjectDraws {
     const double radius = std::sqrt(-2 * elementary::log(1 - uniform()));
     return radius * elementary::cos(2 * std::numbers::pi * uniform());
   }
-  /// The same within 3 SD, so that no trial is out of the human range.
+  /// The same within 3 SD, so that no trial leaves the human range.
   double boundedNormal() { return std::clamp(normal(), -3.0, 3.0); }
 
  private:

@@ -5,9 +5,9 @@
 
 namespace reachlab::devices {
 
-/// prepareSubjects for a device as it is asked for, `simulated:KEY=VALUE,…`: of whatever kind that names.
+/// prepareSubjects for a device text `simulated:KEY=VALUE,…`, for the kind that the text names.
 MakeSubject prepareSubjects(const experiment::CompiledExperiment& experiment, const std::string& device);
-/// Subjects of `kind=ofc` and of `kind=impedance`, by their options as text (feedback_subject.h, impedance_subject.h). Throw FaultError,
+/// Subjects of `kind=ofc` and of `kind=impedance`, by their options as text (feedback_subject.h, impedance_subject.h). Throw FaultError or
 /// RefusedError.
 MakeSubject prepareFeedbackSubjects(const experiment::CompiledExperiment& experiment, const std::string& options);
 MakeSubject prepareImpedanceSubjects(const experiment::CompiledExperiment& experiment, const std::string& options);

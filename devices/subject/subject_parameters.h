@@ -4,19 +4,19 @@
 
 namespace reachlab::devices {
 
-/// One number of a virtual subject: its key as an option, and where its default is from.
+/// One number of a virtual subject: its key as an option, and the source of its default.
 struct SubjectParameter {
   std::string_view key, unit;
   double usual = 0, least = 0, most = 0;
-  bool published = false;  // the source's text or abstract was read; else assumed, or fitted by us
+  bool published = false;  // true: from the source's text or abstract; false: assumed, or fitted by us
   std::string_view meaning, source;
 };
 
-/// Of `kind=ofc`, in the order of the documentation.
+/// The numbers of `kind=ofc`, in the order of the documentation.
 std::span<const SubjectParameter> feedbackParameters();
-/// Of `kind=impedance`.
+/// The numbers of `kind=impedance`.
 std::span<const SubjectParameter> impedanceParameters();
-/// Of `kind=plan`, the open-loop hand.
+/// The numbers of `kind=plan`, the open-loop hand.
 std::span<const SubjectParameter> planParameters();
 
 }  // namespace reachlab::devices

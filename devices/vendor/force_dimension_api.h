@@ -4,19 +4,19 @@
 
 #include "devices/vendor/shared_library.h"
 
-/// The part of Force Dimension's DHD interface that is used, declared anew from public sources so that no SDK is needed to build. Units
-/// of the vendor: m, m/s, N, rad; x towards the user, y right, z up. Every call takes the device's index as a plain `char`. Verified
-/// against the published interface, not on a device.
+/// The part of Force Dimension's DHD interface that this program uses. It is declared from public sources, so that no SDK is needed to
+/// build. Units of the vendor: m, m/s, N, rad. Axes: x towards the user, y right, z up. Every call takes the device's index as a plain
+/// `char`. Verified against the published interface, not on a device.
 namespace reachlab::devices::dhd {
 
-/// Errors of dhdErrorGetLast after which the device is not there any more; others may pass.
+/// Errors of dhdErrorGetLast after which the device is gone. Other errors may pass.
 enum Error : int { kNone = 0, kComm = 2, kNoDevice = 5, kNotAvailable = 6, kTimeout = 7, kNotReady = 12 };
-inline constexpr int kTimeGuard = 1, kMotorSaturated = 2;  // returned by calls, and no errors
-/// What dhdSetWatchdog counts in; its `unsigned char` reaches to 31 ms.
+inline constexpr int kTimeGuard = 1, kMotorSaturated = 2;  // return values of calls that are no errors
+/// The unit of dhdSetWatchdog. Its `unsigned char` reaches to 31 ms.
 inline constexpr std::int64_t kWatchdogUnitNs = 125'000;
 
 struct Api {
-  /// Throws ResourceError: the library is not there, or lacks a function.
+  /// Throws ResourceError when the library is missing or lacks a function.
   Api();
   SharedLibrary library;
   int (*getDeviceCount)() = nullptr;
@@ -42,7 +42,7 @@ struct Api {
   std::string lastError() const;
 };
 
-/// Loaded once for the program; throws ResourceError as long as it cannot be.
+/// Loaded once per program. Throws ResourceError as long as loading fails.
 const Api& api();
 
 }  // namespace reachlab::devices::dhd

@@ -5,8 +5,9 @@
 
 #include "devices/vendor/shared_library.h"
 
-/// The part of the OpenHaptics HD interface that is used, declared anew from public sources so that no SDK is needed to build. Units of
-/// the vendor: mm, mm/s, N, rad; x right, y up, z towards the user. Verified against the published interface, not on a device.
+/// The part of the OpenHaptics HD interface that this program uses. It is declared from public sources, so that no SDK is needed to build.
+/// Units of the vendor: mm, mm/s, N, rad. Axes: x right, y up, z towards the user. Verified against the published interface, not on a
+/// device.
 namespace reachlab::devices::hd {
 
 using Handle = std::uint32_t;
@@ -70,7 +71,7 @@ inline constexpr std::uint16_t kHighestPriority = 65535;
 using Callback = std::uint32_t(void*);
 
 struct Api {
-  /// Throws ResourceError: the library is not there, or lacks a function.
+  /// Throws ResourceError when the library is missing or lacks a function.
   Api();
   SharedLibrary library;
   Handle (*initDevice)(const char* name) = nullptr;
@@ -96,12 +97,12 @@ struct Api {
   unsigned long (*scheduleAsynchronous)(Callback*, void*, std::uint16_t) = nullptr;
   void (*unschedule)(unsigned long) = nullptr;
 
-  /// The newest error in words, "no valid license (0x0600)"; empty when there is none. Takes every error that waits.
-  /// `newest`, if given, becomes its code.
+  /// The newest error as text, "no valid license (0x0600)". Empty when there is no error. Takes every waiting error. `newest`, if given,
+  /// becomes the code of the newest error.
   std::string takeErrors(std::uint32_t* newest = nullptr) const;
 };
 
-/// Loaded once for the program; throws ResourceError as long as it cannot be.
+/// Loaded once per program. Throws ResourceError as long as loading fails.
 const Api& api();
 
 }  // namespace reachlab::devices::hd

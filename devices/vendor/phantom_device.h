@@ -7,18 +7,20 @@
 
 namespace reachlab::devices {
 
-/// A PHANToM or Touch by OpenHaptics, one of two ways. Its scheduler is the clock: it calls at 1 kHz, and one call is one frame with one
-/// tick in it. Or it is a source that the tick samples: frames go on by themselves from the construction on, each gives the newest place
-/// and takes the newest force. What goes wrong in a frame: phantom_frames.h. Force limits are the device's own (nominal peak and continuous).
+/// A PHANToM or Touch by OpenHaptics, in one of two modes. In the first mode its scheduler is the clock. It calls at 1 kHz, and each call
+/// is one frame with one tick in it. In the second mode the tick samples the device. Frames then run from the construction on, and each
+/// frame gives the newest position and takes the newest force. phantom_frames.h describes the errors of a frame. The force limits are the
+/// device's nominal peak and continuous force.
 class PhantomDevice final : public haptics::HapticDevice {
  public:
   struct Options {
-    std::string name;             // of the configuration; empty: the default device
+    std::string name;             // name in the vendor's configuration; empty: the default device
     bool deviceVelocity = false;  // the vendor's smoothed velocity instead of our estimator's
     bool deadMan = false;         // HD_CURRENT_SAFETY_SWITCH must be closed
     bool drivesClock = true;      // false: the tick samples it
   };
-  /// Opens it; where its scheduler runs for another one, that is paused meanwhile. Throws ResourceError in the library's own words.
+  /// Opens the device. If its scheduler runs for another device, the scheduler is paused meanwhile. Throws ResourceError with the library's
+  /// message.
   explicit PhantomDevice(const Options& options);
   ~PhantomDevice() override;
 
@@ -48,7 +50,7 @@ class PhantomDevice final : public haptics::HapticDevice {
   std::string words_;  // "device phantom"
   hd::Handle handle_ = hd::kNoHandle;
   haptics::DeviceInfo info_;
-  PhantomFrames* frames_ = nullptr;  // kept for ever once it was scheduled
+  PhantomFrames* frames_ = nullptr;  // never freed after it was scheduled
   unsigned long callback_ = 0;
   bool scheduled_ = false, everScheduled_ = false;
 };

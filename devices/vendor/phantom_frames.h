@@ -9,16 +9,17 @@
 
 namespace reachlab::devices {
 
-/// Of a device's frames, as far as they were counted [ns].
+/// Timing of a device's frames [ns].
 struct FrameTimes {
-  haptics::LatenessHistogram age;     // from the sample that a force was computed from to that force in effect
-  haptics::LatenessHistogram jitter;  // of the ticks: how far two of them were from 1 ms apart
+  haptics::LatenessHistogram age;     // from the sample behind a force until that force is in effect
+  haptics::LatenessHistogram jitter;  // of the ticks: deviation of their spacing from 1 ms
 };
 
-/// What the vendor's servo thread does with one device: one call is one frame, position read at its begin, force in effect at its end.
-/// Errors of a frame: communication or device fault -> lost for good; force, impulse, velocity or any other -> failed (its own software
-/// has taken the force off), until a second has gone by without one; warm motors -> the force is held to the continuous one meanwhile.
-/// A library may call late, even after it was told not to: whoever has scheduled one never frees it.
+/// The work of the vendor's servo thread for one device. One call is one frame: the position is read at its begin, and the force takes
+/// effect at its end. After a communication or device fault the device is lost for good. After a force, impulse, velocity or other error it
+/// counts as failed, because its software has taken the force off. It recovers after a second without an error. While the motors are warm,
+/// the force is limited to the continuous force. A library may call late, even after it was told to stop. So a scheduled object must never
+/// be freed.
 class PhantomFrames {
  public:
   struct Settings {
@@ -30,31 +31,32 @@ class PhantomFrames {
   PhantomFrames(const PhantomFrames&) = delete;
   PhantomFrames& operator=(const PhantomFrames&) = delete;
 
-  /// Servo thread: a frame, with a tick in it where the device is the clock. Answers the scheduler whether it is to go on.
+  /// Servo thread. Runs a frame, with a tick in it where the device is the clock. Returns whether the scheduler is to continue.
   std::uint32_t call() noexcept;
 
-  // Haptic thread, which is the servo thread where the device is the clock.
+  // Haptic thread. Where the device is the clock, this is the servo thread.
   haptics::DeviceSample read() noexcept;
   void write(const Vec3& force) noexcept;
 
-  /// Controlling thread, before it is scheduled: null: nobody's clock, the tick takes the newest sample.
+  /// Controlling thread, before the object is scheduled. Null: the device is no clock, and the tick takes the newest sample.
   void setTick(haptics::HapticDevice::ClockTick tick, void* context) noexcept;
-  /// Controlling thread: from here on errors that are this device's are told to it, whoever asks.
+  /// Controlling thread. From now on this object is told its device's errors, even those that another device's frame receives.
   void enlist() noexcept;
-  /// Controlling thread: zero force, and no tick is under way any more when it returns. Bounded: a scheduler that does not call is not waited for.
+  /// Controlling thread. Sets zero force. When it returns, no tick is under way. The wait is bounded, in case the scheduler no longer
+  /// calls.
   void stop() noexcept;
-  /// Controlling thread, once it is unscheduled: calls that come all the same touch nothing.
+  /// Controlling thread, after the object is unscheduled. Later calls of the library then have no effect.
   void retire() noexcept;
 
   // Any thread.
   haptics::DeviceHealth health() const noexcept { return health_.load(std::memory_order_acquire); }
   std::uint32_t lastError() const noexcept { return lastError_.load(std::memory_order_acquire); }
-  /// Its forces were switched off: the next force that is none of zero switches them on again.
+  /// The forces of the device were switched off. The next force other than zero switches them on again.
   void noteForceOff() noexcept { forceOff_.store(true, std::memory_order_release); }
   const FrameTimes& times() const noexcept { return times_; }
 
  private:
-  struct Left {  // by the tick
+  struct Left {  // from the tick
     Vec3 force;  // [N]
     std::int64_t leftNs = 0, sampleNs = 0;
   };
@@ -69,14 +71,14 @@ class PhantomFrames {
   void* context_ = nullptr;
   TripleBuffer<haptics::DeviceSample> samples_;  // servo -> haptic
   TripleBuffer<Left> forces_;                    // haptic -> servo
-  haptics::DeviceSample sample_;                 // the servo thread's
-  haptics::DeviceSample taken_;                  // the haptic thread's
-  std::int64_t lastTickNs_ = 0;                  // the haptic thread's
-  Left left_;                                    // the servo thread's, as are:
+  haptics::DeviceSample sample_;                 // for the servo thread
+  haptics::DeviceSample taken_;                  // for the haptic thread
+  std::int64_t lastTickNs_ = 0;                  // for the haptic thread
+  Left left_;                                    // for the servo thread, like the members that follow
   bool isNew_ = false, readsTransform_ = true;
   int goodFrames_ = 0;  // in a row
   std::atomic<haptics::DeviceHealth> health_{haptics::DeviceHealth::Ready};
-  std::atomic<std::uint32_t> lastError_{0}, told_{0};  // told: an error that another device's frame was handed
+  std::atomic<std::uint32_t> lastError_{0}, told_{0};  // told: an error of this device that another device's frame received
   std::atomic<bool> stopping_{false}, retired_{false}, inTick_{false}, forceOff_{false};
   std::atomic<int> zeroFrames_{0};
   FrameTimes times_;

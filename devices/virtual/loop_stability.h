@@ -8,29 +8,31 @@
 
 namespace reachlab::devices {
 
-/// A held device on a virtual spring and damper to a fixed point, sampled at the tick: the simplest loop that can become unstable.
+/// A held device on a virtual spring and damper to a fixed point, sampled at the tick. This is the simplest loop that can become unstable.
 struct LoopSettings {
   double stiffness = 600;                       // [N/m] k_h
   double damping = 0;                           // [N s/m] b_h, on the estimated velocity
-  double mass = 0.1;                            // [kg] apparent mass of the device and what moves with it
+  double mass = 0.1;                            // [kg] apparent mass of the device and of the parts that move with it
   double friction = 0.5;                        // [N s/m] viscous: device and hand together
   double handStiffness = 0;                     // [N/m] of the hand to the ground
-  int delayTicks = 0;                           // beyond the loop's own hold of one tick
+  int delayTicks = 0;                           // beyond the loop's hold of one tick
   double period = kTickSeconds;                 // [s] T of the loop
   experiment::VelocityEstimatorSpec estimator;  // of b_h: difference, butterworth (auto and device are taken for it)
 };
 
-/// Largest |eigenvalue| of one tick of the sampled loop: below 1 every motion dies out. Between two ticks the force is held and the body
-/// follows m x'' = F - b x' - k x exactly (matrix exponential); F(n) = -k_h x(n - d) - b_h v(n - d) with v the estimator's. Linear:
-/// Coulomb friction and quantisation, which bound what an unstable loop does and feed what a stable one does, are left out.
+/// The largest |eigenvalue| of one tick of the sampled loop. Below 1 every motion dies out. Between two ticks the force is constant, and
+/// the body follows m x'' = F - b x' - k x exactly (matrix exponential). The force is F(n) = -k_h x(n - d) - b_h v(n - d), with v from the
+/// estimator. The model is linear. It leaves out Coulomb friction and quantisation. They limit the motion of an unstable loop, and they
+/// feed the motion of a stable loop.
 double spectralRadius(const LoopSettings& settings);
 inline bool isStable(const LoopSettings& settings) { return spectralRadius(settings) < 1; }
 
-/// Colgate and Schenkel 1997: a sampled wall of stiffness K and damping B is passive when the body's own viscous friction exceeds
-/// K T/2 + |B|. What friction is left over (negative: not passive) [N s/m].
+/// Colgate and Schenkel 1997: a sampled wall of stiffness K and damping B is passive when the body's viscous friction exceeds K T/2 + |B|.
+/// Returns the friction that is left over [N s/m]. A negative value means that the wall is not passive.
 double passivityMargin(const LoopSettings& settings) noexcept;
 
-/// The largest stable stiffness, everything else as given, by bisection within [0, most] to 0.1 %; `most` where all are stable.
+/// The largest stable stiffness with all other values as given, by bisection within [0, most] to 0.1 %. Returns `most` if every stiffness
+/// is stable.
 double largestStableStiffness(LoopSettings settings, double most = 1e5);
 
 }  // namespace reachlab::devices

@@ -7,21 +7,21 @@
 
 namespace reachlab::devices {
 
-/// A hand as a passive impedance about where it means to be, holding the device.
+/// A hand that holds the device, as a passive impedance about its intended position.
 struct HandImpedance {
   double mass = 1.0;       // [kg] that moves with the handle
   double stiffness = 300;  // [N/m]
   double damping = 10;     // [N s/m]
 };
 
-/// A device that is simulated as a body: the tick's force acts on apparent mass, friction and the hand that holds it, and the place comes
-/// back quantised, so that the whole loop is closed without hardware.
+/// A device that is simulated as a body. The tick's force acts on apparent mass, friction and the hand that holds it. The position comes
+/// back quantised. So the whole loop is closed without hardware.
 ///
 ///   (m + m_h) x'' = F + k (p - x) + b (p' - x') + (m + m_h) p'' - b_d x' - c tanh(x'/v0)
 ///
-/// p is where the hand means to be (any hand that moves by tick count), and its own inertia is fed forward, so that without a force it
-/// goes where it means to. Each axis alike. Semi-implicit Euler at 0.1 ms. A force is held to the model's peak and acts `delayTicks`
-/// later than the tick that wrote it; each `read` advances by one tick.
+/// p is the intended position of the hand (any hand that moves by tick count). The inertia of the hand is fed forward, so that the hand
+/// reaches p without a force. Each axis is alike. Semi-implicit Euler at 0.1 ms. A force is limited to the model's peak and acts
+/// `delayTicks` later than the tick that wrote it. Each `read` advances by one tick.
 class VirtualDevice final : public haptics::HapticDevice {
  public:
   static constexpr int kMostDelay = 32;
@@ -39,7 +39,7 @@ class VirtualDevice final : public haptics::HapticDevice {
   void write(const Vec3& force) noexcept override;
   void see(std::span<const dynamics::MassState> masses) noexcept override { hand_->see(masses); }
 
-  /// Where the handle truly is [m]; after `read`.
+  /// The true position of the handle [m], after `read`.
   const Vec3& truePlace() const noexcept { return place_; }
 
  private:
@@ -49,7 +49,7 @@ class VirtualDevice final : public haptics::HapticDevice {
   Options options_;
   std::unique_ptr<haptics::HapticDevice> hand_;
   Vec3 place_, speed_;       // [m], [m/s] of the handle
-  Vec3 meant_, meantSpeed_;  // of the hand's intention at the tick before
+  Vec3 meant_, meantSpeed_;  // intended position and speed at the tick before
   bool placed_ = false;
   std::array<Vec3, kMostDelay> forces_{};  // [N] by tick, newest at `at_`
   int at_ = 0;

@@ -5,17 +5,18 @@
 
 namespace reachlab::network {
 
-/// Which of many messages are printed: ten a minute, so that who sends rubbish fills no disk. Any clock, in seconds; one thread at a time.
+/// Decides which of many messages are printed: ten per minute, so that a sender of rubbish cannot fill the disk. Any clock, in seconds. One
+/// thread at a time.
 class MessageLimit {
  public:
-  /// How many before this one were held back, where it is to be printed; nullopt: it is held back too.
+  /// If the message is to be printed: the number of messages held back before it. nullopt: this message is held back too.
   std::optional<std::uint64_t> admit(double now) {
     if (printed_ == 0 || now - since_ >= kMinute) since_ = now, printed_ = 0;
     if (printed_ == kMost) return ++held_, std::nullopt;
     ++printed_;
     return takeHeld();
   }
-  /// Those held back that no answer has told of yet.
+  /// The number of held-back messages that no answer has reported yet.
   std::uint64_t takeHeld() { return std::exchange(held_, 0); }
 
  private:

@@ -10,15 +10,15 @@ namespace reachlab::network {
 
 inline double seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
-/// What a peer's sample says of the link: its number, when it left by the peer's clock, and of a sample of ours that the peer heard when it
-/// left by our clock and came by the peer's. [ns]; ours 0: it has heard none.
+/// Data about the link in a peer's sample: its number and its departure by the peer's clock. It also names a sample of ours that the peer
+/// heard: its departure by our clock and its arrival by the peer's. [ns]. Ours is 0 if the peer has heard no sample.
 struct Echo {
   std::uint32_t number = 0;
   std::int64_t left = 0, oursLeft = 0, oursCame = 0;
 };
 
-/// One peer's link from the echoes in its samples: round trip and clock as NTP has them (RFC 5905, section 8), and what share of the last
-/// second's samples was missing: lost, or dropped because a newer one came before. One thread.
+/// One peer's link, computed from the echoes in its samples. Round trip and clock follow NTP (RFC 5905, section 8). A sample of the last
+/// second counts as missing if it was lost, or dropped because a newer sample came earlier. One thread.
 class PeerClock {
  public:
   void add(const Echo& echo, std::int64_t nowNs) {
@@ -50,7 +50,7 @@ class PeerClock {
   struct EchoTrip {
     double roundTrip = 0, offset = 0;
   };
-  // The fastest exchange has the least unequal ways.
+  // The fastest exchange has the least difference between its two directions.
   void judge() {
     const std::size_t known = std::min(at_, kExchanges);
     const EchoTrip* fastest = &exchanges_[0];
@@ -74,18 +74,19 @@ class PeerClock {
   double longest_ = 0;  // [s]
 };
 
-/// What a peer's link loses, from probes so far apart that none overtakes another (50 a second: a jitter of up to 10 ms either way).
+/// The loss of a peer's link, measured with probes. They are so far apart that no probe overtakes another probe (50 per second: a jitter of
+/// up to 10 ms in each direction).
 class ProbeLoss {
  public:
   void add(std::uint32_t number) {
-    if (known_ == 0 || number <= last_) came_.reset(), known_ = 0, last_ = number - 1;  // its program was started again
+    if (known_ == 0 || number <= last_) came_.reset(), known_ = 0, last_ = number - 1;  // the program of the peer was started again
     const std::size_t steps = std::min<std::size_t>(number - last_, kProbes);
     came_ <<= steps;
     came_.set(0);
     known_ = std::min(known_ + steps, kProbes);
     last_ = number;
   }
-  /// Of the last two seconds; 0 in the first half second.
+  /// Over the last two seconds. 0 in the first half second.
   double share() const {
     if (known_ < kLeast) return 0;
     return 1 - static_cast<double>(came_.count()) / static_cast<double>(known_);

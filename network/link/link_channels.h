@@ -6,13 +6,14 @@
 
 namespace reachlab::network {
 
-/// How a station's copy stands to the others, as channels of a recording: its ledger; of every other station, in their order, how far the
-/// two copies are apart, the newest sample's age, fade, synchronisation, round trip and loss. `station`: from 1, of so many.
+/// The relation of a station's copy to the other copies, as channels of a recording. The first channel is its ledger. For every other
+/// station follow, in their order: distance of the two copies, age of the newest sample, fade, synchronisation, round trip and loss.
+/// `station` counts from 1, up to the number of stations.
 std::vector<record::Channel> linkChannels(int station, int stations);
-/// How many they are with so many peers; so it is also where those of the next peer begin, with how far the copies are apart.
+/// The number of channels with this many peers. It is also the index of the next peer's first channel, the distance of the copies.
 constexpr std::size_t linkColumns(int peers) { return 1 + 6 * static_cast<std::size_t>(peers); }
 inline constexpr std::size_t kMostLinkColumns = linkColumns(kMaxStations - 1);
-/// What stands in them after a tick, before what came then is taken; NaN: not known.
+/// The values of the channels after a tick, before the new samples are taken. NaN: not known.
 void fillLinks(const CoupledCopy& copy, double* columns) noexcept;
 
 }  // namespace reachlab::network

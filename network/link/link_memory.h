@@ -8,19 +8,19 @@
 #include "sim/trial/outcome.h"
 #include "sim/trial/planned_trial.h"
 
-/// What a station and its endpoint share: rings in memory that both processes map. Neither side ever waits for the other. Plain and of fixed
-/// size; both are built from this header, and `version` says so.
+/// The memory that a station and its endpoint share: rings that both processes map. Neither process ever waits for the other. Plain and of
+/// fixed size. Both processes are built from this header, and `version` identifies it.
 namespace reachlab::network {
 
-/// This station's own state at a tick, to be sent.
+/// This station's state at a tick, for sending.
 struct OwnState {
   std::int64_t timeNs = 0;  // monotonic clock
   std::int32_t trial = 0;
   std::uint8_t phase = 0;               // trial::Phase
-  std::uint32_t places = 0, rates = 0;  // of the sample, that there are
+  std::uint32_t places = 0, rates = 0;  // number of places and rates in the sample
   CopySample sample;
 };
-/// A peer's, as it came: its time on this station's clock.
+/// A peer's state as it arrived, with its time on this station's clock.
 struct HeardState {
   std::int32_t trial = 0;
   std::uint8_t phase = 0;
@@ -30,8 +30,8 @@ struct HeardState {
 
 struct LinkEvent {
   enum class Kind : std::uint8_t {
-    Arm,        // the conductor: put this trial up
-    Ended,      // any station: its trial has ended so
+    Arm,        // the conductor: prepare this trial
+    Ended,      // any station: how its trial has ended
     Interrupt,  // the conductor: end the trial under way
     Finish,     // the conductor: no more trials
   };
@@ -39,15 +39,15 @@ struct LinkEvent {
   Kind kind = Kind::Arm;
   std::int32_t trial = 0;
   trial::PlannedTrial planned;
-  double frequency = 0;  // [rad/s] omega_o of the trial that is armed; 0: as the object has it
+  double frequency = 0;  // [rad/s] omega_o of the armed trial; 0: the default of the object
   trial::Outcome outcome = trial::Outcome::None;
   trial::Reason reason = trial::Reason::None;
   double apart = 0;  // [m] at the end
 };
 
-/// Who a station says it is. Texts end with a zero.
+/// The identity of a station, as it reports it. Texts end with a zero.
 struct StationCard {
-  std::uint32_t station = 0;  // from 1; 0 only observes
+  std::uint32_t station = 0;  // from 1; 0: only observes
   std::uint32_t version = 0;  // of the messages
   std::uint64_t experiment = 0;
   bool conductor = false;
@@ -55,25 +55,25 @@ struct StationCard {
   std::array<char, 97> device{};
 };
 
-/// How the link to one station is, written by the endpoint; numbers of one moment may be of neighbouring ones.
+/// The quality of the link to one station, written by the endpoint. Numbers that are read together may come from neighbouring moments.
 struct LinkStatus {
   std::atomic<double> roundTrip{-1};  // [s] the newest; -1: not known
   std::atomic<double> jitter{0};      // [s] SD of the round trip over the last samples
-  std::atomic<double> offset{0};      // [s] the peer's clock less ours, of the fastest exchange lately
-  std::atomic<double> loss{0};        // share of what it sends that does not come, of the last two seconds
-  std::atomic<double> overtaken{0};   // share of a second's samples that came after a newer one, and were not used
-  std::atomic<double> gap{0};         // [s] the longest that nothing came in the last second
+  std::atomic<double> offset{0};      // [s] the peer's clock less ours, from the fastest recent exchange
+  std::atomic<double> loss{0};        // share of its samples that do not arrive, over the last two seconds
+  std::atomic<double> overtaken{0};   // share of a second's samples that came after a newer sample and were not used
+  std::atomic<double> gap{0};         // [s] longest time without a sample in the last second
   std::atomic<std::int64_t> heardNs{0};
 };
 static_assert(std::atomic<double>::is_always_lock_free && std::atomic<std::size_t>::is_always_lock_free);
 
-/// What the endpoint is to be, written by the station before it starts it. Texts end with a zero.
+/// The configuration of the endpoint, written by the station before it starts the endpoint. Texts end with a zero.
 struct EndpointSettings {
   static constexpr std::size_t kPath = 512, kAddress = 64, kAddresses = 16;
   StationCard card;
   int domain = 0;
   std::array<char, kPath> secure{};                            // folder of certificates; empty: nothing is encrypted
-  std::array<char, kAddress> interface {};                     // of the network; empty: the system's choice
+  std::array<char, kAddress> interface {};                     // network interface; empty: the system's choice
   std::array<std::array<char, kAddress>, kAddresses> peers{};  // addresses; the first empty one ends the list
 };
 
@@ -84,12 +84,12 @@ struct LinkMemory {
   std::atomic<bool> stop{false};
   std::atomic<std::int64_t> aliveNs{0};  // the endpoint's last round
   SpscQueue<OwnState, 64> out;
-  std::array<SpscQueue<HeardState, 64>, kMaxStations> in;  // by station, from 0; one's own stays empty
+  std::array<SpscQueue<HeardState, 64>, kMaxStations> in;  // by station, from 0; the queue of this station stays empty
   SpscQueue<LinkEvent, 64> eventsOut, eventsIn;
   SpscQueue<StationCard, 32> cardsIn;
   std::array<LinkStatus, kMaxStations> status;
   std::atomic<std::uint64_t> ringsFull{0};       // samples that found no room
-  std::atomic<std::uint64_t> discardedBytes{0};  // of states that came twice or after newer ones, dropped by the endpoint's reader
+  std::atomic<std::uint64_t> discardedBytes{0};  // bytes of states that came twice or after newer states, dropped by the endpoint's reader
 };
 
 }  // namespace reachlab::network

@@ -10,12 +10,12 @@
 
 namespace reachlab::network {
 
-/// A station's run again, from its own log: its hand's samples and what the others sent. `look` sees every tick, before what came then is
-/// taken. Throws as record::replayRun.
+/// Replays a station's run from its log: the samples of its hand and of the other stations. `look` sees every tick, before the new samples
+/// are taken. Throws as record::replayRun does.
 using LookAtCopy = std::function<void(const haptics::TickState& state, const CoupledCopy& copy)>;
 record::Replay replayStation(const record::RunLog& log, const LookAtCopy& look = {});
 
-/// The engine of one station: its own hand on its copy of the object. `copy` becomes the engine's. Throws what CoupledCopy throws.
+/// The engine of one station: its hand on its copy of the object. `copy` becomes part of the engine. Throws as CoupledCopy does.
 std::unique_ptr<haptics::TickEngine> makeStationEngine(const experiment::CompiledExperiment& experiment, int own,
                                                        const haptics::EngineOptions& options, CoupledCopy*& copy);
 

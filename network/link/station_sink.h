@@ -13,20 +13,20 @@
 
 namespace reachlab::network {
 
-/// [s] What the clock shows at the end of the tick to come.
+/// [s] The time of the clock at the end of the next tick.
 double timeAfter(const haptics::TickState& state) noexcept;
 
-/// Where the other stations' hands were by their newest samples.
+/// The positions of the other stations' hands, by their newest samples.
 struct OtherHands {
   std::array<Vec3, kMaxStations> place{};  // [m] by station, from 0
   std::array<bool, kMaxStations> known{};
 };
 
-/// Between the haptic thread and the rings: sends this station's state every tick, and hands what came to the copy before the next. It allocates
-/// nothing and waits for nothing.
+/// Connects the haptic thread with the rings. It sends this station's state every tick, and it passes new samples to the copy before the
+/// next tick. It allocates nothing and never waits.
 class StationSink final : public haptics::RunSink, public record::FurtherColumns {
  public:
-  /// All outlive the sink's use. `own`: from 0. Of the ticks one in `sendEvery` is sent.
+  /// All arguments outlive the sink's use. `own` counts from 0. One tick in `sendEvery` is sent.
   StationSink(LinkMemory& memory, CoupledCopy& copy, int own, int sendEvery = 1)
       : memory_(memory), copy_(copy), own_(own), sendEvery_(sendEvery), places_(static_cast<std::uint32_t>(copy.placeCount())),
         rates_(static_cast<std::uint32_t>(copy.rateCount())), linkColumns_(linkColumns(copy.peerCount())),
@@ -35,39 +35,41 @@ class StationSink final : public haptics::RunSink, public record::FurtherColumns
   void announce(std::int32_t, const trial::PlannedTrial&) override {}
   void awaitTrial(std::int32_t) override {}
   void close() override {}
-  /// Of the latest tick.
+  /// For the latest tick.
   void fill(double* columns) const noexcept override { std::copy_n(links_.begin(), linkColumns_, columns); }
 
-  /// Controlling thread, between trials: omega_o [rad/s] from the next tick on.
+  /// Controlling thread, between trials. Sets omega_o [rad/s] from the next tick on.
   void synchroniseBy(double frequency) noexcept { frequency_.store(frequency, std::memory_order_release); }
 
-  /// Controlling thread: that station, from 1, has broken the trial off (as the stations count them); so this copy loses it.
+  /// Controlling thread. That station (from 1) has broken off the trial, as the stations count trials. So this copy loses it.
   void breakOff(int station, std::int32_t trial) noexcept {
     brokenOff_.store(std::int64_t{trial} << 8 | peerOf(station - 1), std::memory_order_release);
   }
 
-  /// Controlling thread: from the next tick on nothing is given to the copy any more, so that the log can have all that was.
+  /// Controlling thread. From the next tick on the copy receives nothing more, so that the log can contain every given sample.
   void stopGiving() noexcept { givesNoMore_.store(true, std::memory_order_release); }
-  /// The haptic thread has heard of it.
+  /// True after the haptic thread has noticed it.
   bool hasStoppedGiving() const noexcept { return gaveLast_.load(std::memory_order_acquire); }
 
-  /// Controlling thread, now and then: what was given since, as the payload of a record; empty: nothing. Only `places` coordinates are kept.
-  /// The first says whose log it is, be anything given or not.
+  /// Controlling thread, now and then. Returns the samples given since the last call as the payload of a record, or an empty text. Only
+  /// `places` coordinates are kept. The first payload names the station of the log, even without samples.
   std::vector<std::uint8_t> takeGiven();
 
-  /// Controlling thread: the other hands as they are now, in a trial or not; null: nothing has come since.
+  /// Controlling thread. The present positions of the other hands, in a trial or not. Null when nothing has come since the last call.
   const OtherHands* takeOtherHands() noexcept { return hands_.takeLatest(); }
 
-  /// Controlling thread, before a trial is put up: what the stations count more than this engine, which may have come later.
+  /// Controlling thread, before a trial is prepared. The difference between the stations' count of trials and this engine's count. This
+  /// engine may have started later.
   void countTrialsFrom(std::int32_t before) noexcept { trialsBefore_.store(before, std::memory_order_release); }
 
-  /// The largest distance between this copy and another in the latest trial, and samples of it that were lost for want of room. Any thread.
+  /// The largest distance between this copy and another copy in the latest trial, and the number of its samples that were lost for lack of
+  /// room. Any thread.
   double mostApart() const noexcept { return mostApart_.load(std::memory_order_relaxed); }
   double rmsApart() const noexcept { return rmsApart_.load(std::memory_order_relaxed); }
-  /// The same at the latest tick of the movement: how far apart the copies were when the trial was judged.
+  /// The same distance at the latest tick of the movement, when the trial was judged.
   double lastApart() const noexcept { return lastApart_.load(std::memory_order_relaxed); }
-  /// Of the latest trial, over all peers: ticks at which one was held by less than its full coupling, the oldest sample in force [s], and
-  /// samples that were no newer than one before. Any thread.
+  /// Values of the latest trial over all peers: ticks with less than the full coupling to a peer, the oldest used sample [s], and samples
+  /// that were no newer than an earlier sample. Any thread.
   std::uint64_t fadedTicks() const noexcept { return fadedTicks_.load(std::memory_order_relaxed); }
   double oldest() const noexcept { return oldest_.load(std::memory_order_relaxed); }
   std::uint64_t repeated() const noexcept { return repeated_.load(std::memory_order_relaxed); }
@@ -84,7 +86,7 @@ class StationSink final : public haptics::RunSink, public record::FurtherColumns
   LinkMemory& memory_;
   CoupledCopy& copy_;
   int own_, sendEvery_;
-  std::uint32_t places_, rates_;  // of the copy, which is the haptic thread's once it runs
+  std::uint32_t places_, rates_;  // of the copy, which the haptic thread owns once it runs
   std::size_t linkColumns_;
   std::array<double, kMostLinkColumns> links_{};
   std::unique_ptr<SpscQueue<GivenSample, 4096>> given_;
@@ -93,15 +95,15 @@ class StationSink final : public haptics::RunSink, public record::FurtherColumns
   double squares_ = 0;
   std::uint64_t count_ = 0;
   std::atomic<double> mostApart_{0}, rmsApart_{0}, lastApart_{0}, oldest_{0};  // [m], [m], [m], [s]
-  std::atomic<double> frequency_{0};                                           // [rad/s] as asked for; 0: as the object has it
+  std::atomic<double> frequency_{0};                                           // [rad/s] as requested; 0: the default of the object
   double frequencyNow_ = 0;
   std::atomic<std::uint64_t> fadedTicks_{0}, repeated_{0};
   std::uint64_t repeatedBefore_ = 0;
   std::atomic<std::int32_t> trialsBefore_{0};
-  std::atomic<std::int64_t> brokenOff_{0};  // trial and peer; 0: none
+  std::atomic<std::int64_t> brokenOff_{0};  // trial and peer; 0: no trial
   std::atomic<bool> givesNoMore_{false}, gaveLast_{false};
-  bool said_ = false;  // whose log it is
-  OtherHands seen_;    // the haptic thread's
+  bool said_ = false;  // the log already names its station
+  OtherHands seen_;    // for the haptic thread
   TripleBuffer<OtherHands> hands_;
 };
 

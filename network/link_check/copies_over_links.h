@@ -8,22 +8,22 @@
 
 namespace reachlab::network {
 
-/// One object's copies at its stations, joined by simulated links, under a clock of the caller's: what the study and the check before a block
-/// are made of.
+/// The copies of one object at its stations, joined by simulated links, under a clock of the caller. The study and the check before a block
+/// use it.
 class CopiesOverLinks {
  public:
-  /// Every link like every other; at rest at `start`, in coordinates of the constraint.
+  /// All links are alike. The object rests at `start`, in coordinates of the constraint.
   CopiesOverLinks(const experiment::Experiment& experiment, const constraints::Constraint& constraint, std::span<const double> start,
                   const CopySettings& settings, const LinkConditions& link, double roundTrip, std::uint64_t seed);
 
-  /// One tick that ends at `now` [s]: where each hand goes in it, and where it is then.
+  /// One tick that ends at `now` [s], with the motion of each hand in it and the position of each hand at its end.
   void tick(std::span<const dynamics::HandSegment> hands, std::span<const dynamics::HandSample> ends, double now);
   int count() const { return static_cast<int>(copies_.size()); }
   const CoupledCopy& copy(int station) const { return *copies_[static_cast<std::size_t>(station)]; }
-  /// As the others get it.
+  /// The samples as the other stations receive them.
   const CopySample& sample(int station) const { return samples_[static_cast<std::size_t>(station)]; }
   double speedSquares() const;  // sum over all copies' rates
-  /// [J] the most that a copy holds above what the hands have put in.
+  /// [J] the largest excess of a copy's energy over the energy that the hands have put in.
   double aboveLedger() const;
 
  private:

@@ -4,7 +4,7 @@
 
 namespace reachlab::network {
 
-/// Whether what is left to itself comes to rest: its speed in the last second over that of a second soon after it was let be.
+/// Whether a released object comes to rest: its speed in the last second over its speed in a second soon after the release.
 class Growth {
  public:
   Growth(double letBe, double end) : letBe_(letBe), end_(end) {}  // [s]
@@ -16,7 +16,7 @@ class Growth {
     constexpr double kStill = 1e-12;  // [m^2/s^2]
     return std::sqrt(late_ / std::max(1, lateCount_) / (early_ / std::max(1, earlyCount_) + kStill));
   }
-  /// An object that hardly comes to rest by itself may ring as long over a link.
+  /// An object that hardly comes to rest by itself may ring equally long over a link.
   static bool isStable(double ratio, double alone) {
     constexpr double kMost = 1.05, kLikeAlone = 1.3;
     return std::isfinite(ratio) && (ratio < kMost || ratio < kLikeAlone * alone);

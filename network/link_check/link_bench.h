@@ -7,16 +7,16 @@
 
 namespace reachlab::network {
 
-/// Over which links the shipped coupling is tried, and how often.
+/// The links over which the shipped coupling is tried, and the number of trials.
 struct LinkBenchPlan {
   std::vector<double> roundTrips{0, 0.01, 0.05, 0.1, 0.2};  // [s]
-  int seeds = 8;                                            // of losses and jitter, a cell
-  int setups = 40;                                          // random ones, an object; 0: none
+  int seeds = 8;                                            // for losses and jitter, per cell
+  int setups = 40;                                          // number of random set-ups per object; 0: none
   double loss = 0.05, jitterShare = 0.1;
   std::uint64_t seed = 5;  // of the random set-ups
 };
 
-/// One object over one link, over the seeds: means of the stable runs (of all, where none is).
+/// One object over one link, over the seeds. Means over the stable runs, or over all runs if no run is stable.
 struct LinkBenchCell {
   SharedObject object = SharedObject::Chain;
   double roundTrip = 0;  // [s]
@@ -42,7 +42,7 @@ LinkBenchTables runLinkBench(const LinkBenchPlan& plan, const LinkBenchProgress&
 LinkBenchShare runRandomSetups(const LinkBenchPlan& plan, SharedObject object, double roundTrip);
 
 std::string formatLinkBench(const LinkBenchTables& tables);  // for a terminal
-std::string linkBenchCsv(const LinkBenchTables& tables);     // one line a cell or share
+std::string linkBenchCsv(const LinkBenchTables& tables);     // one line per cell or share
 std::string drawLinkBench(const LinkBenchTables& tables);    // SVG
 
 }  // namespace reachlab::network

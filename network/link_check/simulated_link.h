@@ -6,14 +6,14 @@
 
 namespace reachlab::network {
 
-/// How a link treats what is sent over it, one way.
+/// The effect of a link on its messages, in one direction.
 struct LinkConditions {
   double delay = 0;   // [s]
   double jitter = 0;  // [s] uniform, +-
   double loss = 0;    // share
 };
 
-/// A link under a clock of the caller's, seeded: the same sends give the same arrivals on every machine.
+/// A link under a clock of the caller, with a seed. The same sends give the same arrivals on every machine.
 template <class Sample>
 class SimulatedLink {
  public:
@@ -24,7 +24,7 @@ class SimulatedLink {
     const double jitter = conditions_.jitter * (2 * seededFraction(seed_, count_++) - 1);
     under_.push_back({now + conditions_.delay + jitter, sample, false});
   }
-  /// Everything that has arrived by `now`, in the order of sending.
+  /// Every message that has arrived by `now`, in the order of sending.
   template <class Take>
   void receive(double now, Take&& take) {
     constexpr double kSame = 1e-9;  // [s]

@@ -4,22 +4,22 @@
 
 #include "sim/record/log/run_log.h"
 
-/// Several stations' logs of one run, made into one: the conductor's ticks, object and outcomes, every hand from its own station's log at the
+/// Merges several stations' logs of one run. Ticks, object and outcomes are the conductor's. Every hand comes from its station's log at the
 /// same moment.
 namespace reachlab::network {
 
-/// One station's log, and what came of reading it.
+/// One station's log and the results of reading it.
 struct MergedStation {
   std::string log;
   int station = 0;  // from 1
   bool conductor = false;
-  std::uint64_t ticks = 0, samples = 0;  // recorded; of the others, as given to its copy
-  bool identical = false;                // its copy was computed again from its own log, to the bit
+  std::uint64_t ticks = 0, samples = 0;  // recorded ticks; samples of other stations, as given to its copy
+  bool identical = false;                // its copy was computed again from its log, to the bit
   std::string firstDifference;
-  int otherOutcomes = 0;    // trials that ended in another way than at the conductor
+  int otherOutcomes = 0;    // trials with another outcome than at the conductor
   double offset = 0;        // [s] its clock less the conductor's, the median over the run
   double offsetSpread = 0;  // [s] between the 5th and the 95th percentile
-  double apart = 0;         // [m] RMS over the movement: its copy against the others'
+  double apart = 0;         // [m] RMS over the movement: its copy against the other copies
 };
 struct MergeReport {
   std::vector<MergedStation> stations;  // by number
@@ -27,17 +27,17 @@ struct MergeReport {
   int trials = 0;
 };
 
-/// Whose log it is, from 1; 0 where it is of no station.
+/// The station of a log, from 1. 0 for a log without a station.
 int stationOf(const record::RunLog& log);
-/// True for what `mergeStations` has written: it is no run of one engine, and each station's log is beside it.
+/// True for a log that `mergeStations` has written. It is no run of a single engine, and each station's log is beside it.
 bool isMerged(const record::RunLog& log);
 /// The stations' logs that a merged one was made from, as `mergeStations` keeps them.
 std::vector<std::string> logsOfMerged(const record::RunLog& log);
 
-/// Writes the merged log to `configuration.run`'s place `path`, with the channels of every station's links, and copies of the logs
-/// into the folder `stations` beside it. `configuration` names subject, session and run; the rest is the conductor's. Throws
-/// FaultError: not one log of each of the experiment's stations, no or two conductors, different experiments, clocks that contradict
-/// each other, a log whose copy is another when it is computed again.
+/// Writes the merged log to the path `path` of `configuration.run`, with the channels of every station's links. Copies the logs into the
+/// folder `stations` beside it. `configuration` names subject, session and run. All other values are the conductor's. Throws FaultError
+/// when a station's log is missing or doubled, or when no station or two stations conducted. Also for different experiments, for
+/// contradicting clocks, and for a log whose copy differs when it is computed again.
 MergeReport mergeStations(const std::vector<std::string>& logs, const record::RunConfiguration& configuration, const std::string& path);
 
 }  // namespace reachlab::network

@@ -2,32 +2,33 @@
 #include <string>
 #include <vector>
 
-/// Who belongs to a laboratory, as DDS Security wants it: each station has a key and a certificate of its own, and signed permissions. There
-/// are two authorities, because with one for both a station could sign permissions for itself. Keys are made where they stay: a station's on
-/// the station (mode 0600), the authorities' with the conductor.
+/// The members of a laboratory, as DDS Security needs them. Each station has a key, a certificate and signed permissions. There are two
+/// authorities, because with a single authority a station could sign permissions for itself. Each key stays where it is made: a station's
+/// key on the station (mode 0600), the authorities' keys with the conductor.
 namespace reachlab::network {
 
-/// What a folder of certificates is.
+/// The contents of a folder of certificates.
 struct PeerFolder {
   std::string name;
   bool conductor = false;  // holds the authorities
   bool complete = false;   // certificate and permissions are there
-  std::string validUntil;  // of the certificate, as OpenSSL writes it; empty where there is none
-  std::string fault;       // what is wrong with it, in words; empty: nothing
+  std::string validUntil;  // of the certificate, as OpenSSL writes it; empty without a certificate
+  std::string fault;       // the error in the folder as text; empty: no error
 };
 
 struct PeersOptions {
-  int days = 3650;  // that certificates and permissions are valid
+  int days = 3650;  // validity of certificates and permissions
 };
 
-/// Makes the authorities and the conductor's own certificate in `folder`. Throws FaultError (a name that is none, a folder in use), ResourceError.
+/// Makes the authorities and the conductor's certificate in `folder`. Throws FaultError (an impossible name, a folder in use) or
+/// ResourceError.
 void initConductor(const std::string& folder, const std::string& name, const PeersOptions& options = {});
-/// Makes a station's key and its request, `folder`/request.pem, which goes to the conductor.
+/// Makes a station's key and its request, `folder`/request.pem. The request goes to the conductor.
 void initStation(const std::string& folder, const std::string& name);
-/// On the conductor: answers a request with what the station needs beside its key, in `folder`/for-NAME, which goes back to the station's folder.
-/// Returns that folder.
+/// On the conductor. Answers a request with all files that the station needs besides its key, in `folder`/for-NAME. These files go back to
+/// the station's folder. Returns the folder.
 std::string addStation(const std::string& folder, const std::string& request, const PeersOptions& options = {});
-/// The folder itself and, on the conductor, whom it has answered.
+/// The folder itself and, on the conductor, the stations with an answer.
 std::vector<PeerFolder> listPeers(const std::string& folder);
 
 }  // namespace reachlab::network

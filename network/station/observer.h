@@ -9,27 +9,27 @@
 
 namespace reachlab::network {
 
-/// What an observer has seen since the last look.
+/// The observations since the last call.
 struct ObserverNews {
   std::vector<LinkEvent> ended;  // how a station's trial ended
   bool finished = false;         // the conductor said that no more trials follow
-  std::string problem;           // in vain: no station was heard, the endpoint has ended; once
+  std::string problem;           // the reason why observing is in vain (no station was heard, the endpoint has ended); reported once
 };
 
-/// A station without a hand: no copy, nothing sent and nothing recorded; the others do not wait for it, nor know of it. Never waits; `poll` it
-/// often. Every call from one thread at a time.
+/// A station without a hand. It has no copy, and it sends and records nothing. The other stations do not wait for it and do not know of it.
+/// It never waits. Call `poll` often. Every call comes from one thread at a time.
 class Observer {
  public:
-  /// Starts the endpoint. Throws FaultError, RefusedError: an experiment that stations cannot share; ResourceError.
+  /// Starts the endpoint. Throws FaultError. Throws RefusedError for an experiment that stations cannot share. Throws ResourceError.
   Observer(const StationSetup& setup, const experiment::CompiledExperiment& experiment);
 
   ObserverNews poll();
-  /// The newest that came of every station, from 0; a sample with sequence number 0: nothing yet.
+  /// The newest sample of every station, from 0. A sample with sequence number 0 means that no sample has come yet.
   const std::array<HeardState, kMaxStations>& newest() const { return newest_; }
-  /// How far a station's copy is from that of the first that was heard, each as it came last [m].
+  /// The distance [m] between a station's copy and the copy of the first station that was heard, by their latest samples.
   double apart(int station) const;
-  /// For a picture: the conductor's copy (the first station's that is heard, until one says that it conducts), with hand 1 for its own; null while
-  /// nothing has come. The other hands stand in `hands`.
+  /// For a picture: the conductor's copy, with hand 1 as its hand. Until a station says that it conducts, it is the copy of the first
+  /// station that was heard. Null while no sample has come. The other hands are in `hands`.
   const haptics::TickState* state() const { return shown_ < 0 ? nullptr : state_.get(); }
   const OtherHands& hands() const { return hands_; }
   StationLink& link() { return *link_; }
@@ -46,13 +46,13 @@ class Observer {
   std::unique_ptr<haptics::TickState> state_;
   OtherHands hands_;
   int shown_ = -1;     // the station, from 0, whose copy is shown
-  int first_ = -1;     // the first that was heard, from 0
+  int first_ = -1;     // the first station that was heard, from 0
   double begun_;       // [s]
-  bool told_ = false;  // what went wrong
+  bool told_ = false;  // a problem was reported
 };
 
-/// Of every station that was heard a line `key=value …` of the newest that came, and how far its copy was then from the first's.
-/// `now`: of the samples' clock [s].
+/// One line `key=value …` for every station that was heard: its newest sample, and the distance of its copy from the first station's. `now`
+/// [s] is on the samples' clock.
 std::string describeNewest(const Observer& observer, double now);
 
 }  // namespace reachlab::network

@@ -7,12 +7,13 @@ class App;
 
 namespace reachlab::network {
 
-/// The options of a station, which are the same wherever one is begun: conductor, peers, insecure, name, interface, peer, domain, wait, rate.
-/// Which hand is here and its device are the front end's own. `setup` outlives the parsing.
+/// The options of a station, which are the same for every front end: conductor, peers, insecure, name, interface, peer, domain, wait, rate.
+/// The front end adds the options for the hand and its device. `setup` outlives the parsing.
 void addStationOptions(CLI::App& command, StationSetup& setup);
 
-/// After the parsing: what was not given, and what is the computer's own. `program`: who starts the endpoint, for the fault. Throws FaultError:
-/// neither certificates nor insecure; ResourceError: there is no endpoint.
+/// Called after the parsing. Completes the options that were not given, and the values that belong to the computer. `program` is the
+/// program that starts the endpoint, for the message. Throws FaultError without certificates and without `insecure`. Throws ResourceError
+/// without an endpoint.
 void completeStationSetup(StationSetup& setup, const std::string& device, const std::string& program);
 
 }  // namespace reachlab::network

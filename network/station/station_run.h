@@ -18,26 +18,27 @@
 
 namespace reachlab::network {
 
-/// What is asked of a station, by whatever front end.
+/// The request for a station, from any front end.
 struct StationSetup {
   StationOptions link;
-  bool insecure = false;  // in so many words
+  bool insecure = false;  // no certificates are used, by explicit request
   double wait = 60;       // [s] for the other stations
   int rate = 1000;        // [1/s] at which its state is sent
 };
 
-/// What has happened since the last look.
+/// The events since the last call.
 struct StationNews {
-  std::vector<std::string> words;                // for the experimenter, a line each
-  std::string notArmed;                          // why, where it is another reason than at the last look
-  bool begun = false;                            // a trial was put up
-  std::optional<haptics::ConductedTrial> ended;  // and is safe on the disk
-  std::string problem;                           // in vain: nobody came, nobody arms, the endpoint has ended. Again after another `wait`
-  bool finished = false;                         // no more trials: the conductor said so, or this one stopped
+  std::vector<std::string> words;                // for the experimenter, one text per line
+  std::string notArmed;                          // the reason for not arming, where it differs from the reason at the last call
+  bool begun = false;                            // a trial was prepared
+  std::optional<haptics::ConductedTrial> ended;  // a trial ended and is safe on the disk
+  // the reason why running is in vain: nobody came, nobody arms, the endpoint has ended; repeated after another `wait`
+  std::string problem;
+  bool finished = false;                         // no more trials: the conductor said so, or this station stopped
 };
 
-/// The trials of one station, from its first word to its last. The conductor arms trial after trial, when it is told to and every link is
-/// good; the others put up what it arms. Never waits; `poll` it often. Every call from one thread at a time.
+/// The trials of one station, from its first message to its last. The conductor arms trial after trial, on request and while every link is
+/// good. The other stations prepare the armed trial. It never waits. Call `poll` often. Every call comes from one thread at a time.
 ///
 ///   StationRun station(setup, block.experiment);
 ///   station.prepare(options);
@@ -47,61 +48,64 @@ struct StationNews {
 ///   station.close();
 class StationRun {
  public:
-  /// Starts the endpoint. Throws FaultError: an experiment without a hand for each station, or not for this one; ResourceError.
+  /// Starts the endpoint. Throws FaultError for an experiment without a hand for each station, or without a hand for this station. Throws
+  /// ResourceError.
   StationRun(const StationSetup& setup, const experiment::CompiledExperiment& experiment);
   ~StationRun();
   StationRun(const StationRun&) = delete;
   StationRun& operator=(const StationRun&) = delete;
 
-  /// A run made with these has this station's copy for its engine, and its ticks go to the link.
+  /// Options for a run that uses this station's copy as its engine and sends its ticks to the link.
   void prepare(session::RecordedRunOptions& options);
-  /// The run that was made so; its loop begins, and with it the link. It is closed, or gone, before this is.
+  /// Takes the run that was made with these options. Its loop begins, and with it the link. The run is closed or destroyed before this
+  /// object.
   void begin(session::RecordedRun& run);
-  /// Of the hand here, from one seed for all of them.
+  /// The trial seed of the hand at this station, from one seed for all hands.
   std::uint64_t seedHere(std::uint64_t seed) const;
 
   bool isConductor() const { return setup_.link.conductor; }
   int station() const { return setup_.link.station; }
-  /// The conductor: the next trial, as soon as every station has had its word on the one before and every link is good.
+  /// Conductor only. Requests the next trial. It begins when every station has reported the end of the trial before and every link is good.
   void armNext();
-  /// It is to be armed and has not been yet.
+  /// A trial is requested and not armed yet.
   bool isArming() const { return (stage_ > Stage::Idle && stage_ < Stage::UnderWay) || stage_ == Stage::OthersThenNext; }
   /// The conductor is between two trials.
   bool isIdle() const { return stage_ == Stage::Idle; }
-  /// Ends the trial under way, the conductor at every station; or no longer wants one to be armed.
+  /// Ends the trial under way. On the conductor it ends the trial at every station. Withdraws a request that is not armed yet.
   void abort();
-  /// The same, and then no more trials.
+  /// The same, and no more trials follow.
   void stop();
 
   StationNews poll();
-  /// What came from the others is kept in the log; between two looks, where they are far apart.
+  /// Keeps the samples of the other stations in the log. Call it between two calls of `poll` that are far apart.
   void keep();
 
-  /// Ends the line and closes the run's log. What is to be said of the line, a line each. Idempotent.
+  /// Ends the link and closes the run's log. Returns messages about the link, one per line. A second call has no effect.
   std::string close();
 
   StationLink& link() { return *link_; }
-  /// Where the other hands are, by station from 0; known once something came.
+  /// The positions of the other hands, by station from 0. Known after the first sample.
   const OtherHands& otherHands() const { return others_; }
 
  private:
-  /// Of one trial.
+  /// For one trial.
   enum class Stage {
     Idle,
     Wanted,          // the conductor: the next trial is to be armed
-    Links,           // waits for every link to be good,
-    Settling,        // hears them for a while,
-    LinksAgain,      // and wants them to be good still
+    Links,           // waits until every link is good
+    Settling,        // listens to the links for a while
+    LinksAgain,      // waits until they are good again
     Checking,        // simulates the object over them
-    UnderWay,        // at the engine
-    Aborting,        // the same, and to be ended
-    Others,          // the conductor: waits for the other stations' words on the trial
-    OthersThenNext,  // the same, and then the next is to be armed
+    UnderWay,        // the engine runs the trial
+    Aborting,        // the same, and the trial is to be ended
+    Others,          // the conductor: waits until the other stations report the end of the trial
+    OthersThenNext,  // the same, and then the next trial is to be armed
     Over             // no more trials
   };
-  /// Of the run.
-  enum class Progress { New, Begun, Stopping, Finished, Closed };  // a follower has begun once it knows what was told before it came
-  /// The run asks for its watcher before the engine, and with it the sink, is made.
+  /// For the run.
+  // a follower has begun once it knows the messages from before its arrival
+  enum class Progress { New, Begun, Stopping, Finished, Closed };
+  /// The run asks for its watcher before it makes the engine and with it the sink.
   struct Watcher final : haptics::RunSink, record::FurtherColumns {
     StationSink* sink = nullptr;
     bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missed) noexcept override {
@@ -141,19 +145,19 @@ class StationRun {
   OtherHands others_;
   Stage stage_ = Stage::Idle;
   Progress progress_ = Progress::New;
-  double until_ = 0;    // [s] that this stage may take
-  double settled_ = 0;  // [s] when what was told before this station came is known to hold; 0: nothing was told
+  double until_ = 0;    // [s] time limit of this stage
+  double settled_ = 0;  // [s] when the messages from before this station's arrival are known to hold; 0: no such message
   std::string said_;
-  std::stop_source closing_;         // what is being computed is not waited for any more
-  std::future<LinkCheck> checking_;  // the conductor's, on a thread of its own
-  MeasuredLink checkedFor_;          // of that or of the last that was well
-  double frequency_ = 0;             // [rad/s] omega_o that was found; 0: nothing was checked yet
-  std::deque<LinkEvent> heard_;      // of stations that have not said yet who they are
+  std::stop_source closing_;         // ends the wait for the computation
+  std::future<LinkCheck> checking_;  // on the conductor, in a separate thread
+  MeasuredLink checkedFor_;          // link of that check, or of the last good check
+  double frequency_ = 0;             // [rad/s] omega_o of the check; 0: no check yet
+  std::deque<LinkEvent> heard_;      // of stations that have not yet sent their identity
   std::int32_t armed_ = 0, armAsked_ = 0, putUp_ = 0, trialsBefore_ = 0;
   trial::PlannedTrial planned_;
   TrialWords words_;
-  std::optional<haptics::ConductedTrial> ended_;  // here, and not all have had their word on it
-  double wordsUntil_ = 0;                         // [s] when they are not waited for any more
+  std::optional<haptics::ConductedTrial> ended_;  // ended here, and some station has not yet reported its end
+  double wordsUntil_ = 0;                         // [s] when the wait for the other stations' reports ends
 };
 
 }  // namespace reachlab::network

@@ -8,31 +8,31 @@
 
 namespace reachlab::network {
 
-/// How a station's trial ended, in a line.
+/// The end of a station's trial, as one line.
 std::string wordsOf(const LinkEvent& ended);
 std::string wordsOf(trial::Outcome outcome, trial::Reason reason);
-/// True where something failed at that station, or somebody ended the trial there: then it is over for all. A hand that never moves is no such
-/// end, because each copy comes to it.
+/// True if something failed at that station, or if somebody ended the trial there. The trial is then over for all stations. A hand that
+/// never moves is no such end, because each copy comes to it.
 bool isBrokenOff(const LinkEvent& ended);
 
-/// What each station says of how its latest trial ended, and what holds for all: the conductor's copy is judged, but a trial that any station
-/// broke off is broken off for all.
+/// Collects the reports of all stations on the end of the latest trial. The conductor's copy is judged. But a trial that any station broke
+/// off is broken off for all stations.
 class TrialWords {
  public:
   void add(const LinkEvent& ended);
-  /// Whether the latest that any station has ended is this trial.
+  /// Whether this trial is the latest trial that any station has ended.
   bool anyOn(std::int32_t trial) const;
-  /// The other stations, of so many, that have not said how this trial ended: "2, 3"; empty: all have. `own`: from 0.
+  /// The other stations that have not reported the end of this trial: "2, 3". Empty when all have reported. `own` counts from 0.
   std::string missing(std::int32_t trial, int stations, int own) const;
   struct Verdict {
     LinkEvent word;
-    bool brokenOff = false;  // the word is of a station that broke off, though the conductor's copy came to a result
+    bool brokenOff = false;  // the report is from a station that broke off, although the conductor's copy came to a result
   };
-  /// nullopt: the conductor has said nothing of this trial. `conducts`: whether a station, from 1, does.
+  /// nullopt: the conductor has not yet reported this trial. `conducts`: whether a station (from 1) is the conductor.
   std::optional<Verdict> verdictOn(std::int32_t trial, const std::function<bool(std::uint32_t)>& conducts) const;
 
  private:
-  std::array<LinkEvent, kMaxStations> words_{};  // by station, from 0; without a station: none yet
+  std::array<LinkEvent, kMaxStations> words_{};  // by station, from 0; an event without a station: no report yet
 };
 
 }  // namespace reachlab::network
