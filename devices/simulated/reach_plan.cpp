@@ -77,7 +77,7 @@ ReachPlan planByPrediction(const experiment::Experiment& experiment, double leng
     options.handMass = handMass;
     options.duration = duration;
     const std::shared_ptr<const predict::Prediction> prediction = predict::predict(line, lineConstraint, criterion, options);
-    std::vector<double> x(line.object.masses.size()), v(x.size());
+    std::vector<double> x(static_cast<std::size_t>(prediction->massCount())), v(x.size());
     const auto hasLeft = [&](double t) { return scale * std::abs(prediction->handAt(t).position) > task.onset; };
     const auto isThere = [&](double t) {
       prediction->massesAt(t, x, v);

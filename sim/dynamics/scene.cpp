@@ -15,6 +15,7 @@
 #include "constraints/regularity/surface_branches.h"
 #include "sim/dynamics/choose_method.h"
 #include "sim/dynamics/compile.h"
+#include "sim/dynamics/hand_alone.h"
 #include "sim/dynamics/rk4_error.h"
 #include "sim/dynamics/shared_plant.h"
 #include "sim/dynamics/systems/curve_places.h"
@@ -317,6 +318,14 @@ void compileOnSurface(Scene& scene, const ObjectModel& model, const std::array<d
 Scene compile(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const SceneOptions& options) {
   Scene scene;
   scene.constraint = std::make_shared<const constraints::Constraint>(constraint);
+  if (experiment.object.kind == experiment::ObjectKind::None) {
+    scene.choice.method = "exact";
+    scene.choice.form = "the hand alone";
+    scene.choice.reason = "there is no object, and nothing is integrated";
+    scene.plant = makeHandAlone();
+    if (experiment.task) scene.plant->placeAtRest(experiment.task->start);
+    return scene;
+  }
   const ObjectModel model = makeObjectModel(experiment);
   if (!(options.step > 0) || !std::isfinite(options.step))
     throw RefusedError(fmt::format("the step must be positive, not {} s", options.step));

@@ -16,7 +16,10 @@ void checkInertia(const Object& object, std::vector<Fault>& faults) {
   const auto& m = object.inertia;
   const std::size_t before = faults.size();
   for (std::size_t i = 0; i < 3; ++i)
-    for (std::size_t j = 0; j < 3; ++j) checkNumber(fmt::format("object.inertia_kg_m2[{}][{}]", i, j), m[i][j], i == j ? inertiaRange() : componentRange(), faults);
+    for (std::size_t j = 0; j < 3; ++j) {
+      if (!isWithin(componentRange(), m[i][j])) return;  // told with the keys
+      if (i == j) checkNumber(fmt::format("object.inertia_kg_m2[{}][{}]", i, j), m[i][j], inertiaRange(), faults);
+    }
   if (faults.size() > before) return;
   const double minor2 = m[0][0] * m[1][1] - m[0][1] * m[1][0];
   const double determinant = m[0][0] * (m[1][1] * m[2][2] - m[1][2] * m[2][1]) - m[0][1] * (m[1][0] * m[2][2] - m[1][2] * m[2][0]) +
@@ -41,6 +44,18 @@ struct KeyCheck {
     checkNumbers(keyIn(group, key.name), {v[0], v[1]}, 2, key.range, faults);
   }
   void operator()(const Key& key, const Vec3& v) const { checkNumbers(keyIn(group, key.name), {v.x, v.y, v.z}, 3, key.range, faults); }
+  template <std::size_t N>
+  void operator()(const Key& key, const SquareMatrix<N>& matrix) const {
+    for (std::size_t i = 0; i < N; ++i)
+      for (std::size_t j = 0; j < N; ++j) checkNumber(fmt::format("{}[{}][{}]", keyIn(group, key.name), i, j), matrix[i][j], key.range, faults);
+  }
+  void operator()(const Key&, const ForceLaw& law) const {
+    std::visit([&](const auto& of) { visitKeys(of, *this); }, law);
+  }
+  void operator()(const Key& key, const Environment& environment) const {
+    for (std::size_t i = 0; i < environment.size(); ++i)
+      visitKeys(environment[i], KeyCheck{fmt::format("{}[{}]", keyIn(group, key.name), i), faults});
+  }
   template <class T>
   void operator()(const Key& key, const std::optional<T>& value) const {
     if (value) (*this)(key, *value);
@@ -52,6 +67,11 @@ struct KeyCheck {
 };
 
 void checkObject(const Object& object, std::vector<Fault>& faults) {
+  if (object.kind == ObjectKind::None) {
+    const bool bare = object.masses.empty() && object.stiffness.empty() && object.damping.empty();
+    if (!bare) faults.push_back({"object.kind", "is none, but the object has masses or springs", "none without masses_kg and springs"});
+    return;
+  }
   const bool one = object.kind == ObjectKind::Point || object.kind == ObjectKind::Body;
   const std::size_t count = object.masses.size(), before = faults.size();
   if (one) checkNumbers("object.masses_kg", object.masses, 1, massRange(), faults);
@@ -69,6 +89,10 @@ void checkObject(const Object& object, std::vector<Fault>& faults) {
 
 void checkCoupling(const Experiment& e, std::vector<Fault>& faults) {
   const bool parallel = e.object.kind == ObjectKind::Parallel;
+  if (e.object.kind == ObjectKind::None) {
+    if (e.coupling) faults.push_back({"coupling", "is given, but object.kind is none and there is nothing to couple", "no coupling"});
+    return;
+  }
   if (parallel && e.coupling)
     return faults.push_back({"coupling", "stands beside a parallel object, whose own springs are the hand's", "no coupling"});
   if (!parallel && !e.coupling)
@@ -94,6 +118,33 @@ void checkHands(const Experiment& e, std::vector<Fault>& faults) {
   }
 }
 
+void checkEnvironment(const Experiment& e, std::vector<Fault>& faults) {
+  const bool stays = e.task && e.task->start == e.task->target;
+  for (std::size_t i = 0; i < e.environment.size(); ++i) {
+    const std::string key = fmt::format("environment[{}]", i);
+    const ForceLaw& law = e.environment[i].law;
+    if (std::holds_alternative<ChannelForce>(law) && stays)
+      faults.push_back({key + ".kind", "is channel, but start and target are the same place", "a task with a distance from start to target"});
+    const auto* pulse = std::get_if<PulseForce>(&law);
+    if (pulse == nullptr) continue;
+    if (pulse->at.onset.has_value() == pulse->at.distance.has_value())
+      faults.push_back({key + ".at", "needs exactly one of onset_s and distance_m", "one of the two"});
+    if (pulse->duration < 2 * pulse->rise)
+      faults.push_back({key + ".duration_s", fmt::format("is {:g}, shorter than rise and fall", pulse->duration),
+                        fmt::format("at least {:g} s, two times rise_s", 2 * pulse->rise)});
+  }
+  if (!e.environment.empty() && e.hands.size() > 1)
+    faults.push_back({"environment", fmt::format("is given with {} hands", e.hands.size()), "one hand"});
+}
+
+void checkCursor(const Experiment& e, std::vector<Fault>& faults) {
+  if (!e.cursor) return;
+  if (e.object.kind != ObjectKind::None)
+    faults.push_back({"cursor", "is given with an object, which the subject sees where it is", "object { \"kind\": \"none\" }"});
+  if (e.cursor->clamp && (e.cursor->rotation != 0 || e.cursor->gain != 1))
+    faults.push_back({"cursor.clamp_deg", "is given with a rotation or a gain, and a clamped cursor has neither", "clamp_deg alone"});
+}
+
 /// `coordinates` < 0: the constraint is at fault itself, and how many there are is not known.
 void checkPlaces(const Task& task, int coordinates, std::vector<Fault>& faults) {
   for (const auto& [key, place] : {std::pair{"task.start", &task.start}, std::pair{"task.target", &task.target}}) {
@@ -109,6 +160,10 @@ void checkShape(const constraints::ConstraintSpec& spec, std::vector<Fault>& fau
 void checkObjectOnConstraint(const Experiment& e, const constraints::Constraint& constraint, std::vector<Fault>& faults) {
   const Object& object = e.object;
   using constraints::ConstraintKind;
+  if (object.kind == ObjectKind::None && constraint.kind != ConstraintKind::Free)
+    faults.push_back({"object.kind", "is none, so there is nothing that the constraint could hold", "constraint { \"name\": \"free\" }"});
+  if (object.kind == ObjectKind::None && !e.hands.empty())
+    faults.push_back({"hands", "are given without an object", "one hand, without the key hands"});
   if (object.kind == ObjectKind::Body && constraint.kind != ConstraintKind::Free)
     faults.push_back({"object.kind", "is body, which moves free", "constraint { \"name\": \"free\" }"});
   if (constraint.kind != ConstraintKind::Surface) return;
@@ -166,6 +221,8 @@ CheckedExperiment check(const Experiment& experiment, const constraints::Constra
   checkObject(experiment.object, faults);
   checkCoupling(experiment, faults);
   checkHands(experiment, faults);
+  checkEnvironment(experiment, faults);
+  checkCursor(experiment, faults);
   if (experiment.task) {
     const auto& constraint = checked.constraint;
     const bool free = constraint && constraint->kind == constraints::ConstraintKind::Free;

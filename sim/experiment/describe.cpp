@@ -33,6 +33,7 @@ std::string objectOf(const Object& object) {
     case ObjectKind::Chain: text = fmt::format("a chain of {} masses ({})", n, each(object.masses, "kg")); break;
     case ObjectKind::Parallel: text = fmt::format("{} parallel masses ({}), tied to the hand", n, each(object.masses, "kg")); break;
     case ObjectKind::Body: text = fmt::format("a rigid body of {} kg", numbers(object.masses)); break;
+    case ObjectKind::None: return "the hand without an object";
   }
   if (!object.stiffness.empty()) text += (object.kind == ObjectKind::Parallel ? " by " : " joined by ") + springs(object);
   if (object.viscosity != 0) text += fmt::format(", in a field of viscosity {:.6g} N s/m", object.viscosity);
@@ -68,10 +69,40 @@ std::string placeOf(const std::vector<double>& q) {
   return q.size() == 2 ? "(u, v) = (" + numbers(q) + ")" : "(" + numbers(q) + ") m";
 }
 
-std::string taskOf(const Task& task) {
+std::string rowsOf(const auto& matrix) {
+  std::string text;
+  for (const auto& row : matrix) text += fmt::format("{}{:.6g}", text.empty() ? "[" : "; ", fmt::join(row, " "));
+  return text + "]";
+}
+
+std::string lawOf(const HandForce& force) {
+  struct {
+    std::string operator()(const ViscousForce& f) const { return "a viscous field of " + rowsOf(f.matrix) + " N s/m"; }
+    std::string operator()(const ElasticForce& f) const { return "an elastic field of " + rowsOf(f.matrix) + " N/m"; }
+    std::string operator()(const JointViscousForce& f) const { return "a viscous field of the joints, " + rowsOf(f.matrix) + " N m s/rad"; }
+    std::string operator()(const ChannelForce& f) const { return fmt::format("a channel of {:.6g} N/m", f.stiffness); }
+    std::string operator()(const PulseForce& f) const {
+      return fmt::format("a pulse of ({:.6g}, {:.6g}, {:.6g}) N for {:.6g} s", f.force.x, f.force.y, f.force.z, f.duration);
+    }
+  } words;
+  return std::visit(words, force.law);
+}
+
+std::string environmentOf(const Environment& environment) {
+  std::string text;
+  for (const HandForce& force : environment) text += (text.empty() ? ", with " : " and ") + lawOf(force);
+  return text.empty() ? text : text + " on the hand";
+}
+
+std::string cursorOf(const Cursor& cursor) {
+  if (cursor.clamp) return fmt::format(", and a cursor clamped at {:.6g} degrees to the target", *cursor.clamp);
+  return fmt::format(", and a cursor rotated by {:.6g} degrees with gain {:.6g}", cursor.rotation, cursor.gain);
+}
+
+std::string taskOf(const Task& task, bool object) {
   const std::string pace = describePace(task);
-  return fmt::format("from rest at {} to rest at {} {}{}, every mass within {:.6g} m and {:.6g} m/s", placeOf(task.start),
-                     placeOf(task.target), pace.starts_with("within") ? "" : "in ", pace, task.tolerance.position, task.tolerance.velocity);
+  return fmt::format("from rest at {} to rest at {} {}{}, {} within {:.6g} m and {:.6g} m/s", placeOf(task.start),
+                     placeOf(task.target), pace.starts_with("within") ? "" : "in ", pace, object ? "every mass" : "the hand", task.tolerance.position, task.tolerance.velocity);
 }
 
 }  // namespace
@@ -88,7 +119,9 @@ std::string describe(const Experiment& e) {
     if (e.coupling->damping != 0) text += fmt::format(" and {:.6g} N s/m", e.coupling->damping);
   }
   text += ", " + constraintOf(e.constraint);
-  if (e.task) text += "; " + taskOf(*e.task);
+  text += environmentOf(e.environment);
+  if (e.cursor) text += cursorOf(*e.cursor);
+  if (e.task) text += "; " + taskOf(*e.task, e.object.kind != ObjectKind::None);
   return text;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cstdint>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -58,11 +59,13 @@ struct PulseForce {
 };
 
 /// Movement: from movement onset to the end of the trial. Trial: from arming. A pulse has its own instant.
-enum class ForceWhen { Movement, Trial };
+enum class ForceWhen : std::uint8_t { Movement, Trial };
+
+using ForceLaw = std::variant<ViscousForce, ElasticForce, JointViscousForce, ChannelForce, PulseForce>;
 
 /// A force on the hand itself, beside that of the object.
 struct HandForce {
-  std::variant<ViscousForce, ElasticForce, JointViscousForce, ChannelForce, PulseForce> law;
+  ForceLaw law;
   ForceWhen when = ForceWhen::Movement;
   bool operator==(const HandForce&) const = default;
 };

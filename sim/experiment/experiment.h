@@ -6,6 +6,8 @@
 
 #include "base/fault.h"
 #include "constraints/constraint_spec.h"
+#include "sim/experiment/cursor.h"
+#include "sim/experiment/environment.h"
 #include "sim/experiment/object.h"
 #include "sim/experiment/subject_screen.h"
 #include "sim/experiment/task.h"
@@ -20,7 +22,7 @@ struct Arm {
   std::array<double, 2> mass{0.9, 1.1};         // [kg]
   std::array<double, 2> inertia{0.065, 0.100};  // [kg m^2] about the proximal joint
   std::array<double, 2> damping{0.08, 0.08};    // [N m s/rad]
-  std::array<double, 2> shoulder{0.0, -0.45};   // [m] of the shoulder in the task plane: along the line, across it (chest side negative)
+  std::array<double, 2> shoulder{0.0, -0.45};   // [m] of the shoulder in the horizontal plane: world x to the right, -z forward
   bool elbowLeft = false;                       // which of the two postures
   bool operator==(const Arm&) const = default;
 };
@@ -31,9 +33,11 @@ struct Experiment {
   std::string name;
   constraints::ConstraintSpec constraint;
   Object object;
-  std::optional<Coupling> coupling;  // required, but none for parallel
+  std::optional<Coupling> coupling;  // required, but not for parallel and none
   std::vector<Hand> hands;           // empty: one hand, by `coupling` or a parallel object's own springs
   std::optional<Task> task;
+  Environment environment;       // forces on the hand itself
+  std::optional<Cursor> cursor;  // only without an object; nullopt: the hand is seen where it is
   std::string method = "auto";       // auto | rk4 | exact | abm | adaptive | stiff
   double handMass = 0;               // [kg] predictions only
   std::optional<double> forceLimit;  // [N] of the device; nullopt: the device's own

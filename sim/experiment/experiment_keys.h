@@ -21,24 +21,37 @@ struct Key {
   const std::vector<std::string>* names = nullptr;  // a text is one of these
   const char* shape = "";                           // how an object that is required looks
   bool constants = false;                           // numbers may be written as constants ("2*pi")
+  bool diagonal = false;                            // a matrix may be written as its diagonal
 };
 
 template <class T, class Of>
 concept MaybeConst = std::same_as<std::remove_const_t<T>, Of>;
 
 /// In the order of ObjectKind.
-inline const std::vector<std::string> kObjectKindNames{"point", "chain", "parallel", "body"};
+inline const std::vector<std::string> kObjectKindNames{"point", "chain", "parallel", "body", "none"};
+/// In the order of TaskPlane, ForceLaw, ForceWhen, CursorShow and CursorJudge.
+inline const std::vector<std::string> kTaskPlaneNames{"horizontal", "frontal"};
+inline const std::vector<std::string> kForceKindNames{"viscous", "elastic", "joint-viscous", "channel", "pulse"};
+inline const std::vector<std::string> kForceWhenNames{"movement", "trial"};
+inline const std::vector<std::string> kCursorShowNames{"always", "movement-end", "never"};
+inline const std::vector<std::string> kCursorJudgeNames{"cursor", "hand"};
 
 template <MaybeConst<Object> T, class Visit>
 void visitKeys(T& o, const Visit& visit) {
   visit(Key{.name = "kind", .required = true, .names = &kObjectKindNames}, o.kind);
+  if (o.kind == ObjectKind::None) return;
   visit(Key{"masses_kg"}, o.masses);
   visit(Key{"stiffness_n_per_m"}, o.stiffness);
   visit(Key{"damping_n_s_per_m"}, o.damping);
   visit(Key{"viscosity_n_s_per_m", dampingRange()}, o.viscosity);
   visit(Key{"gravity_m_per_s2", componentRange()}, o.gravity);
   if (o.kind != ObjectKind::Body) return;
-  visit(Key{.name = "inertia_kg_m2", .required = true, .shape = "[Ix, Iy, Iz] or a symmetric positive 3 x 3 matrix"}, o.inertia);
+  visit(Key{.name = "inertia_kg_m2",
+            .range = componentRange(),
+            .required = true,
+            .shape = "[Ix, Iy, Iz] or a symmetric positive 3 x 3 matrix",
+            .diagonal = true},
+        o.inertia);
   visit(Key{"fp_offset_m", componentRange()}, o.fpOffset);
 }
 
@@ -66,6 +79,64 @@ void visitKeys(T& t, const Visit& visit) {
   visit(Key{"timeout_s", positiveUpTo(kMaxTimeout, "s")}, t.timeout);
   visit(Key{"rest_s", {0, kMaxRestDuration, true, fmt::format("0 to {:.0f} s", kMaxRestDuration)}}, t.rest.seconds);
   visit(Key{"rest_speed_m_per_s", positive("m/s")}, t.rest.speed);
+  visit(Key{.name = "plane", .names = &kTaskPlaneNames}, t.plane);
+}
+
+template <MaybeConst<ViscousForce> T, class Visit>
+void visitKeys(T& f, const Visit& visit) {
+  visit(Key{.name = "matrix_n_s_per_m", .range = between(-1e6, 1e6, "N s/m"), .required = true, .shape = "3 rows of 3 numbers"}, f.matrix);
+}
+
+template <MaybeConst<ElasticForce> T, class Visit>
+void visitKeys(T& f, const Visit& visit) {
+  visit(Key{.name = "matrix_n_per_m", .range = between(-1e6, 1e6, "N/m"), .required = true, .shape = "3 rows of 3 numbers"}, f.matrix);
+  visit(Key{"centre_m", componentRange()}, f.centre);
+}
+
+template <MaybeConst<JointViscousForce> T, class Visit>
+void visitKeys(T& f, const Visit& visit) {
+  const NumberRange range = between(-1e6, 1e6, "N m s/rad");
+  visit(Key{.name = "matrix_n_m_s_per_rad", .range = range, .required = true, .shape = "2 rows of 2 numbers"}, f.matrix);
+}
+
+template <MaybeConst<ChannelForce> T, class Visit>
+void visitKeys(T& f, const Visit& visit) {
+  visit(Key{"stiffness_n_per_m", positiveUpTo(1e6, "N/m")}, f.stiffness);
+  visit(Key{"damping_n_s_per_m", upTo(1e6, "N s/m")}, f.damping);
+  visit(Key{"half_width_m", upTo(10, "m")}, f.halfWidth);
+  visit(Key{"ramp_s", upTo(60, "s")}, f.ramp);
+  visit(Key{"break_m", positiveUpTo(10, "m")}, f.breakDistance);
+}
+
+template <MaybeConst<PulseInstant> T, class Visit>
+void visitKeys(T& p, const Visit& visit) {
+  visit(Key{"onset_s", upTo(kMaxDuration, "s")}, p.onset);
+  visit(Key{"distance_m", upTo(10, "m")}, p.distance);
+}
+
+template <MaybeConst<PulseForce> T, class Visit>
+void visitKeys(T& f, const Visit& visit) {
+  visit(Key{.name = "force_n", .range = between(-1e6, 1e6, "N"), .required = true, .shape = "[x, y, z]"}, f.force);
+  visit(Key{.name = "at", .required = true, .shape = "{ \"onset_s\": … } or { \"distance_m\": … }"}, f.at);
+  visit(Key{"duration_s", durationRange()}, f.duration);
+  visit(Key{"rise_s", durationRange()}, f.rise);
+}
+
+/// Reader, writer and check visit the keys of the law beside its kind.
+template <MaybeConst<HandForce> T, class Visit>
+void visitKeys(T& f, const Visit& visit) {
+  visit(Key{.name = "kind", .required = true, .names = &kForceKindNames}, f.law);
+  if (!std::holds_alternative<PulseForce>(f.law)) visit(Key{.name = "when", .names = &kForceWhenNames}, f.when);
+}
+
+template <MaybeConst<Cursor> T, class Visit>
+void visitKeys(T& c, const Visit& visit) {
+  visit(Key{"rotation_deg", between(-180, 180, "degrees")}, c.rotation);
+  visit(Key{"gain", positiveUpTo(100, "")}, c.gain);
+  visit(Key{"clamp_deg", between(-180, 180, "degrees")}, c.clamp);
+  visit(Key{"delay_s", upTo(10, "s")}, c.delay);
+  visit(Key{.name = "show", .names = &kCursorShowNames}, c.show);
+  visit(Key{.name = "judge", .names = &kCursorJudgeNames}, c.judge);
 }
 
 template <MaybeConst<TimingLimits> T, class Visit>
@@ -112,6 +183,8 @@ void visitKeys(T& e, const Visit& visit) {
   visit(Key{"coupling"}, e.coupling);
   visit(Key{"hands"}, e.hands);
   visit(Key{"task"}, e.task);
+  visit(Key{"environment"}, e.environment);
+  visit(Key{"cursor"}, e.cursor);
   visit(Key{.name = "method", .names = &methodNames()}, e.method);
   visit(Key{"hand_mass_kg", handMassRange()}, e.handMass);
   visit(Key{"force_limit_n", forceRange()}, e.forceLimit);

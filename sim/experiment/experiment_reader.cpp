@@ -33,21 +33,32 @@ void readConstraint(ObjectReader& reader, constraints::ConstraintSpec& spec) {
   }
 }
 
-using Matrix = std::array<std::array<double, 3>, 3>;
-
-void readMatrix(ObjectReader& reader, const JsonNode& node, const std::string& key, Matrix& matrix) {
-  const bool isMatrix = node.kind == JsonNode::Kind::Array && !node.items.empty() && node.items[0].kind == JsonNode::Kind::Array;
+template <std::size_t N>
+void readMatrix(ObjectReader& reader, const JsonNode& node, const Key& key, SquareMatrix<N>& matrix) {
+  const bool isArray = node.kind == JsonNode::Kind::Array;
+  const int count = static_cast<int>(N);
   std::vector<double> row;
-  if (!isMatrix) {
-    if (!reader.numbers(node, key, 3, anyNumber(), row)) return;
-    for (std::size_t i = 0; i < 3; ++i) matrix[i][i] = row[i];
+  if (key.diagonal && !(isArray && !node.items.empty() && node.items[0].kind == JsonNode::Kind::Array)) {
+    if (!reader.numbers(node, key.name, count, anyNumber(), row)) return;
+    for (std::size_t i = 0; i < N; ++i) matrix[i][i] = row[i];
     return;
   }
-  if (node.items.size() != 3) return reader.faults().add(node, reader.keyPath(key), fmt::format("has {} rows", node.items.size()), "3 rows");
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (!reader.numbers(node.items[i], fmt::format("{}[{}]", key, i), 3, anyNumber(), row)) return;
-    for (std::size_t j = 0; j < 3; ++j) matrix[i][j] = row[j];
+  if (!isArray) return reader.faults().add(node, reader.keyPath(key.name), fmt::format("is {}", nameOf(node.kind)), key.shape);
+  if (node.items.size() != N)
+    return reader.faults().add(node, reader.keyPath(key.name), fmt::format("has {} rows", node.items.size()), fmt::format("{} rows", N));
+  for (std::size_t i = 0; i < N; ++i) {
+    if (!reader.numbers(node.items[i], fmt::format("{}[{}]", key.name, i), count, anyNumber(), row)) return;
+    for (std::size_t j = 0; j < N; ++j) matrix[i][j] = row[j];
   }
+}
+
+/// The law of this kind with its defaults.
+HandForce forceOfKind(const std::string& kind) {
+  if (kind == "elastic") return {ElasticForce{}};
+  if (kind == "joint-viscous") return {JointViscousForce{}};
+  if (kind == "channel") return {ChannelForce{}, ForceWhen::Trial};
+  if (kind == "pulse") return {PulseForce{}};
+  return {ViscousForce{}};
 }
 
 // What a hand's springs are where they are not given: those that a single hand would have.
@@ -132,10 +143,31 @@ struct KeyReader {
   void operator()(const Key& key, std::string& value) const {
     if (!key.required || in.required(key.name, listOf(*key.names)) != nullptr) in.text(key.name, value);
   }
-  void operator()(const Key& key, ObjectKind& value) const {
+  template <class T>
+    requires std::is_enum_v<T>
+  void operator()(const Key& key, T& value) const {
     std::string name;
     if (!in.choice(key.name, *key.names, name, key.required)) return;
-    value = static_cast<ObjectKind>(std::find(key.names->begin(), key.names->end(), name) - key.names->begin());
+    value = static_cast<T>(std::find(key.names->begin(), key.names->end(), name) - key.names->begin());
+  }
+  void operator()(const Key& key, ForceLaw& law) const {
+    std::string kind;
+    if (!in.choice(key.name, *key.names, kind, key.required)) return;
+    std::visit([&](auto& of) { visitKeys(of, *this); }, law);
+  }
+  void operator()(const Key& key, Environment& environment) const {
+    const JsonNode* node = in.optional(key.name);
+    if (node == nullptr) return;
+    if (node->kind != JsonNode::Kind::Array)
+      return in.faults().add(*node, in.keyPath(key.name), fmt::format("is {}", nameOf(node->kind)), "a list of forces");
+    for (std::size_t i = 0; i < node->items.size(); ++i) {
+      const JsonNode& item = node->items[i];
+      ObjectReader inner(in.faults(), item, fmt::format("{}[{}]", in.keyPath(key.name), i));
+      const JsonNode* kind = item.find("kind");
+      const std::string name = kind != nullptr ? kind->string : std::string{};
+      visitKeys(environment.emplace_back(forceOfKind(name)), KeyReader{inner, experiment});
+      if (std::count(kForceKindNames.begin(), kForceKindNames.end(), name) > 0) inner.finish();  // else no key is known
+    }
   }
   void operator()(const Key& key, std::vector<double>& values) const {
     const JsonNode* node = in.optional(key.name);
@@ -148,8 +180,9 @@ struct KeyReader {
   void operator()(const Key& key, Vec3& v) const {
     if (const auto read = numbers(key, 3); !read.empty()) v = {read[0], read[1], read[2]};
   }
-  void operator()(const Key& key, Matrix& matrix) const {
-    if (const JsonNode* node = find(key)) readMatrix(in, *node, key.name, matrix);
+  template <std::size_t N>
+  void operator()(const Key& key, SquareMatrix<N>& matrix) const {
+    if (const JsonNode* node = find(key)) readMatrix(in, *node, key, matrix);
   }
   void operator()(const Key& key, std::vector<Hand>& hands) const {
     if (const JsonNode* node = find(key)) readHands(in.faults(), *node, experiment, hands);

@@ -45,7 +45,7 @@ struct KeyWriter {
 
   template <class T>
   void operator()(const Key& key, const T& value) const {
-    if constexpr (std::same_as<T, ObjectKind>) out[key.name] = key.names->at(static_cast<std::size_t>(value));
+    if constexpr (std::is_enum_v<T>) out[key.name] = key.names->at(static_cast<std::size_t>(value));
     else if constexpr (std::same_as<T, Vec3>) out[key.name] = toArray(value);
     else if constexpr (std::same_as<T, constraints::ConstraintSpec>) out[key.name] = constraintJson(value);
     else if constexpr (std::is_class_v<T> && !requires { value.begin(); }) visitKeys(value, KeyWriter{out[key.name] = Json::object(), experiment});
@@ -57,6 +57,13 @@ struct KeyWriter {
   }
   void operator()(const Key& key, const std::vector<Hand>& hands) const {
     for (const Hand& hand : hands) out[key.name].push_back(handJson(hand, experiment.object.kind == ObjectKind::Body));
+  }
+  void operator()(const Key& key, const ForceLaw& law) const {
+    out[key.name] = key.names->at(law.index());
+    std::visit([&](const auto& of) { visitKeys(of, *this); }, law);
+  }
+  void operator()(const Key& key, const Environment& environment) const {
+    for (const HandForce& force : environment) visitKeys(force, KeyWriter{out[key.name].emplace_back(Json::object()), experiment});
   }
   void operator()(const Key& key, const SubjectScreen& screen) const {
     if (!(screen == SubjectScreen{})) visitKeys(screen, KeyWriter{out[key.name] = Json::object(), experiment});

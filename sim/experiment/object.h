@@ -7,10 +7,11 @@
 
 namespace reachlab::experiment {
 
-enum class ObjectKind { Point, Chain, Parallel, Body };
+enum class ObjectKind { Point, Chain, Parallel, Body, None };
 
 /// The simulated object (paper sec. 3-5). Chain: N masses, N-1 springs, the hand drives mass 1. Parallel: N masses, each tied to the
-/// hand by its own spring. Body: one mass with inertia, driven at an offset from its centre.
+/// hand by its own spring. Body: one mass with inertia, driven at an offset from its centre. None: the hand
+/// moves alone, without masses and coupling.
 struct Object {
   ObjectKind kind = ObjectKind::Point;
   std::vector<double> masses;                      // [kg]

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <vector>
 
 namespace reachlab::experiment {
@@ -18,6 +19,9 @@ struct StartRest {
 };
 inline constexpr StartRest kNoStartRest{0, 1000};  // armed on touching the start
 
+/// The plane in which targets, a cursor and deviations are counted. Horizontal: x to the right, -z forward. Frontal: x to the right, y up.
+enum class TaskPlane : std::uint8_t { Horizontal, Frontal };
+
 struct Task {
   std::vector<double> start, target;  // constraint parameters; [m] (three) for a free object
   double duration = 1.35;             // [s] T
@@ -26,6 +30,7 @@ struct Task {
   double armRadius = 0.01;  // [m]
   double timeout = 10;      // [s] no onset by then: aborted
   StartRest rest;
+  TaskPlane plane = TaskPlane::Horizontal;
   bool operator==(const Task&) const = default;
 };
 

@@ -65,6 +65,10 @@ TickEngine::TickEngine(const experiment::Experiment& experiment, dynamics::Scene
       needsVelocity_(scene_.plant->needsHandVelocity()), start_(experiment::requiredTask(experiment).start),
       settings_(trial::makeProtocolSettings(experiment, *scene_.constraint)) {
   if (scene_.shared != nullptr || options.hands.size() != 1) requireHands(experiment, options.hands.size());
+  settings_.judgesHand = experiment.object.kind == experiment::ObjectKind::None;
+  if (!experiment.environment.empty()) field_.emplace(experiment.environment, experiment.arm, settings_.start, settings_.target);
+  if (experiment.cursor) cursor_.emplace(*experiment.cursor, experiment.task->plane, settings_.start, settings_.target);
+  state_.hasEnvironment = field_ || cursor_;
   state_.massCount = scene_.plant->massCount();
   state_.handCount = static_cast<std::int32_t>(options.hands.size());
   bool allVirtual = true;
@@ -84,6 +88,8 @@ void TickEngine::queueTrial() noexcept {
   for (int i = 0; i < state_.massCount; ++i) state_.masses[i].a = {};
   state_.body = plant.body();
   forceStatus_ = dynamics::StepStatus::Ok;
+  if (field_) field_->reset();
+  state_.environment.channelBroken = false;
   for (Hand& hand : hands_) {
     hand.fpOffset = {};
     hand.anchorTicks = 0;
@@ -163,8 +169,9 @@ void TickEngine::placeFixedPoints() noexcept {
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     Hand& hand = hands_[i];
     dynamics::HandSample& hip = state_.hands[i].hip;
-    const Vec3 fixedPoint =
-        scene_.shared != nullptr ? scene_.shared->fixedPoint(static_cast<int>(i)) : state_.masses[0].r + hand.fpInBody;
+    const Vec3 fixedPoint = settings_.judgesHand         ? hip.position  // there is no object to hold
+                            : scene_.shared != nullptr ? scene_.shared->fixedPoint(static_cast<int>(i))
+                                                       : state_.masses[0].r + hand.fpInBody;
     hand.fpOffset = hip.position - fixedPoint;
     hip.position = hand.lastSeen = fixedPoint;
     hand.path.reset();
@@ -192,6 +199,11 @@ trial::ProtocolInput TickEngine::protocolInput(const TickInput& input, dynamics:
   seen.hips = {hips_.data(), hands_.size()};
   seen.status = status;
   seen.masses = {state_.masses.data(), static_cast<std::size_t>(state_.massCount)};
+  if (cursor_ && cursor_->isJudged()) {
+    judged_ = state_.masses[0];
+    judged_.r = (*cursor_)(judged_.r);
+    seen.masses = {&judged_, 1};
+  }
   seen.missedTicks = input.missedTicks;
   return seen;
 }
@@ -214,6 +226,8 @@ void TickEngine::step(const TickInput& input) noexcept {
     status = stepObject();
     observeMasses();
     if (status == dynamics::StepStatus::Ok) status = forceStatus_;
+  } else if (settings_.judgesHand) {
+    observeMasses();
   }
 
   const bool wasGone = protocol_.gone;
@@ -271,10 +285,19 @@ void TickEngine::exertCoupling(bool acts) noexcept {
   }
 }
 
+// Added to the coupling's force before the safety layer. The laws count only ticks in which the hand is known.
+void TickEngine::exertEnvironment(bool acts) noexcept {
+  const dynamics::HandSample& hip = state_.hands[0].hip;
+  EnvironmentState& out = state_.environment;
+  out.force = field_ && acts ? field_->step({true, state_.phase == trial::Phase::Moving, hip.position, hip.velocity}) : Vec3{};
+  out.channelBroken = field_ && field_->channelBroken();
+  if (cursor_) out.cursor = (*cursor_)(hip.position);
+}
+
 // `out.feedbackForce` becomes what the device is given.
 void TickEngine::limitForce(Hand& hand, HandState& out, bool held, std::uint32_t missedTicks) noexcept {
   const bool engaged = trial::isEngaged(protocol_.phase);
-  out.feedbackForce = -out.couplingForce;
+  out.feedbackForce = state_.hasEnvironment ? state_.environment.force - out.couplingForce : -out.couplingForce;
   const Vec3 added = guardForce(hand, out, engaged && held);
   const bool weighs = !(hand.guards.compensation == Vec3{});
   Vec3 asked = out.feedbackForce;
@@ -291,8 +314,10 @@ void TickEngine::limit(const TickInput& input) noexcept {
   const bool engaged = trial::isEngaged(protocol_.phase);
   const bool held = allValid() && state_.status == dynamics::StepStatus::Ok;
   exertCoupling(engaged && held);
+  if (state_.hasEnvironment) exertEnvironment(engaged && held);
   for (std::size_t i = 0; i < hands_.size(); ++i)
     if (!isFinite(state_.hands[i].couplingForce)) forceStatus_ = state_.status = dynamics::StepStatus::NotFinite;
+  if (state_.hasEnvironment && !isFinite(state_.environment.force)) forceStatus_ = state_.status = dynamics::StepStatus::NotFinite;
   bool clamped = false;
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     HandState& out = state_.hands[i];

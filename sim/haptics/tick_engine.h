@@ -8,6 +8,8 @@
 #include "sim/dynamics/hand/hand_path.h"
 #include "sim/dynamics/object/end_masses.h"
 #include "sim/dynamics/scene.h"
+#include "sim/environment/cursor_law.h"
+#include "sim/environment/force_field.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/device.h"
 #include "sim/haptics/force_safety.h"
@@ -122,6 +124,7 @@ class TickEngine {
   bool allValid() const noexcept;
   trial::ProtocolInput protocolInput(const TickInput& input, dynamics::StepStatus status) noexcept;
   void exertCoupling(bool acts) noexcept;
+  void exertEnvironment(bool acts) noexcept;
   void limitForce(Hand& hand, HandState& out, bool held, std::uint32_t missedTicks) noexcept;
   Vec3 guardForce(Hand& hand, HandState& out, bool engaged) noexcept;
   DeviceState deviceState(const Hand& hand, const DeviceSample& device, bool fault) const noexcept;
@@ -133,6 +136,9 @@ class TickEngine {
   bool sawAll_ = true;
   std::vector<double> start_;  // constraint parameters
   trial::ProtocolSettings settings_;
+  std::optional<environment::ForceField> field_;   // of the only hand
+  std::optional<environment::CursorLaw> cursor_;   // of the only hand
+  dynamics::MassState judged_;                     // the cursor, where it is judged in place of the hand
   std::vector<Hand> hands_;                         // the first hand at index 0
   std::array<Vec3, experiment::kMaxHands> hips_{};  // [m] raw
   trial::ProtocolState protocol_;

@@ -38,7 +38,14 @@ struct HandState {
   double work = 0;                 // [J] done by the hand on the object in this trial; counted where several hold it
 };
 
-/// The state after one tick without the hands and the masses.
+/// The forces of the environment and the cursor after one tick, where the experiment has them.
+struct EnvironmentState {
+  Vec3 force;                  // [N] on the hand, before the safety layer
+  Vec3 cursor;                 // [m]
+  bool channelBroken = false;  // in this trial
+};
+
+/// The state after one tick without the hands, the masses and the environment.
 struct TickHeader {
   std::uint64_t tick = 0;       // since the run's start; simulated time is tick * 1 ms
   std::int64_t measuredNs = 0;  // monotonic clock at the tick, for the record only
@@ -53,6 +60,7 @@ struct TickHeader {
   LoopFaults faults;
   std::int32_t massCount = 0;
   std::int32_t handCount = 1;
+  bool hasEnvironment = false;  // `TickState::environment` is in use
   dynamics::BodyState body;
 };
 
@@ -60,15 +68,18 @@ struct TickHeader {
 struct TickState : TickHeader {
   std::array<HandState, experiment::kMaxHands> hands{};  // the first `handCount`
   std::array<dynamics::MassState, experiment::kMaxMasses> masses{};  // the first `massCount`
+  EnvironmentState environment;
 };
 static_assert(std::is_trivially_copyable_v<TickState>);
 
 /// Copies a state with only the masses and hands that are there, so that the cost follows the scene.
 inline void copyState(const TickState& from, TickState& to) noexcept {
-  static_assert(sizeof(TickState) == sizeof(TickHeader) + sizeof(from.hands) + sizeof(from.masses), "a member would not be copied");
+  static_assert(sizeof(TickState) == sizeof(TickHeader) + sizeof(from.hands) + sizeof(from.masses) + sizeof(from.environment),
+                "a member would not be copied");
   static_cast<TickHeader&>(to) = from;
   std::copy_n(from.hands.data(), from.handCount, to.hands.data());
   std::copy_n(from.masses.data(), from.massCount, to.masses.data());
+  if (from.hasEnvironment) to.environment = from.environment;
 }
 
 }  // namespace reachlab::haptics

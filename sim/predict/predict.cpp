@@ -62,6 +62,15 @@ std::unique_ptr<Prediction> makeArmPrediction(const experiment::Experiment& expe
   return makeLineArmPrediction(experiment.arm, task, object, options.unknowns, options.near);
 }
 
+// The hand without an object: no masses and no springs.
+LineObject bareHand(double handMass, double handDamping) {
+  LineObject hand;
+  hand.viscosity = {0};
+  hand.handMass = handMass;
+  hand.handDamping = handDamping;
+  return hand;
+}
+
 // A point that is the hand itself, along a line.
 std::unique_ptr<Prediction> makeStraightHandPrediction(const LineObject& object, Criterion criterion, double distance, double duration) {
   if (criterion == Criterion::MinTorqueChange)
@@ -223,11 +232,13 @@ std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, co
   std::vector<std::string> warnings;
   std::optional<LineObject> object;
   std::optional<PointIs> point;
-  const bool isPoint = experiment.object.kind == experiment::ObjectKind::Point;
-  if (options.point && !isPoint) throw FaultError(Fault{"point", "the object is none", "only with an object of kind point"});
+  const bool bare = experiment.object.kind == experiment::ObjectKind::None;
+  const bool isPoint = bare || experiment.object.kind == experiment::ObjectKind::Point;
+  if (options.point && (!isPoint || bare)) throw FaultError(Fault{"point", "the object is none", "only with an object of kind point"});
   if (experiment.object.kind == experiment::ObjectKind::Body)
     throw FaultError(Fault{"object.kind", "is body", "point, chain, parallel: the criteria are not defined for a body that turns"});
   const auto makeObject = [&] {
+    if (bare) return bareHand(handMass, options.handDamping);
     return mergeEqualFrequencies(makeLineObject(experiment, options.handMass.value_or(experiment.handMass), options.handDamping), duration,
                                  warnings);
   };
@@ -244,7 +255,7 @@ std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, co
           "gravity along the line shifts the rest position alone: the movement is the one between equilibria, forces without the "
           "weight");
     const bool freeArm = constraint.kind == constraints::ConstraintKind::Free && criterion == Criterion::MinTorqueChange;
-    if (isPoint) point = freeArm ? PointIs::Hand : options.point.value_or(PointIs::BehindSpring);
+    if (isPoint) point = freeArm ? PointIs::Hand : options.point.value_or(bare ? PointIs::Hand : PointIs::BehindSpring);
     if (point == PointIs::Hand && !freeArm) {
       prediction = makeStraightHandPrediction(*object, criterion, way.distance, duration);
       object.reset();

@@ -143,9 +143,10 @@ Replay replayRun(const RunLog& log, const ReplayHooks& hooks) {
   if (hooks.makeEngine) recorded.hands.clear();  // a station's own hand alone
   const ChannelTable scene = makeChannelTable(recorded, engine.constraint().parameterCount());
   if (c.table.massCount != scene.massCount || c.table.parameterCount != scene.parameterCount || c.table.body != scene.body ||
-      c.table.hands != scene.hands)
+      c.table.hands != scene.hands || c.table.environment != scene.environment ||
+      c.table.cursor != scene.cursor)
     throw FaultError(
-        Fault{"table", "has not the masses and hands of its experiment, so the run cannot be simulated again", {}, FilePlace{log.path()}});
+        Fault{"table", "has not the masses, hands, forces and cursor of its experiment, so the run cannot be simulated again", {}, FilePlace{log.path()}});
   RecordedTicks ticks{log, hooks, engine};
   haptics::TickInput input;
   while (haptics::runTick(engine, input, ticks)) {}

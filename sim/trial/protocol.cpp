@@ -118,8 +118,9 @@ void watchForArrival(const ProtocolSettings& s, const ProtocolInput& in, Protoco
     return;
   }
   if (moved < s.latestTick) return;
-  const Arrival arrival = judge(s, in.masses);
+  Arrival arrival = judge(s, in.masses);
   const bool away = arrival.position.mass > 0;
+  if (s.judgesHand) arrival.position.mass = arrival.velocity.mass = 0;
   end(state, in.tick, Outcome::Failure, away ? Reason::Position : Reason::Velocity, away ? arrival.position : arrival.velocity);
   state.semaphore = Semaphore::Red;
 }

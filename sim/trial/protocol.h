@@ -67,6 +67,7 @@ struct ProtocolSettings {
   std::int64_t maxMissedTicks = kNoLimit;     // of one movement
   std::int64_t maxGapTicks = kNoLimit;        // between two ticks of a movement
   bool forceLimitEndsTrial = false;
+  bool judgesHand = false;  // there is no object: the one mass is the hand or its cursor, and no mass is named in a result
 };
 
 /// Throws FaultError when the experiment has no task, or its start or target is no place on the constraint.

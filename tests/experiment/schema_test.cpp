@@ -87,14 +87,19 @@ struct BesideSchema {
     const Json node = resolved(root, object["properties"][key.name]);
     const Json needed = object.value("required", Json::array());
     constexpr bool kAskedOfTheValue = std::same_as<T, std::vector<double>> || std::same_as<T, decltype(Object::inertia)>;
+    const bool ofOneLaw = path.starts_with("environment.") && key.required && key.name != std::string("kind");
     const bool needs = std::find(needed.begin(), needed.end(), key.name) != needed.end();
-    EXPECT_TRUE(kAskedOfTheValue || key.required == needs) << place;
+    EXPECT_TRUE(kAskedOfTheValue || ofOneLaw || key.required == needs) << place;
     if (key.names != nullptr) {
       EXPECT_EQ(node["enum"], Json(*key.names)) << place;
     }
     if constexpr (std::is_arithmetic_v<T> && !std::same_as<T, bool>) expectRange(node, key.range, place);
     else if constexpr (std::same_as<T, std::array<double, 2>>) expectRange(resolved(root, node["items"]), key.range, place);
-    else if constexpr (requires { value.has_value(); }) (*this)(key, *value);
+    else if constexpr (std::same_as<T, ForceLaw>) std::visit([&](const auto& law) { visitKeys(law, *this); }, value);
+    else if constexpr (std::same_as<T, Environment>) compareForces(node["items"], place + ".", value);
+    else if constexpr (std::same_as<T, SquareMatrix<3>> || std::same_as<T, SquareMatrix<2>>) {
+      if (!key.diagonal) expectRange(node["items"]["items"], key.range, place);
+    } else if constexpr (requires { value.has_value(); }) (*this)(key, value.value_or(typename T::value_type{}));
     else if constexpr (requires { visitKeys(value, *this); }) compare(node, place + ".", value);
   }
   template <class T>
@@ -103,6 +108,12 @@ struct BesideSchema {
     visitKeys(value, BesideSchema{root, inside, at, found});
     for (const auto& [name, node] : inside["properties"].items())
       EXPECT_TRUE(found.contains(name) || (at.empty() && (name == "description" || name == "look"))) << at << name;
+  }
+  /// Every kind of force together has the keys of the list's elements.
+  void compareForces(const Json& inside, const std::string& at, const Environment& environment) const {
+    std::set<std::string> found;
+    for (const HandForce& force : environment) visitKeys(force, BesideSchema{root, inside, at, found});
+    for (const auto& [name, node] : inside["properties"].items()) EXPECT_TRUE(found.contains(name)) << at << name;
   }
   static void expectRange(const Json& node, const NumberRange& range, const std::string& place) {
     if (node.contains("enum")) return;
@@ -122,6 +133,8 @@ Experiment wholeExperiment() {
   whole.task.emplace();
   whole.forceLimit = 8;
   whole.subjectScreen.score = true;
+  whole.environment = {{ViscousForce{}}, {ElasticForce{}}, {JointViscousForce{}}, {ChannelForce{}, ForceWhen::Trial}, {PulseForce{}}};
+  whole.cursor.emplace();
   return whole;
 }
 

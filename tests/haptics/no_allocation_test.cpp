@@ -37,6 +37,25 @@ TEST(HapticLoop, TickAllocatesNothingInAnyShippedExperiment) {
     EXPECT_EQ(allocationsOfThreeTrials(experiment::readExperiment(name)), 0u) << name;
 }
 
+TEST(HapticLoop, TickAllocatesNothingUnderAnyForceAndWithACursor) {
+  experiment::Experiment e = experiment::readExperiment("chain-moderate");
+  e.environment = {{experiment::ViscousForce{{{{0, 0, 13}, {0, 0, 0}, {-13, 0, 0}}}}},
+                   {experiment::ElasticForce{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {}}},
+                   {experiment::JointViscousForce{{{{0.1, 0}, {0, 0.1}}}}},
+                   {experiment::ChannelForce{}, experiment::ForceWhen::Trial},
+                   {experiment::PulseForce{{0, 1, 0}, {0.1, {}}}}};
+  EXPECT_EQ(allocationsOfThreeTrials(e), 0u);
+  e.constraint = {};
+  e.constraint.name = "free";
+  e.object = {};
+  e.object.kind = experiment::ObjectKind::None;
+  e.coupling.reset();
+  e.task->start = {0, 0, 0};
+  e.task->target = {0.02, 0, 0};
+  e.cursor.emplace();
+  EXPECT_EQ(allocationsOfThreeTrials(e), 0u);
+}
+
 TEST(HapticLoop, TickAllocatesNothingOnAnyKindOfConstraintWithAnyMethod) {
   const std::string
       line = R"j("constraint": {"name": "line", "shape": {"length_m": 0.2}})j",

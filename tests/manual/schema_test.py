@@ -29,6 +29,12 @@ BODY = {**POINT, "constraint": {"name": "free"}, "object": {"kind": "body", "mas
 LONG = {**POINT, "object": {"kind": "chain", "masses_kg": [1] * 5, "stiffness_n_per_m": [1] * 4}, "hands": [{}, {}]}
 PAIR = {**POINT, "object": {"kind": "chain", "masses_kg": [1, 1], "stiffness_n_per_m": [1]}, "hands": [{}, {}]}
 HELD = {**BODY, "hands": [{}, {}]}
+BARE = {**BODY, "object": {"kind": "none"}, "cursor": {}}
+del BARE["coupling"]
+FORCES = {"viscous": {"matrix_n_s_per_m": [[0] * 3] * 3}, "elastic": {"matrix_n_per_m": [[0] * 3] * 3},
+          "joint-viscous": {"matrix_n_m_s_per_rad": [[0] * 2] * 2}, "channel": {}, "pulse": {"force_n": [1, 0, 0], "at": {"onset_s": 0}, "duration_s": 100}}
+FORCED = {kind: {**POINT, "environment": [{"kind": kind, **keys}]} for kind, keys in FORCES.items()}
+AT_ONCE = {**POINT, "environment": [{**FORCED["pulse"]["environment"][0], "at": {}}]}
 VIEWED = {**POINT, "look": {"cameras": [{"name": "above", "position_m": [0, 0.5, 0.1], "focus_m": [0, 0, 0]}]}}
 PLAN = {"schema_version": 1, "trials": 2, "blocks": [{"experiment": "chain-moderate"}]}
 CURVE = {"schema_version": 1, "name": "x", "kind": "curve", "curve": ["a_m*cos(phi)", "a_m*sin(phi)*cos(phi)", "0"],
@@ -51,6 +57,13 @@ NEIGHBOURS = {
     ("hands[].mass", None): LONG, ("hands[].stiffness_n_per_m", None): PAIR, ("hands[].damping_n_s_per_m", None): LONG,
     ("hands[].fp_offset_m", None): HELD,
     **{(f"look.cameras[].{key}", None): VIEWED for key in ("name", "position_m", "focus_m", "up", "angle_deg", "parallel")},
+    **{(f"environment[].{key}", None): FORCED[kind] for kind, keys in {
+        "viscous": ["matrix_n_s_per_m"], "elastic": ["matrix_n_per_m", "centre_m", "when"], "joint-viscous": ["matrix_n_m_s_per_rad"],
+        "channel": ["stiffness_n_per_m", "damping_n_s_per_m", "half_width_m", "ramp_s", "break_m"],
+        "pulse": ["force_n", "duration_s", "rise_s"]}.items() for key in keys},
+    ("environment[].kind", None): FORCED["viscous"],
+    ("environment[].at.onset_s", None): AT_ONCE, ("environment[].at.distance_m", None): AT_ONCE,
+    **{(f"cursor.{key}", None): BARE for key in ("rotation_deg", "gain", "clamp_deg", "delay_s", "show", "judge")},
     ("surface", None): SURFACE, ("domain", "[[0, \"2*pi\"], [-1, 1]]"): SURFACE, ("periodic", "[true, false]"): SURFACE,
     ("plan", None): PLANNED_STUDY,
     ("blocks[].change", None): {**PLAN, "blocks": [{"experiment": "chain-moderate", "condition": "soft"}]},
@@ -121,13 +134,16 @@ class SchemaTest(unittest.TestCase):
         for name, schema in self.schemas.items():
             for group in groups(schema):
                 place = (group.path + "." if group.path else "") + "zz"
-                base = {"object": BODY, "hands[]": HELD, "look.cameras[]": VIEWED}.get(group.path, BASES[name]) if name == "experiment" else BASES[name]
-                said = self.validate([put(base, place, 1)])[0]
-                named = re.search(r"zz: is not known here(?:; did you mean [^?]*\?)?; allowed: (.*)", said)
-                self.assertTrue(named, f"{name} {place}: {said}")
-                known = sorted(set(re.split(r", | or ", named[1])))
-                self.assertEqual(known, sorted(key.name for key in group.keys), f"{name}: {group.path or 'the file'}")
-                self.assertFalse(self.satisfies(name, put(base, place, 1)), f"{name} {place}")
+                base = {"object": [BODY], "hands[]": [HELD], "look.cameras[]": [VIEWED], "cursor": [BARE], "environment[]": FORCED.values(),
+                        "environment[].at": [AT_ONCE]}.get(group.path, [BASES[name]]) if name == "experiment" else [BASES[name]]
+                known = set()
+                for tree in (put(of, place, 1) for of in base):
+                    said = self.validate([tree])[0]
+                    named = re.search(r"zz: is not known here(?:; did you mean [^?]*\?)?; allowed: (.*)", said)
+                    self.assertTrue(named, f"{name} {place}: {said}")
+                    known |= set(re.split(r", | or ", named[1]))
+                    self.assertFalse(self.satisfies(name, tree), f"{name} {place}")
+                self.assertEqual(known, {key.name for key in group.keys}, f"{name}: {group.path or 'the file'}")
 
     def test_every_example_is_read(self):
         for name, schema in self.schemas.items():

@@ -49,6 +49,9 @@ class Filled {
     }
     for (std::size_t k = 0; k < 4; ++k) expected[std::string("body_quat_") + "wxyz"[k]] = s.body.orientation[k] = another();
     vector("body_gyro", s.body.angularVelocity);
+    s.hasEnvironment = true;
+    vector("environment_force", s.environment.force);
+    vector("cursor_pos", s.environment.cursor);
     expected["port_energy"] = s.hands[0].portEnergy = another();
     expected["hand_work"] = s.hands[0].work = another();
     for (int i = 2; i <= 4; ++i) {
@@ -107,6 +110,13 @@ TEST(Channels, ShowWhatTheirNamesSayInEveryScene) {
         }
   for (const bool portEnergy : {false, true})
     expectRow(makeChannelTable(sceneOf(1, 1, experiment::ObjectKind::Body), 0, portEnergy), filled);
+  for (const bool forces : {false, true})
+    for (const bool cursor : {false, true}) {
+      experiment::Experiment scene = sceneOf(0, 1, experiment::ObjectKind::None);
+      if (forces) scene.environment = {{experiment::ChannelForce{}}};
+      if (cursor) scene.cursor.emplace();
+      for (const bool portEnergy : {false, true}) expectRow(makeChannelTable(scene, 0, portEnergy), filled);
+    }
 }
 
 TEST(Channels, OfASceneAreAsManyAsItsPartsAskFor) {
@@ -119,6 +129,12 @@ TEST(Channels, OfASceneAreAsManyAsItsPartsAskFor) {
   EXPECT_EQ(width(sceneOf(1, 1, experiment::ObjectKind::Body), 0), 24u + 9 + 7);
   EXPECT_EQ(width(sceneOf(1), 0, true), 24u + 9 + 1);
   EXPECT_EQ(width(sceneOf(1, 3), 0), 24u + 9 + 1 + 2 * 20);
+  experiment::Experiment bare = sceneOf(0, 1, experiment::ObjectKind::None);
+  EXPECT_EQ(width(bare, 0), 24u);
+  bare.environment = {{experiment::ChannelForce{}}};
+  EXPECT_EQ(width(bare, 0), 24u + 3);
+  bare.cursor.emplace();
+  EXPECT_EQ(width(bare, 0), 24u + 6);
 }
 
 TEST(Channels, TellWhatOfTheSceneTheyAre) {

@@ -294,13 +294,15 @@ TEST(EventRecord, IsTickKindTrialValueAndText) {
   expected[8] = 15;
   EXPECT_EQ(decodeEvent(expected).kind, EventKind::Instrument);
   expected[8] = 16;
+  EXPECT_EQ(decodeEvent(expected).kind, EventKind::ChannelBroken);
+  expected[8] = 17;
   expectRefused(expected, "event", decodeEvent);
 }
 
 TEST(EventRecord, EveryKindHasTheNumberAndTheNameThatAreWrittenDown) {
   const char* names[] = {"trial_start", "armed",        "go",         "onset", "trial_end",    "clamp_begin",  "clamp_end", "device_lost",
-                         "device_back", "ticks_missed", "step_fault", "note",  "device_state", "intervention", "instrument"};
-  for (int kind = 1; kind <= 15; ++kind) EXPECT_EQ(nameOf(static_cast<EventKind>(kind)), names[kind - 1]) << kind;
+                         "device_back", "ticks_missed", "step_fault", "note",  "device_state", "intervention", "instrument", "channel_broken"};
+  for (int kind = 1; kind <= 16; ++kind) EXPECT_EQ(nameOf(static_cast<EventKind>(kind)), names[kind - 1]) << kind;
 }
 
 TEST(SetupRecord, IsTrialPlaceForeperiodAndWhetherItIsACatchTrial) {
@@ -359,6 +361,19 @@ TEST(TrialRecord, HasItsFieldsInTheDocumentedOrder) {
   EXPECT_TRUE(read.complete);
   EXPECT_EQ(read.result.onsetTick, 1300u);
   EXPECT_EQ(read.elapsed, 2.125);
+}
+
+TEST(TrialRecord, MarksACatchTrialAndABrokenChannelApart) {
+  for (const bool isCatch : {false, true})
+    for (const bool broken : {false, true}) {
+      RecordedTrial t = wholeTrial();
+      t.planned.catchTrial = isCatch;
+      t.channelBroken = broken;
+      ByteWriter out;
+      encode(t, {}, out);
+      EXPECT_EQ(trialOf(copyOf(out.bytes())).planned.catchTrial, isCatch);
+      EXPECT_EQ(trialOf(copyOf(out.bytes())).channelBroken, broken);
+    }
 }
 
 TEST(TrialRecord, OfAnotherLengthIsRefused) {

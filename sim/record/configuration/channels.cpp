@@ -120,13 +120,18 @@ ChannelTable makeChannelTable(const experiment::Experiment& experiment, int para
   if (table.hands > 1)
     addScalar(out, {"hand_work", "hand_work_j", "MISC", "hand", "J", "work done by the hand on the object in this trial"});
   for (int hand = 2; hand <= table.hands; ++hand) addHand(out, hand);
+  if (!experiment.environment.empty()) table.environment = true;
+  if (experiment.cursor) table.cursor = true;
+  if (table.environment)
+    addVector(out, {"environment_force", "environment_{}_n", "MISC", "hand", "N", "force of the environment on the hand, before the safety limits"});
+  if (table.cursor) addVector(out, {"cursor_pos", "cursor_{}_m", "POS", "cursor", "m", "cursor of the hand, without the delay of the picture"});
   return table;
 }
 
 std::size_t rowWidth(const ChannelTable& t) {
   const std::size_t hands = t.hands > 1 ? 1 + static_cast<std::size_t>(t.hands - 1) * kHandColumns : 0;
   return kTrialColumn + 3 + static_cast<std::size_t>(t.massCount) * static_cast<std::size_t>(9 + 2 * t.parameterCount) + (t.body ? 7 : 0) +
-         (t.portEnergy ? 1 : 0) + hands;
+         (t.portEnergy ? 1 : 0) + hands + (t.environment ? 3 : 0) + (t.cursor ? 3 : 0);
 }
 
 void fillRow(const ChannelTable& table, const haptics::TickState& state, double* row) noexcept {
@@ -159,6 +164,8 @@ void fillRow(const ChannelTable& table, const haptics::TickState& state, double*
     *at++ = hand.device.valid ? 1 : 0;
     *at++ = hand.work;
   }
+  if (table.environment) at = putVector(at, state.environment.force);
+  if (table.cursor) at = putVector(at, state.environment.cursor);
 }
 
 void numberTrial(const ChannelTable&, int firstTrial, double* row) noexcept {

@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,8 @@ struct ChannelTable {
   int parameterCount = 0;   // constraint parameters of a mass: 0, 1 or 2
   bool body = false;        // orientation and angular velocity follow
   bool portEnergy = false;  // of a device that renders force: the passivity observer's energy is the next column
+  std::optional<bool> environment;  // has a value where the force of the environment follows the hands
+  std::optional<bool> cursor;       // has a value where the cursor follows
   int hands = 1;            // with more than one, the first hand's work and then each other hand's own columns follow
 
   std::size_t size() const { return channels.size(); }

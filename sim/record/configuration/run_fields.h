@@ -30,11 +30,13 @@ void visitFields(T& c, const Visit& visit) {
 
 template <MaybeConst<ChannelTable> T, class Visit>
 void visitFields(T& t, const Visit& visit) {
-  visit(Field{"mass_count", 1, experiment::kMaxMasses}, t.massCount);
+  visit(Field{"mass_count", 0, experiment::kMaxMasses}, t.massCount);
   visit(Field{"parameter_count", 0, 3}, t.parameterCount);
   visit(Field{"body"}, t.body);
   visit(Field{"port_energy"}, t.portEnergy);
   visit(Field{"hands", 1, experiment::kMaxHands}, t.hands);
+  visit(Field{"environment"}, t.environment);
+  visit(Field{"cursor"}, t.cursor);
   visit(Field{.key = "channels", .most = kMaxChannels}, t.channels);
 }
 

@@ -19,6 +19,7 @@ std::string_view nameOf(EventKind kind) {
     case EventKind::DeviceState: return "device_state";
     case EventKind::Intervention: return "intervention";
     case EventKind::Instrument: return "instrument";
+    case EventKind::ChannelBroken: return "channel_broken";
   }
   return "unknown";
 }

@@ -13,6 +13,8 @@ namespace {
 constexpr std::uint8_t kValid = 1, kHasVelocity = 2, kButtons = 4, kSamePosition = 8, kCommand = 16, kMissed = 32, kTickJump = 64,
                        kTimeJump = 128;
 
+constexpr std::uint8_t kCatchTrial = 1, kChannelBroken = 2;  // marks of a trial
+
 bool sameBits(const Vec3& a, const Vec3& b) { return std::memcmp(&a, &b, sizeof a) == 0; }
 
 void put(ByteWriter& out, const Vec3& v) {
@@ -222,7 +224,7 @@ RecordedEvent decodeEvent(std::span<const std::uint8_t> payload) {
   ByteReader in(payload);
   RecordedEvent event;
   event.tick = in.get<std::uint64_t>();
-  event.kind = getEnum(in, EventKind::Instrument, "event");
+  event.kind = getEnum(in, kLastEventKind, "event");
   event.trial = in.get<std::int32_t>();
   event.value = in.get<double>();
   event.text = in.getText();
@@ -249,7 +251,10 @@ TrialSetup decodeSetup(std::span<const std::uint8_t> payload) {
 }
 
 void encode(const RecordedTrial& t, const TrialLink& previous, ByteWriter& out) {
-  encode(TrialSetup{t.trial, t.planned}, out);
+  out.put(static_cast<std::int32_t>(t.trial));
+  out.put(static_cast<std::int32_t>(t.planned.index));
+  out.put(static_cast<std::int32_t>(t.planned.foreperiodTicks));
+  out.put(static_cast<std::uint8_t>((t.planned.catchTrial ? kCatchTrial : 0) | (t.channelBroken ? kChannelBroken : 0)));
   out.put(static_cast<std::uint8_t>(t.result.outcome));
   out.put(static_cast<std::uint8_t>(t.result.reason));
   out.put(static_cast<std::int32_t>(t.result.mass));
@@ -272,7 +277,9 @@ RecordedTrial decodeTrial(std::span<const std::uint8_t> payload, TrialLink& prev
   t.trial = in.get<std::int32_t>();
   t.planned.index = in.get<std::int32_t>();
   t.planned.foreperiodTicks = in.get<std::int32_t>();
-  t.planned.catchTrial = in.get<std::uint8_t>() != 0;
+  const auto marks = in.get<std::uint8_t>();
+  t.planned.catchTrial = (marks & kCatchTrial) != 0;
+  t.channelBroken = (marks & kChannelBroken) != 0;
   t.result.outcome = getEnum(in, trial::Outcome::Interrupted, "trial");
   t.result.reason = getEnum(in, trial::kLastReason, "trial");
   t.result.mass = in.get<std::int32_t>();

@@ -29,6 +29,7 @@ struct OpenTrial {
     if (event.kind == EventKind::Armed) trial.armedTick = event.tick;
     if (event.kind == EventKind::Go) trial.goTick = event.tick;
     if (event.kind == EventKind::Onset) trial.result.onsetTick = event.tick;
+    if (event.kind == EventKind::ChannelBroken) trial.channelBroken = true;
   }
   void begin(const RecordedEvent& event) {
     const double unknown = std::numeric_limits<double>::quiet_NaN();

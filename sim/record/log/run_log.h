@@ -47,7 +47,9 @@ enum class EventKind : std::uint8_t {
   Intervention = 14,  // of the safety layer, `text` its name; `value` 1 when it begins, 0 when it has ended
   // sent to another instrument or received from it, as `text` says. `value` of a sent event: [s] after the tick's clock
   Instrument = 15,
+  ChannelBroken = 16,  // the hand was further from the line than a channel allows, and the channel lets go
 };
+inline constexpr EventKind kLastEventKind = EventKind::ChannelBroken;
 std::string_view nameOf(EventKind kind);
 
 struct RecordedEvent {
@@ -73,6 +75,7 @@ struct RecordedTrial {
   std::uint64_t clampedTicks = 0, missedTicks = 0;
   std::uint64_t droppedTicks = 0;  // that the recorder lost because the disk was too slow
   double elapsed = std::numeric_limits<double>::quiet_NaN();  // [s] from go to the end by the computer's clock; NaN: no go
+  bool channelBroken = false;                                 // EventKind::ChannelBroken came in this trial
   bool complete = true;                                       // false: the log broke off in this trial
   std::uint64_t offset = 0;                                   // where in the log reading of this trial starts,
   std::uint32_t sequence = 0;                                 // and the number of the record there

@@ -12,6 +12,7 @@ TickFacts factsOf(const haptics::TickState& state) noexcept {
                   .status = state.status,
                   .trial = state.trial,
                   .deviceValid = state.hands[0].device.valid || state.hands[0].device.released,
+                  .channelBroken = state.hasEnvironment && state.environment.channelBroken,
                   .hip = state.hands[0].hip,
                   .couplingForce = state.hands[0].couplingForce,
                   .result = state.result};
@@ -99,6 +100,10 @@ TrialTracker::Step TrialTracker::add(const TickStamp& tick, const TickFacts& fac
   trial_.lastTick = tick.tick;
   trial_.missedTicks += tick.missedTicks;
   if (facts.clamped) ++trial_.clampedTicks;
+  if (facts.channelBroken && !trial_.channelBroken) {
+    trial_.channelBroken = true;
+    tell(EventKind::ChannelBroken);
+  }
   if (facts.phase != phase_) {
     if (facts.phase == trial::Phase::Armed) {
       trial_.armedTick = tick.tick;
