@@ -19,7 +19,7 @@ struct TruthRecovery {
 
 using RecoveryProgress = std::function<void(std::size_t done, std::size_t of)>;
 
-/// `studies` for each truth, `seed` on: the same numbers whatever the number of threads. 0 threads: one a processor. The study must have
+/// `studies` for each truth, `seed` on: the same numbers whatever the number of threads. 0 threads: one per processor. The study must have
 /// been made with AnalysisOptions::keepScatter. Empty counts where nothing could be fitted.
 TruthRecovery recover(const Analysis& analysis, int studies, std::uint64_t seed, unsigned threads = 0,
                       const RecoveryProgress& progress = {});

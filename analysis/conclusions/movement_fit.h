@@ -14,7 +14,7 @@ struct FitWindow {
   std::vector<double> weight;    // w^2 of each sample, > 0
 };
 
-/// v(t) = amplitude * phi((t - onset) / duration): three numbers a trial.
+/// v(t) = amplitude * phi((t - onset) / duration): three numbers per trial.
 struct MovementFit {
   double onset = 0;      // [s] on the trial's clock
   double duration = 0;   // [s]

@@ -50,7 +50,7 @@ struct TrialSignals {
   std::vector<double> speed;           // [m/s] of the hand, >= 0
   std::vector<double> handVelocity;    // [m/s] along the path, signed where the path has a direction
   std::vector<double> objectVelocity;  // [m/s] the same of the last mass
-  /// On a closed curve the hand went round the other way: both velocities above are along the way it went.
+  /// On a closed curve the hand went round the other way: both velocities above are along the path of the hand.
   bool otherWay = false;
 };
 

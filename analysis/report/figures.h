@@ -38,7 +38,7 @@ NamedFigure peopleFigure(const Analysis& analysis, std::size_t condition);
 
 // Learning. In progress_figures.cpp.
 
-/// Success against trial number, a panel a condition, a line a subject.
+/// Success against trial number, a panel per condition, a line per subject.
 NamedFigure learningFigure(const Analysis& analysis);
 
 /// All figures of the study that have something to show.

@@ -45,7 +45,7 @@ const Definition* findInCatalogue(const std::string& name);
 /// A definition of the catalogue, else NAME.json of the user's folder. Throws FaultError that names the nearest known definition.
 Definition findDefinition(const std::string& name, const std::string& key);
 
-/// Reads a definition file. Throws FaultError with every fault, one a line, `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
+/// Reads a definition file. Throws FaultError with every fault, one per line, `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
 Definition parseDefinition(const std::string& text, const std::string& file);
 Definition readDefinition(const std::string& file);
 /// Every fault of a definition, each under its key. Empty when the definition is valid.

@@ -12,7 +12,7 @@
 
 namespace reachlab::constraints {
 
-/// A curve or surface as text: one line a coordinate, in `phi` or in `u` and `v`, with named parameters.
+/// A curve or surface as text: one line per coordinate, in `phi` or in `u` and `v`, with named parameters.
 struct FormulaText {
   ConstraintKind kind = ConstraintKind::Curve;
   std::array<std::string, 3> coordinates;

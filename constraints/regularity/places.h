@@ -21,7 +21,7 @@ enum class PlaceKind {
   Standstill  // r_phi = 0 but the tangent does not turn (phi^3): passed in arc length
 };
 const char* nameOf(PlaceKind kind);
-/// A mass goes on across it.
+/// A mass continues across it.
 bool isPassed(PlaceKind kind);
 
 struct Place {

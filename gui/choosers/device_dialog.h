@@ -14,7 +14,7 @@ namespace reachlab::gui::docks {
 
 class DeviceView;
 
-/// A device live: its place, the force on it, how regularly it reports, and its calibration. Nothing is put up on it.
+/// A device live: its place, the force on it, how regularly it reports, and its calibration. No object is held.
 class DeviceDialog : public QDialog {
  public:
   /// `take`: is told the device that is to be the hand.

@@ -50,7 +50,7 @@ class SceneView : public QWidget {
   void setCamera(const Camera& camera);
   const ScenePlan& plan() const;
   SceneFrame frame() const;
-  /// Software drawing is slow: fewer frames a second, and a cheaper translucency.
+  /// Software drawing is slow: fewer frames per second, and a cheaper translucency.
   bool drawsInSoftware() const;
   /// Where a world point is drawn, in this widget's coordinates.
   QPointF pixelOf(const Vec3& world) const;

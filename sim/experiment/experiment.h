@@ -50,7 +50,7 @@ struct Experiment {
   bool operator==(const Experiment&) const = default;
 };
 
-/// Reads an experiment file, or a shipped one by name. Throws FaultError with every fault, one a line,
+/// Reads an experiment file, or a shipped one by name. Throws FaultError with every fault, one per line,
 /// `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`.
 Experiment readExperiment(const std::string& fileOrName);
 /// The same from text. `file` is only named in messages.

@@ -3,7 +3,7 @@
 
 namespace reachlab::haptics {
 
-/// Stages of a tick for an engine whose samples and commands stand in the input already, and whose forces nobody gets.
+/// Stages of a tick for an engine whose samples and commands are in the input already, and whose forces nobody gets.
 struct NoStages {
   bool read(TickInput&) noexcept { return true; }
   void watch(TickInput&) noexcept {}

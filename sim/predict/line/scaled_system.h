@@ -96,7 +96,7 @@ std::pmr::vector<Real> makeInverses(std::pmr::memory_resource* memory, int count
   return inverse;
 }
 
-/// (sign s A)^k b / k!, one a row: the Taylor series of e^{sign A t} b in t / s.
+/// (sign s A)^k b / k!, one per row: the Taylor series of e^{sign A t} b in t / s.
 template <class Real>
 LaneMatrix<Real> makeImpulse(const ScaledSystem<Real>& system, const ControlProblem& problem, const Real& sign,
                              const std::pmr::vector<Real>& inverse, int terms, std::pmr::memory_resource* memory) {

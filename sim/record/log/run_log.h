@@ -81,7 +81,7 @@ struct RecordedTrial {
   std::uint32_t sequence = 0;                                 // and the number of the record there
 };
 
-/// Rows of the derived channels: row-major, table.size() numbers a row.
+/// Rows of the derived channels: row-major, table.size() numbers per row.
 struct SampleRows {
   std::size_t columns = 0;
   std::vector<std::uint64_t> ticks;
@@ -111,7 +111,7 @@ class RunLog {
 
   /// Rows between two ticks, both included. Throws FaultError if the log has changed meanwhile.
   SampleRows rows(std::uint64_t firstTick, std::uint64_t lastTick) const;
-  /// Rows of a trial (from trials()), from where it was put up to its end.
+  /// Rows of a trial (from trials()), from its preparation to its end.
   SampleRows rows(const RecordedTrial& trial) const { return rows(trial.startTick, trial.lastTick); }
   SampleRows allRows() const;
   /// Tick of the first row, from which every export counts its times. 0 where there are no rows.
