@@ -30,9 +30,9 @@ constexpr int kRounds = 101, kCalls = 4000;
 
 void use(const void* data) { asm volatile("" : : "r"(data) : "memory"); }
 
-using V4 = reachlab::Lanes<4>;
-using V8 = reachlab::Lanes<8>;
-using I8 = reachlab::LaneMarks<8>;
+using V4 = reachlab::lanesDetail::Vectors<4>::Numbers;
+using V8 = reachlab::lanesDetail::Vectors<8>::Numbers;
+using I8 = reachlab::lanesDetail::Vectors<8>::Marks;
 using S4 = stdx::simd<double, stdx::simd_abi::deduce_t<double, 4>>;
 using S8 = stdx::simd<double, stdx::simd_abi::deduce_t<double, 8>>;
 const hn::FixedTag<double, 4> h4;

@@ -43,12 +43,6 @@ struct Rows {
       if (c * kWidth + i < y.size()) y[c * kWidth + i] = row[i];
   }
 
-  /// Number kBy + i in lane i of the first kBy lanes, zero in the rest.
-  template <int kBy, std::size_t... I>
-  static Lanes shifted(const Lanes& row, std::index_sequence<I...>) noexcept {
-    return __builtin_shufflevector(row, Lanes{}, (static_cast<int>(I) < kBy ? kBy + static_cast<int>(I) : kWidth)...);
-  }
-
  private:
   template <std::size_t... I>
   static Lanes gather(const Numbers<S>& y, int first, std::index_sequence<I...>) noexcept {
@@ -155,7 +149,8 @@ class AbmWith {
   [[gnu::always_inline]] static void addCorrectedRates(double factor, int n, Lanes* deviation) noexcept {
     constexpr int kWidth = Rows::kWidth, kHalf = System::kStates / 2;
     if constexpr (kHalf > 0 && Rows::kCapacity == 1) {
-      deviation[0] = mulAdd(factor, Rows::template shifted<kHalf>(deviation[0], std::make_index_sequence<kWidth>()), deviation[0]);
+      static_assert(2 * kHalf == kWidth);
+      deviation[0] = mulAdd(factor, upperHalf(deviation[0]), deviation[0]);
     } else if constexpr (kHalf > 0 && (kHalf % kWidth == 0 || System::State::kHalves)) {
       constexpr int kRows = Rows::kCapacity / 2;
       for (int c = 0; c < kRows; ++c) deviation[c] = mulAdd(factor, deviation[c + kRows], deviation[c]);

@@ -27,8 +27,8 @@ struct Numbers {
   [[gnu::always_inline]] void assign(Each... each) noexcept requires(sizeof...(Each) == S && kRoom <= 8) {
     if constexpr (kHalves) {
       const std::array<double, S> all{each...};
-      storeLanes(Lanes<4>{all[0], all[1], all[2]}, &values[0]);
-      storeLanes(Lanes<4>{all[3], all[4], all[5]}, &values[4]);
+      storeLanes(Lanes<4>{all[0], all[1], all[2], 0.0}, &values[0]);
+      storeLanes(Lanes<4>{all[3], all[4], all[5], 0.0}, &values[4]);
     } else {
       storeLanes(Lanes<kRoom>{each...}, values.data());
     }

@@ -8,25 +8,11 @@
 
 namespace reachlab::dynamics {
 
-using LaneIndex = LaneMarks<kBatchLanes>;
-
 constexpr int batchesFor(int masses) noexcept { return lanesFor<kBatchLanes>(masses); }
 template <int Batches>
 inline constexpr int kMaxBatches = Batches > 0 ? Batches : batchesFor(experiment::kMaxMasses);
 
-inline LaneBatch atLeast(const LaneBatch& x, double least) noexcept { return x > least ? x : broadcast<LaneBatch>(least); }
-inline LaneBatch squareRoot(const LaneBatch& x) noexcept {
-  LaneBatch root;
-  for (int lane = 0; lane < kBatchLanes; ++lane) root[lane] = std::sqrt(x[lane]);
-  return root;
-}
-/// x of the next mass in each lane. `previous` gives x of the mass before.
-inline LaneBatch next(const LaneBatch& x, const LaneBatch& after) noexcept {
-  return __builtin_shuffle(x, after, LaneIndex{1, 2, 3, 4, 5, 6, 7, 8});
-}
-inline LaneBatch previous(const LaneBatch& before, const LaneBatch& x) noexcept {
-  return __builtin_shuffle(before, x, LaneIndex{7, 8, 9, 10, 11, 12, 13, 14});
-}
+inline LaneBatch atLeast(const LaneBatch& x, double least) noexcept { return choose(x > least, x, broadcast<LaneBatch>(least)); }
 
 struct BatchMotion {
   std::array<LaneBatch, 3> r, v;  // [m], [m/s]
@@ -41,7 +27,7 @@ struct BatchSprings {
     LaneBatch stiffness{}, damping{};  // to the next mass
     LaneBatch drag{};                  // viscosity / mass
     LaneBatch first{};                 // 1 where mass 1 is
-    LaneIndex used{};
+    LaneMarks<kBatchLanes> used{};
   };
   std::vector<Row> row;
   Vec3 gravity, extraForce;

@@ -56,7 +56,7 @@ struct BatchSystem : CurvePlaces<0, Batches * kBatchLanes, Tangential>, SpaceSys
         store(w, dy, o * kBatchLanes);
         slope = mulAdd(m.measure, mulAdd(-bend, w * w, drive), -drag);
       }
-      store(springs.row[o].used ? slope : LaneBatch{}, dy, rates() + o * kBatchLanes);
+      store(choose(springs.row[o].used, slope, LaneBatch{}), dy, rates() + o * kBatchLanes);
     }
   }
 
