@@ -4,7 +4,7 @@
 #include <cctype>
 #include <filesystem>
 
-#include "devices/driver/options.h"
+#include "base/device_options.h"
 #include "devices/hands/several_hands.h"
 #include "devices/make_device.h"
 #include "devices/mapping/mapping.h"

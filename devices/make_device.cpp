@@ -4,10 +4,10 @@
 
 #include <algorithm>
 
+#include "base/device_options.h"
 #include "base/fault.h"
 #include "base/math/seeded.h"
 #include "base/names.h"
-#include "devices/driver/options.h"
 #include "devices/driver/registry.h"
 #include "devices/hands/several_hands.h"
 #include "devices/replay/reach_source.h"

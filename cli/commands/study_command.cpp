@@ -11,9 +11,9 @@
 #include "cli/commands/commands.h"
 #include "cli/output/study_words.h"
 #include "cli/terminal/at_option.h"
-#include "devices/subject/subject_parameters.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/log/append_file.h"
+#include "sim/subjects/subject_parameters.h"
 
 namespace reachlab::cli {
 namespace {
@@ -122,16 +122,16 @@ void tellSbatch(const SbatchRequest& request) {
 }
 
 void tellParameters() {
-  const auto table = [](const char* kind, std::span<const devices::SubjectParameter> parameters) {
+  const auto table = [](const char* kind, std::span<const subjects::SubjectParameter> parameters) {
     fmt::print("kind={}\n\n| key | unit | default | allowed | meaning | source |\n|---|---|---|---|---|---|\n", kind);
-    for (const devices::SubjectParameter& p : parameters)
+    for (const subjects::SubjectParameter& p : parameters)
       fmt::print("| `{}` | {} | {} | {} to {} | {} | {}: {} |\n", p.key, p.unit, p.usual, p.least, p.most, p.meaning,
                  p.published ? "published" : "assumed", p.source);
     fmt::print("\n");
   };
-  table("plan", devices::planParameters());
-  table("impedance", devices::impedanceParameters());
-  table("ofc", devices::feedbackParameters());
+  table("plan", subjects::planParameters());
+  table("impedance", subjects::impedanceParameters());
+  table("ofc", subjects::feedbackParameters());
 }
 
 }  // namespace

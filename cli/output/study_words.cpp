@@ -10,7 +10,7 @@
 
 #include "base/fault.h"
 #include "base/system/os.h"
-#include "devices/subject/subject_kinds.h"
+#include "sim/subjects/subject_kinds.h"
 
 namespace reachlab::cli {
 namespace {
@@ -52,7 +52,7 @@ study::Shard shardOf(const std::string& text) {
 
 study::PrepareSubjects prepareSimulated() {
   return [](const std::string& device, const experiment::CompiledExperiment& experiment) {
-    return study::SubjectHands(devices::prepareSubjects(experiment, device));
+    return study::SubjectHands(subjects::prepareSubjects(experiment, device));
   };
 }
 

@@ -3,8 +3,6 @@
 #include <algorithm>
 
 #include "devices/driver/drivers.h"
-#include "sim/experiment/experiment.h"
-#include "sim/trial/protocol.h"
 
 namespace reachlab::devices {
 
@@ -27,11 +25,6 @@ std::vector<FoundDevice> findDevices() {
   for (const DeviceDriver& driver : deviceDrivers())
     for (FoundDevice& device : driver.find(driver)) found.push_back(std::move(device));
   return found;
-}
-
-Vec3 startOf(const experiment::CompiledExperiment& experiment) {
-  if (!experiment.experiment().task) return {};
-  return trial::makeProtocolSettings(experiment.experiment(), experiment.constraint()).start;
 }
 
 std::vector<FoundDevice> alwaysThere(const DeviceDriver& self) {

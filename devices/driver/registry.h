@@ -54,8 +54,6 @@ const DeviceDriver* findDriver(const std::string& name);
 /// All rows of all drivers.
 std::vector<FoundDevice> findDevices();
 
-/// The position [m] in the world frame where the hand of this experiment begins. It is the origin without a task.
-Vec3 startOf(const experiment::CompiledExperiment& experiment);
 /// The row of a driver whose device is always present.
 std::vector<FoundDevice> alwaysThere(const DeviceDriver& self);
 /// Makes a row of `self` and completes it with the data of `info`.

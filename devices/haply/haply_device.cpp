@@ -5,9 +5,9 @@
 
 #include <algorithm>
 
+#include "base/device_options.h"
 #include "base/error.h"
 #include "devices/driver/drivers.h"
-#include "devices/driver/options.h"
 #include "devices/haply/web_socket_link.h"
 #include "devices/virtual/device_model.h"
 

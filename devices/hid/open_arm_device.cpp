@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "base/device_options.h"
 #include "base/error.h"
 #include "devices/driver/drivers.h"
-#include "devices/driver/options.h"
 #include "devices/hid/report_descriptor.h"
 
 namespace reachlab::devices {

@@ -3,14 +3,15 @@
 #include <algorithm>
 #include <array>
 
+#include "base/device_options.h"
 #include "base/error.h"
 #include "base/system/os.h"
 #include "devices/driver/drivers.h"
-#include "devices/driver/options.h"
 #include "devices/hid/hid_port.h"
 #include "devices/hid/space_mouse_report.h"
 #include "devices/io/rate_hand.h"
 #include "sim/trial/protocol.h"
+#include "sim/trial/task_places.h"
 
 /// 3Dconnexion SpaceMouse: six axes of push without force, every 8 ms (wired). Verified against published reports, not on a device.
 namespace reachlab::devices {
@@ -92,7 +93,7 @@ std::unique_ptr<haptics::HapticDevice> makeSpaceMouse(const DeviceRequest& reque
   info.name = mouse.title.empty() ? "SpaceMouse" : mouse.title;
   info.version = "HID";
   info.rate = 125;
-  return std::make_unique<RateHand>(info, chosen, startOf(request.experiment),
+  return std::make_unique<RateHand>(info, chosen, trial::startOf(request.experiment),
                                     std::make_shared<SpaceMouseSource>(mouse.key(), request.words()));
 }
 

@@ -6,12 +6,13 @@
 #include <atomic>
 #include <chrono>
 
+#include "base/device_options.h"
 #include "base/error.h"
 #include "base/system/os.h"
 #include "devices/driver/drivers.h"
-#include "devices/driver/options.h"
 #include "devices/mouse/mouse_device.h"
 #include "sim/haptics/leavable_thread.h"
+#include "sim/trial/task_places.h"
 
 namespace reachlab::devices {
 namespace {
@@ -137,7 +138,8 @@ std::unique_ptr<haptics::HapticDevice> makeTablet(const DeviceRequest& request) 
   const double halfWidth = options.number("half-width", 0.15, 0.01, 2);
   options.done();
   const auto choose = [path = options.plain(), words = request.words()] { return chooseTablet(path, words); };
-  return makeTabletHand(choose(), halfWidth, startOf(request.experiment), [choose] { return std::make_unique<InputPort>(choose().path); });
+  return makeTabletHand(choose(), halfWidth, trial::startOf(request.experiment),
+                        [choose] { return std::make_unique<InputPort>(choose().path); });
 }
 
 std::vector<FoundDevice> findTabletDevices(const DeviceDriver& self) {

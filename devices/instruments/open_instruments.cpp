@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/device_options.h"
 #include "base/fault.h"
-#include "devices/driver/options.h"
 #include "devices/instruments/instruments.h"
 #include "devices/instruments/lab_streaming.h"
 #include "devices/instruments/trigger_lines.h"

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "devices/driver/options.h"
+#include "base/device_options.h"
 #include "devices/mapping/mapping.h"
 #include "sim/haptics/device.h"
 

@@ -5,10 +5,10 @@
 #include <numeric>
 
 #include "base/error.h"
-#include "devices/simulated/simulated_hand.h"
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/tick_engine.h"
 #include "sim/haptics/tick_order.h"
+#include "sim/subjects/plans/simulated_hand.h"
 
 namespace reachlab::devices {
 namespace {
@@ -49,9 +49,9 @@ struct PractisedHand : haptics::NoStages {
 };
 
 ReachDemand simulatedDemand(const experiment::CompiledExperiment& experiment, haptics::TickEngine& engine, const Vec3& centre) {
-  SubjectSpec practised;
+  subjects::SubjectSpec practised;
   practised.noise = 0;
-  const auto hand = makeSimulatedHand(experiment, practised, 0);
+  const auto hand = subjects::makeSimulatedHand(experiment, practised, 0);
   hand->prepareTrial(0);
   ReachDemand demand;
   double squares = 0;

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "base/device_options.h"
 #include "base/fault.h"
-#include "devices/driver/options.h"
 #include "sim/experiment/resources.h"
 
 namespace reachlab::devices {

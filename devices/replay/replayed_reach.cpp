@@ -33,7 +33,7 @@ Vec3 turn(const Vec3& v, const Vec3& from, const Vec3& to) {
 
 }  // namespace
 
-PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& target) {
+subjects::PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& target) {
   if (reach.time.size() < 2) throw FaultError(Fault{{}, "fewer than two samples", {}, FilePlace{reach.file}});
   if (const double lasts = reach.time.back() - reach.time.front(); !(lasts <= kLongestReach))
     throw FaultError(Fault{"time_s", fmt::format("lasts {} s", lasts), fmt::format("a reach of at most {:.0f} s", kLongestReach),
@@ -52,7 +52,7 @@ PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& t
   for (const Vec3& p : reach.position) laid.push_back(start + asked / length * turn(p - first, chord / length, wanted / asked));
   const CubicSpline spline(reach.time, laid, SplineEnds::Natural);
 
-  PlayedReach played;
+  subjects::PlayedReach played;
   const double begin = reach.time.front(), whole = reach.time.back() - begin;
   const auto ticks = static_cast<std::size_t>(std::ceil((kRest + whole) / kTickSeconds - 1e-9));
   for (std::size_t i = 0; i <= ticks; ++i) {
@@ -65,12 +65,12 @@ PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& t
 }
 
 std::unique_ptr<haptics::HapticDevice> makeReplayHand(const std::string& argument, const Vec3& start, const Vec3& target) {
-  std::vector<PlayedReach> reaches;
+  std::vector<subjects::PlayedReach> reaches;
   for (const RecordedReach& reach : readReaches(reachSourceOf(argument))) reaches.push_back(layOnto(reach, start, target));
   haptics::DeviceInfo info;
   info.name = "replay";
   info.version = "1";
-  return std::make_unique<PlayedHand>(
+  return std::make_unique<subjects::PlayedHand>(
       info, [reaches = std::move(reaches)](int trial) { return reaches[static_cast<std::size_t>(trial) % reaches.size()]; });
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "devices/replay/recorded_reach.h"
-#include "devices/simulated/played_hand.h"
+#include "sim/subjects/plans/played_hand.h"
 
 namespace reachlab::devices {
 
@@ -13,7 +13,7 @@ namespace reachlab::devices {
 /// minimum-jerk blend over 0.1 s. Then it follows a cubic spline (C2, natural ends) through the samples and rests at the last sample. The
 /// velocity is estimated, as for any device without velocity. Throws FaultError for fewer than two samples, more than 600 s, or no
 /// movement.
-PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& target);
+subjects::PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& target);
 
 /// A device that plays the reaches of a source (reach_source.h), one per trial. After the last reach it begins again with the first.
 std::unique_ptr<haptics::HapticDevice> makeReplayHand(const std::string& argument, const Vec3& start, const Vec3& target);

@@ -59,14 +59,14 @@ VelocityRow judge(const std::string& kind, double resolution, const std::vector<
 }  // namespace
 
 std::vector<VelocityRow> compareVelocityEstimators(const std::string& path, const VelocityTableSettings& settings) {
-  std::vector<PlayedReach> reaches;
+  std::vector<subjects::PlayedReach> reaches;
   for (const RecordedReach& reach : readReaches(reachSourceOf(path))) reaches.push_back(layOnto(reach, {-0.1, 0, 0}, {0.1, 0, 0}));
   std::vector<VelocityRow> rows;
   for (const double resolution : settings.resolutions)
     for (const std::string& kind : experiment::velocityEstimatorNames()) {
       if (kind == "device" || kind == "auto") continue;  // what a device measures itself is its maker's secret
       std::vector<Followed> all;
-      for (const PlayedReach& reach : reaches) {
+      for (const subjects::PlayedReach& reach : reaches) {
         haptics::VelocityEstimator estimator({kind, settings.cutoff});
         Followed followed{centralDifferences(reach.position), {}};
         for (const Vec3& place : reach.position) {

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/device_options.h"
 #include "base/error.h"
 #include "devices/driver/drivers.h"
-#include "devices/driver/options.h"
 #include "devices/serial/polhem_line.h"
 #include "devices/serial/serial_port.h"
 

@@ -6,9 +6,9 @@
 #include <atomic>
 #include <cmath>
 
+#include "base/device_options.h"
 #include "base/fault.h"
 #include "devices/driver/drivers.h"
-#include "devices/driver/options.h"
 #include "devices/driver/orientation.h"
 #include "devices/io/polled_device.h"
 #include "devices/vendor/force_dimension_api.h"
@@ -130,9 +130,11 @@ class ForceDimension final : public Transport {
     if (const double told = dhd_.getMaxForce != nullptr ? dhd_.getMaxForce(id_) : 0; std::isfinite(told) && told > 0) info_.maxForce = told;
     info_.rendersForce = true;
     info_.rate = 1e9 / kPeriodNs;
-    info_.secondPath = std::string("the I/O thread tells it zero when the tick leaves no new force for 20 ms, and another thread switches its forces "
-                                   "off when a call hangs for as long") +
-                       (watchdog_ ? "; its own watchdog does so too" : "; its library offers no watchdog");
+    info_.secondPath =
+        std::string(
+            "the I/O thread tells it zero when the tick leaves no new force for 20 ms, and another thread switches its forces "
+            "off when a call hangs for as long") +
+        (watchdog_ ? "; its own watchdog does so too" : "; its library offers no watchdog");
     wrist_ = dhd_.hasWrist != nullptr && dhd_.getOrientationFrame != nullptr && dhd_.hasWrist(id_);
     deviceVelocity_ = deviceVelocity_ && dhd_.getLinearVelocity != nullptr;
   }
@@ -166,7 +168,7 @@ class ForceDimension final : public Transport {
   bool deviceVelocity_, wrist_ = false, isOpen_ = false, watchdog_ = false;
   std::atomic<bool> cut_{false};
   std::int64_t toldNs_ = 0;  // when an exchange began last
-  int errors_ = 0;  // in a row
+  int errors_ = 0;           // in a row
 };
 
 }  // namespace

@@ -7,9 +7,9 @@
 #include <map>
 #include <utility>
 
+#include "base/device_options.h"
 #include "base/error.h"
 #include "devices/driver/drivers.h"
-#include "devices/driver/options.h"
 
 namespace reachlab::devices {
 

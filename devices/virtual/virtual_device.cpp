@@ -4,12 +4,12 @@
 
 #include <cmath>
 
+#include "base/device_options.h"
 #include "base/fault.h"
 #include "base/math/elementary.h"
 #include "base/ticks.h"
 #include "devices/driver/drivers.h"
-#include "devices/driver/options.h"
-#include "devices/simulated/simulated_hand.h"
+#include "sim/subjects/plans/simulated_hand.h"
 
 namespace reachlab::devices {
 namespace {
@@ -105,9 +105,9 @@ constexpr double kPractisedStiffness = 3000;  // [N/m]
 constexpr double kPractisedDamping = 80;      // [N s/m]
 
 // What is left is its hand's; an unknown word is told with all that is known here.
-SubjectSpec takeSubject(DeviceOptions& options) {
+subjects::SubjectSpec takeSubject(DeviceOptions& options) {
   try {
-    return parseSubject(options.rest());
+    return subjects::parseSubject(options.rest());
   } catch (const FaultError& error) {
     Fault fault = error.faults.front();
     if (fault.what.ends_with("is not known")) fault.allowed = "arm-mass, arm-stiffness, arm-damping, delay-ms, quantised, " + fault.allowed;
@@ -128,7 +128,8 @@ std::unique_ptr<haptics::HapticDevice> makeVirtual(const DeviceRequest& request)
   chosen.hand.damping = options.number("arm-damping", kPractisedDamping, 0, 1e4);
   chosen.delayTicks = static_cast<int>(options.number("delay-ms", 0, 0, VirtualDevice::kMostDelay - 1));
   chosen.quantised = options.word("quantised", {"yes", "no"}) == "yes";
-  return std::make_unique<VirtualDevice>(*model, chosen, makeSimulatedHand(request.experiment, takeSubject(options), request.seed));
+  return std::make_unique<VirtualDevice>(*model, chosen,
+                                         subjects::makeSimulatedHand(request.experiment, takeSubject(options), request.seed));
 }
 
 std::vector<FoundDevice> findVirtual(const DeviceDriver& self) {

@@ -8,6 +8,7 @@
 #include "constraints/regularity/places.h"
 #include "constraints/regularity/surface_branches.h"
 #include "sim/experiment/experiment.h"
+#include "sim/trial/protocol.h"
 
 namespace reachlab::trial {
 namespace {
@@ -70,6 +71,11 @@ void addTie(const experiment::Experiment& experiment, const constraints::Constra
 }
 
 }  // namespace
+
+Vec3 startOf(const experiment::CompiledExperiment& experiment) {
+  if (!experiment.experiment().task) return {};
+  return makeProtocolSettings(experiment.experiment(), experiment.constraint()).start;
+}
 
 std::vector<Fault> describeWay(const experiment::CompiledExperiment& compiled) {
   std::vector<Fault> found;

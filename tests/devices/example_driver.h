@@ -54,7 +54,7 @@ inline DeviceDriver springHandleDriver() {
         if (vendorUnplugged) return {absentDevice(self, "no Spring Handle is connected")};
         return {presentDevice(self, self.name, SpringHandle().info())};
       },
-      // What stands behind the name, springhandle:PATH,gain=2, is request.argument; DeviceOptions (devices/driver/options.h) takes it apart. What is
+      // What stands behind the name, springhandle:PATH,gain=2, is request.argument; DeviceOptions (base/device_options.h) takes it apart. What is
       // wrong there throws FaultError (base/fault.h), what cannot be had ResourceError (base/error.h).
       .make = [](const DeviceRequest&) -> std::unique_ptr<haptics::HapticDevice> {
         return std::make_unique<PolledDevice>(std::make_shared<SpringHandle>());  // refused if no report comes within 2 s

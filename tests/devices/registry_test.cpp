@@ -6,13 +6,14 @@
 #include <functional>
 #include <set>
 
+#include "base/device_options.h"
 #include "base/error.h"
 #include "base/fault.h"
-#include "devices/driver/options.h"
 #include "devices/hands/several_hands.h"
 #include "devices/make_device.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
+#include "sim/trial/task_places.h"
 #include "tests/devices/fakes/fake_dhd.h"
 #include "tests/devices/fakes/fake_hd.h"
 
@@ -108,9 +109,9 @@ TEST(DeviceOptions, WhatIsWrongIsSaidWithWhatIsAllowed) {
 TEST(Registry, AHandBeginsWhereItsTaskDoes) {
   experiment::Experiment experiment = experiment::readExperiment("free-point");
   experiment.task->start = {0.01, -0.02, 0.03};
-  EXPECT_EQ(startOf(experiment::CompiledExperiment(experiment)), (Vec3{0.01, -0.02, 0.03}));
+  EXPECT_EQ(trial::startOf(experiment::CompiledExperiment(experiment)), (Vec3{0.01, -0.02, 0.03}));
   experiment.task.reset();
-  EXPECT_EQ(startOf(experiment::CompiledExperiment(experiment)), Vec3{});
+  EXPECT_EQ(trial::startOf(experiment::CompiledExperiment(experiment)), Vec3{});
 }
 
 TEST(Registry, ANameThatIsNearlyOneIsAskedAfter) {
@@ -145,9 +146,10 @@ TEST(MakeDevice, OfSeveralHandsEachHasADeviceOfItsOwn) {
       return std::string(error.what());
     }
   };
-  EXPECT_EQ(refusalOf("hid:A + hid"),
-            "device: is hid:A + hid, which may be one device twice; allowed: hid[:SERIAL][,model=NAME,max-current=A,calibrate=start], each by a name "
-            "of its own");
+  EXPECT_EQ(
+      refusalOf("hid:A + hid"),
+      "device: is hid:A + hid, which may be one device twice; allowed: hid[:SERIAL][,model=NAME,max-current=A,calibrate=start], each by a name "
+      "of its own");
   EXPECT_NE(refusalOf("hid + hid:A").find("twice"), std::string::npos);
   EXPECT_NE(refusalOf("hid:A + simulated + hid:A").find("twice"), std::string::npos);
   EXPECT_EQ(refusalOf("hid:A + hid:B").find("twice"), std::string::npos) << "two";

@@ -46,7 +46,7 @@ RecordedReach curvedReach() {
 TEST(ReplayedReach, KeepsTheShapeOfTheReachUpToScale) {
   const RecordedReach reach = curvedReach();
   const Vec3 start{-0.1, 0.02, 0}, target{0.1, 0.02, 0.01};
-  const PlayedReach played = layOnto(reach, start, target);
+  const subjects::PlayedReach played = layOnto(reach, start, target);
   const Vec3 first = reach.position.front();
   double chord = 0;
   for (const Vec3& p : reach.position) chord = std::max(chord, norm(p - first));
@@ -66,13 +66,13 @@ TEST(ReplayedReach, LaysTheFarthestSampleOnTheTarget) {
   for (const double sign : {1.0, -1.0}) {
     RecordedReach reach;
     for (int i = 0; i <= 100; ++i) reach.time.push_back(0.01 * i), reach.position.push_back(sign * 0.004 * i * Vec3{0.2, 2, -0.7});
-    const PlayedReach played = layOnto(reach, start, target);
+    const subjects::PlayedReach played = layOnto(reach, start, target);
     EXPECT_NEAR(norm(played.position.back() - target), 0, 1e-12) << "rounding of the rotation";
   }
 }
 
 TEST(ReplayedReach, RestsForThreeTenthsAndJoinsWithoutAJump) {
-  const PlayedReach played = layOnto(curvedReach(), {-0.1, 0, 0}, {0.1, 0, 0});
+  const subjects::PlayedReach played = layOnto(curvedReach(), {-0.1, 0, 0}, {0.1, 0, 0});
   for (int tick = 0; tick <= 300; ++tick) EXPECT_NEAR(norm(played.position[tick] - Vec3{-0.1, 0, 0}), 0, 1e-15);
   for (std::size_t i = 300; i + 1 < played.position.size(); ++i)
     EXPECT_LT(norm(played.position[i + 1] - played.position[i]), 1e-3) << "below 1 m/s at tick " << i;
@@ -80,7 +80,7 @@ TEST(ReplayedReach, RestsForThreeTenthsAndJoinsWithoutAJump) {
 
 TEST(ReplayedReach, DoesNotScaleTime) {
   const RecordedReach reach = readReach(kReaches + "/reach-00.csv");
-  const PlayedReach played = layOnto(reach, {-0.1, 0, 0}, {0.1, 0, 0});
+  const subjects::PlayedReach played = layOnto(reach, {-0.1, 0, 0}, {0.1, 0, 0});
   EXPECT_NEAR(static_cast<double>(played.position.size() - 1), 300 + 1000 * (reach.time.back() - reach.time.front()), 1);
 }
 
@@ -89,7 +89,7 @@ TEST(ReplayedReach, AllHumanReachesStartAtTheStartAndPassTheTarget) {
   for (const auto& entry : std::filesystem::directory_iterator(kReaches)) {
     if (entry.path().extension() != ".csv") continue;
     ++files;
-    const PlayedReach played = layOnto(readReach(entry.path().string()), {-0.1, 0, 0}, {0.1, 0, 0});
+    const subjects::PlayedReach played = layOnto(readReach(entry.path().string()), {-0.1, 0, 0}, {0.1, 0, 0});
     double nearest = 1;
     for (const Vec3& p : played.position) nearest = std::min(nearest, norm(p - Vec3{0.1, 0, 0}));
     EXPECT_LT(nearest, 1e-3) << entry.path();  // the sample lies between two ticks
@@ -99,7 +99,7 @@ TEST(ReplayedReach, AllHumanReachesStartAtTheStartAndPassTheTarget) {
 
 TEST(ReplayedReach, ALostDirectionIsTurnedByHalfATurn) {
   RecordedReach reach{"back.csv", {0, 0.5, 1}, {{0, 0, 0}, {-0.2, 0.05, 0}, {-0.4, 0, 0}}};
-  const PlayedReach played = layOnto(reach, {-0.1, 0, 0}, {0.1, 0, 0});
+  const subjects::PlayedReach played = layOnto(reach, {-0.1, 0, 0}, {0.1, 0, 0});
   EXPECT_NEAR(norm(played.position.back() - Vec3{0.1, 0, 0}), 0, 1e-12) << "rounding";
   for (const Vec3& p : played.position) EXPECT_TRUE(isFinite(p));
 }
@@ -163,7 +163,7 @@ TEST(ReplayedReach, ALineIsPlayedAsItIsAfterItsRestAndItsJoin) {
   const Vec3 speed{0.4, 0.3, 0};
   for (const double t : {5.0, 5.1, 5.25, 5.3, 5.6, 5.8}) reach.time.push_back(t), reach.position.push_back(Vec3{7, 8, 9} + t * speed);
   const Vec3 start{0.02, 0.01, -0.03}, target = start + Vec3{0, 0.8, 0};  // twice as long, along y
-  const PlayedReach played = layOnto(reach, start, target);
+  const subjects::PlayedReach played = layOnto(reach, start, target);
   ASSERT_EQ(played.position.size(), 1101u) << "0.3 s and 0.8 s";
   EXPECT_TRUE(played.velocity.empty());
   for (std::size_t i = 0; i < played.position.size(); ++i) {
@@ -176,14 +176,14 @@ TEST(ReplayedReach, ALineIsPlayedAsItIsAfterItsRestAndItsJoin) {
 // By the smallest rotation: what lies across both chords keeps its direction, and it is scaled as all is.
 TEST(ReplayedReach, IsTurnedByTheSmallestRotation) {
   const RecordedReach reach{"turned.csv", {0, 0.5, 1}, {{0, 0, 0}, {0.2, 0, 0.1}, {0.4, 0, 0}}};
-  const PlayedReach played = layOnto(reach, {0, 0, 0}, {0, 0.2, 0});
+  const subjects::PlayedReach played = layOnto(reach, {0, 0, 0}, {0, 0.2, 0});
   EXPECT_LT(norm(played.position[800] - Vec3{0, 0.1, 0.05}), 1e-12);
   const RecordedReach back{"back.csv", {0, 0.5, 1}, {{0, 0, 0}, {-0.2, 0.05, 0.03}, {-0.4, 0, 0}}};
-  const PlayedReach turned = layOnto(back, {-0.1, 0, 0}, {0.3, 0, 0});
+  const subjects::PlayedReach turned = layOnto(back, {-0.1, 0, 0}, {0.3, 0, 0});
   EXPECT_NEAR(turned.position[800].x, 0.1, 1e-12);
   EXPECT_NEAR(std::hypot(turned.position[800].y, turned.position[800].z), std::hypot(0.05, 0.03), 1e-12);
   const RecordedReach down{"down.csv", {0, 0.5, 1}, {{0, 0, 0}, {0.01, -0.2, 0}, {0, -0.4, 0}}};
-  const PlayedReach up = layOnto(down, {0, 0, 0}, {0, 0.4, 0});
+  const subjects::PlayedReach up = layOnto(down, {0, 0, 0}, {0, 0.4, 0});
   EXPECT_NEAR(up.position[800].y, 0.2, 1e-12);
   EXPECT_NEAR(std::hypot(up.position[800].x, up.position[800].z), 0.01, 1e-12);
 }
@@ -201,8 +201,7 @@ TEST(ReplayedReach, WhatCannotBeLaidIsRefusedInWords) {
   EXPECT_EQ(refusalOf({"f", {1, 601.5}, {{}, {1, 0, 0}}}), "f: time_s: lasts 600.5 s; allowed: a reach of at most 600 s");
   EXPECT_EQ(refusalOf({"f", {0}, {{}}}), "f: fewer than two samples");
   EXPECT_EQ(refusalOf({"f", {0, 1}, {{1, 1, 1}, {1, 1, 1}}}), "f: the hand does not move");
-  EXPECT_EQ(refusalOf({"f", {0, 1}, {{}, {1, 0, 0}}}, {1, 0, 0}),
-            "task.target: start and target are the same place; allowed: two places");
+  EXPECT_EQ(refusalOf({"f", {0, 1}, {{}, {1, 0, 0}}}, {1, 0, 0}), "task.target: start and target are the same place; allowed: two places");
 }
 
 TEST_F(Files, AReplayIsNamedAndMovesByTickCount) {

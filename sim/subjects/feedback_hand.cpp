@@ -1,0 +1,253 @@
+#include "sim/subjects/feedback_hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <utility>
+
+#include "base/math/elementary.h"
+#include "base/ticks.h"
+#include "sim/experiment/experiment.h"
+#include "sim/predict/predict.h"
+
+namespace reachlab::subjects {
+namespace {
+
+constexpr int kTicksPerStep = static_cast<int>(kControlStep / kTickSeconds + 0.5);
+constexpr double kAfterEnd = 0.3;                // [s] that gains go on after the last moment at which the trial can end
+constexpr double kShortest = 0.2, kLongest = 3;  // of the task's duration: what may be drawn
+constexpr double kMostForce = 1000;              // [N] that this hand can be given; an experiment may ask for less
+
+}  // namespace
+
+std::shared_ptr<const FeedbackTask> makeFeedbackTask(const experiment::CompiledExperiment& compiled, const FeedbackSpec& spec) {
+  const experiment::Experiment& experiment = compiled.experiment();
+  const experiment::Task& task = *experiment.task;
+  ReachWay way(compiled);
+  CostSpec cost;
+  cost.distance = way.length();
+  cost.duration = task.duration;
+  cost.hold = task.tolerance.time + kAfterEnd;
+  cost.position = task.tolerance.position;
+  cost.velocity = task.tolerance.velocity;
+  cost.criterion = spec.criterion;
+  cost.effort = spec.criterion ? spec.criterionEffort : spec.effort;
+  predict::LineObject object = predict::makeLineObject(experiment, 0, 0);
+  if (spec.criterion) {
+    static_cast<void>(criterionRow(makeArmWorld(spec.arm, object), spec.arm, object.totalMass(), *spec.criterion));
+    // The least that this criterion can cost here, on a line of the same length: the scale of its weight.
+    predict::PredictOptions options;
+    options.handMass = spec.arm.mass;
+    experiment::Experiment line = experiment;
+    line.constraint = {};
+    line.constraint.name = "line";
+    line.constraint.shape = {{"length_m", std::clamp(way.length(), 0.01, 1.0)}};
+    line.task->start = {0};
+    line.task->target = {2 * std::numbers::pi};
+    const double scale = way.length() / std::clamp(way.length(), 0.01, 1.0);
+    cost.criterionWeight = spec.criterionWeight / (scale * scale * predict::predict(line, *spec.criterion, options)->cost);
+    if (*spec.criterion == predict::Criterion::MinComAcceleration) cost.criterionWeight /= object.totalMass() * object.totalMass();
+  }
+  return std::make_shared<const FeedbackTask>(FeedbackTask{std::move(way), std::move(object), cost});
+}
+
+FeedbackHand::FeedbackHand(std::shared_ptr<const FeedbackTask> task, std::shared_ptr<SubjectState> state, std::uint64_t seed)
+    : task_(std::move(task)), state_(std::move(state)), seed_(seed), arm_(stepArm(state_->person.arm, kTickSeconds)),
+      sight_(static_cast<std::size_t>(task_->object.count()) + 1) {
+  prepareTrial(0);
+  std::swap(playing_, prepared_);
+  firstIsThere_ = true;
+  const FeedbackGains& g = playing_.gains;
+  const auto sized = [](int a, int b = 1) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); };
+  const int most = static_cast<int>((kLongest * task_->cost.duration + task_->cost.hold) / kControlStep) + 2;
+  trace_.command.resize(sized(most));
+  trace_.sensed.resize(sized(most, g.senses()));
+  estimate_.resize(sized(g.estimate()));
+  next_.resize(estimate_.size());
+  error_.resize(sized(g.senses()));
+  sensed_.resize(error_.size());
+  touched_.resize(sized(g.touch, g.touchDelay + 1));
+  seen_.resize(sized(g.sight, g.sightDelay + 1));
+  placeAtStart();
+}
+
+haptics::DeviceInfo FeedbackHand::info() const {
+  haptics::DeviceInfo info;
+  info.name = "simulated";
+  info.version = "1";
+  info.virtualHand = true;
+  info.maxForce = kMostForce;
+  return info;
+}
+
+void FeedbackHand::learnFromTrace() {
+  const FeedbackSpec& person = state_->person;
+  trace_.steps = traceSteps_.load(std::memory_order_acquire);
+  if (trace_.steps == 0) return;
+  if (person.learnFast > 0 || person.learnSlow > 0) {
+    const ModelError step =
+        computeModelStep(playing_.gains, trace_, playing_.used, person.arm, task_->object, person.senses, task_->cost.distance);
+    learn({person.learnFast, person.keepFast, person.learnSlow, person.keepSlow}, step, state_->model);
+  }
+  ++state_->model.trials;
+  traceSteps_.store(0, std::memory_order_relaxed);
+}
+
+void FeedbackHand::prepareTrial(int index) {
+  learnFromTrace();
+  if (std::exchange(firstIsThere_, false) && index == 0) {
+    prepared_ = playing_;
+    return;
+  }
+  const FeedbackSpec& person = state_->person;
+  SubjectDraws draws(seed_, static_cast<std::uint64_t>(index));
+  const double sigma = person.noise * person.noiseScale *
+                       (1 + person.practice * elementary::exp(-static_cast<double>(state_->model.trials) / person.practiceTrials));
+  const ModelError mean = state_->model.current();
+  Reach& reach = prepared_;
+  reach.used.stiffness = mean.stiffness + sigma * person.planSd.stiffness * draws.boundedNormal();
+  reach.used.mass = mean.mass + sigma * person.planSd.mass * draws.boundedNormal();
+  CostSpec cost = task_->cost;
+  cost.duration *= std::clamp(1 + person.noise * person.timeSd * draws.boundedNormal(), kShortest, kLongest);
+  constexpr double kReactionSpread = 0.15;
+  const double reaction = person.reaction * (1 + std::min(person.noise, 1.0) * kReactionSpread * draws.boundedNormal());
+  reach.reactionTicks = static_cast<int>(std::lround(reaction / kTickSeconds));
+  reach.gains = computeFeedbackGains(makeArmWorld(person.arm, task_->object, reach.used), person.arm, cost, person.senses,
+                                     person.motorNoise, person.forceNoise);
+  reach.draws.resize(static_cast<std::size_t>(reach.gains.steps) * static_cast<std::size_t>(reach.gains.senses() + 2));
+  for (double& draw : reach.draws) draw = person.noise == 0 ? 0 : person.noise * draws.normal();
+  reach.ready = true;
+}
+
+void FeedbackHand::placeAtStart() noexcept {
+  body_ = {-task_->cost.distance, 0, 0, 0};
+  aside_ = asideSpeed_ = felt_ = {};
+  push_ = command_ = noisy_ = 0;
+  going_ = false;
+  ticks_ = steps_ = 0;
+  traceSteps_.store(0, std::memory_order_relaxed);
+  const double start = -task_->cost.distance;
+  const FeedbackGains& g = playing_.gains;
+  std::fill(sight_.begin(), sight_.end(), start);
+  std::fill(seen_.begin(), seen_.end(), start);
+  for (std::size_t i = 0; i < touched_.size(); ++i) touched_[i] = i % 3 == 0 ? start : 0;
+  // The start is exactly known: every place is there, and so it was felt and seen.
+  for (int i = 0; i < g.estimate(); ++i) {
+    const bool place = i < g.states ? i == 0 || (i >= 4 && i < 4 + (g.states - 4) / 2)
+                                    : i >= g.states + g.touch * g.touchDelay || (i - g.states) % g.touch == 0;
+    estimate_[static_cast<std::size_t>(i)] = place ? start : 0;
+  }
+}
+
+void FeedbackHand::cue(haptics::Cue cue) noexcept {
+  if (cue == haptics::Cue::Go) {
+    going_ = true;
+    return;
+  }
+  if (prepared_.ready) {
+    std::swap(playing_, prepared_);
+    prepared_.ready = false;
+  }
+  placeAtStart();
+}
+
+// One step of estimator and controller; the model's own time runs from the end of the reaction.
+void FeedbackHand::step() noexcept {
+  const FeedbackGains& g = playing_.gains;
+  const FeedbackSpec& person = state_->person;
+  const int n = g.states, p = g.touch, v = g.sight, all = g.estimate(), ny = g.senses();
+  const int at = std::min(steps_, g.steps - 1);
+  const std::span draw{playing_.draws.data() + static_cast<std::ptrdiff_t>(at) * (ny + 2), static_cast<std::size_t>(ny + 2)};
+  const double felt = -dot(felt_, task_->way.at(body_[0] + task_->cost.distance).along);  // the object's force, against the hand
+
+  // What is sensed now comes later.
+  const int touchPlace = steps_ % (g.touchDelay + 1), sightPlace = v > 0 ? steps_ % (g.sightDelay + 1) : 0;
+  const SenseSpec& s = person.senses;
+  double* touched = touched_.data() + touchPlace * p;
+  touched[0] = body_[0], touched[1] = body_[1], touched[2] = felt;
+  for (int j = 0; j < v; ++j) {
+    const int state = g.seen[static_cast<std::size_t>(j)];
+    seen_[static_cast<std::size_t>(sightPlace * v + j)] = state == 0 ? body_[0] : sight_[static_cast<std::size_t>(state - 3)];
+  }
+  const double* oldTouch = touched_.data() + (steps_ + 1) % (g.touchDelay + 1) * p;
+  const double* oldSight = v > 0 ? seen_.data() + (steps_ + 1) % (g.sightDelay + 1) * v : nullptr;
+  double* z = estimate_.data();
+  const int touchAt = n, sightAt = n + p * g.touchDelay;
+  const double sd[] = {s.position, s.velocity, s.force};
+  double* y = sensed_.data();
+  for (int j = 0; j < p; ++j) y[j] = oldTouch[j] + sd[j] * draw[j];
+  for (int j = 0; j < v; ++j) y[p + j] = oldSight[j] + s.seen * draw[p + j];
+  for (int j = 0; j < p; ++j) error_[static_cast<std::size_t>(j)] = y[j] - z[sightAt - p + j];
+  for (int j = 0; j < v; ++j) error_[static_cast<std::size_t>(p + j)] = y[p + j] - z[all - v + j];
+
+  command_ = 0;
+  const double* control = g.control.data() + static_cast<std::ptrdiff_t>(at) * n;
+  for (int k = 0; k < n; ++k) command_ -= control[k] * z[k];
+
+  double* next = next_.data();
+  for (int k = 0; k < n; ++k) next[k] = g.command[static_cast<std::size_t>(k)] * command_;
+  for (int j = 0; j < n; ++j)
+    for (int k = 0; k < n; ++k) next[k] += g.advance[static_cast<std::size_t>(j * n + k)] * z[j];
+  for (int j = 0; j < p; ++j) {
+    double value = 0;
+    for (int k = 0; k < n; ++k) value += g.felt[static_cast<std::size_t>(j * n + k)] * z[k];
+    next[touchAt + j] = value;
+  }
+  std::copy(z + touchAt, z + touchAt + p * (g.touchDelay - 1), next + touchAt + p);
+  for (int j = 0; j < v; ++j) next[sightAt + j] = z[g.seen[static_cast<std::size_t>(j)]];
+  if (v > 0) std::copy(z + sightAt, z + sightAt + v * (g.sightDelay - 1), next + sightAt + v);
+  const double* filter = g.filter.data() + static_cast<std::ptrdiff_t>(at) * all * ny;
+  for (int c = 0; c < ny; ++c)
+    for (int k = 0; k < all; ++k) next[k] += filter[c * all + k] * error_[static_cast<std::size_t>(c)];
+  std::swap(estimate_, next_);
+
+  noisy_ = command_ * (1 + person.motorNoise * draw[ny]) + person.forceNoise * draw[ny + 1];
+  if (steps_ < g.steps) {
+    trace_.command[static_cast<std::size_t>(at)] = command_;
+    std::copy(y, y + ny, trace_.sensed.data() + static_cast<std::ptrdiff_t>(at) * ny);
+    traceSteps_.store(steps_ + 1, std::memory_order_release);
+  }
+  ++steps_;
+}
+
+haptics::DeviceSample FeedbackHand::read() noexcept {
+  const double start = -task_->cost.distance;
+  if (going_) {
+    if (ticks_ >= playing_.reactionTicks) {
+      if ((ticks_ - playing_.reactionTicks) % kTicksPerStep == 0) step();
+      const ReachWay::Place place = task_->way.at(body_[0] - start);
+      const double along = dot(felt_, place.along) + push_;
+      std::array<double, 4> moved{};
+      for (int i = 0; i < 4; ++i) {
+        double value = arm_.command(i) * noisy_ + arm_.force(i) * along;
+        for (int j = 0; j < 4; ++j) value += arm_.a(i, j) * body_[static_cast<std::size_t>(j)];
+        moved[static_cast<std::size_t>(i)] = value;
+      }
+      body_ = moved;
+      // Across the way the arm is a spring, critically damped.
+      const double mass = state_->person.arm.mass, stiffness = task_->onTheWayStiffness, damping = 2 * std::sqrt(stiffness * mass);
+      const Vec3 across = felt_ - dot(felt_, place.along) * place.along;
+      asideSpeed_ += kTickSeconds / mass * (across - stiffness * aside_ - damping * asideSpeed_);
+      aside_ += kTickSeconds * asideSpeed_;
+    }
+    ++ticks_;
+  }
+  const ReachWay::Place place = task_->way.at(body_[0] - start);
+  haptics::DeviceSample sample;
+  sample.position = place.position + aside_;
+  sample.velocity = body_[1] * place.along + asideSpeed_;
+  sample.hasVelocity = true;
+  return sample;
+}
+
+void FeedbackHand::write(const Vec3& force) noexcept { felt_ = force; }
+
+// Looked at where the next tick is a control step.
+void FeedbackHand::see(std::span<const dynamics::MassState> masses) noexcept {
+  if (ticks_ < playing_.reactionTicks || (ticks_ - playing_.reactionTicks) % kTicksPerStep != 0) return;
+  const std::size_t count = std::min(masses.size(), sight_.size() - 1);
+  for (std::size_t i = 0; i < count; ++i) sight_[i + 1] = task_->way.placeOf(masses[i]) - task_->cost.distance;
+}
+
+}  // namespace reachlab::subjects

@@ -1,0 +1,82 @@
+#pragma once
+#include <array>
+#include <atomic>
+#include <memory>
+#include <vector>
+
+#include "sim/haptics/device.h"
+#include "sim/subjects/feedback_gains.h"
+#include "sim/subjects/feedback_subject.h"
+#include "sim/subjects/model_learner.h"
+#include "sim/subjects/reach_way.h"
+#include "sim/subjects/subject_draws.h"
+
+namespace reachlab::subjects {
+
+/// A subject's properties beyond its kind, and its learnt model. It is passed from block to block.
+struct SubjectState {
+  FeedbackSpec person;  // with the values drawn for this person
+  LearntModel model;
+};
+
+/// The task as the controller sees it, and the data from which its gains are computed. The subjects of an experiment share it.
+struct FeedbackTask {
+  ReachWay way;
+  predict::LineObject object;
+  CostSpec cost;                   // at the task's own duration, with the criterion's weight
+  double onTheWayStiffness = 300;  // [N/m] across the path
+};
+
+/// A hand that its arm moves. It feels the written force and sees the shown object. Haptic thread: `read` advances the arm by a tick with
+/// the latest written force, which stays constant. At every tenth tick estimator and controller take a step. No call allocates there.
+class FeedbackHand final : public haptics::HapticDevice {
+ public:
+  FeedbackHand(std::shared_ptr<const FeedbackTask> task, std::shared_ptr<SubjectState> state, std::uint64_t seed);
+
+  haptics::DeviceInfo info() const override;
+  void prepareTrial(int index) override;
+  void cue(haptics::Cue cue) noexcept override;
+  haptics::DeviceSample read() noexcept override;
+  void write(const Vec3& force) noexcept override;
+  void see(std::span<const dynamics::MassState> masses) noexcept override;
+
+  /// The latest command [N], before its noise, and the model from which it was computed. For tests.
+  double command() const noexcept { return command_; }
+  const ModelError& model() const noexcept { return playing_.used; }
+  /// Adds a disturbance [N] along the path to the felt force from now on. For tests.
+  void push(double force) noexcept { push_ = force; }
+
+ private:
+  struct Reach {
+    FeedbackGains gains;
+    ModelError used;
+    std::vector<double> draws;  // of every step: senses, then two for the command
+    int reactionTicks = 0;
+    bool ready = false;
+  };
+  void placeAtStart() noexcept;
+  void step() noexcept;
+  void learnFromTrace();
+
+  std::shared_ptr<const FeedbackTask> task_;
+  std::shared_ptr<SubjectState> state_;
+  std::uint64_t seed_;
+  SteppedArm arm_;
+  Reach prepared_, playing_;
+  bool firstIsThere_ = false;  // `playing_` is what trial 0 would be prepared as
+  TrialTrace trace_;           // entries below traceSteps_ keep their values until the next Cue::Place
+  std::atomic<int> traceSteps_{0};
+  bool going_ = false;
+  int ticks_ = 0, steps_ = 0;                  // since the go signal; steps of the controller
+  std::array<double, 4> body_{};               // h, h', f, g
+  Vec3 aside_, asideSpeed_, felt_;             // [m], [m/s] across the path; [N]
+  double push_ = 0, command_ = 0, noisy_ = 0;  // [N]
+  std::vector<double> estimate_, next_, error_, sensed_;
+  std::vector<double> touched_, seen_;  // of the last steps, in a ring
+  std::vector<double> sight_;           // [m] hand and masses, as shown latest
+};
+
+/// Prepares the shared part. Throws FaultError, RefusedError.
+std::shared_ptr<const FeedbackTask> makeFeedbackTask(const experiment::CompiledExperiment& experiment, const FeedbackSpec& spec);
+
+}  // namespace reachlab::subjects

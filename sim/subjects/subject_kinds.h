@@ -1,0 +1,15 @@
+#pragma once
+#include <string>
+
+#include "sim/subjects/plans/simulated_hand.h"
+
+namespace reachlab::subjects {
+
+/// prepareSubjects for a device text `simulated:KEY=VALUE,…`, for the kind that the text names.
+MakeSubject prepareSubjects(const experiment::CompiledExperiment& experiment, const std::string& device);
+/// Subjects of `kind=ofc` and of `kind=impedance`, by their options as text (feedback_subject.h, impedance_subject.h). Throw FaultError or
+/// RefusedError.
+MakeSubject prepareFeedbackSubjects(const experiment::CompiledExperiment& experiment, const std::string& options);
+MakeSubject prepareImpedanceSubjects(const experiment::CompiledExperiment& experiment, const std::string& options);
+
+}  // namespace reachlab::subjects

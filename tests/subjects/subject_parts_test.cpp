@@ -1,0 +1,899 @@
+// What a subject with feedback is made of, each part against another way to compute it.
+#include <gtest/gtest.h>
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <numbers>
+#include <random>
+#include <span>
+#include <utility>
+
+#include "base/fault.h"
+#include "base/math/matrix.h"
+#include "base/math/seeded.h"
+#include "sim/experiment/experiment.h"
+#include "sim/haptics/tick_engine.h"
+#include "sim/haptics/tick_order.h"
+#include "sim/predict/predict.h"
+#include "sim/subjects/feedback_hand.h"
+#include "sim/subjects/impedance_subject.h"
+#include "sim/subjects/subject_parameters.h"
+
+namespace reachlab::subjects {
+namespace {
+
+using Eigen::MatrixXd;
+using Eigen::RowVectorXd;
+using Eigen::VectorXd;
+
+constexpr ArmSpec kArm{1.3, 7, 0.03};
+
+predict::LineObject objectOf(bool parallel) {
+  predict::LineObject object;
+  object.parallel = parallel;
+  object.masses = {0.7, 1.9};
+  object.springs = {310, 170};
+  object.dampers = {2, 5};
+  object.viscosity = {0.3, 0.8};
+  return object;
+}
+
+// The law of arm_world.h, written out number by number.
+VectorXd rateOf(const ArmSpec& arm, const predict::LineObject& o, const VectorXd& x, double command) {
+  const double h = x(0), hv = x(1), f = x(2), g = x(3);
+  const double x1 = x(4), x2 = x(5), v1 = x(6), v2 = x(7);
+  const double first = o.springs[0] * (h - x1) + o.dampers[0] * (hv - v1);
+  const double second = o.springs[1] * ((o.parallel ? h : x1) - x2) + o.dampers[1] * ((o.parallel ? hv : v1) - v2);
+  const double onHand = first + (o.parallel ? second : 0);
+  VectorXd rate(8);
+  rate << hv, (f - arm.damping * hv - onHand) / arm.mass, (g - f) / arm.muscle, (command - g) / arm.muscle, v1, v2,
+      (first - (o.parallel ? 0 : second) - o.viscosity[0] * v1) / o.masses[0], (second - o.viscosity[1] * v2) / o.masses[1];
+  return rate;
+}
+
+TEST(ArmWorld, IsTheLawOfArmMuscleAndObject) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> any;
+  for (const bool parallel : {false, true}) {
+    const ArmWorld world = makeArmWorld(kArm, objectOf(parallel));
+    ASSERT_EQ(world.masses, 2);
+    ASSERT_EQ(world.states(), 8);
+    for (int i = 0; i < 20; ++i) {
+      VectorXd x(8);
+      for (double& entry : x) entry = any(random);
+      const double command = any(random);
+      EXPECT_LT((world.a * x + world.b * command - rateOf(kArm, objectOf(parallel), x, command)).norm(), 1e-10);
+      const double onHand = -kArm.mass * (rateOf(kArm, objectOf(parallel), x, command)(1) - (x(2) - kArm.damping * x(1)) / kArm.mass);
+      EXPECT_NEAR(world.contact * x, onHand, 1e-10);
+    }
+  }
+}
+
+TEST(ArmWorld, AWrongModelScalesAllSpringsAndAllMasses) {
+  predict::LineObject scaled = objectOf(false);
+  for (double& k : scaled.springs) k *= 1.5;
+  for (double& m : scaled.masses) m *= 0.8;
+  const ArmWorld wrong = makeArmWorld(kArm, objectOf(false), {std::log(1.5), std::log(0.8)}), other = makeArmWorld(kArm, scaled);
+  EXPECT_LT((wrong.a - other.a).norm(), 1e-9);
+  EXPECT_LT((wrong.contact - other.contact).norm(), 1e-9);
+}
+
+// Runge and Kutta in steps of 10 us.
+TEST(ArmWorld, AStepIsTheLawCarriedOut) {
+  VectorXd x(8);
+  x << -0.2, 0.3, 1.5, -0.7, -0.19, -0.21, 0.1, -0.2;
+  const double command = 4, force = -2.5;
+  const auto runge = [](VectorXd state, const std::function<VectorXd(const VectorXd&)>& rate) {
+    constexpr double kStep = 1e-5;
+    for (int i = 0; i < 1000; ++i) {
+      const VectorXd a = rate(state), b = rate(state + kStep / 2 * a), c = rate(state + kStep / 2 * b), d = rate(state + kStep * c);
+      state += kStep / 6 * (a + 2 * b + 2 * c + d);
+    }
+    return state;
+  };
+  const SteppedWorld stepped = stepWorld(makeArmWorld(kArm, objectOf(true)), 0.01);
+  EXPECT_LT(
+      (stepped.a * x + stepped.b * command - runge(x, [&](const VectorXd& s) { return rateOf(kArm, objectOf(true), s, command); })).norm(),
+      1e-9);
+  const SteppedArm arm = stepArm(kArm, 0.01);
+  const Eigen::Vector4d body = x.head(4);
+  const VectorXd alone = runge(VectorXd(body), [&](const VectorXd& s) {
+    VectorXd rate(4);
+    rate << s(1), (s(2) - kArm.damping * s(1) + force) / kArm.mass, (s(3) - s(2)) / kArm.muscle, (command - s(3)) / kArm.muscle;
+    return rate;
+  });
+  EXPECT_LT((arm.a * body + arm.command * command + arm.force * force - alone).norm(), 1e-9);
+}
+
+CostSpec shortCost() {
+  CostSpec cost;
+  cost.distance = 0.15, cost.duration = 0.07, cost.hold = 0.05;
+  cost.position = 0.013, cost.velocity = 0.021, cost.effort = 0.04;
+  return cost;
+}
+SenseSpec someSenses() {
+  SenseSpec senses;
+  senses.position = 0.007, senses.velocity = 0.2, senses.force = 0.4, senses.seen = 0.003;
+  senses.touchDelay = 2, senses.sightDelay = 3;
+  return senses;
+}
+struct Kept {
+  ArmWorld world = makeArmWorld(kArm, objectOf(false));
+  SteppedWorld step = stepWorld(world, kControlStep);
+  RowVectorXd gain(const FeedbackGains& gains, int i) const {
+    return Eigen::Map<const RowVectorXd>(gains.control.data() + static_cast<std::ptrdiff_t>(i) * gains.states, gains.states);
+  }
+};
+
+// Weights of the hold: each place and speed against its tolerance.
+MatrixXd holdCost(const ArmWorld& world, const CostSpec& cost) {
+  MatrixXd hold = MatrixXd::Zero(world.states(), world.states());
+  for (const int place : {0, 4, 5}) hold(place, place) = kControlStep / std::pow(cost.position, 2);
+  for (const int speed : {1, 6, 7}) hold(speed, speed) = kControlStep / std::pow(cost.velocity, 2);
+  return hold;
+}
+
+// Without noise in proportion to the command the first command is that of the least cost of all together: a long hold, solved as one system.
+TEST(FeedbackGains, AreThoseOfTheLeastCost) {
+  const Kept kept;
+  CostSpec cost = shortCost();
+  cost.criterion = predict::Criterion::MinHandForceChange;
+  cost.criterionWeight = 0.02;
+  cost.hold = 6;  // what comes after it does not count any more
+  const RowVectorXd row = criterionRow(kept.world, kArm, 1, *cost.criterion);
+  const MatrixXd hold = holdCost(kept.world, cost), move = cost.criterionWeight * kControlStep * row.transpose() * row;
+  const FeedbackGains gains = computeFeedbackGains(kept.world, kArm, cost, someSenses(), 0, 0.1);
+  // The cost of x0 under the gains, carried out from the seventh step on and held for ever by the stationary ones.
+  VectorXd x(8);
+  x << -0.1, 0.2, 1, 2, -0.12, -0.09, 0.1, 0.15;
+  const auto costOf = [&](int changed, double by) {
+    VectorXd state = x;
+    double sum = 0;
+    for (int i = 0; i < 1500; ++i) {
+      const double command = -kept.gain(gains, std::min(i, 20)) * state + (i == changed ? by : 0);
+      // The cost at step i is of the state there; the hold's begins with the movement's end.
+      sum += state.dot((i >= 7 ? MatrixXd(hold + move) : move) * state) + cost.effort * kControlStep * command * command;
+      state = kept.step.a * state + kept.step.b * command;
+    }
+    return sum;
+  };
+  const double least = costOf(-1, 0);
+  for (int i = 0; i < 20; ++i) {
+    const double more = costOf(i, 0.1) - least, less = costOf(i, -0.1) - least;
+    EXPECT_GT(more, 0) << i;
+    EXPECT_NEAR(more, less, 1e-3 * (more + less)) << i << ": the middle of a parabola";
+  }
+}
+
+// With it: the stationary gain costs least under its own noise, cost-to-go S = Q + K'(r + s^2 b'Sb)K + (A - bK)'S(A - bK).
+TEST(FeedbackGains, CountOnNoiseInProportionToTheCommand) {
+  const Kept kept;
+  CostSpec cost = shortCost();
+  cost.hold = 2;
+  constexpr double kNoise = 0.8;
+  const FeedbackGains gains = computeFeedbackGains(kept.world, kArm, cost, someSenses(), kNoise, 0.1);
+  const RowVectorXd held = kept.gain(gains, 7);
+  const auto costOf = [&](const RowVectorXd& gain) {
+    MatrixXd s = MatrixXd::Zero(8, 8);
+    const MatrixXd closed = kept.step.a - kept.step.b * gain;
+    for (int i = 0; i < 3000; ++i) {
+      const double spent = kept.step.b.dot(s * kept.step.b);
+      s = holdCost(kept.world, cost) + (cost.effort * kControlStep + kNoise * kNoise * spent) * gain.transpose() * gain +
+          closed.transpose() * s * closed;
+    }
+    return s.trace();
+  };
+  const double least = costOf(held);
+  for (int k = 0; k < 8; ++k) {
+    RowVectorXd more = held, less = held;
+    more(k) *= 1.01, less(k) *= 0.99;
+    EXPECT_GT(costOf(more), least) << k;
+    EXPECT_GT(costOf(less), least) << k;
+  }
+}
+
+// The estimator's error under its own gains, by Joseph's form: no gain of any step could be another without the estimate being worse.
+TEST(FeedbackGains, NoOtherFilterKnowsMore) {
+  const Kept kept;
+  const CostSpec cost = shortCost();
+  for (const Sight sight : {Sight::Ends, Sight::None}) {
+    SenseSpec senses = someSenses();
+    senses.sight = sight;
+    constexpr double kMotorNoise = 0.5, kForceNoise = 0.3;
+    const FeedbackGains gains = computeFeedbackGains(kept.world, kArm, cost, senses, kMotorNoise, kForceNoise);
+    const int all = gains.estimate(), ny = gains.senses(), v = gains.sight, sightAt = 8 + 3 * 2;
+    MatrixXd ahead = MatrixXd::Zero(all, all), look = MatrixXd::Zero(ny, all), noise = MatrixXd::Zero(ny, ny);
+    ahead.topLeftCorner(8, 8) = kept.step.a;
+    ahead(8, 0) = ahead(9, 1) = 1;
+    ahead.block(10, 0, 1, 8) = kept.world.contact;
+    for (int j = 0; j < 3; ++j) ahead(11 + j, 8 + j) = look(j, 11 + j) = 1;
+    for (int j = 0; j < v; ++j) {
+      ahead(sightAt + j, gains.seen[static_cast<std::size_t>(j)]) = 1;
+      ahead(sightAt + v + j, sightAt + j) = ahead(sightAt + 2 * v + j, sightAt + v + j) = 1;
+      look(3 + j, sightAt + 2 * v + j) = 1;
+      noise(3 + j, 3 + j) = senses.seen * senses.seen;
+    }
+    noise(0, 0) = std::pow(senses.position, 2), noise(1, 1) = std::pow(senses.velocity, 2), noise(2, 2) = std::pow(senses.force, 2);
+    const auto gainOf = [&](int i) {
+      return MatrixXd(Eigen::Map<const MatrixXd>(gains.filter.data() + static_cast<std::ptrdiff_t>(i) * all * ny, all, ny));
+    };
+    const auto errorOf = [&](int changed, int row, int column, double by) {
+      MatrixXd p = MatrixXd::Zero(all, all);
+      p.topLeftCorner(8, 8).diagonal().setConstant(1e-8);
+      VectorXd mean = VectorXd::Zero(8);
+      for (const int place : {0, 4, 5}) mean(place) = -cost.distance;
+      for (int i = 0; i < gains.steps; ++i) {
+        MatrixXd gain = gainOf(i);
+        if (i == changed) gain(row, column) += by;
+        const MatrixXd left = ahead - gain * look;
+        p = left * p * left.transpose() + gain * noise * gain.transpose();
+        const double command = -kept.gain(gains, i) * mean;
+        p.topLeftCorner(8, 8) += (std::pow(kMotorNoise * command, 2) + std::pow(kForceNoise, 2)) * kept.step.b * kept.step.b.transpose();
+        mean = kept.step.a * mean + kept.step.b * command;
+      }
+      return p.trace();
+    };
+    const double least = errorOf(-1, 0, 0, 0);
+    for (int i = 0; i < gains.steps; i += 3)
+      for (int row = 0; row < all; row += 3)
+        for (int column = 0; column < ny; ++column) {
+          const double by = 1e-3, more = errorOf(i, row, column, by) - least, less = errorOf(i, row, column, -by) - least;
+          ASSERT_GT(more, -1e-12) << i << ' ' << row << ' ' << column;
+          ASSERT_NEAR(more, less, 1e-6 * (more + less) + 1e-11) << i << ' ' << row << ' ' << column;
+        }
+  }
+}
+
+TEST(FeedbackGains, ACriterionsRowIsItsIntegrand) {
+  const ArmWorld world = makeArmWorld(kArm, objectOf(false));
+  VectorXd x(8);
+  x << -0.1, 0.2, 1, 2, -0.12, -0.09, 0.1, 0.15;
+  const auto of = [&](predict::Criterion criterion) { return double(criterionRow(world, kArm, 2.5, criterion) * x); };
+  const VectorXd rate = rateOf(kArm, objectOf(false), x, 0), second = rateOf(kArm, objectOf(false), rate, 0);
+  EXPECT_NEAR(of(predict::Criterion::MinHandJerk), second(1), 1e-9);
+  EXPECT_NEAR(of(predict::Criterion::MinHandForce), 1 - kArm.damping * 0.2, 1e-12);
+  EXPECT_NEAR(of(predict::Criterion::MinHandForceChange), (2 - 1) / kArm.muscle, 1e-9);
+  EXPECT_NEAR(of(predict::Criterion::MinComAcceleration), (310 * (-0.1 + 0.12) + 2 * (0.2 - 0.1)) / 2.5, 1e-12);
+  for (const auto& [criterion, words] : {std::pair{predict::Criterion::MinTorqueChange, "needs an arm of two links"},
+                                         {predict::Criterion::MinCrackle, "min-crackle: asks for a derivative"},
+                                         {predict::Criterion::MinHandCrackle, "min-hand-crackle: asks for a derivative"}}) {
+    try {
+      of(criterion);
+      ADD_FAILURE() << words;
+    } catch (const RefusedError& error) {
+      EXPECT_NE(std::string(error.what()).find(words), std::string::npos) << error.what();
+    }
+  }
+}
+
+// One mass free in space, a short reach along another direction than an axis.
+experiment::Experiment shortReach() {
+  experiment::Experiment e = experiment::readExperiment("free-point");
+  e.task->start = {-0.05, 0.02, 0.01};
+  e.task->target = {0.07, 0.11, -0.03};
+  e.task->duration = 0.4;
+  e.task->tolerance.time = 0.1;
+  e.object.viscosity = 0.6;
+  return e;
+}
+const std::string kShortDelays = "kind=ofc,delay-touch=0.03,delay-sight=0.05,time-sd=0.05,muscle=0.03,arm-damping=6";
+
+TEST(FeedbackTask, IsWhatTheTaskSays) {
+  const experiment::CompiledExperiment experiment(shortReach());
+  FeedbackSpec spec = parseFeedbackSubject("kind=ofc,effort=0.07,criterion-effort=0.002,criterion-weight=0.3");
+  const auto task = makeFeedbackTask(experiment, spec);
+  EXPECT_NEAR(task->cost.distance, std::sqrt(0.12 * 0.12 + 0.09 * 0.09 + 0.04 * 0.04), 1e-15);
+  EXPECT_EQ(task->cost.duration, 0.4);
+  EXPECT_NEAR(task->cost.hold, 0.4, 1e-15) << "its time's tolerance, and 0.3 s";
+  EXPECT_EQ(task->cost.position, 0.012);
+  EXPECT_EQ(task->cost.velocity, 0.012);
+  EXPECT_EQ(task->cost.effort, 0.07);
+  EXPECT_FALSE(task->cost.criterion);
+  EXPECT_EQ(task->cost.criterionWeight, 0);
+  EXPECT_EQ(task->onTheWayStiffness, 300);
+  // The weight's unit is the least that the criterion can cost on a line as long.
+  experiment::Experiment line = shortReach();
+  line.constraint = {};
+  line.constraint.name = "line";
+  line.constraint.shape = {{"length_m", task->cost.distance}};
+  line.task->start = {0};
+  line.task->target = {2 * std::numbers::pi};
+  predict::PredictOptions options;
+  options.handMass = spec.arm.mass;
+  for (const auto criterion : {predict::Criterion::MinHandForceChange, predict::Criterion::MinComAcceleration}) {
+    spec.criterion = criterion;
+    const auto by = makeFeedbackTask(experiment, spec);
+    EXPECT_EQ(by->cost.effort, 0.002);
+    EXPECT_EQ(by->cost.criterion, criterion);
+    const double least = predict::predict(line, criterion, options)->cost, mass = by->object.totalMass();
+    EXPECT_NEAR(by->cost.criterionWeight * least / 0.3, criterion == predict::Criterion::MinComAcceleration ? 1 / (mass * mass) : 1, 1e-9);
+  }
+}
+
+// Lengths that no line of the catalogue has are scaled: the cost of a reach goes with its square.
+TEST(FeedbackTask, ALongWayIsWeighedAsOneOfAMetre) {
+  const auto weightOf = [](double length) {
+    experiment::Experiment e = shortReach();
+    e.task->start = {0, 0, 0};
+    e.task->target = {0, length, 0};
+    return makeFeedbackTask(experiment::CompiledExperiment(e), parseFeedbackSubject("kind=ofc,criterion=min-hand-jerk"))
+        ->cost.criterionWeight;
+  };
+  EXPECT_NEAR(weightOf(2) / weightOf(0.5), 1 / 16.0, 1e-6);
+  EXPECT_NEAR(weightOf(0.005) / weightOf(0.5), 1e4, 1e-2);
+}
+
+/// What feedback_hand.h says, written another way: matrices, and queues for what comes later.
+class Reference {
+ public:
+  Reference(const FeedbackTask& task, const FeedbackSpec& person, std::uint64_t seed, int trial, int before)
+      : task_(task), person_(person), draws_(seed, static_cast<std::uint64_t>(trial)), arm_(stepArm(person.arm, 1e-3)) {
+    const double sigma = person.noise * person.noiseScale * (1 + person.practice * std::exp(-before / person.practiceTrials));
+    ModelError used = person.first;
+    used.stiffness += sigma * person.planSd.stiffness * draws_.boundedNormal();
+    used.mass += sigma * person.planSd.mass * draws_.boundedNormal();
+    CostSpec cost = task.cost;
+    cost.duration *= 1 + person.noise * person.timeSd * draws_.boundedNormal();
+    reaction_ = static_cast<int>(std::lround(1000 * person.reaction * (1 + std::min(person.noise, 1.0) * 0.15 * draws_.boundedNormal())));
+    g_ = computeFeedbackGains(makeArmWorld(person.arm, task.object, used), person.arm, cost, person.senses, person.motorNoise,
+                              person.forceNoise);
+    start_ = -task.cost.distance;
+    body_ << start_, 0, 0, 0;
+    x_ = VectorXd::Zero(g_.states);
+    x_(0) = start_;
+    for (int i = 4; i < 4 + (g_.states - 4) / 2; ++i) x_(i) = start_;
+    const VectorXd touch = Eigen::Vector3d(start_, 0, 0), sight = VectorXd::Constant(g_.sight, start_);
+    touched_.assign(static_cast<std::size_t>(g_.touchDelay), touch);
+    expectedTouch_ = touched_;
+    seen_.assign(static_cast<std::size_t>(g_.sightDelay), sight);
+    expectedSight_ = seen_;
+  }
+  // `masses`: their places, as they were shown before this tick. Gives h and h'.
+  Eigen::Vector2d tick(double along, double push, const VectorXd& masses) {
+    if (ticks_ >= reaction_) {
+      if ((ticks_ - reaction_) % 10 == 0) step(along, masses);
+      body_ = (arm_.a * body_ + arm_.command * noisy_ + arm_.force * (along + push)).eval();
+    }
+    ++ticks_;
+    return body_.head(2);
+  }
+  double command() const { return command_; }
+
+ private:
+  void step(double along, const VectorXd& masses) {
+    const int ny = g_.senses(), v = g_.sight, n = g_.states;
+    // Of every step its own draws, the last step's again and again when the gains have ended.
+    if (steps_ < g_.steps) {
+      drawn_ = VectorXd::Zero(ny + 2);
+      for (double& draw : drawn_) draw = person_.noise * draws_.normal();
+    }
+    touched_.push_back(Eigen::Vector3d(body_(0), body_(1), -along));
+    VectorXd sight(v);
+    for (int j = 0; j < v; ++j)
+      sight(j) = g_.seen[static_cast<std::size_t>(j)] == 0 ? body_(0) : masses(g_.seen[static_cast<std::size_t>(j)] - 4);
+    seen_.push_back(sight);
+    VectorXd sd(ny);
+    sd << person_.senses.position, person_.senses.velocity, person_.senses.force, VectorXd::Constant(v, person_.senses.seen);
+    VectorXd y(ny), expected(ny);
+    y << touched_.front(), seen_.front();
+    y += sd.cwiseProduct(drawn_.head(ny));
+    expected << expectedTouch_.front(), expectedSight_.front();
+    for (auto* queue : {&touched_, &seen_, &expectedTouch_, &expectedSight_}) queue->pop_front();
+    const int at = std::min(steps_, g_.steps - 1);
+    command_ = -Eigen::Map<const RowVectorXd>(g_.control.data() + static_cast<std::ptrdiff_t>(at) * n, n) * x_;
+    const Eigen::Map<const MatrixXd> advance(g_.advance.data(), n, n);
+    const Eigen::Map<const Eigen::Matrix<double, -1, -1, Eigen::RowMajor>> felt(g_.felt.data(), 3, n);
+    VectorXd look(v);
+    for (int j = 0; j < v; ++j) look(j) = x_(g_.seen[static_cast<std::size_t>(j)]);
+    expectedTouch_.push_back(felt * x_);
+    expectedSight_.push_back(look);
+    const VectorXd correction =
+        Eigen::Map<const MatrixXd>(g_.filter.data() + static_cast<std::ptrdiff_t>(at) * g_.estimate() * ny, g_.estimate(), ny) *
+        (y - expected);
+    x_ = (advance * x_ + Eigen::Map<const VectorXd>(g_.command.data(), n) * command_ + correction.head(n)).eval();
+    // Newest first in the estimate, oldest first in the queues.
+    for (int d = 0; d < g_.touchDelay; ++d)
+      expectedTouch_[static_cast<std::size_t>(g_.touchDelay - 1 - d)] += correction.segment(n + 3 * d, 3);
+    for (int d = 0; d < g_.sightDelay; ++d)
+      expectedSight_[static_cast<std::size_t>(g_.sightDelay - 1 - d)] += correction.segment(n + 3 * g_.touchDelay + v * d, v);
+    noisy_ = command_ * (1 + person_.motorNoise * drawn_(ny)) + person_.forceNoise * drawn_(ny + 1);
+    ++steps_;
+  }
+
+  const FeedbackTask& task_;
+  FeedbackSpec person_;
+  SubjectDraws draws_;
+  SteppedArm arm_;
+  FeedbackGains g_;
+  int reaction_ = 0, ticks_ = 0, steps_ = 0;
+  double start_ = 0, command_ = 0, noisy_ = 0;
+  Eigen::Vector4d body_;
+  VectorXd x_, drawn_;
+  std::deque<VectorXd> touched_, seen_, expectedTouch_, expectedSight_;
+};
+
+TEST(FeedbackHand, MovesAsItsEstimatorAndControllerSay) {
+  const experiment::CompiledExperiment experiment(shortReach());
+  for (const char* options :
+       {",noise=0,reaction=0.013", ",reaction=0.02,model-mass=0.2,model-stiffness=-0.1,practice=0.5,sight=all", ",noise=2,sight=none"}) {
+    const auto task = makeFeedbackTask(experiment, parseFeedbackSubject(kShortDelays + options));
+    const auto state = std::make_shared<SubjectState>();
+    state->person = parseFeedbackSubject(kShortDelays + options);
+    state->person.noiseScale = 1.2;
+    state->model.first = state->person.first;
+    FeedbackHand hand(task, state, 42);
+    const Vec3 way = task->way.at(0).along;
+    for (const int trial : {0, 3}) {
+      Reference reference(*task, state->person, 42, trial, trial == 0 ? 0 : 1);  // trials that were made before
+      hand.prepareTrial(trial);
+      hand.cue(haptics::Cue::Place);
+      EXPECT_LT(norm(hand.read().position - Vec3{-0.05, 0.02, 0.01}), 1e-15) << "at its start until the signal";
+      hand.cue(haptics::Cue::Go);
+      VectorXd masses = VectorXd::Constant(1, -task->cost.distance);
+      for (int tick = 0; tick < 1100; ++tick) {
+        const double along = -1.5 * std::sin(0.01 * tick), push = tick > 300 && tick < 400 ? 0.7 : 0;
+        hand.write(along * way);
+        hand.push(push);
+        const haptics::DeviceSample sample = hand.read();
+        const Eigen::Vector2d expected = reference.tick(along, push, masses);
+        const double place = dot(sample.position - Vec3{-0.05, 0.02, 0.01}, way) - task->cost.distance;
+        ASSERT_NEAR(place, expected(0), 1e-9) << options << " trial " << trial << " tick " << tick;
+        ASSERT_NEAR(dot(sample.velocity, way), expected(1), 1e-8) << options << " tick " << tick;
+        ASSERT_NEAR(hand.command(), reference.command(), 1e-7) << options << " tick " << tick;
+        const double moved = task->cost.distance * (1 - std::cos(0.003 * tick));
+        masses(0) = moved - task->cost.distance;
+        dynamics::MassState mass;
+        mass.r = Vec3{-0.05, 0.02, 0.01} + moved * way;
+        hand.see({&mass, 1});
+      }
+    }
+  }
+}
+
+// Across its way the arm is a critically damped spring of 300 N/m on its mass.
+TEST(FeedbackHand, AcrossItsWayItIsASpring) {
+  const experiment::CompiledExperiment experiment(shortReach());
+  const auto task = makeFeedbackTask(experiment, parseFeedbackSubject(kShortDelays + ",noise=0,reaction=0,arm-mass=1.2"));
+  const auto state = std::make_shared<SubjectState>();
+  state->person = parseFeedbackSubject(kShortDelays + ",noise=0,reaction=0,arm-mass=1.2");
+  FeedbackHand hand(task, state, 1);
+  hand.cue(haptics::Cue::Place);
+  hand.cue(haptics::Cue::Go);
+  const Vec3 way = task->way.at(0).along, side = cross(way, {0, 0, 1}) / norm(cross(way, {0, 0, 1}));
+  const double w = std::sqrt(300 / 1.2);
+  for (int tick = 1; tick <= 600; ++tick) {
+    hand.write(3 * side);
+    const haptics::DeviceSample sample = hand.read();
+    const double t = 1e-3 * tick;
+    ASSERT_NEAR(dot(sample.position, side) - dot(Vec3{-0.05, 0.02, 0.01}, side), 3.0 / 300 * (1 - (1 + w * t) * std::exp(-w * t)), 1.5e-4)
+        << tick;
+    ASSERT_NEAR(dot(sample.velocity, side), 3.0 / 300 * w * w * t * std::exp(-w * t), 2e-3) << tick;
+    EXPECT_TRUE(sample.hasVelocity);
+  }
+  hand.cue(haptics::Cue::Place);
+  EXPECT_EQ(dot(hand.read().velocity, side), 0);
+  EXPECT_LT(norm(hand.read().position - Vec3{-0.05, 0.02, 0.01}), 1e-15);
+}
+
+// A trace that another model made: the step leads towards it, and is that of Gauss and Newton in the one surprise that a single number can be.
+TEST(ModelLearner, FindsTheModelThatMadeTheSenses) {
+  const predict::LineObject object = objectOf(false);
+  CostSpec cost = shortCost();
+  cost.duration = 0.5, cost.hold = 0.3;
+  const SenseSpec senses = someSenses();
+  const FeedbackGains gains = computeFeedbackGains(makeArmWorld(kArm, object), kArm, cost, senses, 0.1, 0.1);
+  // The senses of a world with this error under commands that do not know it, without noise.
+  const auto traceOf = [&](const ModelError& truth) {
+    const ArmWorld world = makeArmWorld(kArm, object, truth);
+    const SteppedWorld step = stepWorld(world, kControlStep);
+    TrialTrace trace;
+    trace.steps = gains.steps;
+    std::deque<VectorXd> touch, sight;
+    VectorXd x = VectorXd::Zero(8);
+    for (const int place : {0, 4, 5}) x(place) = -cost.distance;
+    touch.assign(2, Eigen::Vector3d(-cost.distance, 0, 0));
+    sight.assign(3, Eigen::Vector2d(-cost.distance, -cost.distance));
+    for (int i = 0; i < gains.steps; ++i) {
+      touch.push_back(Eigen::Vector3d(x(0), x(1), world.contact * x));
+      sight.push_back(Eigen::Vector2d(x(0), x(5)));
+      for (const double value : touch.front()) trace.sensed.push_back(value);
+      for (const double value : sight.front()) trace.sensed.push_back(value);
+      touch.pop_front(), sight.pop_front();
+      const double command = 3 * std::sin(0.2 * i) + (i < 20 ? 2 : 0);
+      trace.command.push_back(command);
+      x = (step.a * x + step.b * command).eval();
+    }
+    return trace;
+  };
+  const auto stepFrom = [&](const ModelError& truth, const ModelError& used) {
+    return computeModelStep(gains, traceOf(truth), used, kArm, object, senses, cost.distance);
+  };
+  const ModelError none = stepFrom({}, {});
+  EXPECT_NEAR(none.stiffness, 0, 1e-9) << "nothing surprises";
+  EXPECT_NEAR(none.mass, 0, 1e-9);
+  // One step of a damped search falls short of the truth by the damping; carried on it arrives there.
+  for (const ModelError& truth : {ModelError{0.08, -0.05}, ModelError{-0.06, 0.09}}) {
+    ModelError used;
+    for (int i = 0; i < 200; ++i) {
+      const ModelError by = stepFrom(truth, used);
+      used.stiffness += by.stiffness, used.mass += by.mass;
+    }
+    EXPECT_NEAR(used.stiffness, truth.stiffness, 2e-3);
+    EXPECT_NEAR(used.mass, truth.mass, 2e-3);
+  }
+  const ModelError far = stepFrom({1.5, -1.5}, {});
+  EXPECT_LE(std::abs(far.stiffness), 0.3);
+  EXPECT_LE(std::abs(far.mass), 0.3);
+  EXPECT_EQ(std::max(std::abs(far.stiffness), std::abs(far.mass)), 0.3) << "no step is longer";
+  TrialTrace nothing;
+  EXPECT_EQ(computeModelStep(gains, nothing, {}, kArm, object, senses, cost.distance).mass, 0);
+}
+
+TEST(ModelLearner, TwoProcessesKeepAndAddEachItsOwn) {
+  LearntModel model;
+  model.first = {1, 2}, model.fast = {10, 20}, model.slow = {100, 200};
+  learn({0.1, 0.5, 0.01, 0.9}, {3, 7}, model);
+  EXPECT_NEAR(model.fast.stiffness, 5.3, 1e-12);
+  EXPECT_NEAR(model.fast.mass, 10.7, 1e-12);
+  EXPECT_NEAR(model.slow.stiffness, 90.03, 1e-12);
+  EXPECT_NEAR(model.slow.mass, 180.07, 1e-12);
+  EXPECT_NEAR(model.current().stiffness, 1 + 5.3 + 90.03, 1e-12);
+  EXPECT_NEAR(model.current().mass, 2 + 10.7 + 180.07, 1e-12);
+}
+
+TEST(ReachWay, OfAChordIsMetresAlongIt) {
+  const ReachWay way{experiment::CompiledExperiment(shortReach())};
+  const Vec3 start{-0.05, 0.02, 0.01}, along = Vec3{0.12, 0.09, -0.04} / way.length();
+  for (const double s : {-0.3, 0.0, 0.07, 0.5}) {
+    EXPECT_LT(norm(way.at(s).position - (start + s * along)), 1e-15);
+    EXPECT_LT(norm(way.at(s).along - along), 1e-15);
+    dynamics::MassState mass;
+    mass.r = start + s * along + 0.2 * cross(along, {1, 0, 0});
+    EXPECT_NEAR(way.placeOf(mass), s, 1e-15) << "beside it counts as much";
+  }
+}
+
+// A circle: arc length is radius times angle, both ways round, and beyond the ends as well.
+TEST(ReachWay, OfACurveIsItsArc) {
+  constexpr double kRadius = 0.15;
+  for (const double to : {1.7, -0.9}) {
+    experiment::Experiment e = experiment::readExperiment("ellipse");
+    e.constraint = {.name = {}, .curve = {"R*cos(phi)", "R*sin(phi)", "0"}, .surface = {}, .shape = {{"R", kRadius}}};
+    e.task->start = {0.4};
+    e.task->target = {to};
+    const ReachWay way{experiment::CompiledExperiment(e)};
+    const double sense = to > 0.4 ? 1 : -1;
+    EXPECT_NEAR(way.length(), kRadius * std::abs(to - 0.4), 1e-12);
+    for (const double s : {-0.05, 0.0, 0.0333, 0.1, way.length(), way.length() + 0.04}) {
+      const double phi = 0.4 + sense * s / kRadius;
+      EXPECT_LT(norm(way.at(s).position - kRadius * Vec3{std::cos(phi), std::sin(phi), 0}), 1e-9) << s;
+      EXPECT_LT(norm(way.at(s).along - sense * Vec3{-std::sin(phi), std::cos(phi), 0}), 1e-8) << s;
+      dynamics::MassState mass;
+      mass.q[0] = phi;
+      EXPECT_NEAR(way.placeOf(mass), s, 1e-9) << s;
+    }
+  }
+}
+
+// Where the pace along the curve changes, the table and the arc say the same.
+TEST(ReachWay, PlacesOnACurveAreEachOthersInverse) {
+  for (const auto& [from, to] : {std::pair{0.2, 2.6}, {2.6, 0.2}}) {
+    experiment::Experiment e = experiment::readExperiment("ellipse");
+    e.constraint = {.name = {}, .curve = {"0.3*cos(phi)", "0.1*sin(phi)", "0.02*phi"}, .surface = {}, .shape = {}};
+    e.task->start = {from};
+    e.task->target = {to};
+    const ReachWay way{experiment::CompiledExperiment(e)};
+    const double least = std::min(from, to), most = std::max(from, to);
+    for (double phi = least - 0.2; phi < most + 0.2; phi += 0.0137) {
+      dynamics::MassState mass;
+      mass.q[0] = phi;
+      const Vec3 place = way.at(way.placeOf(mass)).position;
+      ASSERT_LT(norm(place - Vec3{0.3 * std::cos(phi), 0.1 * std::sin(phi), 0.02 * phi}), 2e-7) << phi;
+    }
+    EXPECT_LT(norm(way.at(0).position - Vec3{0.3 * std::cos(from), 0.1 * std::sin(from), 0.02 * from}), 1e-9);
+  }
+}
+
+TEST(ReachWay, NoWayIsRefused) {
+  experiment::Experiment still = shortReach();
+  still.task->target = still.task->start;
+  EXPECT_THROW(ReachWay{experiment::CompiledExperiment(still)}, FaultError);
+  EXPECT_THROW(ReachWay{experiment::CompiledExperiment(experiment::readExperiment("torus"))}, RefusedError);
+}
+
+// 20,000 draws: standard errors 0.002 of a mean of uniforms, 0.007 of the normals' mean, 0.005 of their SD; four of them.
+TEST(SubjectDraws, AreUniformAndNormalAndTheSameAgain) {
+  SubjectDraws draws(5, 2), again(5, 2), other(5, 3);
+  EXPECT_EQ(draws.normal(), again.normal());
+  EXPECT_NE(draws.uniform(), other.uniform());
+  double sum = 0, squares = 0, uniform = 0, farthest = 0;
+  constexpr int kDraws = 20'000;
+  for (int i = 0; i < kDraws; ++i) {
+    const double normal = draws.normal(), u = draws.uniform(), bounded = draws.boundedNormal();
+    sum += normal, squares += normal * normal, uniform += u;
+    EXPECT_TRUE(u >= 0 && u < 1);
+    farthest = std::max(farthest, std::abs(bounded));
+  }
+  EXPECT_NEAR(sum / kDraws, 0, 0.028);
+  EXPECT_NEAR(std::sqrt(squares / kDraws), 1, 0.02);
+  EXPECT_NEAR(uniform / kDraws, 0.5, 0.0082);
+  EXPECT_EQ(farthest, 3) << "0.3 % are held to three SDs";
+}
+
+// A hand on its own, told these forces tick by tick from the signal on.
+std::vector<haptics::DeviceSample> carriedOut(const std::string& options, const std::function<Vec3(int)>& force, int ticks = 900,
+                                              int trial = 0) {
+  const experiment::CompiledExperiment experiment(shortReach());
+  std::shared_ptr<void> learnt;
+  const auto hand =
+      prepareImpedanceSubjects(experiment, parseImpedanceSubject("kind=impedance,reaction=0,time-sd=0" + options))(3, 0, learnt);
+  hand->prepareTrial(trial);
+  hand->cue(haptics::Cue::Place);
+  EXPECT_LT(norm(hand->read().position - Vec3{-0.05, 0.02, 0.01}), 1e-12) << "at its start until the signal";
+  hand->cue(haptics::Cue::Go);
+  std::vector<haptics::DeviceSample> samples;
+  for (int tick = 0; tick < ticks; ++tick) {
+    hand->write(force(tick));
+    samples.push_back(hand->read());
+  }
+  return samples;
+}
+const auto kNoForce = [](int) { return Vec3{}; };
+
+// What a push changes is linear: arm, impedance at once, and the delayed correction through the muscle's two stages, on each axis alike.
+TEST(ImpedanceHand, GivesWayToAPushAsItsArmItsImpedanceAndItsReflexSay) {
+  for (const int delay : {0, 37}) {
+    const std::string options =
+        ",noise=0,arm-mass=1.1,arm-damping=6,muscle=0.03,stiffness=210,damping=25,feedback-stiffness=140,feedback-damping=9,delay=" +
+        std::to_string(1e-3 * delay);
+    const auto push = [](int tick) { return tick < 300 ? Vec3{2, -1, 0.5} : tick < 600 ? Vec3{0, 1, 0} : Vec3{}; };
+    const auto free = carriedOut(options, kNoForce), pushed = carriedOut(options, push);
+    const SteppedArm arm = stepArm({1.1, 6, 0.03}, 1e-3);
+    const double keep = std::exp(-1e-3 / 0.03);
+    Vec3 place, speed, stage, correction;
+    std::vector<std::pair<Vec3, Vec3>> off;
+    for (int tick = 0; tick < 900; ++tick) {
+      off.emplace_back(-1.0 * place, -1.0 * speed);
+      const auto [late, lateSpeed] = tick >= delay ? off[static_cast<std::size_t>(tick - delay)] : std::pair<Vec3, Vec3>{};
+      stage = keep * stage + (1 - keep) * (140 * late + 9 * lateSpeed);
+      correction = keep * correction + (1 - keep) * stage;
+      const Vec3 force = push(tick) + correction + 210 * off.back().first + 25 * off.back().second;
+      place += arm.a(0, 1) * speed + arm.force(0) * force;
+      speed = arm.a(1, 1) * speed + arm.force(1) * force;
+      const auto at = static_cast<std::size_t>(tick);
+      ASSERT_LT(norm(pushed[at].position - free[at].position - place), 1e-12) << delay << " tick " << tick;
+      ASSERT_LT(norm(pushed[at].velocity - free[at].velocity - speed), 1e-10) << delay << " tick " << tick;
+      ASSERT_TRUE(pushed[at].hasVelocity);
+    }
+  }
+}
+
+TEST(ImpedanceHand, AtRestAPushIsHeldByBothStiffnesses) {
+  const std::string options = ",noise=0,stiffness=200,feedback-stiffness=50,damping=60";
+  const auto last = [&](const Vec3& force) {
+    return carriedOut(
+               options, [=](int) { return force; }, 4000)
+        .back()
+        .position;
+  };
+  EXPECT_LT(norm(last({1, 2, -2}) - last({}) - Vec3{1, 2, -2} / 250), 1e-7);
+}
+
+// Its noise is linear in what it is asked to be, and along the way where it is added: draws are the same for the same seed and trial.
+TEST(ImpedanceHand, ItsNoiseIsAsLargeAsItIsAskedToBe) {
+  const auto off = [](const std::string& options, int trial = 0) {
+    const auto quiet = carriedOut(",noise=0", kNoForce, 500), noisy = carriedOut(options, kNoForce, 500, trial);
+    std::vector<Vec3> difference;
+    for (std::size_t i = 0; i < quiet.size(); ++i) difference.push_back(noisy[i].position - quiet[i].position);
+    return difference;
+  };
+  const auto motor = off(",motor-noise=0.1,force-noise=0"), added = off(",motor-noise=0,force-noise=0.3");
+  const auto both = off(",motor-noise=0.1,force-noise=0.3"), twice = off(",motor-noise=0.2,force-noise=0"),
+             doubled = off(",noise=2,motor-noise=0.1,force-noise=0");
+  const auto other = off(",motor-noise=0.1,force-noise=0", 1);
+  double most = 0, apart = 0;
+  for (std::size_t i = 0; i < motor.size(); ++i) {
+    EXPECT_LT(norm(both[i] - motor[i] - added[i]), 1e-12) << i;
+    EXPECT_LT(norm(twice[i] - 2 * motor[i]), 1e-12) << i;
+    EXPECT_LT(norm(doubled[i] - 2 * motor[i]), 1e-12) << i;
+    most = std::max({most, norm(motor[i]), norm(added[i])});
+    apart = std::max(apart, norm(other[i] - motor[i]));
+  }
+  EXPECT_GT(most, 1e-5);
+  EXPECT_GT(apart, 1e-5) << "another trial's draws are others";
+  for (const Vec3& v : off(",motor-noise=0,force-noise=0")) EXPECT_EQ(v, Vec3{});
+}
+
+// With the right model of the object and nothing else it is where the plan is.
+TEST(ImpedanceHand, CarriesItsPlanOutWhereItKnowsTheObject) {
+  const experiment::CompiledExperiment experiment(experiment::readExperiment("chain-slow"));
+  std::shared_ptr<void> learnt;
+  const auto hand = prepareImpedanceSubjects(experiment, parseImpedanceSubject("kind=impedance,noise=0,reaction=0"))(1, 0, learnt);
+  const auto plan = prepareSubjects(experiment, parseSubject("noise=0,reaction=0.001"))(1, 0, learnt);
+  haptics::TickEngine engine(experiment, haptics::engineOptions(*hand));
+  hand->prepareTrial(0), plan->prepareTrial(0);
+  haptics::TickInput input;
+  input.command = trial::Command::NextTrial;
+  double worst = 0;
+  int since = -1;
+  for (int tick = 0; since < 1500 && tick < 6000; ++tick) {
+    input.devices[0] = hand->read();
+    const Vec3 meant = plan->read().position;
+    haptics::runTick(engine, input);
+    input.command = trial::Command::None;
+    hand->write(engine.state().hands[0].deviceForce);
+    if (since >= 0) ++since, worst = std::max(worst, norm(input.devices[0].position - meant));
+    if (const auto cue = engine.cue()) hand->cue(*cue), plan->cue(*cue), since = *cue == haptics::Cue::Go ? 0 : since;
+  }
+  EXPECT_EQ(since, 1500);
+  EXPECT_LT(worst, 5e-4) << worst;
+}
+
+template <class Spec>
+using Field = std::pair<const char*, std::function<double(const Spec&)>>;
+
+// Each key is the number of that name, as it is asked for, and else the usual one; both bounds are within, and beyond them nothing is.
+template <class Spec, class Parse>
+void expectFields(const std::string& kind, std::span<const SubjectParameter> parameters, const std::vector<Field<Spec>>& fields,
+                  const Parse& parse) {
+  ASSERT_EQ(parameters.size(), fields.size());
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    const SubjectParameter& p = parameters[i];
+    ASSERT_EQ(p.key, fields[i].first);
+    const std::string key = kind + "," + std::string(p.key) + "=";
+    if (p.key != "hand-mass") {
+      EXPECT_EQ(fields[i].second(parse(kind)), p.usual) << p.key;
+    }
+    for (const double value : {p.least, p.most, p.least + 0.37 * (p.most - p.least)}) {
+      const double steps = p.key.starts_with("delay-") ? std::round(value / 0.01) : value;
+      EXPECT_EQ(fields[i].second(parse(key + fmt::format("{}", value))), steps) << p.key;
+    }
+    const double beyond = 0.001 * (p.most - p.least);
+    EXPECT_THROW(parse(key + fmt::format("{}", p.most + beyond)), FaultError) << p.key;
+    EXPECT_THROW(parse(key + fmt::format("{}", p.least - beyond)), FaultError) << p.key;
+    EXPECT_FALSE(p.meaning.empty());
+    EXPECT_FALSE(p.source.empty());
+  }
+}
+
+TEST(FeedbackSubject, EachOfItsNumbersIsReadAndBounded) {
+  using F = FeedbackSpec;
+  std::vector<Field<F>> fields{
+      {"arm-mass", [](const F& s) { return s.arm.mass; }},
+      {"arm-damping", [](const F& s) { return s.arm.damping; }},
+      {"muscle", [](const F& s) { return s.arm.muscle; }},
+      {"motor-noise", [](const F& s) { return s.motorNoise; }},
+      {"force-noise", [](const F& s) { return s.forceNoise; }},
+      {"touch-position", [](const F& s) { return s.senses.position; }},
+      {"touch-velocity", [](const F& s) { return s.senses.velocity; }},
+      {"touch-force", [](const F& s) { return s.senses.force; }},
+      {"sight-position", [](const F& s) { return s.senses.seen; }},
+      {"delay-touch", [](const F& s) { return s.senses.touchDelay; }},
+      {"delay-sight", [](const F& s) { return s.senses.sightDelay; }},
+      {"effort", [](const F& s) { return s.effort; }},
+      {"criterion-effort", [](const F& s) { return s.criterionEffort; }},
+      {"criterion-weight", [](const F& s) { return s.criterionWeight; }},
+      {"time-sd", [](const F& s) { return s.timeSd; }},
+      {"reaction", [](const F& s) { return s.reaction; }},
+      {"plan-sd-stiffness", [](const F& s) { return s.planSd.stiffness; }},
+      {"plan-sd-mass", [](const F& s) { return s.planSd.mass; }},
+      {"practice", [](const F& s) { return s.practice; }},
+      {"practice-trials", [](const F& s) { return s.practiceTrials; }},
+      {"model-stiffness", [](const F& s) { return s.first.stiffness; }},
+      {"model-mass", [](const F& s) { return s.first.mass; }},
+      {"learn-fast", [](const F& s) { return s.learnFast; }},
+      {"keep-fast", [](const F& s) { return s.keepFast; }},
+      {"learn-slow", [](const F& s) { return s.learnSlow; }},
+      {"keep-slow", [](const F& s) { return s.keepSlow; }},
+      {"noise", [](const F& s) { return s.noise; }},
+  };
+  // Delays are told in seconds and kept in steps.
+  const auto parameters = feedbackParameters();
+  std::vector<SubjectParameter> inSteps(parameters.begin(), parameters.end());
+  for (SubjectParameter& p : inSteps)
+    if (p.key.starts_with("delay-")) p.usual = std::round(p.usual / 0.01);
+  expectFields<F>("kind=ofc", inSteps, fields, parseFeedbackSubject);
+}
+
+TEST(ImpedanceSubject, EachOfItsNumbersIsReadAndBounded) {
+  using I = ImpedanceSpec;
+  expectFields<I>("kind=impedance", impedanceParameters(),
+                  {{"arm-mass", [](const I& s) { return s.arm.mass; }},
+                   {"arm-damping", [](const I& s) { return s.arm.damping; }},
+                   {"muscle", [](const I& s) { return s.arm.muscle; }},
+                   {"stiffness", [](const I& s) { return s.stiffness; }},
+                   {"damping", [](const I& s) { return s.damping; }},
+                   {"feedback-stiffness", [](const I& s) { return s.feedbackStiffness; }},
+                   {"feedback-damping", [](const I& s) { return s.feedbackDamping; }},
+                   {"delay", [](const I& s) { return s.delay; }},
+                   {"motor-noise", [](const I& s) { return s.motorNoise; }},
+                   {"force-noise", [](const I& s) { return s.forceNoise; }},
+                   {"model-stiffness", [](const I& s) { return s.model.stiffness; }},
+                   {"model-mass", [](const I& s) { return s.model.mass; }},
+                   {"hand-mass", [](const I& s) { return s.handMass.value_or(-1); }},
+                   {"time-sd", [](const I& s) { return s.timeSd; }},
+                   {"reaction", [](const I& s) { return s.reaction; }},
+                   {"noise", [](const I& s) { return s.noise; }}},
+                  parseImpedanceSubject);
+  EXPECT_FALSE(parseImpedanceSubject("kind=impedance").handMass) << "the experiment's";
+  EXPECT_EQ(parseImpedanceSubject("kind=impedance,criterion=min-hand-force").criterion, predict::Criterion::MinHandForce);
+  EXPECT_THROW(parseImpedanceSubject("kind=impedance,criterion=best"), FaultError);
+  EXPECT_THROW(parseImpedanceSubject("X,kind=impedance"), FaultError);
+  EXPECT_THROW(parseImpedanceSubject("kind=ofc"), FaultError);
+}
+
+// The five of the fit: ln of assumed over true stiffness and mass, how noisy they are and how quick to learn.
+TEST(FeedbackSubject, TheFiveAreThoseOfTheFit) {
+  const double five[5][4] = {
+      {-0.51, -0.25, 1.35, 0.8}, {0.47, 0.30, 1.2, 1.0}, {-0.30, 0.25, 1.0, 1.0}, {0.35, -0.20, 0.7, 1.2}, {-0.40, -0.30, 1.0, 0.9}};
+  for (int i = 0; i < 5; ++i) {
+    const FeedbackSpec spec = parseFeedbackSubject(fmt::format("kind=ofc,subject={},model-mass=0.1", i + 1));
+    EXPECT_EQ(spec.first.stiffness, five[i][0]);
+    EXPECT_NEAR(spec.first.mass, five[i][1] + 0.1, 1e-15) << "besides what is asked for";
+    EXPECT_EQ(spec.noiseScale, five[i][2]);
+    EXPECT_NEAR(spec.learnFast, 0.03 * five[i][3], 1e-15);
+    EXPECT_NEAR(spec.learnSlow, 0.008 * five[i][3], 1e-15);
+    EXPECT_EQ(spec.practice, 1.5);
+    EXPECT_FALSE(spec.drawn);
+  }
+  const FeedbackSpec drawn = parseFeedbackSubject("kind=ofc,subject=drawn");
+  EXPECT_TRUE(drawn.drawn);
+  EXPECT_EQ(drawn.learnFast, 0.03);
+  EXPECT_EQ(drawn.learnSlow, 0.008);
+  EXPECT_EQ(drawn.practice, 1.5);
+  EXPECT_EQ(parseFeedbackSubject("kind=ofc").noiseScale, 1);
+  for (const auto& [words, sight] :
+       {std::pair{"", Sight::Ends}, {",sight=ends", Sight::Ends}, {",sight=all", Sight::All}, {",sight=none", Sight::None}})
+    EXPECT_EQ(parseFeedbackSubject(std::string("kind=ofc") + words).senses.sight, sight) << words;
+  EXPECT_FALSE(parseFeedbackSubject("kind=ofc,criterion=effort").criterion);
+  EXPECT_EQ(parseFeedbackSubject("kind=ofc,criterion=min-hand-jerk").criterion, predict::Criterion::MinHandJerk);
+  EXPECT_THROW(parseFeedbackSubject("kind=ofc,criterion=best"), FaultError);
+  EXPECT_THROW(parseFeedbackSubject("X,kind=ofc"), FaultError);
+}
+
+TEST(FeedbackSubject, APersonsNoiseIsThatOfCommandAndSensesAlike) {
+  const experiment::CompiledExperiment experiment(shortReach());
+  std::shared_ptr<void> learnt;
+  const auto hand = prepareFeedbackSubjects(experiment, parseFeedbackSubject(kShortDelays + ",subject=1"))(1, 4, learnt);
+  const auto state = std::static_pointer_cast<SubjectState>(learnt);
+  const FeedbackSpec usual = parseFeedbackSubject(kShortDelays + ",subject=1");
+  EXPECT_NEAR(state->person.motorNoise, 1.35 * usual.motorNoise, 1e-15);
+  EXPECT_NEAR(state->person.forceNoise, 1.35 * usual.forceNoise, 1e-15);
+  EXPECT_NEAR(state->person.senses.position, 1.35 * usual.senses.position, 1e-15);
+  EXPECT_NEAR(state->person.senses.velocity, 1.35 * usual.senses.velocity, 1e-15);
+  EXPECT_NEAR(state->person.senses.force, 1.35 * usual.senses.force, 1e-15);
+  EXPECT_NEAR(state->person.senses.seen, 1.35 * usual.senses.seen, 1e-15);
+  EXPECT_EQ(state->model.first.stiffness, -0.51);
+  EXPECT_EQ(state->model.day, 4);
+  EXPECT_EQ(state->model.trials, 0);
+}
+
+// 120 people: standard errors of an SD 6.5 %, of a mean 9 % of the SD; four of them.
+TEST(FeedbackSubject, DrawnPeopleVaryAsTheyAreSaidTo) {
+  const experiment::CompiledExperiment experiment(shortReach());
+  const auto task = parseFeedbackSubject("kind=ofc,subject=drawn,delay-touch=0.01,delay-sight=0.01,sight=none");
+  const auto prepared = prepareFeedbackSubjects(experiment, task);
+  std::array<double, 4> sum{}, squares{};
+  constexpr int kPeople = 120;
+  for (int i = 0; i < kPeople; ++i) {
+    std::shared_ptr<void> learnt;
+    (void)prepared(static_cast<std::uint64_t>(i), 0, learnt);
+    const FeedbackSpec& person = std::static_pointer_cast<SubjectState>(learnt)->person;
+    const std::array<double, 4> drawn{person.first.stiffness, person.first.mass, std::log(person.noiseScale),
+                                      std::log(person.learnFast / 0.03)};
+    EXPECT_NEAR(person.learnSlow / 0.008, person.learnFast / 0.03, 1e-12) << "as quick in both";
+    for (std::size_t k = 0; k < 4; ++k) sum[k] += drawn[k], squares[k] += drawn[k] * drawn[k];
+  }
+  const std::array<double, 4> sd{0.45, 0.28, 0.24, 0.15};
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(sum[k] / kPeople / sd[k], 0, 0.37) << k;
+    EXPECT_NEAR(std::sqrt(squares[k] / kPeople) / sd[k], 1, 0.26) << k;
+  }
+}
+
+}  // namespace
+}  // namespace reachlab::subjects
