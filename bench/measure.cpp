@@ -1,6 +1,7 @@
 #include "bench/measure.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -21,6 +22,12 @@ double largestDifference(const std::vector<double>& a, const std::vector<Quad>& 
     worst = std::max(worst, d);
   }
   return worst;
+}
+
+std::uint64_t hashOf(const std::vector<double>& numbers) {  // FNV-1a, number by number
+  std::uint64_t hash = 14695981039346656037u;
+  for (const double number : numbers) hash = (hash ^ std::bit_cast<std::uint64_t>(number)) * 1099511628211u;
+  return hash;
 }
 
 double quantile(std::vector<double> values, double p) {
@@ -52,6 +59,7 @@ std::vector<Row> measure(const BenchScene& scene, const Reference& reference, co
     row.error = computeError(trajectory, reference);
     row.steps = trajectory.steps, row.rhsEvaluations = trajectory.rhsEvaluations, row.worstTick = trajectory.worstTick;
     row.failure = trajectory.failure;
+    row.bits = hashOf(trajectory.states);
     rows.push_back(row);
     // The first timed run warms the caches and says how often a round repeats.
     const std::int64_t start = os::threadProcessorTime();

@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/fault.h"
+#include "base/system/processor_level.h"
 #include "cli/bench/allocation_count.h"
 #include "cli/bench/constraint_bench.h"
 #include "network/link_check/link_bench.h"
@@ -43,6 +44,7 @@ std::string toJson(const std::vector<bench::Row>& rows) {
   nlohmann::ordered_json all = nlohmann::ordered_json::array();
   for (const bench::Row& row : rows) {
     nlohmann::ordered_json o = nlohmann::ordered_json::object();
+    o["level"] = processorLevel();
     o["scene"] = row.scene;
     o["method"] = row.method;
     o["step_s"] = row.step;
@@ -52,6 +54,7 @@ std::string toJson(const std::vector<bench::Row>& rows) {
     o["ns_per_ms"] = row.failure.empty() ? number(row.nsPerMs) : nullptr;
     o["steps"] = row.steps;
     o["rhs_evaluations"] = row.rhsEvaluations;
+    o["bits"] = fmt::format("{:016x}", row.bits);
     all.push_back(std::move(o));
   }
   return all.dump(1) + "\n";
@@ -128,6 +131,7 @@ void benchMethods(const BenchOptions& options) {
 
 void runBench(const BenchOptions& options) {
   const auto& scenes = options.scenes;
+  fmt::print("level {}\n", processorLevel());
   if (std::find(scenes.begin(), scenes.end(), "constraint-eval") != scenes.end()) {
     if (scenes.size() > 1) throw FaultError(Fault{"--scene", "constraint-eval stands alone; run the other scenes by themselves"});
     benchConstraints(options);

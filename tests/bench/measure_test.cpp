@@ -93,6 +93,20 @@ TEST(Measure, ARowTellsWhatItsContenderDid) {
   EXPECT_EQ(runs, 1 + 1 + 3) << "for the errors, to warm up, and one a round";
 }
 
+TEST(Measure, ARowsBitsTellTheLastBitAndTheSignOfZero) {
+  const auto bitsOf = [](std::vector<double> states) {
+    Contender c;
+    c.run = [states](Trajectory* out) {
+      if (out) out->states = states;
+    };
+    return measure(tenTicks(), threeNumbers(), {c}, {.rounds = 1, .secondsPerRound = 0})[0].bits;
+  };
+  EXPECT_EQ(bitsOf({1, 2, 0.0}), bitsOf({1, 2, 0.0}));
+  EXPECT_NE(bitsOf({1, 2, 0.0}), bitsOf({1, 2, -0.0}));
+  EXPECT_NE(bitsOf({1, 2, 3}), bitsOf({1, 2, std::nextafter(3, 4)}));
+  EXPECT_NE(bitsOf({1, 2, 3}), bitsOf({2, 1, 3}));
+}
+
 TEST(Measure, ARoundIsRepeatedUntilItHasTakenItsTime) {
   int runs = 0;
   (void)measure(tenTicks(), threeNumbers(), {counting(runs, 1e-3)}, {.rounds = 2, .secondsPerRound = 9.5e-3});

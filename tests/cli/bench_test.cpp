@@ -39,11 +39,12 @@ TEST(Bench, MeasuresInAProgramOfItsOwnAndKeepsItsContract) {
   ASSERT_EQ(rows.size(), 2u);
   for (const Json& row : rows) {
     for (const char* key :
-         {"scene", "method", "step_s", "tolerance", "state_error", "position_error_m", "ns_per_ms", "steps", "rhs_evaluations"})
+         {"level", "scene", "method", "step_s", "tolerance", "state_error", "position_error_m", "ns_per_ms", "steps", "rhs_evaluations", "bits"})
       EXPECT_TRUE(row.contains(key)) << key;
     EXPECT_LT(row["state_error"].get<double>(), 1e-12);  // the exact step's rounding over 1350 ticks
     EXPECT_GT(row["ns_per_ms"].get<double>(), 0);
   }
+  EXPECT_EQ(ended.out.substr(0, ended.out.find('\n')), "level " + rows[0]["level"].get<std::string>());
   EXPECT_NE(ended.out.find("S6"), std::string::npos);
   EXPECT_EQ(reach("bench --scene S99").exitCode, 2);
   EXPECT_EQ(reach("bench --rounds 1").exitCode, 2);

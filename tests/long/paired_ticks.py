@@ -18,7 +18,7 @@ import sys
 
 
 def costs(out):
-    lines = out.splitlines()
+    lines = out[out.index("scene "):].splitlines()  # after the level of the program
     column = lines[0].split().index("middle")
     rows = [line.split() for line in lines[1:]]
     return {row[0]: float(row[column]) for row in rows if len(row) > column}
