@@ -78,20 +78,6 @@ TEST(Study, OfHandsThatIgnoreTheObjectIsNeverConcludedUpon) {
   }
 }
 
-TEST(Study, OfTwoCampsIsNeverDecided) {
-  const std::vector<Condition> moderate{{"moderate", compiledChain(1.35)}};
-  AnalysisInput camps = simulatedTrials(moderate, predict::Criterion::MinHandJerk, 0, 3, 1, 20, 1);
-  AnalysisInput others = simulatedTrials(moderate, predict::Criterion::MinHandForceChange, 1, 2, 1, 20, 2);
-  for (TrialData& trial : others.trials) {
-    trial.key.subject = "T" + trial.key.subject;
-    camps.trials.push_back(std::move(trial));
-    camps.conditionOf.push_back(0);
-  }
-  const Analysis analysis = analyzeTrials(std::move(camps), quickOptions());
-  EXPECT_EQ(analysis.overall.subjects, 5u);
-  EXPECT_FALSE(analysis.overall.decided()) << describeConclusion(analysis.overall, analysis.common);
-}
-
 TEST(Study, OfTooFewTrialsConcludesNothing) {
   const Analysis analysis =
       analyzeTrials(simulatedTrials({{"moderate", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 5, 1, 10, 3), quickOptions());
@@ -119,67 +105,6 @@ TEST(Study, CountsSuccessByDayAndLeavesPracticeOut) {
   AnalysisOptions with = quickOptions();
   with.includePractice = true;
   EXPECT_EQ(analyzeTrials(copy, with).success[0].trials, 9u);
-}
-
-TEST(Study, LearningPointsNeverSpanTwoSessions) {
-  const Analysis analysis =
-      analyzeTrials(simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 2, 15, 5), quickOptions());
-  ASSERT_EQ(analysis.learning.size(), 4u);  // 10 + 5 trials on each of two days
-  EXPECT_EQ(analysis.learning[1].firstTrial, 11);
-  EXPECT_EQ(analysis.learning[1].lastTrial, 15);
-  EXPECT_EQ(analysis.learning[2].firstTrial, 16);
-  EXPECT_EQ(analysis.learning[2].session, "02");
-}
-
-TEST(Study, DrawsAGroupOfTrialsInItsMiddleAndSaysWhatTheAxesAre) {
-  for (const int subjects : {1, 3}) {  // three are drawn with what is typical of them
-    const Analysis analysis = analyzeTrials(
-        simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, subjects, 1, 15, 5), quickOptions());
-    const NamedFigure learning = learningFigure(analysis);
-    ASSERT_EQ(learning.figure.panels.size(), 1u);
-    const figure::Panel& panel = learning.figure.panels[0];
-    EXPECT_EQ(panel.x.label, "Trial");
-    EXPECT_EQ(panel.y.label, "Success (%)");
-    EXPECT_EQ(panel.series.size(), subjects == 1 ? 1u : 4u);
-    for (const figure::Series& series : panel.series) EXPECT_EQ(series.x, (std::vector<double>{5.5, 13})) << "of 1 to 10 and 11 to 15";
-  }
-}
-
-TEST(Study, WritesEachTableWithAsManyCellsInARowAsColumnsAndWhatItConcluded) {
-  const Analysis analysis =
-      analyzeTrials(simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 2, 2, 12, 1), quickOptions());
-  std::map<std::string, std::string> tables;
-  writeTables(analysis, [&](const std::string& name, std::string_view piece) { tables[name] += piece; });
-  std::map<std::string, std::vector<std::vector<std::string>>> rows;
-  for (const auto& [name, text] : tables) {
-    EXPECT_TRUE(text.ends_with('\n')) << name;
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-      std::istringstream cells(line + ',');
-      rows[name].emplace_back();
-      for (std::string cell; std::getline(cells, cell, ',');) rows[name].back().push_back(cell);
-      EXPECT_EQ(rows[name].back().size(), rows[name].front().size()) << name << ": " << line;
-    }
-  }
-  EXPECT_EQ(rows["trials.csv"].size(), 1 + analysis.trials.size());
-  EXPECT_EQ(rows["success_table.csv"].size(), 1 + analysis.success.size());
-  EXPECT_EQ(rows["learning.csv"].size(), 1 + analysis.learning.size());
-  ASSERT_TRUE(analysis.overall.best);
-  std::vector<std::string> best;
-  for (const auto& row : rows["conclusions.csv"])
-    if (row.at(0) == "all" && row.at(7) == "yes") best.push_back(row.at(2));
-  EXPECT_EQ(best, std::vector<std::string>{nameOfCandidate(analysis.common[*analysis.overall.best])});
-}
-
-TEST(Study, SeriesErrorIsTheRootOfTheMeanOverAllSamples) {
-  const Analysis analysis =
-      analyzeTrials(simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 2, 2, 10, 6), quickOptions());
-  ASSERT_EQ(analysis.series.size(), 4u);
-  double sum = 0;
-  int n = 0;
-  for (const AnalyzedTrial& t : analysis.trials)
-    if (t.used() && t.key.subject == "S1" && t.key.session == "01") sum += t.paperError[0] * t.paperError[0], ++n;
-  EXPECT_NEAR(analysis.series[0].handError[0], std::sqrt(sum / n), 1e-15);
 }
 
 TEST(Study, BearsOneTrialNoSuccessAndNoTrial) {
@@ -210,15 +135,6 @@ TEST(Study, BearsOneTrialNoSuccessAndNoTrial) {
   EXPECT_FALSE(analysis.overall.best);
 }
 
-TEST(Study, RefusesOptionsOutOfRange) {
-  AnalysisOptions options = quickOptions();
-  options.measure.onset.percent = 0;
-  EXPECT_THROW(analyzeTrials({}, options), FaultError);
-  options = quickOptions();
-  options.handMasses = {};
-  EXPECT_THROW(analyzeTrials({}, options), FaultError);
-}
-
 TEST(Study, CountsInvalidTimingApartAndLeavesItOut) {
   AnalysisInput input = simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 6, 4);
   input.trials[0].result.reason = trial::Reason::Timing;
@@ -244,34 +160,6 @@ TEST(Study, OfAClosedCurveTravelledTheOtherWayScoresTheWayThatTheHandWent) {
   const Analysis backwards = analyzeTrials(std::move(input), quickOptions()), forwards = analyzeTrials(straight, quickOptions());
   EXPECT_EQ(backwards.results[0].counts.otherWay, 4u);
   EXPECT_EQ(backwards.trials[0].paperError, forwards.trials[0].paperError);
-}
-
-TEST(Measures, OfAKnownMovementAreWhatTheyShouldBe) {
-  const auto plan = predict::predict(chainExperiment(1.35), predict::Criterion::MinHandJerk);
-  std::mt19937_64 random(1);
-  const TrialData trial = followPlan(*plan, {0, 0, 0}, random);
-  const TrialSignals signals = computeSignals(trial, {});
-  const TrialMeasures m = computeMeasures(trial, signals);
-  EXPECT_NEAR(m.peakSpeed, plan->handPeak, 0.003 * plan->handPeak);  // what the 10 Hz filter takes off the top
-  EXPECT_NEAR(m.timeToPeakPercent, 50, 0.5);
-  EXPECT_NEAR(m.symmetryRatio, 1, 0.02);
-  EXPECT_NEAR(m.pathLength, 0.2, 0.002);
-  EXPECT_EQ(m.speedPeaks, 1);
-  EXPECT_NEAR(m.movementTime, 1.35, 1e-12);
-  EXPECT_LT(m.objectEndpointError, 1e-9);
-  EXPECT_LT(m.objectOvershoot, 1e-9);
-  EXPECT_NEAR(m.reactionTime, m.onset - 0.1, 1e-12);
-  EXPECT_LT(m.handEndpointError, 0.002);  // offset is at 5 % of the peak, just before the end
-}
-
-// Where the recording does not say what the force was. One that grows by 1 N a second: its mean is what it is half-way.
-TEST(Measures, OfAForceAreOverTheMovementAlone) {
-  const auto plan = predict::predict(chainExperiment(1.35), predict::Criterion::MinHandJerk);
-  std::mt19937_64 random(1);
-  TrialData trial = followPlan(*plan, {0, 0, 0}, random);
-  for (std::size_t i = 0; i < trial.force.size(); ++i) trial.force[i] = static_cast<double>(i) / trial.rate;
-  const TrialMeasures m = computeMeasures(trial, computeSignals(trial, {}));
-  EXPECT_NEAR(m.meanForce, 0.5 * (m.onset + m.offset), 0.01) << "within a sample";
 }
 
 }  // namespace

@@ -269,18 +269,6 @@ TEST(Conclusion, OfPeopleDecidedForOtherThanTheBestIsNone) {
   EXPECT_EQ(c.each[5], 1u);
 }
 
-TEST(Conclusion, NamesItsObstacles) {
-  const std::pair<Obstacle, std::string_view> names[] = {{Obstacle::None, ""},
-                                                         {Obstacle::TooFewTrials, "too_few_trials"},
-                                                         {Obstacle::TooFewSubjects, "too_few_subjects"},
-                                                         {Obstacle::Reference, "reference"},
-                                                         {Obstacle::NotToldApart, "not_told_apart"},
-                                                         {Obstacle::SubjectsDiffer, "subjects_differ"},
-                                                         {Obstacle::Poor, "poor"},
-                                                         {Obstacle::NothingToCompare, "nothing_to_compare"}};
-  for (const auto& [obstacle, name] : names) EXPECT_EQ(nameOf(obstacle), name);
-}
-
 TEST(Conclusion, LeavesOutPeopleWithoutConditions) {
   std::vector<PersonScores> all = people(5, 2, 0.8);
   all.insert(all.begin() + 2, PersonScores{"without", {}});

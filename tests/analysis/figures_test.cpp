@@ -141,28 +141,6 @@ TEST(PaperFigure, HasTrialsScaledToTheirAverageAndPredictionsAsTheyAre) {
   EXPECT_NE(paperFigure(analysis, 1).caption.find("quick: no movement to show; predictions only."), std::string::npos);
 }
 
-// 60 of many, evenly from the first on.
-TEST(PaperFigure, DrawsSixtyTrialsAtMost) {
-  Analysis analysis = madeStudy();
-  const AnalyzedTrial first = analysis.trials[0], last = analysis.trials[3];
-  analysis.trials.assign(60, first);
-  EXPECT_EQ(paperFigure(analysis, 0).figure.panels[0].series[0].label, "60 trials");
-  analysis.trials.insert(analysis.trials.end(), 61, last);
-  analysis.results[0].onlyFailures = true;
-  const Panel panel = paperFigure(analysis, 0).figure.panels[0];
-  EXPECT_EQ(panel.series.size(), 62u);
-  EXPECT_EQ(panel.series[0].label, "60 of 121 failed trials");
-  EXPECT_NEAR(panel.series[29].y[0], 0.5 * 10, 1e-12) << "the 58th of 121";
-  EXPECT_NEAR(panel.series[30].y[0], 2 * 50, 1e-12) << "the 60th, of the others";
-  analysis.trials.assign(1, first);
-  analysis.results[0].used = 1;
-  analysis.results[0].onlyFailures = false;
-  EXPECT_EQ(paperFigure(analysis, 0).figure.panels[0].series[0].label, "1 trial");
-  analysis.options.predictFor = PredictionDuration::Moved;
-  EXPECT_NE(paperFigure(analysis, 1).caption.find("no movement to show"), std::string::npos);
-  EXPECT_NE(paperFigure(analysis, 0).caption.find("for the T whose movement lasts as long"), std::string::npos);
-}
-
 TEST(LastFiveFigure, IsOfTheFirstSubjectsLastTrials) {
   Analysis analysis = madeStudy();
   const NamedFigure out = lastFiveFigure(analysis, 0);

@@ -50,44 +50,12 @@ TEST(RecordingFilter, IsWhatTheDigitalFilterDoesToSamples) {
   for (std::size_t i = 0; i < ours.size(); ++i) EXPECT_NEAR(ours[i], digital[i + 300], 2e-6 * 1.875) << i;  // reach ends at 1e-6
 }
 
-TEST(RecordingFilter, IntegratesPolynomialsOfSeventhDegreeExactly) {
-  const std::vector<double> w = gregoryWeights(41);
-  for (int degree = 0; degree <= 7; ++degree) {
-    double sum = 0;
-    for (std::size_t i = 0; i < w.size(); ++i) sum += w[i] * std::pow(static_cast<double>(i) / 40, degree) / 40;
-    EXPECT_NEAR(sum, 1.0 / (degree + 1), 1e-13) << degree;
-  }
-}
-
 TEST(Profile, HasItsValuesUpToItsEndsAndIsNothingBeyond) {
   const Profile profile{-0.5, 0.25, {1, 3, 2, 5, 4}, {}};
   for (std::size_t i = 0; i < profile.value.size(); ++i)
     EXPECT_DOUBLE_EQ(profile.at(profile.first + profile.step * static_cast<double>(i)), profile.value[i]);
   for (const double s : {profile.first + 0.01, profile.last() - 0.01}) EXPECT_GT(profile.at(s), 0.5) << s;
   for (const double s : {profile.first - 0.01, profile.last() + 0.01}) EXPECT_EQ(profile.at(s), 0) << s;
-}
-
-TEST(ProfileFamily, InterpolatesBetweenDurationsToAMillionthOfThePeak) {
-  for (const double T : {0.68, 1.35, 2.26}) {
-    const experiment::Experiment chain = chainExperiment(T);
-    const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chain), of(kQuick));
-    for (const Candidate& candidate : set.candidates)
-      for (const auto& family : candidate.families)
-        for (const double t : {0.8 * T, 0.93 * T, 1.21 * T}) {
-          const double between = (std::floor(t / family->grid().spacing) + 0.5) * family->grid().spacing;
-          EXPECT_LT(family->errorAt(between), 1e-6);
-        }
-  }
-}
-
-TEST(ProfileFamily, ReachesAsFarBehindTheMovementAsBeforeIt) {
-  const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chainExperiment(1.35)), of({Criterion::MinHandJerk}));
-  for (const double t : {0.8, 1.35, 2.0}) {
-    Profile profile;
-    ASSERT_TRUE(set.candidates.front().families.front()->at(t, profile));
-    EXPECT_NEAR(profile.last() - 1, -profile.first, 1e-12) << t;
-    EXPECT_EQ(profile.change.size(), profile.value.size()) << t;
-  }
 }
 
 // Joint torque change is predicted at few durations, each started from its neighbours: against predictions of its own for each duration.
@@ -108,22 +76,6 @@ TEST(ProfileFamily, OfTorqueChangeIsExactThoughItsPredictionsStartFromOneAnother
     const std::vector<double> filtered = RecordingFilter(10, 100).apply(phi, how.duration, margin);
     const double peak = *std::max_element(filtered.begin(), filtered.end());
     for (std::size_t i = 0; i < filtered.size(); ++i) ASSERT_NEAR(between.value[i], filtered[i], 1e-6 * peak) << t << " s, sample " << i;
-  }
-}
-
-TEST(MovementFit, FindsOnsetDurationAndAmplitudeOfASampledPrediction) {
-  const experiment::Experiment chain = chainExperiment(1.35);
-  const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chain), of(kQuick));
-  for (const Candidate& candidate : set.candidates) {
-    const ProfileFamily& family = *candidate.families.back();
-    const FitWindow window = recorded(family, 1.2, 0.47, 0.16);
-    Profile start, scratch;
-    ASSERT_TRUE(family.at(1.35, start));
-    const MovementFit fit = fitMovement(window, family, startFrom(momentsOf(window), momentsOf(start)), scratch);
-    ASSERT_TRUE(fit.found);
-    EXPECT_NEAR(fit.onset, 0.47, 1e-6);
-    EXPECT_NEAR(fit.duration, 1.2, 1e-6);
-    EXPECT_NEAR(fit.amplitude, 0.16, 1e-6);
   }
 }
 

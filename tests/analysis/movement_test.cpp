@@ -22,23 +22,6 @@ std::vector<double> bell(double before, double duration, double after, double he
   return v;
 }
 
-/// Where 16 s^2 (1-s)^2 reaches `share`.
-double crossing(double share) { return (1 - std::sqrt(1 - std::sqrt(share))) / 2; }
-
-TEST(FindMovement, FindsTheCrossingsOfABell) {
-  for (const double percent : {2.0, 5.0, 10.0}) {
-    OnsetOptions options;
-    options.percent = percent;
-    const Movement m = findMovement(bell(0.5, 1.0, 0.7), kRate, options);
-    ASSERT_TRUE(m.found);
-    const double kLinear = 1e-3;  // [s] linear interpolation over 10 ms of a curve
-    EXPECT_NEAR(m.onset, 0.5 + crossing(percent / 100), kLinear);
-    EXPECT_NEAR(m.offset, 1.5 - crossing(percent / 100), kLinear);
-    EXPECT_NEAR(m.peakTime, 1.0, 1e-9);
-    EXPECT_NEAR(m.peak, 0.3, 1e-12);
-  }
-}
-
 TEST(FindMovement, SearchesBackFromThePeakSoThatADriftBeginsNothing) {
   // A slow drift at 8 % of the peak, which ends 0.2 s before the reach: the first upward crossing is the drift's.
   std::vector<double> v = bell(0.8, 1.0, 0.7);
@@ -46,15 +29,6 @@ TEST(FindMovement, SearchesBackFromThePeakSoThatADriftBeginsNothing) {
   const Movement drifting = findMovement(v, kRate, {}), clean = findMovement(bell(0.8, 1.0, 0.7), kRate, {});
   EXPECT_DOUBLE_EQ(drifting.onset, clean.onset);
   EXPECT_DOUBLE_EQ(drifting.offset, clean.offset);
-}
-
-TEST(FindMovement, KeepsBothPhasesOfATwoPhaseMovement) {
-  std::vector<double> v = bell(0.3, 0.5, 0.0);
-  const std::vector<double> second = bell(0.1, 0.6, 0.4, 0.2);
-  v.insert(v.end(), second.begin(), second.end());
-  const Movement m = findMovement(v, kRate, {});
-  EXPECT_LT(m.onset, 0.4);
-  EXPECT_GT(m.offset, 1.4);
 }
 
 TEST(FindMovement, SaysWhereTheSignalBeginsOrEndsTooSoon) {
@@ -65,15 +39,6 @@ TEST(FindMovement, SaysWhereTheSignalBeginsOrEndsTooSoon) {
   EXPECT_TRUE(m.found);
   EXPECT_DOUBLE_EQ(m.onset, 0);
   EXPECT_DOUBLE_EQ(m.offset, static_cast<double>(v.size() - 1) / kRate);
-}
-
-TEST(FindMovement, FindsNoneInStillness) {
-  EXPECT_FALSE(findMovement(std::vector<double>(100, 0.0), kRate, {}).found);
-  EXPECT_FALSE(findMovement({}, kRate, {}).found);
-  OnsetOptions absolute;
-  absolute.rule = OnsetRule::Absolute;
-  absolute.speed = 0.5;
-  EXPECT_FALSE(findMovement(bell(0.2, 1, 0.2), kRate, absolute).found);
 }
 
 // Of a hand that trembles, 5 % of the peak speed is passed at once and at last: the whole trial would be its movement.
@@ -91,17 +56,6 @@ TEST(FindMovement, FindsNoneWhereTheTrialEndedBecauseTheHandNeverLeft) {
     trial.result = {trial::Outcome::Aborted, reason};
     EXPECT_FALSE(computeSignals(trial, {}).movement.found);
   }
-}
-
-TEST(ScaleVelocity, KeepsTheDistance) {
-  const std::vector<double> v = bell(0.5, 1.0, 0.7);
-  const auto distance = [](const std::vector<double>& profile, double duration) {
-    double sum = 0;
-    for (std::size_t i = 0; i + 1 < profile.size(); ++i) sum += 0.5 * (profile[i] + profile[i + 1]);
-    return sum * duration / static_cast<double>(profile.size() - 1);
-  };
-  const double d = distance(normaliseTime(v, kRate, 0.5, 1.5), 1.0);
-  for (const double duration : {0.5, 1.0, 2.26}) EXPECT_NEAR(distance(scaleVelocity(v, kRate, 0.5, 1.5, duration), duration), d, 1e-12);
 }
 
 TEST(Onset, OfSimulatedTrialsIsWhereItWasPutWithSmallBiasAndSpread) {
@@ -203,11 +157,6 @@ TEST(FindMovement, BeginsWithTheFirstHumpOfHalfThePeak) {
   };
   EXPECT_NEAR(onsetOf(1), 0.06, 1e-12);
   EXPECT_NEAR(onsetOf(0.99), 0.405, 1e-12);
-}
-
-TEST(FindMovement, AtAThresholdAboveHalfThePeakBeginsWhereItIsPassed) {
-  const std::vector<double> v = tent(40, 4, 14, 34, 2);
-  EXPECT_NEAR(findMovement(v, 50, above(1.5)).onset, 11.5 / 50, 1e-12);
 }
 
 TEST(MovementWithin, LooksForThePeakInsideTheWindowAlone) {

@@ -38,14 +38,6 @@ TEST(LogDimensionlessJerk, HasItsKnownValues) {
   EXPECT_NEAR(computeLogDimensionlessJerk(minimumJerk(1.35, 100), 100), -5.30722, kPublishedDigits);
 }
 
-TEST(Smoothness, DoesNotDependOnAmplitude) {
-  std::vector<double> v = minimumJerk(1.35, 100);
-  const double sparc = computeSparc(v, 100), ldlj = computeLogDimensionlessJerk(v, 100);
-  for (double& x : v) x *= 3.7;
-  EXPECT_NEAR(computeSparc(v, 100), sparc, 1e-12);
-  EXPECT_NEAR(computeLogDimensionlessJerk(v, 100), ldlj, 1e-12);
-}
-
 TEST(Smoothness, FallsWithEachSubmovement) {
   double lastSparc = 0, lastJerk = 0;
   for (int parts = 1; parts <= 4; ++parts) {
@@ -63,23 +55,6 @@ TEST(Smoothness, FallsWithEachSubmovement) {
     lastSparc = sparc;
     lastJerk = jerk;
   }
-}
-
-TEST(Smoothness, IsNotANumberWhereItIsNotDefined) {
-  EXPECT_TRUE(std::isnan(computeSparc({}, 100)));
-  EXPECT_TRUE(std::isnan(computeSparc(std::vector<double>(50, 0.0), 100)));
-  EXPECT_TRUE(std::isnan(computeLogDimensionlessJerk(std::vector<double>(2, 1.0), 100)));
-  EXPECT_TRUE(std::isnan(computeLogDimensionlessJerk(std::vector<double>(50, 0.0), 100)));
-}
-
-TEST(CountPeaks, IgnoresRipplesBelowTheProminence) {
-  std::vector<double> v = minimumJerk(1, 100);
-  EXPECT_EQ(countPeaks(v), 1u);
-  for (std::size_t i = 0; i < v.size(); ++i) v[i] += 0.001 * std::sin(2.0 * static_cast<double>(i));
-  EXPECT_EQ(countPeaks(v), 1u);
-  EXPECT_GT(countPeaks(v, 0.0), 1u);
-  EXPECT_EQ(countPeaks({}), 0u);
-  EXPECT_EQ(countPeaks(std::vector<double>{0, 1, 1, 1, 0}), 1u);
 }
 
 /// The definition, with every amplitude as the plain sum of its Fourier coefficient.

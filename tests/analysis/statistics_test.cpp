@@ -20,19 +20,6 @@ TEST(BinomialInterval, HasItsTextbookValues) {
   }
 }
 
-TEST(BinomialInterval, HoldsTheShareAndStaysInside) {
-  for (std::size_t n = 0; n <= 40; ++n)
-    for (std::size_t k = 0; k <= n; ++k) {
-      const Bounds i = computeBinomialInterval(k, n);
-      EXPECT_GE(i.low, 0);
-      EXPECT_LE(i.high, 1);
-      if (n > 0) {
-        EXPECT_LE(i.low, static_cast<double>(k) / static_cast<double>(n));
-        EXPECT_GE(i.high, static_cast<double>(k) / static_cast<double>(n));
-      }
-    }
-}
-
 TEST(MeanSd, LeavesOutWhatWasNotMeasured) {
   const std::vector<double> v{1, std::nan(""), 3, 5};
   const MeanSd s = computeMeanSd(v);

@@ -47,50 +47,6 @@ void expectCells(const Row& row, const Row& expected) {
 }
 double numberIn(const Row& row, const std::string& column) { return std::stod(row.at(column)); }
 
-TEST(Tables, OfTrialsSayOfEachWhatWasMeasured) {
-  const Analysis analysis = madeStudy();
-  const std::vector<Row> rows = tableOf(analysis, "trials.csv");
-  ASSERT_EQ(rows.size(), 4u);
-  expectCells(rows[0], {{"subject", "A"},
-                        {"session", "01"},
-                        {"run", "2"},
-                        {"block", "41"},
-                        {"trial", "1"},
-                        {"day", "1"},
-                        {"condition", "slow pace"},
-                        {"phase", "recorded"},
-                        {"outcome", "success"},
-                        {"reason", ""},
-                        {"mass", "0"},
-                        {"by", "0"},
-                        {"used", "1"},
-                        {"exclusion", ""},
-                        {"before_go", "0"},
-                        {"other_way", "0"}});
-  expectCells(rows[1], {{"phase", "practice"},
-                        {"outcome", "failure"},
-                        {"reason", "velocity"},
-                        {"mass", "2"},
-                        {"by", "0.015"},
-                        {"used", "0"},
-                        {"exclusion", "practice"},
-                        {"before_go", "1"},
-                        {"other_way", "1"},
-                        {"sparc", ""},
-                        {"epsilon_hand_min_hand_jerk_m_per_s", ""}});
-  for (const Measure& measure : measures())
-    EXPECT_EQ(numberIn(rows[2], std::string(measure.name)), analysis.trials[2].measures.*measure.value) << measure.name;
-  // (3) was predicted first, but columns stand in the paper's order.
-  EXPECT_EQ(numberIn(rows[0], "epsilon_hand_min_crackle_m_per_s"), 10.1);
-  EXPECT_EQ(numberIn(rows[0], "epsilon_hand_min_hand_jerk_m_per_s"), 10.2);
-  EXPECT_EQ(numberIn(rows[0], "epsilon_object_min_crackle_m_per_s"), 10.3);
-  EXPECT_EQ(numberIn(rows[0], "epsilon_object_min_hand_jerk_m_per_s"), 10.4);
-  std::string header;
-  writeTables(analysis, [&](const std::string& name, std::string_view piece) { header += name == "trials.csv" ? piece : ""; });
-  EXPECT_LT(header.find("epsilon_hand_min_hand_jerk"), header.find("epsilon_hand_min_crackle"));
-  EXPECT_LT(header.find("epsilon_hand_min_crackle"), header.find("epsilon_object_min_hand_jerk"));
-}
-
 // Columns are named in one table and filled in order: a cell too few or too many would shift all that follow.
 TEST(Tables, HaveACellForEachColumn) {
   std::map<std::string, std::string> files;

@@ -123,45 +123,6 @@ TEST(C3dFormat, WhatAFieldCannotHoldIsCutOrStandsInTheNextOne) {
   EXPECT_EQ(readC3d(bytes, "made").events.size(), 20u);
 }
 
-TEST(C3dFormat, WithoutSignalsNoSampleAFrameIsWritten) {
-  C3dFile file;
-  file.points = {{"p"}};
-  file.frames = 70'000;
-  file.places.assign(3 * file.frames, 2);
-  file.seen.assign(file.frames, 1);
-  const std::string bytes = c3dBytes(file);
-  EXPECT_EQ(bytes.substr(18, 2), word(0));
-  EXPECT_EQ(bytes.substr(8, 2), word(65535)) << "the header's frames are cut";
-  EXPECT_NE(bytes.find(parameter(1, "FRAMES", kWord, {}, word(65535))), std::string::npos);
-  EXPECT_NE(bytes.find(parameter(4, "ACTUAL_END_FIELD", kWord, {2}, words({70'000 - 65'536, 1}), "last frame: low, high word")),
-            std::string::npos);
-  EXPECT_NE(bytes.find(parameter(2, "SCALE", kFloat, {0}, "")), std::string::npos);
-  EXPECT_EQ(bytes.find("SCALE2"), std::string::npos);
-  EXPECT_NE(bytes.find(parameter(5, "USED", kWord, {}, word(0)) + group(6, "REACHLAB", "what was recorded")), std::string::npos)
-      << "no events, no parameters of events";
-}
-
-TEST(C3dFormat, FillsWholeBlocksAndNoneInVain) {
-  C3dFile file;
-  file.points = {{"p"}};
-  const std::string last = group(6, "REACHLAB", "what was recorded");
-  for (std::size_t length = 1; length <= 2 * 255; ++length) {
-    file.notes = {{"A", std::string((length + 1) / 2, 'a')}, {"B", std::string(length / 2, 'b')}};
-    if (length == 1) file.notes.pop_back();
-    const std::string bytes = c3dBytes(file);
-    std::size_t records = bytes.find(last) + last.size() - 512;
-    for (const auto& [name, text] : file.notes) records += 9 + text.size();
-    ASSERT_EQ(bytes.size(), 512 + (records + 2 + 511) / 512 * 512) << length << ": two zeros behind the records, no data";
-    ASSERT_EQ(static_cast<unsigned char>(bytes[512 + 2]), bytes.size() / 512 - 1) << length;
-  }
-  file.notes.clear();
-  file.frames = 32;
-  file.places.assign(std::size_t{3 * 32}, 1);
-  file.seen.assign(32, 1);
-  EXPECT_EQ(c3dBytes(file).size() % 512, 0u);
-  EXPECT_EQ(c3dBytes(file).substr(c3dBytes(file).size() - 4 * 4), floats({1, 1, 1, 0})) << "a block that is full";
-}
-
 TEST(C3dFormat, HoldsSoManyAndNoMore) {
   const auto refusal = [](std::size_t points, std::size_t signals, std::size_t frames) -> std::string {
     C3dFile file;
@@ -221,50 +182,6 @@ TEST(C3dFormat, ReadsAFileWithoutParametersByItsHeader) {
   EXPECT_EQ(Made{.sectionBlock = 4}.read().places, file.places) << "the parameters may stand further on";
 }
 
-TEST(C3dFormat, ReadsNamesAsTheyAreMeant) {
-  Made made{.points = 4, .last = 1, .data = std::string(512, '\0')};
-  made.records = parameter(3, "labels", kText, {5, 3}, std::string("  a  ") + "     " + std::string("b\0xyz", 5)) +
-                 parameter(3, "UNITS", kText, {4, 2}, "m   mm  ") + group(3, "Point");
-  made.records[0] = static_cast<char>(-6);  // a locked parameter has a negative length
-  const C3dFile file = made.read();
-  ASSERT_EQ(file.points.size(), 4u);
-  EXPECT_EQ(file.points[0].name, "a") << "without the blanks around it";
-  EXPECT_EQ(file.points[1].name, "point2") << "an empty one";
-  EXPECT_EQ(file.points[2].name, "b") << "to its zero";
-  EXPECT_EQ(file.points[3].name, "point4") << "none at all";
-  EXPECT_EQ(file.pointUnit, "m");
-}
-
-TEST(C3dFormat, ReadsAllPartsOfItsNames) {
-  Made made{.points = 3, .last = 1, .data = std::string(512, '\0')};
-  made.records = group(1, "POINT") + parameter(1, "LABELS", kText, {1, 1}, "a") + parameter(1, "LABELS2", kText, {1, 1}, "b") +
-                 parameter(1, "LABELS3", kText, {1, 1}, "c");
-  EXPECT_EQ(made.read().points[2].name, "c");
-}
-
-TEST(C3dFormat, WhatIsNoTextIsNoName) {
-  Made made;
-  made.records = group(1, "POINT") + parameter(1, "LABELS", kByte, {1, 1}, "a");
-  EXPECT_EQ(made.read().points[0].name, "point1");
-  made.records = group(1, "POINT") + parameter(1, "LABELS", kText, {}, "a");
-  EXPECT_EQ(made.read().points[0].name, "point1") << "no dimension";
-  made.records = group(1, "POINT") + parameter(1, "LABELS", kText, {0, 3}, "");
-  EXPECT_EQ(made.read().points[0].name, "point1") << "no width";
-}
-
-TEST(C3dFormat, ANumberThatIsTooShortIsNone) {
-  for (const auto& [type, size] : {std::pair{kFloat, 4}, {kWord, 2}, {kByte, 1}}) {
-    Made made;
-    made.records = group(1, "POINT") + parameter(1, "RATE", type, {0}, "");
-    EXPECT_EQ(made.read().rate, 50) << "the header's, not one of " << size << " bytes that are not there";
-  }
-  Made made;
-  made.records = group(1, "POINT") + parameter(1, "RATE", kText, {4}, "1234");
-  EXPECT_EQ(made.read().rate, 50);
-  made.records = group(1, "POINT") + parameter(1, "RATE", kWord, {}, word(0x1234));
-  EXPECT_EQ(made.read().rate, 0x1234);
-}
-
 TEST(C3dFormat, CountsItsFramesByWhicheverCountIsGreatest) {
   const std::string data = padded(std::string(16, '\0'));  // 32 frames of one point
   EXPECT_EQ((Made{.first = 11, .last = 13, .data = data}.read().frames), 3u);
@@ -319,16 +236,6 @@ TEST(C3dFormat, ReadsEventsThatHaveALabelAndATime) {
   EXPECT_EQ(events("a", floats({1, 2, 3, 4})).size(), 1u);
   EXPECT_EQ(events("a", words({1, 2, 3, 4}), kWord).size(), 0u) << "no floats";
   EXPECT_EQ(events("ab", floats({1, std::numeric_limits<float>::quiet_NaN(), 0, 4})).at(0).label, "b");
-}
-
-TEST(C3dFormat, ReadsIntegersBesideItsSignals) {
-  Made made{.points = 1, .signals = 3, .scale = 0.5f};
-  made.data = words({4, 6, 0xfffe, 0, 91, 92, 93, 8, 10, 12, 0xffff, 94, 95, 96});
-  const C3dFile file = made.read();
-  EXPECT_EQ(file.places, (std::vector<float>{2, 3, -1, 4, 5, 6}));
-  EXPECT_EQ(file.seen, (std::vector<char>{1, 0}));
-  made.records = group(1, "POINT") + parameter(1, "SCALE", kFloat, {}, floats({2}));
-  EXPECT_EQ(made.read().places[1], 12) << "the parameter before the header";
 }
 
 TEST(C3dFormat, APlaceThatIsNoNumberWasNotSeen) {
@@ -402,30 +309,6 @@ TEST(C3dFormat, RefusesParametersThatLeadNowhere) {
   EXPECT_EQ(refusalOfRecords(parameter(1, "GREAT", kByte, {100, 100}, "1")),
             "made: has a parameter GREAT greater than the file; allowed: a whole file");
   EXPECT_EQ(refusalOfRecords(parameter(1, "GREAT", kByte, {128, 8}, "1")), "made: ends within its parameter GREAT; allowed: a whole file");
-}
-
-TEST(C3dFormat, ARecordWithoutANameOrAGroupEndsTheList) {
-  const std::string nowhere = std::string{1, 0, 0, 0, 0};
-  EXPECT_EQ(refusalOfRecords(std::string{0, 1} + nowhere), kReadOn);
-  EXPECT_EQ(refusalOfRecords(std::string{1, 0} + "A" + nowhere), kReadOn);
-  EXPECT_NE(refusalOfRecords(std::string{1, 1} + "A" + nowhere), kReadOn);
-}
-
-// The section's block holds 508 bytes of records: the last one ends with it, or a byte later.
-TEST(C3dFormat, ReadsToTheLastByteAndNotBeyond) {
-  const auto endingAt = [](std::size_t end, const std::string& last) {
-    return group(1, "A", std::string(end - group(1, "A").size() - last.size(), 'x')) + last;
-  };
-  const std::string whole = parameter(1, "B", kByte, {2}, "12").substr(0, 3 + 2 + 3 + 2);  // without its description's length
-  EXPECT_EQ(refusalOfRecords(endingAt(508, "")), kReadOn);
-  for (const std::size_t missing : {0, 1, 2}) {
-    const std::string told = refusalOfRecords(endingAt(508, whole.substr(0, whole.size() - missing)));
-    EXPECT_EQ(told, missing == 0 ? kReadOn : "made: ends within its parameter B; allowed: a whole file") << missing;
-  }
-  EXPECT_EQ(refusalOfRecords(endingAt(508, whole.substr(0, 3 + 2 + 2))), "made: has a parameter B of too many dimensions; allowed: up to 7")
-      << "its dimension is missing";
-  EXPECT_EQ(refusalOfRecords(endingAt(508, whole.substr(0, 3 + 2 + 1))), "made: ends within its parameter B; allowed: a whole file");
-  EXPECT_EQ(refusalOfRecords(endingAt(508, whole.substr(0, 3 + 1))), "made: ends within its parameters; allowed: a whole file");
 }
 
 }  // namespace

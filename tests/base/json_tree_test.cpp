@@ -114,17 +114,6 @@ TEST(JsonTree, CountsCharactersAndReadsEscapes) {
   for (const char* first : {"\"x\"", "\"\"", "7", "12 ", "null", "[]"}) EXPECT_EQ(parseJson(first, "made.json").column, 1) << first;
 }
 
-TEST(JsonTree, ItsKindsHaveNames) {
-  using Kind = JsonNode::Kind;
-  const std::vector<std::string> names{"null", "a truth value", "a number", "a string", "an array", "an object"};
-  for (const Kind kind : {Kind::Null, Kind::Boolean, Kind::Number, Kind::String, Kind::Array, Kind::Object})
-    EXPECT_EQ(nameOf(kind), names[static_cast<std::size_t>(kind)]);
-  const JsonNode none;
-  EXPECT_EQ(none.kind, Kind::Null);
-  EXPECT_FALSE(none.boolean || none.integer);
-  EXPECT_EQ(none.number + none.line + none.column + none.keyLine + none.keyColumn, 0);
-}
-
 std::string refusalOfFile(const std::string& file, std::uintmax_t most) {
   try {
     return "read " + readTextFile(file, most);

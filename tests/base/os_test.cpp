@@ -80,18 +80,6 @@ TEST(Disk, SyncsWhatIsThere) {
   std::fclose(file);
 }
 
-TEST(Disk, HasTheSpaceThatTheStandardLibraryTells) {
-  const std::string folder = std::filesystem::temp_directory_path().string();
-  const DiskSpace space = diskSpace(folder);
-  const std::filesystem::space_info told = std::filesystem::space(folder);
-  EXPECT_EQ(space.size, told.capacity);
-  EXPECT_NEAR(static_cast<double>(space.free), static_cast<double>(told.available), 0.1 * static_cast<double>(told.capacity));
-  EXPECT_GT(space.size, 0u);
-  const DiskSpace none = diskSpace("/there is none such");
-  EXPECT_EQ(none.free, 0u);
-  EXPECT_EQ(none.size, 0u);
-}
-
 TEST(Descriptors, ThatAreClosedAreHeld) {
   const auto held = [](int closed) {
     const int next = ::open("/dev/null", O_RDONLY);

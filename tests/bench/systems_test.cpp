@@ -84,75 +84,6 @@ TEST(Systems, AHandsVelocityIsAskedForOnlyWhereItIsDamped) {
   for (const char* name : {"S2a", "S3", "S4", "S5", "S7b", "S7c", "S7f", "S8"}) EXPECT_TRUE(asks(name)) << name;
 }
 
-/// First and second differences of `place` over 1e-9 in 113 bits, right to 1e-15.
-template <class Place>
-void expectDerivatives(const Place& place, const Quad* d, const Quad* dd, const char* what) {
-  const Quad h = Quad(1) / 1000000000;
-  Quad up[3], here[3], down[3];
-  place(h, up), place(Quad(0), here), place(-h, down);
-  for (int i = 0; i < 3; ++i) {
-    EXPECT_NEAR(static_cast<double>(d[i]), static_cast<double>((up[i] - down[i]) / (2 * h)), 1e-15) << what << i;
-    EXPECT_NEAR(static_cast<double>(dd[i]), static_cast<double>((up[i] - 2 * here[i] + down[i]) / (h * h)), 1e-13) << what << i;
-  }
-}
-
-TEST(Systems, CurvesHaveTheDerivativesThatTheyName) {
-  const auto examine = [](const auto& shape) {
-    for (const double phi : {-0.7, 0.3, 2.2}) {
-      Quad r[3], d[3], dd[3];
-      shape.evaluate(Quad(phi), r, d, dd);
-      const auto place = [&](const Quad& by, Quad* out) {
-        Quad first[3], second[3];
-        shape.evaluate(Quad(phi + by), out, first, second);
-      };
-      expectDerivatives(place, d, dd, "phi ");
-    }
-  };
-  examine(EllipseShape{0.11, 0.07});
-  examine(EpitrochoidShape{0.09, 0.013});
-}
-
-TEST(Systems, SurfacesHaveTheDerivativesThatTheyName) {
-  const auto examine = [](const auto& shape) {
-    for (const auto& [u, v] : {std::pair{0.3, 0.8}, {-1.1, 0.4}, {2.0, -0.9}}) {
-      Quad r[3], ru[3], rv[3], ruu[3], ruv[3], rvv[3], aslant[3], bend[3];
-      shape.evaluate(Quad(u), Quad(v), r, ru, rv, ruu, ruv, rvv);
-      const auto along = [&](int alongU, int alongV) {
-        return [&, alongU, alongV](const Quad& by, Quad* out) {
-          Quad a[3], b[3], c[3], d[3], e[3];
-          shape.evaluate(Quad(u + alongU * by), Quad(v + alongV * by), out, a, b, c, d, e);
-        };
-      };
-      for (int i = 0; i < 3; ++i) aslant[i] = ru[i] + rv[i], bend[i] = ruu[i] + 2 * ruv[i] + rvv[i];
-      expectDerivatives(along(1, 0), ru, ruu, "u ");
-      expectDerivatives(along(0, 1), rv, rvv, "v ");
-      expectDerivatives(along(1, 1), aslant, bend, "aslant ");
-    }
-  };
-  examine(TorusShape{0.11, 0.03});
-  examine(SaddleShape{0.13, 0.07});
-  examine(SphereShape{0.12});
-}
-
-TEST(Systems, ShapesLieWhereTheirFormulasSay) {
-  double r[3], a[3], b[3], c[3], d[3], e[3];
-  EllipseShape{0.11, 0.07}.evaluate(0.4, r, a, b);
-  EXPECT_LT(norm(vec(r) - Vec3{0, 0.11 * std::cos(0.4), 0.07 * std::sin(0.4)}), 1e-16);
-  EpitrochoidShape{0.09, 0.013}.evaluate(0.4, r, a, b);
-  EXPECT_LT(norm(vec(r) - Vec3{0.09 * std::cos(0.4) - 0.013 * std::cos(1.6), 0.09 * std::sin(0.4) - 0.013 * std::sin(1.6), 0}), 1e-16);
-  TorusShape{0.11, 0.03}.evaluate(0.4, 0.9, r, a, b, c, d, e);
-  const double ring = 0.11 + 0.03 * std::cos(0.4);
-  EXPECT_LT(norm(vec(r) - Vec3{ring * std::cos(0.9), ring * std::sin(0.9), 0.03 * std::sin(0.4)}), 1e-16);
-  SaddleShape{0.13, 0.07}.evaluate(0.4, 0.9, r, a, b, c, d, e);
-  EXPECT_LT(norm(vec(r) - Vec3{0.13 * 0.4, 0.13 * 0.9, 0.07 * (0.4 * 0.4 * 0.4 - 3 * 0.4 * 0.9 * 0.9)}), 1e-16);
-  SphereShape{0.12}.evaluate(0.4, 0.9, r, a, b, c, d, e);
-  EXPECT_LT(norm(vec(r) - 0.12 * Vec3{std::sin(0.9) * std::cos(0.4), std::sin(0.9) * std::sin(0.4), std::cos(0.9)}), 1e-16);
-  double place[3], velocity[3];
-  SphereShape{0.12}.placeAndVelocity(0.4, 0.9, 1.7, -0.6, place, velocity);
-  EXPECT_EQ(vec(place), vec(r));
-  EXPECT_LT(norm(vec(velocity) - (1.7 * vec(a) - 0.6 * vec(b))), 1e-16);
-}
-
 TEST(Systems, ANameWithoutARightHandSideIsRefused) {
   BenchScene scene = benchScene("S1");
   scene.name = "S99";
@@ -166,41 +97,11 @@ TEST(Systems, ANameWithoutARightHandSideIsRefused) {
 
 // --- the scenes
 
-constexpr double kPi = 3.14159265358979323846;
-
 /// Where the constraint is at the scene's start, or at numbers q.
 Vec3 placeAt(const BenchScene& scene, const std::vector<double>& q) {
   const constraints::Constraint c = constraints::makeConstraint(scene.experiment.constraint);
   return c.kind == constraints::ConstraintKind::Curve ? constraints::evaluate(c.curve, q[0]).r
                                                       : constraints::evaluate(c.surface, q[0], q[1]).r;
-}
-
-TEST(Scenes, AHandBeginsAtItsMassAtRestAndEndsAtRest) {
-  for (const BenchScene& scene : benchScenes()) {
-    if (scene.hand.kind == HandLaw::Kind::None) continue;
-    SCOPED_TRACE(scene.name);
-    EXPECT_LT(norm(makeSample(scene.hand, 0).position - placeAt(scene, scene.start)), 1e-15);
-    EXPECT_LT(norm(makeSample(scene.hand, 0).velocity), 1e-15);
-    EXPECT_LT(norm(makeSample(scene.hand, scene.duration).velocity), 1e-14);
-  }
-}
-
-TEST(Scenes, HandsReachWhereTheyAreToGo) {
-  const auto end = [](const BenchScene& s) { return makeSample(s.hand, s.duration).position; };
-  for (const char* name : {"S1", "S1b50", "S6", "S7a", "S7b", "S2a", "S2b", "S5", "S5h", "S7c", "S8"}) {  // along a curve to its target
-    const BenchScene s = benchScene(name);
-    EXPECT_LT(norm(end(s) - placeAt(s, s.experiment.task->target)), 1e-15) << name;
-  }
-  EXPECT_LT(norm(end(benchScene("S1")) - Vec3{0.1, 0, 0}), 1e-15);
-  EXPECT_LT(norm(end(benchScene("S2a")) - Vec3{0, -0.1, 0}), 1e-15);
-  EXPECT_NEAR(benchScene("S7c").start[0], kPi / 4, 1e-15);
-  EXPECT_NEAR(benchScene("S5").start[0], kPi / 3, 1e-15);
-  EXPECT_NEAR(benchScene("S5").experiment.task->target[0], kPi, 1e-15);
-  for (const char* name : {"S3", "S4"}) {  // the hand's chord is 0.2 m long
-    const BenchScene s = benchScene(name);
-    EXPECT_NEAR(norm(end(s) - makeSample(s.hand, 0).position), 0.2, 1e-15) << name;
-  }
-  EXPECT_LT(norm(end(benchScene("S3")) - makeSample(benchScene("S3").hand, 0).position - Vec3{-0.12, 0.16, 0}), 1e-15);
 }
 
 TEST(Scenes, GeodesicsPassTheirPoleAsCloseAsTheySayHalfWayAtTwoRadiansASecond) {

@@ -21,34 +21,6 @@ std::vector<record::RunLog> logsOf(const Folder& folder) {
   return logs;
 }
 
-// Nobody starts within a millisecond: every trial is aborted.
-std::string hurriedPlan(const Folder& folder, bool repeat) {
-  folder.write("hurried.json", R"({ "schema_version": 1, "constraint": { "name": "line", "shape": { "length_m": 0.2 } },
-    "object": { "kind": "point", "masses_kg": [1], "stiffness_n_per_m": [] }, "coupling": { "stiffness_n_per_m": 600 },
-    "task": { "start": [0], "target": [6.283185307179586], "duration_s": 1, "timeout_s": 0.001,
-              "tolerance": { "position_m": 0.01, "velocity_m_per_s": 0.01, "time_s": 0.5 } } })");
-  return folder.write("plan.json", std::string(R"({ "schema_version": 1, "repeat_aborted": )") + (repeat ? "true" : "false") +
-                                       R"(, "blocks": [ { "experiment": "hurried.json", "trials": 3 } ] })");
-}
-
-TEST(Conduct, AnAbortedTrialIsPutUpOnceMoreAtTheEndIfThePlanSaysSo) {
-  for (const bool repeat : {false, true}) {
-    const Folder folder;
-    const Ended ended = reach("run " + hurriedPlan(folder, repeat) + " --device simulated --seed 1 --fast --data " + folder.string());
-    ASSERT_EQ(ended.exitCode, 0) << ended.err;
-    EXPECT_EQ(trialLines(ended.out).size(), repeat ? 6u : 3u) << ended.out;
-    const std::vector<record::RunLog> logs = logsOf(folder);
-    ASSERT_EQ(logs.size(), 1u);
-    std::vector<int> indices;
-    for (const record::RecordedTrial& trial : logs[0].trials()) {
-      indices.push_back(trial.planned.index);
-      EXPECT_EQ(trial.result.outcome, trial::Outcome::Aborted);
-      EXPECT_EQ(trial.trial, static_cast<int>(indices.size()));
-    }
-    EXPECT_EQ(indices, (repeat ? std::vector<int>{0, 1, 2, 0, 1, 2} : std::vector<int>{0, 1, 2})) << "a repeat is not repeated";
-  }
-}
-
 TEST(Conduct, ThePlansBlocksAreRunsOfTheirOwnEachWithItsLabelAndItsRowsInTheDataset) {
   const Folder folder;
   const std::string plan = folder.write("plan.json", R"({ "schema_version": 1, "trials": 2, "blocks": [
@@ -106,23 +78,6 @@ TEST(Conduct, TheRecordSaysWithWhatAndWhenItWasMade) {
   EXPECT_EQ(c.table.parameterCount, 1);
   for (const record::RecordedEvent& event : logs[0].events())
     EXPECT_EQ(event.text.find("ticks/s"), std::string::npos) << "virtual time has no timing";
-}
-
-TEST(Conduct, InRealTimeTheRecordKeepsHowWellTheLoopKeptTime) {
-  const Folder folder;
-  const Ended ended =
-      reach("run " + hurriedPlan(folder, false) + " --device simulated --seed 2 --timing-check 0.1 --data " + folder.string());
-  ASSERT_EQ(ended.exitCode, 0) << ended.err;
-  const std::vector<record::RunLog> logs = logsOf(folder);
-  ASSERT_EQ(logs.size(), 1u);
-  EXPECT_EQ(logs[0].configuration().clock, "monotonic");
-  std::vector<std::string> notes;
-  for (const record::RecordedEvent& event : logs[0].events())
-    if (event.kind == record::EventKind::Note) notes.push_back(event.text);
-  ASSERT_EQ(notes.size(), 2u);
-  EXPECT_TRUE(notes[0].starts_with("timing ")) << "the verdict, before the first trial";
-  EXPECT_TRUE(notes[1].starts_with("loop: ")) << notes[1];
-  for (const std::string& note : notes) EXPECT_NE(ended.err.find(note), std::string::npos) << ended.err;
 }
 
 }  // namespace

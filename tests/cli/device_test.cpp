@@ -168,16 +168,6 @@ TEST(Devices, ASchedulerThatNeverCallsOrTwiceOrLateEndsInWords) {
   }
 }
 
-TEST(Devices, TwoPhantomsAreTwoHandsOfOneExperiment) {
-  const Folder folder;
-  const Ended run =
-      reachUndisturbed("run " + patient(folder, "chain-two-hands") +
-                           " --device \"phantom:Left + phantom:Right\" --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
-                       kFakes + " FAKE_HD_DEVICES=Left,Right timeout -s INT 30");
-  EXPECT_TRUE(run.exitCode == 0 || run.exitCode == 3) << run.exitCode << run.err;
-  EXPECT_EQ(trialLines(run.out).size(), 1u) << run.out << run.err;
-}
-
 // What each of the stand-in's omegas felt: the largest norm, and what was left when it was closed. [N]
 std::map<int, std::pair<double, double>> diaryOf(const std::filesystem::path& file) {
   std::map<int, std::pair<double, double>> felt;
@@ -250,23 +240,6 @@ TEST(Devices, AnInverse3WhoseServiceEndsInMidTrialInterruptsIt) {
                        " --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
                    "timeout -s INT 30"),
              "Haply Inverse3");
-}
-
-TEST(Devices, TwoInverse3AtOneServiceAreTwoHandsOfOneExperiment) {
-  FakeHaply service(FakeHaply::Speaks::AnswersOnly, {"049D", "06A1"});
-  service.moveBy(reachAgainAndAgain);
-  const Folder folder;
-  const std::string port = std::to_string(service.port());
-  const Ended run = reachUndisturbed("run " + patient(folder, "chain-two-hands") + " --device \"haply:049D,port=" + port +
-                                         " + haply:06A1,port=" + port + "\" --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
-                                     "timeout -s INT 30");
-  EXPECT_TRUE(run.exitCode == 0 || run.exitCode == 3) << run.exitCode << run.err;
-  EXPECT_EQ(trialLines(run.out).size(), 1u) << run.out << run.err;
-  for (const char* id : {"049D", "06A1"}) {
-    EXPECT_TRUE(service.largestForce(id) > 0 || isDisturbed(run)) << id << run.err;
-    EXPECT_LE(service.largestForce(id), 10 + 1e-9) << id;
-    EXPECT_EQ(norm(service.lastForce(id)), 0) << id;
-  }
 }
 
 TEST(Devices, BothClocksOfAPhantomAreMeasuredByOneCommand) {

@@ -564,14 +564,6 @@ TEST(Expressions, AreRefusedWhereTheyGrowTooLarge) {
   EXPECT_EQ(graph.size(), 20000);
 }
 
-TEST(Expressions, TheirOperationsHaveNamesAndOperands) {
-  EXPECT_STREQ(nameOf(Op::Add), "+");
-  EXPECT_STREQ(nameOf(Op::Sign), "sign");
-  for (const Op op : {Op::Constant, Op::Variable, Op::Parameter}) EXPECT_EQ(operandCount(op), 0);
-  for (const Op op : {Op::Neg, Op::PowInt, Op::Sqrt, Op::Sign}) EXPECT_EQ(operandCount(op), 1);
-  for (const Op op : {Op::Add, Op::Sub, Op::Mul, Op::Div, Op::Pow, Op::Atan2}) EXPECT_EQ(operandCount(op), 2);
-}
-
 // ---- whole functions
 
 std::shared_ptr<const CompiledFormula> compiled(ConstraintKind kind, const std::array<std::string, 3>& coordinates) {

@@ -270,16 +270,6 @@ TEST(Places, OfAStretchAreThoseInIt) {
   EXPECT_TRUE(computeRegularityWithin(free, 0, 1).pieces.empty());
 }
 
-TEST(Places, HaveNamesAndArePassedOrNot) {
-  const std::pair<PlaceKind, const char*> passed[] = {{PlaceKind::Kink, "kink"}, {PlaceKind::Bend, "bend"},
-                                                      {PlaceKind::Hole, "hole"}, {PlaceKind::Cusp, "cusp"},
-                                                      {PlaceKind::Fold, "fold"}, {PlaceKind::Standstill, "standstill"}};
-  const std::pair<PlaceKind, const char*> stopped[] = {
-      {PlaceKind::Jump, "jump"}, {PlaceKind::Pole, "pole"}, {PlaceKind::End, "end"}, {PlaceKind::Spike, "spike"}};
-  for (const auto& [kind, name] : passed) EXPECT_TRUE(isPassed(kind) && std::string(nameOf(kind)) == name) << name;
-  for (const auto& [kind, name] : stopped) EXPECT_TRUE(!isPassed(kind) && std::string(nameOf(kind)) == name) << name;
-}
-
 std::shared_ptr<const SurfaceBranches> branchesOf(const std::string& z, const std::string& x = "u/10") {
   return computeBranches(makeConstraint({.name = {}, .curve = {}, .surface = {x, "v/10", z}, .shape = {}}));
 }

@@ -91,17 +91,6 @@ TEST_F(ForceDimension, AForceThatIsNotRenewedIsTakenBack) {
   EXPECT_TRUE(until([&] { return fakeDhd().force[1] == 0; })) << "the tick hangs: the I/O thread says zero";
 }
 
-TEST_F(ForceDimension, OneErrorIsPassedOverManyAreALoss) {
-  const auto device = open();
-  fakeDhd().failOnce = 7;
-  EXPECT_TRUE(newest(*device).valid);
-  fakeDhd().error = 2;
-  ASSERT_TRUE(until([&] { return !device->read().valid; }));
-  EXPECT_EQ(device->health(), haptics::DeviceHealth::Lost);
-  fakeDhd().error = 0;
-  EXPECT_TRUE(until([&] { return device->read().valid; })) << "back again";
-}
-
 TEST_F(ForceDimension, AnErrorAtEachCallIsARefusalOrPassesAndNothingIsLeftOpen) {
   for (int calls = 0; calls < 20; ++calls) {
     test::resetFakeDhd();
@@ -164,18 +153,6 @@ TEST_F(ForceDimension, TheSameSampleAgainIsNoReport) {
   const std::uint64_t seen = device->read().reports;
   ASSERT_TRUE(until([&] { return fakeDhd().forces > told + 20; })) << "forces go on";
   EXPECT_EQ(device->read().reports, seen) << "a place that is believed for as long as the guard lasts";
-}
-
-TEST_F(ForceDimension, ClosingLeavesNoForce) {
-  auto device = open();
-  ASSERT_TRUE(until([&] {
-    device->write({1, 0, 0});
-    return fakeDhd().force[1] == 1;
-  }));
-  device.reset();
-  EXPECT_EQ(fakeDhd().force[1], 0);
-  EXPECT_FALSE(fakeDhd().open);
-  EXPECT_FALSE(fakeDhd().forceOn);
 }
 
 TEST_F(ForceDimension, GivesItsOwnVelocityWhereItIsAskedFor) {
@@ -303,14 +280,6 @@ class TwoForceDimensions : public ForceDimension {
   TwoForceDimensions() { test::fakeDhdCount() = 2; }
 };
 
-TEST_F(TwoForceDimensions, AreListedEachByItsName) {
-  const auto rows = findDriver("forcedimension")->find(*findDriver("forcedimension"));
-  ASSERT_EQ(rows.size(), 2u);
-  EXPECT_EQ(rows[0].name, "forcedimension:0");
-  EXPECT_EQ(rows[1].name, "forcedimension:1");
-  EXPECT_NE(rows[0].description, rows[1].description) << "by their serial numbers";
-}
-
 TEST_F(TwoForceDimensions, AreTwoHandsEachWithItsPlaceAndForce) {
   experiment = experiment::readExperiment("chain-two-hands");
   fakeDhd(0).position[1] = 0.01, fakeDhd(1).position[1] = 0.02;
@@ -348,12 +317,6 @@ TEST_F(TwoForceDimensions, OneTwiceIsRefusedBeforeItIsOpened) {
     EXPECT_THROW(open(twice), FaultError) << twice;
   EXPECT_EQ(fakeDhd(1).forces, 0);
   EXPECT_NO_THROW(open("virtual:omni + virtual:omni")) << "there are as many as are asked for";
-}
-
-TEST_F(ForceDimension, AWrongIndexIsAWrongArgument) {
-  EXPECT_THROW(open("forcedimension:x"), FaultError);
-  EXPECT_THROW(open("forcedimension:0,colour=red"), FaultError);
-  EXPECT_THROW(open("forcedimension:7"), ResourceError);
 }
 
 }  // namespace

@@ -287,13 +287,6 @@ TEST_F(HaplyOverALine, GoneItIsLostInItsOwnWordsAndClosedItIsToldZero) {
   EXPECT_EQ(device.exchange(wish, sample), Exchange::Lost);
 }
 
-TEST_F(HaplyOverALine, AGripThatIsNotThereIsRefused) {
-  HaplyInverse3::Options options;
-  options.grip = "9";
-  line->waiting = {stateAt(0)};
-  EXPECT_EQ(refusalOf(options), "the Inverse service has no VerseGrip 9; there is: none");
-}
-
 TEST(Haply, GivesItsPlaceAndGetsItsForceInItsOwnAxes) {
   for (const auto speaks : {FakeHaply::Speaks::AnswersOnly, FakeHaply::Speaks::GreetsFirst}) {
     FakeHaply service(speaks);
@@ -315,28 +308,6 @@ TEST(Haply, GivesItsPlaceAndGetsItsForceInItsOwnAxes) {
   }
 }
 
-TEST(Haply, ItsLastWordIsZero) {
-  FakeHaply service;
-  {
-    const auto device = open(service);
-    ASSERT_TRUE(until([&] {
-      device->write({0, 0, 1});
-      return norm(service.lastForce()) > 0;
-    }));
-  }
-  EXPECT_TRUE(until([&] { return service.lastForce() == Vec3{}; }));
-}
-
-TEST(Haply, AServiceThatEndsIsALossWithASentence) {
-  FakeHaply service;
-  const auto device = open(service);
-  ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
-  service.end();
-  ASSERT_TRUE(until([&] { return !device->read().valid; }));
-  EXPECT_EQ(device->health(), haptics::DeviceHealth::Lost);
-  EXPECT_FALSE(device->healthText().empty());
-}
-
 TEST(WebSocketLink, WhatCannotBeSentIsALossThoughNobodyListens) {
   FakeHaply service;
   const auto link = openWebSocket("127.0.0.1", service.port());
@@ -346,17 +317,6 @@ TEST(WebSocketLink, WhatCannotBeSentIsALossThoughNobodyListens) {
   EXPECT_NE(link->fault(), "");
 }
 
-TEST(Haply, AnUnpluggedDeviceIsLostThoughItsServiceAnswersAndComesBack) {
-  FakeHaply service;
-  const auto device = open(service);
-  ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
-  service.setPlugged(false);
-  ASSERT_TRUE(until([&] { return !device->read().valid; }));
-  EXPECT_NE(device->healthText().find("049D"), std::string::npos) << device->healthText();
-  service.setPlugged(true);
-  EXPECT_TRUE(until([&] { return device->read().valid; }));
-}
-
 TEST(LiveDevice, SaysThatItsDeviceIsLostAndOtherwiseNothing) {
   FakeHaply service;
   LiveDevice live(fmt::format("haply:port={}", service.port()), experiment::CompiledExperiment(experiment::readExperiment("chain-slow")));
@@ -364,29 +324,6 @@ TEST(LiveDevice, SaysThatItsDeviceIsLostAndOtherwiseNothing) {
   EXPECT_EQ(live.look().fault, "");
   service.setPlugged(false);
   EXPECT_TRUE(until([&] { return live.look().fault.find("is lost") != std::string::npos; })) << live.look().fault;
-}
-
-TEST(Haply, ASentenceOfGarbageIsPassedOverAndMuchOfItIsALoss) {
-  FakeHaply service;
-  const auto device = open(service);
-  ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
-  service.garbles = true;
-  ASSERT_TRUE(until([&] { return !device->read().valid; }));
-  EXPECT_NE(device->healthText().find("cannot be understood"), std::string::npos) << device->healthText();
-}
-
-TEST(Haply, AServiceThatFallsSilentGivesNoNewReportAndHoldsNothingUp) {
-  FakeHaply service;
-  const auto device = open(service);
-  ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
-  service.silent = true;
-  std::uint64_t reports = 0;
-  until([&] { return std::exchange(reports, device->read().reports) == device->read().reports; });
-  const std::uint64_t forces = service.forces();
-  ASSERT_TRUE(until([&] { return service.forces() > forces + 2; })) << "it goes on being told";
-  EXPECT_LE(device->read().reports, reports + 1);
-  service.silent = false;
-  EXPECT_TRUE(until([&] { return device->read().reports > reports + 5; }));
 }
 
 TEST(Haply, TwoAtOneServiceAreTwoHandsEachWithItsPlaceForceAndGrip) {

@@ -218,13 +218,6 @@ TEST_F(HidDevices, AnArmIsCalibratedAtItsStartWhereItIsAskedFor) {
   }
 }
 
-TEST_F(HidDevices, AnOlderArmHasReportsOfFourteenBytes) {
-  test::resetFakeHids({mbed()});
-  const auto device = make("hid");
-  EXPECT_TRUE(until([&] { return device->read().reports > 3; }));
-  EXPECT_EQ(written().at(0).size(), 15u);
-}
-
 TEST_F(HidDevices, AnArmThatComesBackIsTakenUpAgainByItsName) {
   test::resetFakeHids({teensy()});
   const auto device = make("hid:A1");

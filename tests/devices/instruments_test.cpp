@@ -188,19 +188,6 @@ TEST_F(Triggers, WhatHappenedIsFoundAtTheTicksThatTheRecordingHasItAt) {
   EXPECT_TRUE(link->takeWarnings().empty());
 }
 
-TEST_F(Triggers, AnInstrumentThatFailsIsLeftOutWithAWord) {
-  std::vector<std::unique_ptr<Instrument>> instruments;
-  instruments.push_back(openParallelPort("first", "/dev/parport0", {}, kFakeCalls));
-  const auto link = linkInstruments(std::move(instruments));
-  port.error = EIO;
-  const auto events = eventsOf(*link, 2);
-  ASSERT_EQ(events.size(), 1u);
-  EXPECT_EQ(events[0].text, "first lost: /dev/parport0: Input/output error");
-  const auto warnings = link->takeWarnings();
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_EQ(warnings[0], "instrument first is lost: /dev/parport0: Input/output error; what follows is recorded without it");
-}
-
 // Bytes through a pseudo-terminal. What the offsets are on this machine is printed; they are judged only against being none or nonsense.
 TEST_F(Triggers, BytesComeOutOfALineAndGoIn) {
   int wire = -1, slave = -1;
@@ -483,30 +470,6 @@ TEST_F(Triggers, APulseIsAsLongAsItWasAskedFor) {
   lines->look(after + 500'000'000, notes_);
   lines->end(notes_);
   EXPECT_EQ(port.controls.size(), controls) << "down once";
-}
-
-TEST_F(Triggers, ASerialPortsInputsAreABitALine) {
-  const auto lines = openSerialLines("rts", "/dev/ttyS0", {}, kFakeCalls);
-  std::vector<double> told;
-  for (const int inputs : {0, TIOCM_DSR, TIOCM_DSR | TIOCM_CTS, TIOCM_CTS, TIOCM_CAR}) {
-    port.lines = inputs;
-    notes_.clear();
-    lines->look(1, notes_);
-    told.push_back(notes_.empty() ? -1 : notes_[0].value);
-  }
-  EXPECT_EQ(told, (std::vector<double>{-1, 2, 3, 1, 0}));
-}
-
-TEST_F(Triggers, NothingIsNotedBeforeTheFirstLook) {
-  port.status = 0x10;
-  const auto lines = openParallelPort("parallel", "/dev/parport0", {}, kFakeCalls);
-  lines->look(1, notes_);
-  EXPECT_TRUE(notes_.empty()) << "what it was at first is no change";
-  port.status = 0;
-  lines->look(2, notes_);
-  ASSERT_EQ(notes_.size(), 1u);
-  EXPECT_EQ(notes_[0].text, "in");
-  EXPECT_EQ(notes_[0].value, 0);
 }
 
 TEST(OpenInstruments, NumbersAreBoundedAndNamesAreWhatWasAskedFor) {

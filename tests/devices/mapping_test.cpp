@@ -203,14 +203,6 @@ TEST(Mapping, OneThatCannotBeSavedIsSaid) {
   EXPECT_EQ(mappingFile("/data", "03", "phantom"), "/data/sourcedata/mappings/sub-03_phantom.json");
 }
 
-TEST(Mapping, ATurnedHandleTurnsInTheWorld) {
-  Guarded guarded(mapped({1, {}, {0, 0, std::numbers::pi / 2}, false}));
-  guarded.inner->sample.hasOrientation = true;  // not turned
-  const auto q = guarded.device->read().orientation;
-  EXPECT_NEAR(q[0], std::sqrt(0.5), 1e-15);
-  EXPECT_NEAR(q[3], std::sqrt(0.5), 1e-15);
-}
-
 TEST(Mapping, IsReadBackAsItWasSaved) {
   const auto folder = std::filesystem::temp_directory_path() / ("reach-mapping-" + std::to_string(::getpid()));
   const std::string file = mappingFile(folder.string(), "03", "phantom");
@@ -338,20 +330,6 @@ TEST(HandOptions, AWallNeedsAWorkspaceOrARadius) {
   auto own = std::make_unique<Unknown>();
   const haptics::HapticDevice* const inner = own.get();
   EXPECT_EQ(guardDevice(std::move(own), {}).get(), inner) << "nothing asked for: itself";
-}
-
-TEST(DeadManButton, TheLastIsTheThirtySecond) {
-  HandOptions options;
-  options.deadManButton = 32;
-  Guarded guarded(options);
-  guarded.inner->sample.buttons = 0x7FFFFFFF;
-  EXPECT_TRUE(guarded.device->read().released);
-  guarded.inner->sample.buttons = 0x80000000;
-  EXPECT_FALSE(guarded.device->read().released);
-  options.deadManButton = 0;
-  options.speedLimit = 1;
-  Guarded without(options);
-  EXPECT_FALSE(without.device->read().released) << "none is asked for";
 }
 
 /// A dataset of its own.

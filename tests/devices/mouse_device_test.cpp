@@ -32,17 +32,6 @@ TEST(MouseDevice, IgnoresWhatIsNotAPlace) {
   for (int i = 0; i < 100; ++i, clockNs += 1'000'000) EXPECT_EQ(mouse.read().position, Vec3{});
 }
 
-TEST(MouseDevice, ArrivesWhereThePointerStopped) {
-  clockNs = 1'000'000'000;
-  MouseDevice mouse({}, now);
-  for (int i = 0; i < 50; ++i) {
-    mouse.point({0.001 * i, 0, 0}, now());
-    for (int k = 0; k < 8; ++k, clockNs += 1'000'000) mouse.read();
-  }
-  for (int i = 0; i < 300; ++i, clockNs += 1'000'000) mouse.read();
-  EXPECT_NEAR(mouse.read().position.x, 0.049, 1e-9);
-}
-
 TEST(MouseDevice, TakesPlacesFromAnotherThreadWhole) {
   MouseDevice mouse({});
   std::jthread window([&] {

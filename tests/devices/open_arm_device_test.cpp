@@ -277,11 +277,6 @@ TEST_F(OpenArmOverAPort, BeforeItsLastWordItHasItsTurn) {
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost);
 }
 
-TEST(FirmwareFault, FourteenBytesAreEnough) {
-  EXPECT_EQ(firmwareFault(14), "");
-  EXPECT_NE(firmwareFault(13).find("sends reports of 13 bytes, and 14 are needed"), std::string::npos);
-}
-
 // 1,000 seeded runs of everything a wire can do: garbage, gaps, short reads, jumps, absurd forces, unplugging. No current beyond the
 // limit, none that turns round, and nothing but zero when nothing was read.
 TEST_F(OpenArmOverAPort, NoFaultOfTheWireGivesACurrentBeyondTheLimit) {

@@ -123,18 +123,6 @@ TEST(OpenSerialArm, CurrentsBeyondTheLimitKeepTheForcesDirection) {
   for (int i = 0; i < 3; ++i) EXPECT_NEAR(held[i] / free[i], held[0] / free[0], 1e-12);
 }
 
-TEST(OpenSerialArm, CurrentsWithinTheLimitAreTheForces) {
-  const ArmModel& model = *findArmModel("polhem_v1");
-  const auto angles = anglesAt(model, {0.01, 0.02, -0.01});
-  const auto free = motorCurrents(model, angles, {3, -2, 1}, 1e9);
-  double most = 0;
-  for (const double i : free) most = std::max(most, std::abs(i));
-  EXPECT_EQ(motorCurrents(model, angles, {3, -2, 1}, 1.001 * most), free);
-  // The work of the motors is that of the joints: I kt r s = tau.
-  const auto torque = jointTorques(model, angles, {3, -2, 1});
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(-free[i] * model.torqueConstant[i] * model.body[i] / model.capstan[i], torque[i], 1e-14);
-}
-
 // The elbow is on the user's side of the line from the shoulder to the handle, as in the workspace: the upper arm leans less than it.
 TEST(OpenSerialArm, TheElbowLiesAsInTheWorkspace) {
   for (const ArmModel& model : armModels()) {

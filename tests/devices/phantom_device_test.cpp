@@ -137,49 +137,6 @@ TEST_F(Phantom, ADeviceThatIsNotConfiguredIsRefusedByItsName) {
   EXPECT_NE(said.find("phantom:Nowhere"), std::string::npos) << said;
 }
 
-TEST_F(Phantom, WithoutItsLargestForceItIsNotDriven) {
-  fakeHd().maxForce = 0;
-  EXPECT_NE(refusal().find("largest force"), std::string::npos);
-}
-
-TEST_F(Phantom, ItIsCalibratedWhereThatNeedsNoHandsAndElseRefused) {
-  fakeHd().calibration = 0x5001;
-  EXPECT_EQ(refusal(), "");
-  fakeHd().calibration = 0x5002;
-  EXPECT_NE(refusal().find("inkwell"), std::string::npos);
-}
-
-TEST_F(Phantom, LostCommunicationTakesTheForceForGood) {
-  PhantomDevice device({});
-  Ticks ticks{&device, 0, {1, 0, 0}, {}};
-  device.startClock(tick, &ticks);
-  test::stepFakeHd();
-  ASSERT_EQ(feltAlongX(), 1);
-  fakeHd().failures["hdEndFrame"] = 0x0302;
-  test::stepFakeHd();
-  for (int i = 0; i < 20; ++i) {
-    test::stepFakeHd();
-    EXPECT_EQ(feltAlongX(), 0);
-    EXPECT_FALSE(ticks.sample.valid);
-  }
-  EXPECT_EQ(device.health(), haptics::DeviceHealth::Lost);
-  EXPECT_NE(device.healthText().find("HD_COMM_ERROR"), std::string::npos);
-}
-
-TEST_F(Phantom, AForceErrorIsAFaultOfTheDevice) {
-  for (const std::uint32_t error : {0x0201u, 0x0202u, 0x0203u, 0x0204u, 0x0402u}) {
-    test::resetFakeHd();
-    PhantomDevice device({});
-    Ticks ticks{&device, 0, {1, 0, 0}, {}};
-    device.startClock(tick, &ticks);
-    fakeHd().failures["hdSetDoublev"] = error;
-    test::stepFakeHd();
-    test::stepFakeHd();
-    EXPECT_EQ(device.health(), haptics::DeviceHealth::Failed) << std::hex << error;
-    EXPECT_EQ(feltAlongX(), 0);
-  }
-}
-
 // Whatever a call of a frame leaves as its error: no force that was not asked for, none at all once the device is lost or failed, the rules kept.
 TEST_F(Phantom, AnErrorAtEachCallOfAFrameNeverLeavesAForceThatNobodyAskedFor) {
   for (const char* call : {"hdBeginFrame", "hdGetDoublev", "hdSetDoublev", "hdEndFrame"})

@@ -365,38 +365,6 @@ TEST(Polhem, GivesItsPlaceAndGetsItsForce) {
   EXPECT_EQ(firmware.bitten, 0) << "by us, long before its own watchdog";
 }
 
-TEST(Polhem, GarbageIsPassedOverAndItsReportsStop) {
-  Firmware firmware;
-  const auto device = open(firmware);
-  ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
-  firmware.garbles = true;
-  const int heard = firmware.lines;
-  ASSERT_TRUE(until([&] { return firmware.lines > heard + 5; })) << "it goes on being asked";
-  firmware.garbles = false;
-  const std::uint64_t reports = device->read().reports;
-  EXPECT_TRUE(until([&] { return device->read().reports > reports + 5; }));
-  EXPECT_LT(norm(device->read().position - Vec3{-0.01, 0.04, 0.025}), 1e-12);
-}
-
-TEST(Polhem, SilentForHalfASecondItIsLostAndComesBack) {
-  Firmware firmware;
-  const auto device = open(firmware);
-  ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
-  firmware.silent = true;
-  ASSERT_TRUE(until([&] { return !device->read().valid; }));
-  EXPECT_NE(device->healthText().find("does not answer"), std::string::npos) << device->healthText();
-  firmware.silent = false;
-  EXPECT_TRUE(until([&] { return device->read().valid; }));
-}
-
-TEST(Polhem, UnpluggedItIsLost) {
-  Firmware firmware;
-  const auto device = open(firmware);
-  ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
-  firmware.unplug();
-  EXPECT_TRUE(until([&] { return !device->read().valid; }));
-}
-
 TEST(Polhem, AnArmThatNeverReportsIsRefusedAndNamedADeviceOnce) {
   Firmware firmware;
   firmware.silent = true;

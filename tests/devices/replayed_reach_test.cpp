@@ -71,19 +71,6 @@ TEST(ReplayedReach, LaysTheFarthestSampleOnTheTarget) {
   }
 }
 
-TEST(ReplayedReach, RestsForThreeTenthsAndJoinsWithoutAJump) {
-  const subjects::PlayedReach played = layOnto(curvedReach(), {-0.1, 0, 0}, {0.1, 0, 0});
-  for (int tick = 0; tick <= 300; ++tick) EXPECT_NEAR(norm(played.position[tick] - Vec3{-0.1, 0, 0}), 0, 1e-15);
-  for (std::size_t i = 300; i + 1 < played.position.size(); ++i)
-    EXPECT_LT(norm(played.position[i + 1] - played.position[i]), 1e-3) << "below 1 m/s at tick " << i;
-}
-
-TEST(ReplayedReach, DoesNotScaleTime) {
-  const RecordedReach reach = readReach(kReaches + "/reach-00.csv");
-  const subjects::PlayedReach played = layOnto(reach, {-0.1, 0, 0}, {0.1, 0, 0});
-  EXPECT_NEAR(static_cast<double>(played.position.size() - 1), 300 + 1000 * (reach.time.back() - reach.time.front()), 1);
-}
-
 TEST(ReplayedReach, AllHumanReachesStartAtTheStartAndPassTheTarget) {
   int files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(kReaches)) {
@@ -95,13 +82,6 @@ TEST(ReplayedReach, AllHumanReachesStartAtTheStartAndPassTheTarget) {
     EXPECT_LT(nearest, 1e-3) << entry.path();  // the sample lies between two ticks
   }
   EXPECT_EQ(files, 19);
-}
-
-TEST(ReplayedReach, ALostDirectionIsTurnedByHalfATurn) {
-  RecordedReach reach{"back.csv", {0, 0.5, 1}, {{0, 0, 0}, {-0.2, 0.05, 0}, {-0.4, 0, 0}}};
-  const subjects::PlayedReach played = layOnto(reach, {-0.1, 0, 0}, {0.1, 0, 0});
-  EXPECT_NEAR(norm(played.position.back() - Vec3{0.1, 0, 0}), 0, 1e-12) << "rounding";
-  for (const Vec3& p : played.position) EXPECT_TRUE(isFinite(p));
 }
 
 TEST_F(Files, AFolderIsPlayedInNameOrderAndFromTheFirstAgain) {

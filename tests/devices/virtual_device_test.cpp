@@ -37,15 +37,6 @@ DeviceModel frictionless() {
   return model;
 }
 
-TEST(VirtualDevice, AHeldHandleGivesWayToAForceAsItsStiffnessSays) {
-  VirtualDevice device(frictionless(), {.hand = {1, 300, 30}, .quantised = false}, std::make_unique<StillHand>());
-  for (int i = 0; i < 5000; ++i) {
-    device.write({3, 0, 0});
-    device.read();
-  }
-  EXPECT_NEAR(device.truePlace().x, 3.0 / 300, 1e-9) << "F/k at rest";
-}
-
 TEST(VirtualDevice, TellsTheMassAndTheFrictionThatItMovesWith) {
   DeviceModel model = *findDeviceModel("premium15");
   model.mass = 0.11, model.friction = 0.12, model.viscosity = 0.13;
@@ -53,45 +44,6 @@ TEST(VirtualDevice, TellsTheMassAndTheFrictionThatItMovesWith) {
   EXPECT_EQ(info.apparentMass, 0.11);
   EXPECT_EQ(info.coulombFriction, 0.12);
   EXPECT_EQ(info.viscosity, 0.13);
-}
-
-TEST(VirtualDevice, AFreeHandleGainsTheForcesImpulse) {
-  VirtualDevice device(frictionless(), {.hand = {0, 0, 0}, .quantised = false}, std::make_unique<StillHand>());
-  device.read();
-  for (int i = 0; i < 100; ++i) {
-    device.write({0.1, 0, 0});
-    device.read();
-  }
-  // a t^2/2 with a = 0.1/0.075; semi-implicit Euler at 0.1 ms is ahead by half a step: 0.1 %.
-  EXPECT_NEAR(device.truePlace().x, 0.5 * 0.1 / 0.075 * 0.01, 1.5e-3 * 0.5 * 0.1 / 0.075 * 0.01);
-}
-
-TEST(VirtualDevice, NoForceBeyondItsPeakIsFelt) {
-  VirtualDevice device(frictionless(), {.hand = {1, 300, 30}, .quantised = false}, std::make_unique<StillHand>());
-  for (int i = 0; i < 5000; ++i) {
-    device.write({0, 100, 0});
-    device.read();
-  }
-  EXPECT_NEAR(device.truePlace().y, 8.5 / 300, 1e-9);
-}
-
-TEST(VirtualDevice, CoulombFrictionHoldsASmallForce) {
-  VirtualDevice device(*findDeviceModel("omni"), {.hand = {0, 0, 0}, .quantised = false}, std::make_unique<StillHand>());
-  for (int i = 0; i < 1000; ++i) {
-    device.write({0.1, 0, 0});
-    device.read();
-  }
-  EXPECT_LT(device.truePlace().x, 1e-3) << "0.1 N against 0.26 N of friction: it creeps at less than 1 mm/s";
-}
-
-TEST(VirtualDevice, ThePlaceComesInStepsOfItsResolution) {
-  const DeviceModel& model = *findDeviceModel("omni");
-  VirtualDevice device(model, {}, std::make_unique<StillHand>());
-  for (int i = 0; i < 500; ++i) {
-    device.write({0, 0, 2});
-    const double steps = device.read().position.z / model.resolution;
-    ASSERT_NEAR(steps, std::round(steps), 1e-9);
-  }
 }
 
 TEST(VirtualDevice, ADelayedForceActsThatManyTicksLater) {
@@ -148,42 +100,6 @@ TEST(LoopStability, TheLargestStableStiffnessIsColgatesForALightBody) {
   EXPECT_NEAR(largestStableStiffness(passiveArm(0)), 1000, 10);
   EXPECT_NEAR(largestStableStiffness(passiveArm(1)), 333, 3.3);
   EXPECT_NEAR(largestStableStiffness(passiveArm(2)), 200, 2);
-}
-
-TEST(LoopStability, WhatItCallsStableDiesOutInTheSimulatedDeviceAndTheRestGrows) {
-  for (const double share : {0.8, 1.3}) {  // the simulated body's Euler steps of 0.1 ms shift the limit by some 10 %
-    DeviceModel model = frictionless();
-    model.mass = 0.1;
-    model.viscosity = 0.5;
-    model.maxForce = 1e12;  // the linear loop: nothing is clamped
-    VirtualDevice device(model, {.hand = {0, 0, 0}, .quantised = false}, std::make_unique<StillHand>());
-    const double stiffness = share * largestStableStiffness(passiveArm(0));
-    Vec3 place = device.read().position;
-    double early = 0, late = 0;
-    for (int i = 0; i < 4000; ++i) {
-      device.write(Vec3{-stiffness * place.x + (i < 5 ? 0.1 : 0.0), 0, 0});
-      place = device.read().position;
-      double& most = i < 2000 ? early : late;
-      if (i > 200) most = std::max(most, std::abs(place.x));
-    }
-    if (share < 1) EXPECT_LT(late, early);
-    else EXPECT_GT(late, early);
-  }
-}
-
-TEST(LoopStability, ThePapersCouplingIsStableOnAHeldPremium) {
-  LoopSettings s;
-  const DeviceModel& premium = *findDeviceModel("premium15");
-  s.mass = premium.mass + 0.3;
-  s.friction = premium.viscosity + 3;  // a hand adds 1 to 10 N s/m
-  for (const double stiffness : {500.0, 600.0, 800.0}) {
-    s.stiffness = stiffness;
-    EXPECT_TRUE(isStable(s)) << stiffness;
-    EXPECT_GT(passivityMargin(s), 0);
-  }
-  s.friction = 0.2;
-  s.stiffness = 600;
-  EXPECT_LT(passivityMargin(s), 0) << "let go, 600 N/m is not passive: 0.3 N s/m are needed";
 }
 
 // "Realistic … sensations are achieved when stiffness coefficients k_h exceed 500 N/m", and the paper's experiments have 600 N/m without damping.
@@ -346,14 +262,6 @@ TEST(LoopStability, ColgatesMarginIsWhatFrictionIsLeft) {
   LoopSettings s;
   s.stiffness = 800, s.damping = -0.3, s.friction = 1.2, s.period = 2e-3;
   EXPECT_NEAR(passivityMargin(s), 1.2 - 0.8 - 0.3, 1e-12);
-  const LoopSettings usual;
-  EXPECT_EQ(usual.stiffness, 600);
-  EXPECT_EQ(usual.damping, 0);
-  EXPECT_EQ(usual.mass, 0.1);
-  EXPECT_EQ(usual.friction, 0.5);
-  EXPECT_EQ(usual.handStiffness, 0);
-  EXPECT_EQ(usual.delayTicks, 0);
-  EXPECT_EQ(usual.period, 1e-3);
 }
 
 TEST(LoopStability, TheLargestStiffnessIsFoundToAThousandthOrIsTheMostThatWasAsked) {
@@ -406,12 +314,6 @@ TEST(StabilityMap, SettingsOutOfRangeGiveNothing) {
   EXPECT_EQ(rows(NAN, 1), 0u);
   EXPECT_EQ(rows(0, 1), 1u);
   EXPECT_EQ(rows(0.3, 0.1), 4u) << "the last one too, though 0.3/0.1 is less than 3";
-  const StabilityMapSettings usual;
-  EXPECT_EQ(usual.handMass, 0.3);
-  EXPECT_EQ(usual.handDampings, (std::vector<double>{0.5, 1, 3, 10}));
-  EXPECT_EQ(usual.mostDamping, 20);
-  EXPECT_EQ(usual.dampingStep, 0.25);
-  EXPECT_EQ(usual.delayTicks, 0);
 }
 
 }  // namespace

@@ -27,36 +27,6 @@ TEST(ExactPlant, AgreesWithTheClosedFormOfAMassPulledAtConstantSpeed) {
   EXPECT_NEAR(mass.r.x, -0.1 + speed - speed / w * std::sin(w), tolerance);
 }
 
-TEST(ExactPlant, TwoHalfStepsEqualOneWholeStepForAStiffDampedChain) {
-  experiment::Experiment e = makeChain(5, 0.01, 1e8, {600, 5});
-  e.object.damping.assign(4, 50);
-  const Scene whole = compileScene(e), half = compileScene(e, {"", 5e-4, 0});
-  for (const Scene* scene : {&whole, &half}) scene->plant->placeAtRest(std::array{0.0});
-  std::vector<MassState> a(5), b(5);
-  for (int i = 0; i < 1350; ++i) {
-    ASSERT_EQ(whole.plant->step(makeSegment(reachAt, i * 1e-3, 1e-3), 1e-3), StepStatus::Ok);
-    for (int j = 0; j < 2; ++j) ASSERT_EQ(half.plant->step(makeSegment(reachAt, i * 1e-3 + j * 5e-4, 5e-4), 5e-4), StepStatus::Ok);
-    whole.plant->observe(reachAt((i + 1) * 1e-3), a);
-    half.plant->observe(reachAt((i + 1) * 1e-3), b);
-    for (int m = 0; m < 5; ++m) ASSERT_NEAR(a[m].r.x, b[m].r.x, 1e-13) << "promised for any stiffness, tick " << i << " mass " << m;
-  }
-}
-
-// The same object twice: twenty equal masses go by modes; a mass that differs by its last bit in damping goes by the matrix.
-TEST(ExactPlant, ModesAndMatrixAgree) {
-  experiment::Experiment modal = makeChain(20, 0.15, 600), matrix = modal;
-  matrix.object.damping.assign(19, 0.0);
-  matrix.object.damping[3] = 1e-9;  // too little to see, enough to couple the modes
-  const Scene a = compileScene(modal), b = compileScene(matrix);
-  for (const Scene* scene : {&a, &b}) {
-    scene->plant->placeAtRest(std::array{0.0});
-    ASSERT_EQ(run(*scene->plant, reachAt, 1), StepStatus::Ok);
-  }
-  const auto ma = observed(*a.plant, reachAt(1)), mb = observed(*b.plant, reachAt(1));
-  const double tolerance = 1e-11;  // [m] what that damper does in a second
-  for (int i = 0; i < 20; ++i) EXPECT_NEAR(ma[i].r.x, mb[i].r.x, tolerance);
-}
-
 // A hand that comes as samples is a polynomial of any degree up to a cubic. From 128 masses on free modes turn in a form of their own.
 TEST(ExactPlant, ModesAndMatrixAgreeForAHandOfEveryDegree) {
   for (const int count : {20, 130}) {
@@ -128,33 +98,6 @@ TEST(ExactPlant, AChainThatNobodyHoldsKeepsItsMomentum) {
   const double before = momentum();
   ASSERT_EQ(run(*scene.plant, noHand, 1), StepStatus::Ok);
   EXPECT_NEAR(momentum() - before, 1.0, 1e-13) << "1 N for 1 s";
-}
-
-TEST(ExactPlant, ObjectForceIsTheMassesAccelerations) {
-  const Scene scene = compileScene(makeExperiment(experiment::ObjectKind::Parallel, {3, 3}, {50, 250}));
-  scene.plant->placeAtRest(std::array{0.0});
-  ASSERT_EQ(run(*scene.plant, reachAt, 0.7), StepStatus::Ok);
-  const auto masses = observed(*scene.plant, reachAt(0.7));
-  EXPECT_NEAR(scene.plant->couplingForce(reachAt(0.7)).x, 3 * masses[0].a.x + 3 * masses[1].a.x, 1e-13);
-}
-
-// With every damper that there is and a force from outside; the difference over two steps of 0.1 ms errs by their square.
-TEST(ExactPlant, AccelerationsAreTheRatesOfTheVelocities) {
-  experiment::Experiment e = makeChain(3, 0.6, 600, {600, 3});
-  e.object.damping = {20, 50};
-  e.object.viscosity = 0.5;
-  constexpr double kStep = 1e-4;
-  const Scene scene = compileScene(e, {"exact", kStep, 0});
-  scene.plant->placeAtRest(std::array{0.0});
-  scene.plant->setExtraForce({2, 0, 0});
-  std::array<std::vector<MassState>, 3> at;
-  int step = 0;
-  for (auto& masses : at) {
-    for (const int until = step == 0 ? 3000 : step + 1; step < until; ++step)
-      ASSERT_EQ(scene.plant->step(makeSegment(reachAt, step * kStep, kStep), kStep), StepStatus::Ok);
-    masses = observed(*scene.plant, reachAt(step * kStep));
-  }
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(at[1][i].a.x, (at[2][i].v.x - at[0][i].v.x) / (2 * kStep), 1e-4) << "mass " << i + 1;
 }
 
 }  // namespace

@@ -174,11 +174,5 @@ TEST(HandPath, APlantThatNeedsNoVelocityMovesTheSameToTheBitWithoutIt) {
     }
 }
 
-TEST(HandSegment, PartIsTheSamePolynomial) {
-  const HandSegment whole = makeSegment(reachAt, 0.5, 0.01), later = part(whole, 0.25, 0.75);
-  for (const double s : {0.0, 0.3, 1.0})
-    EXPECT_NEAR(sampleAt(later, s).position.x, reachAt(0.5 + 0.01 * (0.25 + 0.5 * s)).position.x, 1e-15);
-}
-
 }  // namespace
 }  // namespace reachlab::dynamics

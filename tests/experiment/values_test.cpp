@@ -276,53 +276,5 @@ const std::string kFull = R"({ "schema_version": 1, "name": "full", "description
            "joint_damping_n_m_s_per_rad": [0.39, 0.41], "shoulder_m": [0.42, 0.43], "elbow_left": true },
   "subject_screen": { "semaphore": false, "target": false, "masses": false, "words": false, "score": true, "photodiode": true } })";
 
-TEST(ExperimentFile, EveryKeyGoesToItsPlace) {
-  const Experiment e = parseExperiment(kFull, "x.json");
-  EXPECT_EQ(e.name, "full");
-  EXPECT_EQ(e.constraint.shape.at("length_m"), 0.3);
-  EXPECT_EQ(e.object.damping, (std::vector<double>{0.1, 0.2}));
-  EXPECT_EQ(e.object.viscosity, 0.3);
-  EXPECT_EQ(e.object.gravity, (Vec3{0.4, -9.8, 0.5}));
-  EXPECT_EQ(e.coupling->damping, 0.6);
-  ASSERT_EQ(e.hands.size(), 4u);
-  EXPECT_EQ(e.hands[0].mass, 1);
-  EXPECT_EQ(e.hands[0].stiffness, std::vector<double>{601}) << "by the coupling";
-  EXPECT_EQ(e.hands[0].damping, std::vector<double>{0.6});
-  EXPECT_EQ(e.hands[1].mass, 3);
-  EXPECT_EQ(e.hands[1].stiffness, std::vector<double>{31});
-  EXPECT_EQ(e.hands[1].damping, std::vector<double>{0.7});
-  EXPECT_EQ(e.hands[2].mass, 0) << "all of them";
-  EXPECT_EQ(e.hands[2].stiffness, (std::vector<double>{41, 42, 43}));
-  EXPECT_EQ(e.hands[2].damping, (std::vector<double>{0, 0, 0}));
-  EXPECT_EQ(e.hands[3].damping, (std::vector<double>{4, 5, 6}));
-  EXPECT_EQ(e.task->start, std::vector<double>{0.5});
-  EXPECT_EQ(e.task->tolerance.velocity, 0.014);
-  EXPECT_EQ(e.task->onset, 0.002);
-  EXPECT_EQ(e.task->armRadius, 0.016);
-  EXPECT_EQ(e.task->timeout, 17);
-  EXPECT_EQ(e.task->rest.seconds, 0.18);
-  EXPECT_EQ(e.task->rest.speed, 0.19);
-  EXPECT_EQ(e.method, "abm");
-  EXPECT_EQ(e.handMass, 1.75);
-  EXPECT_EQ(e.forceLimit, 8);
-  EXPECT_TRUE(e.forceLimitEndsTrial);
-  EXPECT_EQ(e.timing.maxMissedTicks, 9);
-  EXPECT_EQ(e.velocityEstimator.kind, "butterworth");
-  EXPECT_EQ(e.velocityEstimator.cutoff, 55);
-  EXPECT_EQ(e.arm.mass, (std::array<double, 2>{0.35, 0.36}));
-  EXPECT_EQ(e.arm.shoulder, (std::array<double, 2>{0.42, 0.43}));
-  EXPECT_TRUE(e.arm.elbowLeft);
-  EXPECT_EQ(e.subjectScreen, (SubjectScreen{false, false, false, false, true, true}));
-  EXPECT_EQ(parseExperiment(R"({"schema_version": 1, "constraint": {"name": "line"}, "object": {"kind": "point", "masses_kg": [1]},
-                                "coupling": {"stiffness_n_per_m": 1}, "velocity_estimator": "kalman"})",
-                            "x.json")
-                .velocityEstimator.kind,
-            "kalman");
-  Experiment again = parseExperiment(toJson(e), "x.json");
-  EXPECT_EQ(toJson(again), toJson(e));
-  again.text = e.text;
-  EXPECT_TRUE(again == e) << "what is written reads back equal";
-}
-
 }  // namespace
 }  // namespace reachlab::experiment

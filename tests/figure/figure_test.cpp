@@ -59,60 +59,11 @@ std::string readFile(const std::string& path) {
   return text.str();
 }
 
-TEST(NiceTicks, AreRoundInsideAndEvenlySpaced) {
-  std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> exponent(-9, 9), offset(-3, 3);
-  for (int trial = 0; trial < 500; ++trial) {
-    const double span = std::pow(10.0, exponent(random)), from = offset(random) * span, to = from + span;
-    const std::vector<double> ticks = niceTicks(from, to, 5);
-    ASSERT_GE(ticks.size(), 2u) << from << " " << to;
-    ASSERT_LE(ticks.size(), 8u);
-    const double step = ticks[1] - ticks[0];
-    const double mantissa = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
-    EXPECT_TRUE(std::abs(mantissa - 1) < 1e-6 || std::abs(mantissa - 2) < 1e-6 || std::abs(mantissa - 5) < 1e-6) << mantissa;
-    for (std::size_t i = 0; i < ticks.size(); ++i) {
-      EXPECT_GE(ticks[i], from - 1e-8 * span);
-      EXPECT_LE(ticks[i], to + 1e-8 * span);
-      EXPECT_NEAR(ticks[i] / step, std::round(ticks[i] / step), 1e-6);
-    }
-  }
-}
-
 TEST(NiceTicks, OfNoIntervalAreNone) {
   EXPECT_TRUE(niceTicks(1, 1, 5).empty());
   EXPECT_TRUE(niceTicks(2, 1, 5).empty());
   EXPECT_TRUE(niceTicks(std::nan(""), 1, 5).empty());
   EXPECT_TRUE(niceTicks(0, std::numeric_limits<double>::infinity(), 5).empty());
-}
-
-TEST(ChooseTicks, CoverTheDataAndKeepGivenEnds) {
-  Axis axis;
-  const AxisTicks linear = chooseTicks(axis, 0.013, 0.287, 150);
-  EXPECT_LE(linear.from, 0.013);
-  EXPECT_GE(linear.to, 0.287);
-  axis.from = 0.0;
-  EXPECT_EQ(chooseTicks(axis, 0.013, 0.287, 150).from, 0.0);
-  Axis log;
-  log.scale = Scale::Log;
-  const AxisTicks decades = chooseTicks(log, 3e-13, 0.2, 150);
-  EXPECT_LE(decades.from, 3e-13);
-  EXPECT_GE(decades.to, 0.2);
-  EXPECT_EQ(decades.major.front().second.substr(0, 2), "10");
-  EXPECT_GT(decades.minor.size(), 5u) << "a tick a decade";
-  EXPECT_EQ(chooseTicks(log, 1e4, 1e140, 150).minor.size(), 0u) << "a tick a point would be a bar";
-}
-
-TEST(ChooseTicks, OfNoDataOrOneValueAreStillAnAxis) {
-  const double inf = std::numeric_limits<double>::infinity();
-  for (const Scale scale : {Scale::Linear, Scale::Log}) {
-    Axis axis;
-    axis.scale = scale;
-    for (const auto& [low, high] : {std::pair{inf, -inf}, std::pair{0.2, 0.2}, std::pair{0.0, 0.0}}) {
-      const AxisTicks ticks = chooseTicks(axis, low, high, 150);
-      EXPECT_LT(ticks.from, ticks.to);
-      EXPECT_TRUE(std::isfinite(ticks.from) && std::isfinite(ticks.to));
-    }
-  }
 }
 
 TEST(Figure, IsTheSameBytesEachTime) {
@@ -168,25 +119,6 @@ TEST(Figure, WritesItsTitleInBlack) {
   EXPECT_FALSE(std::regex_search(renderSvg(figure), black)) << "nothing but a place that stays white";
   figure.title = "Chain on an ellipse";
   EXPECT_TRUE(std::regex_search(renderSvg(figure), black)) << renderSvg(figure).substr(0, 600);
-}
-
-TEST(Figure, PutsItsLegendBelowAPanelThatErrorBarsFill) {
-  const auto heightOf = [](bool bars) {
-    Figure figure;
-    Panel panel;
-    panel.y.from = 0, panel.y.to = 1;
-    Series series;
-    series.label = "mean";
-    for (int i = 0; i <= 10; ++i) {
-      series.x.push_back(i), series.y.push_back(0.5);
-      if (bars) series.errorLow.push_back(0), series.errorHigh.push_back(1);
-    }
-    panel.series = {series};
-    figure.panels = {panel};
-    const std::string svg = renderSvg(figure);
-    return std::stod(svg.substr(svg.find("height=\"") + 8));
-  };
-  EXPECT_GT(heightOf(true), heightOf(false) + 5) << "[pt]; beside the points alone it has room";
 }
 
 // The last row of subjects may be shorter than the others: no axes from -1 to 1 stand there.

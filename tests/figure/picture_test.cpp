@@ -139,16 +139,6 @@ TEST(Picture, OfLinesHasTheirWidthAndTheirGaps) {
   }
 }
 
-TEST(Picture, OfASeriesWithAHoleHasAGap) {
-  Panel panel = plain();
-  panel.series = {line({2, 5, 7, 9, 12}, {1.5, 1.5, std::nan(""), 1.5, 1.5}, kRed)};
-  const Box in = areaOf(plain());
-  const auto runs = Picture(figureOf(panel)).along(true, in.y(), kRed);
-  ASSERT_EQ(runs.size(), 2u);
-  EXPECT_NEAR(runs[0].second - in.left, 0.3 * kWide, kNear);
-  EXPECT_NEAR(runs[1].first - in.left, 0.7 * kWide, kNear);
-}
-
 TEST(Picture, OfErrorBarsReachesFromEndToEndWithCaps) {
   Panel panel = plain();
   Series s = points({6}, {1}, kRed, MarkerShape::None, 10);
@@ -337,34 +327,6 @@ TEST(Picture, OfPanelsStandsInRowsAndColumns) {
   EXPECT_NEAR(title.left, 4, 1.2);
   figure.columns = 0;
   EXPECT_NEAR(Picture(figure).find(kBlue).left, Picture(figure).find(kRed).left, kNear) << "one column at least";
-}
-
-// Bands, rules and a word are something to show, even without a title and a series.
-TEST(Picture, OfAPanelIsDrawnWhateverItHas) {
-  Panel band = plain(), rule = plain(), word = plain(), series = plain(), title = plain();
-  for (Panel* panel : {&band, &rule, &series, &title}) panel->words.clear();
-  band.bands = {area(kRed)};
-  rule.rules = {{5, true, "", kRed}};
-  word.words = {{5, 2, "H", kRed}};
-  series.series = {line({3, 4}, {1, 1}, kRed)};
-  title.title = "H";
-  for (const Panel& panel : {band, rule, word, series, title}) EXPECT_FALSE(Picture(figureOf(panel)).find(kInk).empty());
-  Panel nothing = plain();
-  nothing.words.clear();
-  EXPECT_TRUE(Picture(figureOf(nothing)).find(kInk).empty());
-}
-
-TEST(Palette, RepeatsAfterSevenColoursAndFiveMarkers) {
-  for (int i = 0; i < 7; ++i) {
-    EXPECT_EQ(palette::series(i + 7).red, palette::series(i).red);
-    for (int k = 0; k < i; ++k)
-      EXPECT_FALSE(palette::series(i).blue == palette::series(k).blue && palette::series(i).red == palette::series(k).red);
-  }
-  for (int i = 0; i < 5; ++i) {
-    EXPECT_EQ(markerOf(i + 5), markerOf(i));
-    EXPECT_NE(markerOf(i), MarkerShape::None);
-    for (int k = 0; k < i; ++k) EXPECT_NE(markerOf(i), markerOf(k));
-  }
 }
 
 }  // namespace

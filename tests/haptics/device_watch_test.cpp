@@ -235,14 +235,6 @@ TEST_F(Watch, APlaceThatIsNoNumberIsNotLookedAt) {
   EXPECT_TRUE(look({0.2, 0, 0}).valid) << "as after a loss";
 }
 
-TEST(DeviceHealth, EachHasItsName) {
-  EXPECT_EQ(nameOf(DeviceHealth::Ready), "ready");
-  EXPECT_EQ(nameOf(DeviceHealth::NeedsCalibration), "needs_calibration");
-  EXPECT_EQ(nameOf(DeviceHealth::Warm), "warm");
-  EXPECT_EQ(nameOf(DeviceHealth::Lost), "lost");
-  EXPECT_EQ(nameOf(DeviceHealth::Failed), "failed");
-}
-
 TEST(DeviceWatch, LeavesDevicesWithoutForceAlone) {
   DeviceWatch watch{DeviceInfo{}};
   DeviceSample sample;

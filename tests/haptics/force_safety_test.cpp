@@ -64,33 +64,6 @@ TEST(ForceSafety, AHugeForceIsStillTheLimit) {
   EXPECT_LE(norm(safety.limit({1e200, 1e200, 0}, true, true)), 10 + kRounding);
 }
 
-// 8.5 N peak and 1.4 N continuous, as a Premium 1.5: a steady wish for the peak is granted at first and worn down to the continuous one.
-TEST(ForceSafety, WearsThePeakDownToWhatTheMotorsStand) {
-  ForceSafety safety({8.5, 1.4, 10});
-  double first = 0, last = 0;
-  for (int tick = 0; tick < 60'000; ++tick) {
-    last = norm(safety.limit({100, 0, 0}, true, true));
-    first = std::max(first, last);
-    ASSERT_LE(safety.heat(), 1 + kRounding) << "the mean square over the time constant never exceeds the continuous force's";
-  }
-  EXPECT_NEAR(first, 8.5, kRounding);
-  EXPECT_NEAR(last, 1.4, 0.01);
-  for (int tick = 0; tick < 60'000; ++tick) safety.limit({}, true, true);
-  EXPECT_LT(safety.heat(), 0.01) << "and it cools";
-}
-
-TEST(ForceSafety, ShortPeaksAreFeltInFull) {
-  ForceSafety safety({8.5, 1.4, 10});
-  for (int trial = 0; trial < 20; ++trial)
-    for (int tick = 0; tick < 3000; ++tick) {
-      const Vec3 wish{tick < 500 ? 3.0 : 0.0, 0, 0};  // RMS 1.2 N
-      const Vec3 felt = safety.limit(wish, true, true);
-      if (tick > 250 && tick < 500) {
-        ASSERT_EQ(felt, wish);
-      }
-    }
-}
-
 // A steady force leaves h(n) = F^2 (1 - (1 - dt/tau)^n), which fades by the same factor while no force is given.
 TEST(ForceSafety, HeatFollowsItsLawUpAndDown) {
   constexpr double kContinuous = 2, kTau = 3, kForce = 1.5, kStep = 1 - 1e-3 / kTau;

@@ -29,24 +29,6 @@ TEST(PassivityObserver, SeesTheEnergyThatASampledSpringGivesAway) {
   EXPECT_NEAR(port.energy(), expected, 1e-3 * std::abs(expected)) << "the law to first order in w dt = 0.03";
 }
 
-TEST(PassivityObserver, TheControllerTakesItBack) {
-  constexpr double k = 600, amplitude = 0.01, w = 2 * M_PI * 5, dt = 1e-3;
-  double controlled = 0, left = 0;
-  for (const bool control : {true, false}) {
-    PassivityObserver port;
-    for (int i = 0; i <= 2000; ++i) {
-      const double x = amplitude * std::sin(w * i * dt), v = amplitude * w * std::cos(w * i * dt);
-      port.observe({x, 0, 0});
-      const Vec3 dissipation = control ? port.control({v, 0, 0}) : Vec3{};
-      EXPECT_LE(norm(dissipation), PassivityObserver::kMaxDissipation * std::abs(v) + 1e-12);
-      port.render(Vec3{-k * x, 0, 0} + dissipation);
-    }
-    (control ? controlled : left) = port.energy();
-  }
-  EXPECT_LT(left, -0.02);
-  EXPECT_GT(controlled, 0.1 * left) << "what is left is less than a cycle's";
-}
-
 TEST(PassivityObserver, APassiveDamperIsLeftAlone) {
   PassivityObserver port;
   for (int i = 0; i <= 500; ++i) {
@@ -85,28 +67,6 @@ TEST(GuardSettings, AreEqualWhereEveryOneIs) {
     change(other);
     EXPECT_FALSE(settings == other);
   }
-}
-
-TEST(DeviceState, EachHasItsName) {
-  EXPECT_EQ(nameOf(DeviceState::Off), "off");
-  EXPECT_EQ(nameOf(DeviceState::Homed), "homed");
-  EXPECT_EQ(nameOf(DeviceState::Armed), "armed");
-  EXPECT_EQ(nameOf(DeviceState::Engaged), "engaged");
-  EXPECT_EQ(nameOf(DeviceState::Fault), "fault");
-}
-
-TEST(Intervention, EachBitHasItsName) {
-  using namespace intervention;
-  const std::vector<std::pair<std::uint8_t, std::string_view>> all{
-      {kLimit, "limit"},          {kHeat, "heat"},         {kRamp, "ramp"}, {kSlew, "slew"}, {kWall, "wall"}, {kPassivity, "passivity"},
-      {kNotFinite, "not_finite"}, {kHeldBack, "held_back"}};
-  ASSERT_EQ(all.size(), static_cast<std::size_t>(kCount));
-  for (int bit = 0; bit < kCount; ++bit) {
-    EXPECT_EQ(all[static_cast<std::size_t>(bit)].first, 1 << bit);
-    EXPECT_EQ(nameOf(bit), all[static_cast<std::size_t>(bit)].second);
-  }
-  EXPECT_EQ(nameOf(-1), "unknown");
-  EXPECT_EQ(nameOf(kCount), "unknown");
 }
 
 TEST(PassivityObserver, CountsTheWorkOnTheHeldForceAlongEveryAxis) {

@@ -86,19 +86,6 @@ TEST(CoupledCopy, WhatIsNoNewerIsCountedAndChangesNothing) {
   EXPECT_GT(s.copy.objectEnergy(), 0);
 }
 
-TEST(CoupledCopy, TheFrequencyFollowsTheRoundTripSlowly) {
-  Station s;
-  for (int i = 0; i < 10; ++i) s.hear(0.01, 0.02), (void)s.step();
-  EXPECT_EQ(s.copy.link(0).frequency, 3) << "0.25/(0.023 s) is more";
-  for (int i = 0; i < 500; ++i) s.hear(0.01, 0.6), (void)s.step();
-  EXPECT_LT(s.copy.link(0).frequency, 3);
-  EXPECT_GT(s.copy.link(0).frequency, 3 - 0.51) << "by 1 rad/s a second at most";
-  s.copy.freeze(true);
-  const double frozen = s.copy.link(0).frequency;
-  for (int i = 0; i < 100; ++i) s.hear(0.01, 0.6), (void)s.step();
-  EXPECT_EQ(s.copy.link(0).frequency, frozen);
-}
-
 // One tick after rest a mass in the middle, which no hand holds, has the speed that its acceleration makes in a millisecond.
 TEST(CoupledCopy, IsDrawnToThePeersPlaceAndSpeedByTheDesignsLaw) {
   const auto speedAfter = [](double apart, double faster, double frequency, double roundTrip) {

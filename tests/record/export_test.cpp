@@ -112,31 +112,6 @@ TEST_F(Exported, ChannelsAreUniqueAndTheirTypesUnitsAndCountsAgree) {
   EXPECT_EQ(motion.at("SamplingFrequencyEffective"), 100);
 }
 
-TEST_F(Exported, EventsGiveOneRowATrialInOrderWithinTheRecording) {
-  const RunLog log = RunLog::open(path_);
-  const auto rows = cellsOf(textOf(eventsTsv, log), '\t');
-  const json described = json::parse(eventsJson(log));
-  ASSERT_EQ(rows.size(), 4u);
-  EXPECT_EQ(rows[0][0], "onset");
-  EXPECT_EQ(rows[0][1], "duration");
-  for (const std::string& column : rows[0])
-    if (column != "onset" && column != "duration") {
-      EXPECT_TRUE(described.contains(column)) << column;
-    }
-  EXPECT_EQ(rows[2][0], "0.325") << "the second trial's onset, 275 + 50 ticks, less the first row's zero";
-}
-
-TEST_F(Exported, TrialsCsvBeginsWithThePromisedColumns) {
-  std::vector<RunLog> runs;
-  runs.push_back(RunLog::open(path_));
-  const std::string text = textOf(trialsCsv, runs);
-  EXPECT_TRUE(text.starts_with("subject,session,run,block,trial,phase,condition,outcome,reason,mass,movement_time_s,")) << text;
-  const auto rows = cellsOf(text, ',');
-  ASSERT_EQ(rows.size(), 4u);
-  EXPECT_EQ((std::vector<std::string>(rows[2].begin(), rows[2].begin() + 10)),
-            (std::vector<std::string>{"01", "01", "1", "1", "2", "practice", "made", "failure", "velocity", "2"}));
-}
-
 TEST_F(Exported, SamplesCsvHasUniqueColumnsThatCarryTheirUnits) {
   const auto rows = cellsOf(textOf(samplesCsv, RunLog::open(path_)), ',');
   std::set<std::string> columns(rows[0].begin(), rows[0].end());
@@ -234,14 +209,6 @@ TEST_F(Exported, ScansNameTheMotionFilesThatAreThere) {
   const TsvTable scans = parseTsv(readWholeFile(out + "/sub-01/ses-01/sub-01_ses-01_scans.tsv"));
   ASSERT_EQ(scans.rows.size(), 1u);
   EXPECT_TRUE(std::filesystem::exists(out + "/sub-01/ses-01/" + scans.rows[0][0])) << scans.rows[0][0];
-}
-
-TEST(TableText, QuotesForCsvAndKeepsTsvOnOneLine) {
-  TableText csv(',', ""), tsv('\t', "n/a");
-  csv.cell("a,\"b\"").number(0.1).number(std::nan("")).endRow();
-  tsv.cell("a\tb\nc").number(0.1).number(std::nan("")).cell("").endRow();
-  EXPECT_EQ(csv.text(), "\"a,\"\"b\"\"\",0.10000000000000001,\n");
-  EXPECT_EQ(tsv.text(), "a b c\t0.1\tn/a\tn/a\n");
 }
 
 TEST_F(Exported, ARunOfNoTrialHasTablesWithoutRows) {

@@ -270,13 +270,6 @@ TEST(SampleRecord, GivesTheRowsBetweenTwoTicksBothIncluded) {
   EXPECT_EQ(copyOf(block.payload()), bytesOf(std::uint32_t{1}, std::uint32_t{2}, std::uint64_t{50}, 1.0, 2.0));
 }
 
-TEST(SampleRecord, OfAnotherTablesWidthIsRefused) {
-  const auto read = [](const Bytes& bytes) { return rowsOf(bytes, 0, 100); };
-  expectRefused(bytesOf(std::uint32_t{1}, std::uint32_t{3}, std::uint64_t{5}, 1.0, 2.0, 3.0), "sample", read);
-  expectRefused(bytesOf(std::uint32_t{2}, std::uint32_t{2}, std::uint64_t{5}, 1.0, 2.0), "sample", read);
-  expectRefused(bytesOf(std::uint32_t{0}, std::uint32_t{2}, std::uint64_t{5}, 1.0, 2.0), "sample", read);
-}
-
 TEST(EventRecord, IsTickKindTrialValueAndText) {
   const RecordedEvent event{123, EventKind::Note, 4, 0.5, "coffee"};
   ByteWriter out;
@@ -374,15 +367,6 @@ TEST(TrialRecord, MarksACatchTrialAndABrokenChannelApart) {
       EXPECT_EQ(trialOf(copyOf(out.bytes())).planned.catchTrial, isCatch);
       EXPECT_EQ(trialOf(copyOf(out.bytes())).channelBroken, broken);
     }
-}
-
-TEST(TrialRecord, OfAnotherLengthIsRefused) {
-  ByteWriter out;
-  encode(wholeTrial(), {3000, 31}, out);
-  const Bytes all = copyOf(out.bytes());
-  for (std::size_t size = 0; size < all.size(); ++size)
-    expectRefused(Bytes(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(size)), "trial", trialOf);
-  expectRefused(all + Bytes{0}, "trial", trialOf);
 }
 
 TEST(TrialRecord, HasAnOutcomeAReasonAndAnEndThatIsNotBeforeItsStart) {

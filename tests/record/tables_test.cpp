@@ -341,13 +341,6 @@ TEST_F(Tables, ATrialBetweenTwoRowsHasNoC3dFile) {
   EXPECT_EQ(writeC3d(runs, folder_ / "c3d").size(), 1u);
 }
 
-TEST_F(Tables, OfNoRunsThereIsNothingToDescribe) {
-  const std::string data = folder_ / "none";
-  EXPECT_EQ(writeInto(data, *findExporter("csv"), {}).size(), 2u) << "the empty table and its dictionary";
-  EXPECT_TRUE(writeInto(data, *findExporter("c3d"), {}).empty());
-  EXPECT_FALSE(std::filesystem::exists(data + "/derivatives/csv/dataset_description.json"));
-}
-
 // Whatever is in memory at a time, every column comes once, in order and whole.
 TEST_F(Tables, ColumnsAreTheSameHoweverFewAreReadAtATime) {
   const RunLog run = recorded();
@@ -365,65 +358,6 @@ TEST_F(Tables, ColumnsAreTheSameHoweverFewAreReadAtATime) {
         most);
     EXPECT_EQ(next, run.configuration().table.size()) << most;
   }
-}
-
-TEST_F(Tables, ATrialsRowHasEveryNumberUnderItsName) {
-  RunConfiguration c = configuration_;
-  c.run = 3, c.block = 4, c.day = 5, c.seed = 18446744073709551615ull;
-  c.participant = {31.5, "F", "L"};
-  RecordedTrial t;
-  t.trial = 7;
-  t.planned = {6, 700, true};
-  t.result = {trial::Outcome::Failure, trial::Reason::TimeLong, 2, 0.25, 1.75, 1500, 3250};
-  t.startTick = 100, t.armedTick = 200, t.goTick = 900, t.lastTick = 3251;
-  t.peakHandSpeed = 0.5, t.handPathLength = 0.75, t.peakForce = 8.5, t.meanForce = 4.5;
-  t.clampedTicks = 11, t.missedTicks = 12, t.droppedTicks = 13, t.elapsed = 2.125;
-  t.complete = false;
-  experiment::Task task;
-  task.duration = 1.35;
-  task.tolerance = {0.012, 0.02, 0.5};
-  ColumnTable table(trialColumnNames());
-  addTrial(table, c, task, t, 100);
-  const std::map<std::string, double> numbers{{"run", 3},
-                                              {"block", 4},
-                                              {"trial", 7},
-                                              {"mass", 2},
-                                              {"movement_time_s", 1.75},
-                                              {"by", 0.25},
-                                              {"day", 5},
-                                              {"order_index", 6},
-                                              {"catch_trial", 1},
-                                              {"foreperiod_s", 0.7},
-                                              {"target_time_s", 1.35},
-                                              {"position_tolerance_m", 0.012},
-                                              {"velocity_tolerance_m_per_s", 0.02},
-                                              {"time_tolerance_s", 0.5},
-                                              {"start_s", 0},
-                                              {"armed_s", 0.1},
-                                              {"go_s", 0.8},
-                                              {"task_onset_s", 1.4},
-                                              {"end_s", 3.15},
-                                              {"task_reaction_time_s", 0.6},
-                                              {"peak_hand_speed_m_per_s", 0.5},
-                                              {"hand_path_m", 0.75},
-                                              {"peak_force_n", 8.5},
-                                              {"mean_force_n", 4.5},
-                                              {"clamped_ticks", 11},
-                                              {"missed_ticks", 12},
-                                              {"dropped_samples", 13},
-                                              {"elapsed_s", 2.125},
-                                              {"complete", 0},
-                                              {"age_years", 31.5}};
-  const std::map<std::string, std::string> texts{{"subject", "01"},     {"session", "01"},      {"phase", "recorded"},
-                                                 {"condition", "made"}, {"outcome", "failure"}, {"reason", "time_long"},
-                                                 {"by_unit", "s"},      {"experiment", "made"}, {"seed", "18446744073709551615"},
-                                                 {"device", "made"},    {"sex", "F"},           {"handedness", "L"},
-                                                 {"notes", ""}};
-  EXPECT_EQ(numbers.size() + texts.size(), table.columns().size());
-  for (const auto& column : table.columns())
-    if (column.isText) EXPECT_EQ(column.texts.at(0), texts.at(column.name)) << column.name;
-    else EXPECT_EQ(column.numbers.at(0), numbers.at(column.name)) << column.name;
-  EXPECT_EQ(table.rows(), 1u);
 }
 
 TEST_F(Tables, WhatAnUnreadableExperimentAskedForIsNotKnown) {

@@ -80,43 +80,6 @@ TEST(StudyColumns, AskForNoMoreThanTheirMeasuresNeed) {
   EXPECT_EQ(needs(profiled), (Bits{true, false, false}));
 }
 
-// Every number of a trial is another: each stands under its own name.
-TEST(StudyColumns, PutEachMeasureUnderItsName) {
-  Design design;
-  design.measures = measureNames();
-  design.criteria = {"min-hand-jerk", "min-crackle"};
-  MeasuredTrial trial;
-  trial.recorded.result = {trial::Outcome::Failure, trial::Reason::Velocity, 3, 0.5, 1.25, 1500, 2750};
-  trial.recorded.goTick = 1000, trial.recorded.clampedTicks = 17;
-  trial.recorded.peakHandSpeed = 0.6, trial.recorded.handPathLength = 0.7, trial.recorded.peakForce = 0.8, trial.recorded.meanForce = 0.9;
-  double value = 100;
-  for (const analysis::Measure& measure : analysis::measures()) trial.measures.*measure.value = ++value;
-  trial.epsilonHand = {0.01, 0.02}, trial.epsilonObject = {0.03};
-  trial.score = {-1, -2, -3, 12, 0.04};
-  const std::vector<std::string> names = namesOf(design);
-  std::vector<double> row(names.size(), -7);
-  putMeasures(design, trial, row);
-  const auto at = [&](std::string_view name) {
-    return row[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())];
-  };
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(row[i], -7) << "who it was is put by others";
-  EXPECT_EQ(at("outcome"), 2);
-  EXPECT_EQ(at("reason"), 2);
-  EXPECT_EQ(at("clamped_ticks"), 17);
-  EXPECT_EQ(at("peak_hand_speed_m_per_s"), 0.6);
-  EXPECT_EQ(at("task_reaction_time_s"), 0.5);
-  EXPECT_EQ(at("movement_time_s"), 1.25) << "of the ticks, which every study has";
-  EXPECT_EQ(at("reaction_time_s"), trial.measures.reactionTime) << "of the samples";
-  EXPECT_EQ(at("peak_speed_m_per_s"), trial.measures.peakSpeed);
-  EXPECT_EQ(at("epsilon_hand_min_crackle_m_per_s"), 0.02);
-  EXPECT_EQ(at("epsilon_object_min_hand_jerk_m_per_s"), 0.03);
-  EXPECT_TRUE(std::isnan(at("epsilon_object_min_crackle_m_per_s"))) << "none was computed";
-  EXPECT_EQ(at("score_min_crackle"), -2);
-  EXPECT_EQ(at("score_reference"), -3);
-  EXPECT_EQ(at("fit_effective_samples"), 12);
-  EXPECT_EQ(at("fit_poorness"), 0.04);
-}
-
 // Both tables hold three quantities that are the same by either way. Every other name is of one table alone.
 TEST(StudyColumns, OfOneNameAreOneQuantity) {
   std::vector<std::string_view> shared;

@@ -152,28 +152,6 @@ TEST(StudyReport, DrawsNothingFromFewerThanFive) {
   EXPECT_EQ(makeReport(madePower(five.path(), 2, 5, 10), {.studies = 2, .subjects = {}, .trials = {}}).power.size(), 2u);
 }
 
-TEST(StudyReport, WritesItsTablesAndWords) {
-  const OwnFolder folder;
-  const StudyReport report = makeReport(madePower(folder.path(), 2, 10, 12), {.studies = 20, .subjects = {5}, .trials = {10, 12}});
-  const std::vector<std::string> files = writeReport(report, folder.path() + "/out");
-  for (const std::string& file : files) EXPECT_TRUE(std::filesystem::exists(file)) << file;
-  const std::string out = folder.path() + "/out/";
-  for (const char* name : {"success.csv", "learning.csv", "confusion.csv", "power.csv", "smallest.csv", "success.svg", "learning.pdf",
-                           "confusion.svg", "power.pdf", "report.md"})
-    EXPECT_NE(std::find(files.begin(), files.end(), out + name), files.end()) << name;
-  EXPECT_EQ(lineWith(out + "power.csv", "min-hand-jerk"), "min-hand-jerk,,5,10,20,20,0,100");
-  EXPECT_EQ(lineWith(out + "smallest.csv", "min-crackle"), "min-crackle,,80,5,10");
-  EXPECT_EQ(lineWith(out + "confusion.csv", ",5,12,min-crackle,min-crackle"), ",5,12,min-crackle,min-crackle,20");
-  EXPECT_EQ(lineWith(out + "confusion.csv", ",5,12,min-crackle,undecided"), ",5,12,min-crackle,undecided,0");
-  EXPECT_EQ(lineWith(out + "success.csv", "subject.criterion,min-crackle").substr(0, 43), "subject.criterion,min-crackle,120,120,100,9");
-  EXPECT_EQ(lineWith(out + "learning.csv", ",11"), lineWith(out + "learning.csv", ",11,12,40,40,100,"));
-  EXPECT_EQ(lineWith(out + "report.md", "| min-hand-jerk |  | 80"), "| min-hand-jerk |  | 80 % | 5 | 10 |");
-  EXPECT_EQ(lineWith(out + "report.md", "| min-hand-jerk | 20"), "| min-hand-jerk | 20 | 0 | 0 | 0 |");
-  EXPECT_EQ(lineWith(out + "report.md", "2 points"),
-            "2 points, 10 virtual subjects each, 240 trials in all. Virtual subjects are not people: what they show is what the analysis");
-  EXPECT_NE(record::readWholeFile(out + "power.json").find("Share of the studies that named the truth"), std::string::npos);
-}
-
 TEST(StudyReport, SaysWhereNothingReachesTheLevelAndWhatIsNoted) {
   StudyReport report;
   report.name = "n", report.points = 3, report.subjects = 4, report.trials = 50;

@@ -172,24 +172,6 @@ TEST(FeedbackSubject, PeopleAreDrawnFromTheirSeed) {
   EXPECT_NE(firstOf(1), firstOf(2));
 }
 
-// As the published five do: the logarithms of what their noise is scaled by have an SD of a quarter.
-TEST(FeedbackSubject, DrawnPeopleAreAsDifferentlyNoisyAsTheFive) {
-  const CompiledExperiment experiment = open("chain-moderate");
-  const auto spreadOf = [&](const std::function<std::string(int)>& who, int people) {
-    double sum = 0, squares = 0;
-    for (int i = 1; i <= people; ++i) {
-      std::shared_ptr<void> learnt;
-      (void)prepareFeedbackSubjects(experiment, parseFeedbackSubject("kind=ofc,subject=" + who(i)))(static_cast<std::uint64_t>(i), 0,
-                                                                                                    learnt);
-      const double scale = std::log(std::static_pointer_cast<SubjectState>(learnt)->person.noiseScale);
-      sum += scale, squares += scale * scale;
-    }
-    return std::sqrt((squares - sum * sum / people) / (people - 1));
-  };
-  const double ofFive = spreadOf([](int i) { return std::to_string(i); }, 5), ofDrawn = spreadOf([](int) { return "drawn"; }, 60);
-  EXPECT_NEAR(ofDrawn / ofFive, 1, 0.25) << ofDrawn << " " << ofFive;
-}
-
 TEST(FeedbackSubject, StandsAtTheStartBeforeItIsToldTo) {
   const CompiledExperiment experiment = open("chain-moderate");
   const auto hand = devices::makeDevice("simulated:kind=ofc", experiment, 1);

@@ -185,24 +185,6 @@ TEST(SimulatedHand, SaysWhatItDoesNotUnderstand) {
   EXPECT_THROW(devices::makeDevice("mouse", experiment, 1), ResourceError);
 }
 
-// A mass on a spring, m x'' = F + k (p - x): pushed by F from rest it is at 2 F/k half a period later, and back again after a whole one.
-TEST(PartnerHand, OfTheStubbornSwingsWithThePeriodOfItsMassOnItsArm) {
-  const auto hand = devices::makeDevice("partner:stubborn,hand-mass=2,arm-stiffness=200,arm-damping=0", experiment::readExperiment("chain-slow"), 1);
-  hand->cue(haptics::Cue::Place);
-  const double start = hand->read().position.x;
-  const int half = 314;  // [ms] pi sqrt(2/200)
-  double far = 0;
-  for (int i = 0; i < 2 * half; ++i) {
-    hand->write({3, 0, 0});
-    const double x = hand->read().position.x - start;
-    if (i == half - 1) far = x;
-    if (i == 2 * half - 1) {
-      EXPECT_NEAR(x, 0, 1e-4);
-    }
-  }
-  EXPECT_NEAR(far, 2 * 3 / 200.0, 1e-4);
-}
-
 // The same body with a damper: x = F/k (1 - e^{-dt}(cos wt + d/w sin wt)), d = b/2m, w^2 = k/m - d^2; on every axis alike.
 TEST(PartnerHand, OfTheStubbornIsADampedMassOnItsArm) {
   const experiment::Experiment experiment = experiment::readExperiment("free-point");
