@@ -5,12 +5,12 @@
 
 namespace reachlab {
 
-/// The sentence with which `work` is refused; empty: it was done.
+/// The sentence with which `work` is refused, or `done` where it was not.
 template <class Work>
-std::string refusalOf(const Work& work) {
+std::string refusalOf(const Work& work, const std::string& done = {}) {
   try {
     work();
-    return {};
+    return done;
   } catch (const Error& refusal) {
     return refusal.what();
   }

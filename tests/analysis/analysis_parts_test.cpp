@@ -12,6 +12,7 @@
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "tests/analysis/made_analysis.h"
+#include "tests/refusal.h"
 
 // What a study is made of, each by itself: counts, options, differences, candidates, signals of predictions, recovery.
 namespace reachlab::analysis {
@@ -60,12 +61,7 @@ TEST(AnalysisOptions, AreRefusedJustOutsideTheirBounds) {
   const auto refusal = [](const std::function<void(AnalysisOptions&)>& change) -> std::string {
     AnalysisOptions options;
     change(options);
-    try {
-      AnalysisBuilder builder(options);
-    } catch (const FaultError& e) {
-      return e.what();
-    }
-    return "";
+    return refusalOf([&] { AnalysisBuilder builder(options); });
   };
   using O = AnalysisOptions;
   EXPECT_EQ(refusal([](O&) {}), "");

@@ -5,6 +5,7 @@
 
 #include "base/c3d_file.h"
 #include "base/error.h"
+#include "tests/refusal.h"
 
 /// The bytes of a C3D file, laid out here by hand after the format's guide (c3d.org): the writer is held against them, and the reader reads
 /// those that the writer never makes.
@@ -129,12 +130,7 @@ TEST(C3dFormat, HoldsSoManyAndNoMore) {
     file.points.resize(points);
     file.analogs.resize(signals);
     file.frames = frames;
-    try {
-      (void)c3dBytes(file);
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+    return reachlab::refusalOf([&] { (void)c3dBytes(file); });
   };
   const std::string counts = "a C3D file holds 65535 points and channels, and 2147483647 frames at most";
   EXPECT_EQ(refusal(65'536, 0, 0), counts);
@@ -162,12 +158,7 @@ struct Made {
   }
   C3dFile read() const { return readC3d(bytes(), "made"); }
   std::string refusal() const {
-    try {
-      (void)read();
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
+    return reachlab::refusalOf([&] { (void)read(); });
   }
 };
 
@@ -261,14 +252,7 @@ TEST(C3dFormat, RefusesWhatEndsTooSoonAndReadsWhatJustDoesNot) {
   made.last = 33;
   EXPECT_EQ(made.refusal(), "made: says 33 frames, and has 32; allowed: a whole file");
   const std::string whole = Made{}.bytes();
-  const auto refusalOf = [](const std::string& bytes) -> std::string {
-    try {
-      (void)readC3d(bytes, "made");
-    } catch (const Error& error) {
-      return error.what();
-    }
-    return "";
-  };
+  const auto refusalOf = [](const std::string& bytes) -> std::string { return reachlab::refusalOf([&] { (void)readC3d(bytes, "made"); }); };
   EXPECT_EQ(refusalOf(whole.substr(0, 1023)), "made: ends before its parameters; allowed: a whole file");
   EXPECT_EQ(refusalOf(whole.substr(0, 1024)), "made: says 2 frames, and has 0; allowed: a whole file");
   EXPECT_EQ(refusalOf(whole.substr(0, 511)), "made: is no C3D file; allowed: a file that begins with the bytes of C3D");
@@ -288,12 +272,7 @@ TEST(C3dFormat, RefusesWhatEndsTooSoonAndReadsWhatJustDoesNot) {
 std::string refusalOfRecords(const std::string& records) {
   std::string bytes = Made{.data = ""}.bytes().substr(0, 512 + 4) + records;
   if (bytes.size() < 1024) bytes.resize(1024);
-  try {
-    (void)readC3d(bytes, "made");
-  } catch (const Error& error) {
-    return error.what();
-  }
-  return "";
+  return reachlab::refusalOf([&] { (void)readC3d(bytes, "made"); });
 }
 const char* const kReadOn = "made: says 2 frames, and has 0; allowed: a whole file";  // the parameters are fine, there are no data
 

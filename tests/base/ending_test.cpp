@@ -18,6 +18,7 @@
 #include "base/system/os.h"
 #include "base/system/processor_level.h"
 #include "base/system/stop_signals.h"
+#include "tests/refusal.h"
 
 /// What a program says last, and the number it ends with. Each ending is one of a child.
 namespace reachlab {
@@ -161,13 +162,10 @@ TEST(HelperProgram, IsLookedForBesideTheProgramThatNeedsIt) {
   namespace fs = std::filesystem;
   const std::string name = "reachlab-test-helper-" + std::to_string(::getpid());
   const fs::path own = fs::read_symlink("/proc/self/exe").parent_path();
-  try {
-    (void)findHelperProgram(name, "reach", "which helps");
-    FAIL();
-  } catch (const ResourceError& error) {
-    EXPECT_EQ(std::string(error.what()).find("reach: " + name + ", which helps, is neither " + (own / name).string() + " nor /"), 0u)
-        << error.what();
-  }
+  EXPECT_EQ(refusalOf([&] {
+              (void)findHelperProgram(name, "reach", "which helps");
+            }).find("reach: " + name + ", which helps, is neither " + (own / name).string() + " nor /"),
+            0u);
   for (const fs::path& folder : {own, own.parent_path() / "cli"}) {
     const bool made = fs::create_directories(folder);
     std::ofstream(folder / name) << "#!/bin/sh\n";

@@ -15,6 +15,7 @@
 #include "constraints/constraint.h"
 #include "constraints/geometry/arc_length.h"
 #include "constraints/regularity/places.h"
+#include "tests/refusal.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -28,12 +29,7 @@ Constraint curve(const std::vector<std::string>& formula, const std::map<std::st
   return makeConstraint({.name = {}, .curve = formula, .surface = {}, .shape = shape});
 }
 std::string refusal(const ConstraintSpec& spec) {
-  try {
-    makeConstraint(spec, "here");
-  } catch (const FaultError& e) {
-    return e.what();
-  }
-  return "accepted";
+  return refusalOf([&] { makeConstraint(spec, "here"); }, "accepted");
 }
 
 // A cusp is a double root of |r_phi|^2, which rounding blurs over the root of a double's last place.
@@ -161,17 +157,16 @@ TEST(Usable, PolesBetweenSamplePointsAreFoundWithTheirPlace) {
 // The motion over a period's end is that of the formula itself: nothing carries a mass back to the beginning.
 TEST(Usable, APeriodThatTheFormulaHasNotIsRefused) {
   const auto told = [](const std::string& kind, const std::string& formulas, const std::string& domain, const std::string& periodic) {
-    try {
-      makeConstraint(parseDefinition(R"({"schema_version": 1, "name": "made", "kind": ")" + kind + R"(", ")" + kind + R"(": [)" + formulas +
-                                         R"(], "shape": {}, "domain": )" + domain + R"(, "periodic": )" + periodic +
-                                         R"(, "at_end": "stop", "start": )" + (kind == "curve" ? "[0.1]" : "[0.1, 0.1]") +
-                                         R"(, "target": )" + (kind == "curve" ? "[0.2]" : "[0.2, 0.2]") +
-                                         R"(, "sentence": "s", "source": "s"})",
-                                     "made"));
-    } catch (const FaultError& e) {
-      return std::string(e.what());
-    }
-    return std::string("accepted");
+    return refusalOf(
+        [&] {
+          makeConstraint(parseDefinition(R"({"schema_version": 1, "name": "made", "kind": ")" + kind + R"(", ")" + kind + R"(": [)" +
+                                             formulas + R"(], "shape": {}, "domain": )" + domain + R"(, "periodic": )" + periodic +
+                                             R"(, "at_end": "stop", "start": )" + (kind == "curve" ? "[0.1]" : "[0.1, 0.1]") +
+                                             R"(, "target": )" + (kind == "curve" ? "[0.2]" : "[0.2, 0.2]") +
+                                             R"(, "sentence": "s", "source": "s"})",
+                                         "made"));
+        },
+        "accepted");
   };
   const std::string turn = "[0, \"2*pi\"]";
   EXPECT_EQ(told("curve", R"f("0.1*cos(phi)", "0.1*sin(phi)", "0")f", turn, "true"), "accepted");
@@ -392,14 +387,7 @@ TEST(ArcLength, FindsTheParameterWhereSoMuchIsDone) {
   const ArcLength spiral(curve({"0.1*exp(phi)*cos(phi)", "0.1*exp(phi)*sin(phi)", "0"}), 0, std::log(100.0));
   EXPECT_NEAR(spiral.length(), 0.1 * std::sqrt(2.0) * 99, 1e-11);
   EXPECT_NEAR(spiral.parameterAt(0.1 * std::sqrt(2.0) * 9), std::log(10.0), 1e-11);
-  const auto refused = [](const Constraint& c) -> std::string {
-    try {
-      (void)ArcLength(c, -1, 1);
-    } catch (const RefusedError& error) {
-      return error.what();
-    }
-    return "";
-  };
+  const auto refused = [](const Constraint& c) -> std::string { return refusalOf([&] { (void)ArcLength(c, -1, 1); }); };
   EXPECT_EQ(refused(named("sphere")), "sphere is no curve");
   EXPECT_EQ(refused(curve({"phi", "sqrt(phi)", "0"})).substr(0, 66), "the curve has no value, or no end to its length, near phi = -1.000");
   EXPECT_NEAR(ArcLength(curve({"phi", "abs(phi - 0.3)", "0"}), 0, 1).length(), std::sqrt(2.0), 1e-12) << "over a kink";

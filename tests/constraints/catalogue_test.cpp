@@ -7,6 +7,7 @@
 #include "base/fault.h"
 #include "constraints/catalogue/generated_catalogue.h"
 #include "constraints/regularity/analysis.h"
+#include "tests/refusal.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -62,14 +63,7 @@ TEST(Catalogue, DefinitionReadsBackEqualFromItsJson) {
 }
 
 TEST(Catalogue, UnknownNamesAndShapeKeysTellTheNearest) {
-  const auto message = [](const ConstraintSpec& spec) {
-    try {
-      makeConstraint(spec, "here");
-    } catch (const FaultError& e) {
-      return std::string(e.what());
-    }
-    return std::string("accepted");
-  };
+  const auto message = [](const ConstraintSpec& spec) { return refusalOf([&] { makeConstraint(spec, "here"); }, "accepted"); };
   EXPECT_NE(message({.name = "elipse", .curve = {}, .surface = {}, .shape = {}}).find("did you mean ellipse?"), std::string::npos);
   EXPECT_NE(message({.name = "torus", .curve = {}, .surface = {}, .shape = {{"mayor_m", 0.1}}}).find("did you mean major_m?"),
             std::string::npos);

@@ -7,6 +7,7 @@
 #include "devices/driver/registry.h"
 #include "devices/make_device.h"
 #include "sim/experiment/experiment.h"
+#include "tests/refusal.h"
 
 namespace reachlab::devices {
 
@@ -16,12 +17,7 @@ class DriverAnswers {
   static std::vector<FoundDevice> rows(const std::string& driver) { return findDriver(driver)->find(*findDriver(driver)); }
   std::unique_ptr<haptics::HapticDevice> make(const std::string& spec) const { return makeDevice(spec, experiment, 1); }
   std::string refusalOf(const std::string& spec) const {
-    try {
-      make(spec);
-      return "made";
-    } catch (const Error& error) {
-      return error.what();
-    }
+    return reachlab::refusalOf([&] { make(spec); }, "made");
   }
   experiment::Experiment experiment = experiment::readExperiment("chain-slow");
 };

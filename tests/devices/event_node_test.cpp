@@ -16,6 +16,7 @@
 #include "devices/make_device.h"
 #include "tests/devices/driver_answers.h"
 #include "tests/devices/fakes/fake_input.h"
+#include "tests/refusal.h"
 #include "tests/until.h"
 
 namespace reachlab::devices {
@@ -153,12 +154,8 @@ TEST(InputPort, GivesWholeEventsAndIsGoneAtTheEnd) {
 }
 
 TEST(InputPort, APathThatIsNotThereIsRefusedInTheSystemsWords) {
-  try {
-    InputPort port("/dev/input/no-such-event");
-    FAIL();
-  } catch (const ResourceError& error) {
-    EXPECT_STREQ(error.what(), "/dev/input/no-such-event: No such file or directory");
-  }
+  EXPECT_EQ(reachlab::refusalOf([&] { InputPort port("/dev/input/no-such-event"); }),
+            "/dev/input/no-such-event: No such file or directory");
 }
 
 /// Nodes that the system is said to have, behind the driver.

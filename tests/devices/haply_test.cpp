@@ -15,6 +15,7 @@
 #include "sim/experiment/experiment.h"
 #include "tests/devices/fakes/fake_haply.h"
 #include "tests/devices/fakes/fake_message_line.h"
+#include "tests/refusal.h"
 #include "tests/until.h"
 
 namespace reachlab::devices {
@@ -29,12 +30,7 @@ std::unique_ptr<haptics::HapticDevice> open(const FakeHaply& service, const std:
 }
 
 std::string refusal(const FakeHaply& service, const std::string& id = "") {
-  try {
-    open(service, id);
-  } catch (const ResourceError& error) {
-    return error.what();
-  }
-  return "it was opened";
+  return reachlab::refusalOf([&] { open(service, id); }, "it was opened");
 }
 
 TEST(HaplyMessage, PlacesAndForcesKeepTheirAxes) {
@@ -373,12 +369,10 @@ TEST(Haply, NobodyThereIsSaidInTheSystemsWords) {
     FakeHaply service;
     return service.port();
   }();
-  try {
-    makeDevice(fmt::format("haply:port={}", gone), experiment::readExperiment("chain-slow"), 1);
-    FAIL() << "it was opened";
-  } catch (const ResourceError& error) {
-    EXPECT_NE(std::string(error.what()).find("refused"), std::string::npos) << error.what();
-  }
+  EXPECT_NE(reachlab::refusalOf([&] {
+              makeDevice(fmt::format("haply:port={}", gone), experiment::readExperiment("chain-slow"), 1);
+            }).find("refused"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "devices/make_device.h"
 #include "tests/devices/driver_answers.h"
 #include "tests/devices/fakes/fake_hidapi.h"
+#include "tests/refusal.h"
 #include "tests/until.h"
 
 namespace reachlab::devices {
@@ -92,12 +93,7 @@ TEST_F(HidDevices, OneThatMayNotBeOpenedSaysWhatToDo) {
   EXPECT_THROW(openHid(findHid().at(0)), ResourceError);
   HidInterface nowhere;
   nowhere.path = "/dev/null";  // it may be opened, but not as HID
-  try {
-    openHid(nowhere);
-    FAIL();
-  } catch (const ResourceError& error) {
-    EXPECT_STREQ(error.what(), "/dev/null: the library?s own words");
-  }
+  EXPECT_EQ(reachlab::refusalOf([&] { openHid(nowhere); }), "/dev/null: the library?s own words");
 }
 
 TEST_F(HidDevices, APortIsReadWrittenAndClosed) {

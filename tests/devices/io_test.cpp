@@ -13,6 +13,7 @@
 #include "devices/driver/orientation.h"
 #include "devices/io/polled_device.h"
 #include "devices/io/rate_hand.h"
+#include "tests/refusal.h"
 #include "tests/until.h"
 
 namespace reachlab::devices {
@@ -194,12 +195,7 @@ TEST(PolledDevice, IsCalibratedByItsOwnThread) {
   EXPECT_TRUE(until([&] { return transport->exchanges > exchanged + 3; }));
   EXPECT_EQ(transport->calibrated, 1) << "once";
   transport->refusal = "it is held wrongly";
-  try {
-    device.calibrate();
-    FAIL();
-  } catch (const ResourceError& error) {
-    EXPECT_STREQ(error.what(), "device scripted: it is held wrongly");
-  }
+  EXPECT_EQ(reachlab::refusalOf([&] { device.calibrate(); }), "device scripted: it is held wrongly");
   transport->refusal.clear();
   EXPECT_NO_THROW(device.calibrate());
 }

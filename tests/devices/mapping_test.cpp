@@ -16,6 +16,7 @@
 #include "devices/make_device.h"
 #include "devices/mapping/guarded_device.h"
 #include "sim/experiment/experiment.h"
+#include "tests/refusal.h"
 
 namespace reachlab::devices {
 namespace {
@@ -243,13 +244,12 @@ TEST(HandOptions, AreTakenBeforeTheDriversOwn) {
 
 std::string refusalOf(const std::string& options) {
   DeviceOptions asked(options, "device x");
-  try {
-    (void)takeHandOptions(asked);
-    asked.done();
-    return "taken";
-  } catch (const FaultError& error) {
-    return error.what();
-  }
+  return reachlab::refusalOf(
+      [&] {
+        (void)takeHandOptions(asked);
+        asked.done();
+      },
+      "taken");
 }
 
 HandOptions taken(const std::string& options) {
@@ -311,12 +311,7 @@ TEST(HandOptions, AWallNeedsAWorkspaceOrARadius) {
     void write(const Vec3&) noexcept override {}
   };
   const auto refusal = [](const HandOptions& options) {
-    try {
-      (void)guardDevice(std::make_unique<Unknown>(), options);
-      return std::string("made");
-    } catch (const FaultError& error) {
-      return std::string(error.what());
-    }
+    return reachlab::refusalOf([&] { (void)guardDevice(std::make_unique<Unknown>(), options); }, "made");
   };
   HandOptions options;
   options.wall = 0;

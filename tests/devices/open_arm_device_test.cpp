@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "tests/devices/arm_poses.h"
+#include "tests/refusal.h"
 
 namespace reachlab::devices {
 namespace {
@@ -330,12 +331,8 @@ TEST_F(OpenArmOverAPort, ReportsOfAnOldFirmwareAreNotBelievedAndSaidToBeOld) {
 
 TEST_F(OpenArmOverAPort, AnArmThatGivesOldReportsOnlyIsRefusedInWords) {
   for (int i = 0; i < 1000; ++i) line->waiting.push_back(Report(8, 1));
-  try {
-    PolledDevice device(std::shared_ptr<Transport>(std::move(arm)), 100);
-    FAIL() << "it was opened";
-  } catch (const ResourceError& error) {
-    EXPECT_NE(std::string(error.what()).find("firmware is too old"), std::string::npos) << error.what();
-  }
+  EXPECT_NE(refusalOf([&] { PolledDevice device(std::shared_ptr<Transport>(std::move(arm)), 100); }).find("firmware is too old"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -15,11 +15,12 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/system/os.h"
-#include "devices/driver/registry.h"
 #include "devices/clock_timing.h"
+#include "devices/driver/registry.h"
 #include "devices/vendor/shared_library.h"
 #include "sim/experiment/experiment.h"
 #include "tests/devices/fakes/fake_hd.h"
+#include "tests/refusal.h"
 
 namespace reachlab::devices {
 namespace {
@@ -46,12 +47,7 @@ class Phantom : public ::testing::Test {
 };
 
 std::string refusal(const PhantomDevice::Options& options = {}) {
-  try {
-    const PhantomDevice device(options);
-  } catch (const ResourceError& error) {
-    return error.what();
-  }
-  return {};
+  return refusalOf([&] { const PhantomDevice device(options); });
 }
 
 TEST_F(Phantom, ReadsItsLimitsFromTheDevice) {
@@ -538,24 +534,15 @@ TEST(SharedLibrary, OneThatIsNotThereIsRefusedWithAllNamesAndTheLoadersWords) {
   EXPECT_NE(found.find("cos"), nullptr);
   EXPECT_EQ(found.find("no_such_function"), nullptr);
   void (*function)() = nullptr;
-  try {
-    found.bind(function, "no_such_function");
-    FAIL();
-  } catch (const ResourceError& error) {
-    EXPECT_STREQ(error.what(), "libm.so.6: has no function no_such_function; is it another version?");
-  }
+  EXPECT_EQ(refusalOf([&] { found.bind(function, "no_such_function"); }),
+            "libm.so.6: has no function no_such_function; is it another version?");
 }
 
 // A file that is there but is no library tells more than one that is not there.
 TEST(SharedLibrary, OneThatCannotBeLoadedIsSaidBeforeOneThatIsNotThere) {
   const std::string broken = (std::filesystem::temp_directory_path() / ("reach-broken-" + std::to_string(::getpid()) + ".so")).string();
   std::ofstream(broken) << "no library";
-  try {
-    const SharedLibrary library({"libnowhere.so", broken, "libm.so.6"});
-    ADD_FAILURE();
-  } catch (const ResourceError& error) {
-    EXPECT_TRUE(std::string(error.what()).starts_with(broken)) << error.what();
-  }
+  EXPECT_TRUE(refusalOf([&] { const SharedLibrary library({"libnowhere.so", broken, "libm.so.6"}); }).starts_with(broken));
   std::filesystem::remove(broken);
 }
 

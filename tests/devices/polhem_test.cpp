@@ -24,6 +24,7 @@
 #include "devices/serial/serial_port.h"
 #include "sim/experiment/experiment.h"
 #include "tests/devices/fakes/fake_message_line.h"
+#include "tests/refusal.h"
 #include "tests/until.h"
 
 namespace {
@@ -328,12 +329,7 @@ TEST_F(SerialLine, OneThatCannotBeSetUpIsRefused) {
   char name[128] = {};
   ASSERT_EQ(::ttyname_r(slave, name, sizeof name), 0);
   settingFault = EIO;
-  try {
-    openSerial(name);
-    ADD_FAILURE() << "opened with another speed, and lines that are changed on their way";
-  } catch (const ResourceError& error) {
-    EXPECT_EQ(error.what(), name + std::string(": cannot be set to 115200 baud, raw: Input/output error"));
-  }
+  EXPECT_EQ(refusalOf([&] { openSerial(name); }), name + std::string(": cannot be set to 115200 baud, raw: Input/output error"));
   settingFault = 0;
 }
 
@@ -382,12 +378,7 @@ TEST(Polhem, AnArmThatNeverReportsIsRefusedAndNamedADeviceOnce) {
 TEST(Polhem, WhatIsNoSerialLineIsRefusedInTheSystemsWords) {
   const auto experiment = experiment::readExperiment("chain-slow");
   EXPECT_THROW(makeDevice("polhem:/dev/null", experiment, 1), ResourceError);
-  try {
-    makeDevice("polhem:/dev/ttyNowhere", experiment, 1);
-    FAIL();
-  } catch (const ResourceError& error) {
-    EXPECT_NE(std::string(error.what()).find("No such file"), std::string::npos) << error.what();
-  }
+  EXPECT_NE(refusalOf([&] { makeDevice("polhem:/dev/ttyNowhere", experiment, 1); }).find("No such file"), std::string::npos);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "sim/trial/task_places.h"
 #include "tests/devices/fakes/fake_dhd.h"
 #include "tests/devices/fakes/fake_hd.h"
+#include "tests/refusal.h"
 
 namespace reachlab::devices {
 namespace {
@@ -86,14 +87,6 @@ TEST(DeviceOptions, OnlyTheFirstItemMayBePlain) {
 }
 
 TEST(DeviceOptions, WhatIsWrongIsSaidWithWhatIsAllowed) {
-  const auto refusalOf = [](const std::function<void()>& work) {
-    try {
-      work();
-      return std::string("taken");
-    } catch (const FaultError& error) {
-      return std::string(error.what());
-    }
-  };
   EXPECT_EQ(refusalOf([] { DeviceOptions("a=1,b=1,a=2", "device x"); }), "device: device x: a is given twice");
   DeviceOptions options("gain=2.5,mode=slow,other=1", "device x");
   EXPECT_EQ(refusalOf([&] { DeviceOptions(options).number("gain", 1, 0, 2); }),
@@ -116,36 +109,22 @@ TEST(Registry, AHandBeginsWhereItsTaskDoes) {
 
 TEST(Registry, ANameThatIsNearlyOneIsAskedAfter) {
   const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
-  try {
-    makeDevice("phantm:Left", experiment, 1);
-    FAIL();
-  } catch (const FaultError& error) {
-    EXPECT_NE(std::string(error.what()).find("device: is phantm:Left, which is unknown; did you mean phantom?"), std::string::npos)
-        << error.what();
-  }
+  EXPECT_NE(reachlab::refusalOf([&] {
+              makeDevice("phantm:Left", experiment, 1);
+            }).find("device: is phantm:Left, which is unknown; did you mean phantom?"),
+            std::string::npos);
 }
 
 TEST(MakeDevice, AResourcesWordsSayWhichDeviceWasAskedFor) {
   const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
-  try {
-    makeDevice("replay:/nowhere", experiment, 1);
-    FAIL();
-  } catch (const ResourceError& error) {
-    EXPECT_TRUE(std::string(error.what()).starts_with("device replay: /nowhere: no such file")) << error.what();
-  }
+  EXPECT_TRUE(
+      reachlab::refusalOf([&] { makeDevice("replay:/nowhere", experiment, 1); }).starts_with("device replay: /nowhere: no such file"));
 }
 
 // One of a kind that is not made by the program may be one device twice; those that are made there are as many of as are asked for.
 TEST(MakeDevice, OfSeveralHandsEachHasADeviceOfItsOwn) {
   const experiment::CompiledExperiment both(experiment::readExperiment("chain-two-hands"));
-  const auto refusalOf = [&](const std::string& spec) {
-    try {
-      makeDevice(spec, both, 1);
-      return std::string("made");
-    } catch (const Error& error) {
-      return std::string(error.what());
-    }
-  };
+  const auto refusalOf = [&](const std::string& spec) { return reachlab::refusalOf([&] { makeDevice(spec, both, 1); }, "made"); };
   EXPECT_EQ(
       refusalOf("hid:A + hid"),
       "device: is hid:A + hid, which may be one device twice; allowed: hid[:SERIAL][,model=NAME,max-current=A,calibrate=start], each by a name "
@@ -294,13 +273,8 @@ TEST(SeveralHands, OnlyTheFirstMayDriveTheClock) {
       EXPECT_TRUE(joinDevices(std::move(owned))->info().drivesClock);
       continue;
     }
-    try {
-      joinDevices(std::move(owned));
-      ADD_FAILURE();
-    } catch (const FaultError& error) {
-      EXPECT_STREQ(error.what(),
-                   "device: P drives the clock, and is not the first; allowed: one device that drives the clock, named first");
-    }
+    EXPECT_EQ(reachlab::refusalOf([&] { joinDevices(std::move(owned)); }),
+              "device: P drives the clock, and is not the first; allowed: one device that drives the clock, named first");
   }
   std::vector<std::unique_ptr<haptics::HapticDevice>> alone;
   alone.push_back(std::make_unique<Named>("A"));

@@ -13,6 +13,7 @@
 #include "base/fault.h"
 #include "sim/experiment/resources.h"
 #include "test_paths.h"
+#include "tests/refusal.h"
 
 namespace reachlab::devices {
 namespace {
@@ -103,12 +104,10 @@ TEST_F(Files, AFolderIsPlayedInNameOrderAndFromTheFirstAgain) {
 
 TEST_F(Files, SaysWhatIsWrongWithAFile) {
   EXPECT_THROW(readReach((folder / "missing.csv").string()), ResourceError);
-  try {
-    makeReplayHand((folder / "missing").string(), {}, {1, 0, 0});
-    FAIL();
-  } catch (const ResourceError& error) {
-    EXPECT_NE(std::string(error.what()).find(experiment::resourceFolder() + "/reaches"), std::string::npos) << error.what();
-  }
+  EXPECT_NE(reachlab::refusalOf([&] {
+              makeReplayHand((folder / "missing").string(), {}, {1, 0, 0});
+            }).find(experiment::resourceFolder() + "/reaches"),
+            std::string::npos);
   EXPECT_THROW(makeReplayHand(folder.string(), {}, {1, 0, 0}), ResourceError) << "an empty folder";
   const std::string header = "time_s,x_m,y_m,z_m\n";
   EXPECT_THROW(layOnto(readReach(write("one.csv", header + "0,0,0,0\n")), {}, {1, 0, 0}), FaultError) << "one place is no reach";
@@ -129,12 +128,7 @@ TEST_F(Files, TakesItsFourColumnsFromAnyTableThatNamesThem) {
 
 TEST_F(Files, NamesFileAndLine) {
   const std::string file = write("bad.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n1,zero,0,0\n");
-  try {
-    readReach(file);
-    FAIL();
-  } catch (const FaultError& error) {
-    EXPECT_EQ(std::string(error.what()).rfind(file + ":3:", 0), 0u) << error.what();
-  }
+  EXPECT_EQ(reachlab::refusalOf([&] { readReach(file); }).rfind(file + ":3:", 0), 0u);
 }
 
 // A line at constant speed, uneven in time: the spline is the line itself. At rest for 0.3 s, blended onto it over 0.1 s, held at its end.
@@ -170,12 +164,7 @@ TEST(ReplayedReach, IsTurnedByTheSmallestRotation) {
 
 TEST(ReplayedReach, WhatCannotBeLaidIsRefusedInWords) {
   const auto refusalOf = [](const RecordedReach& reach, const Vec3& start = {}, const Vec3& target = {1, 0, 0}) {
-    try {
-      (void)layOnto(reach, start, target);
-      return std::string("laid");
-    } catch (const FaultError& error) {
-      return std::string(error.what());
-    }
+    return reachlab::refusalOf([&] { (void)layOnto(reach, start, target); }, "laid");
   };
   EXPECT_EQ(refusalOf({"f", {0, 600}, {{}, {1, 0, 0}}}), "laid");
   EXPECT_EQ(refusalOf({"f", {1, 601.5}, {{}, {1, 0, 0}}}), "f: time_s: lasts 600.5 s; allowed: a reach of at most 600 s");

@@ -25,7 +25,7 @@ MethodChoice chosen(const std::string& asked, const ObjectModel& model, SceneFac
   return chooseMethod(asked, model, facts);
 }
 std::string refused(const std::string& asked, const ObjectModel& model, const SceneFacts& facts = {}) {
-  return wordsOf([&] { (void)chosen(asked, model, facts); });
+  return refusalOf([&] { (void)chosen(asked, model, facts); });
 }
 bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 

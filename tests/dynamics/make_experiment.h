@@ -10,6 +10,7 @@
 #include "sim/dynamics/object/plant.h"
 #include "sim/dynamics/scene.h"
 #include "sim/experiment/experiment.h"
+#include "tests/refusal.h"
 
 namespace reachlab::dynamics {
 
@@ -49,17 +50,6 @@ inline StepStatus run(Plant& plant, const HandFunction& hand, double seconds, do
   return StepStatus::Ok;
 }
 inline HandSample noHand(double) { return {}; }
-
-/// What `call` is refused with; nothing where it is not.
-template <class Call>
-std::string wordsOf(const Call& call) {
-  try {
-    call();
-  } catch (const Error& refusal) {
-    return refusal.what();
-  }
-  return {};
-}
 
 inline std::vector<MassState> observed(const Plant& plant, const HandSample& hand = {}) {
   std::vector<MassState> masses(static_cast<std::size_t>(plant.massCount()));

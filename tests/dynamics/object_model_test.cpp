@@ -14,7 +14,7 @@ namespace {
 using experiment::ObjectKind;
 
 std::string refused(const experiment::Experiment& e) {
-  return wordsOf([&] { (void)makeObjectModel(e); });
+  return refusalOf([&] { (void)makeObjectModel(e); });
 }
 
 TEST(ObjectModel, AChainHangsOnItsFirstMassAndAParallelObjectOnAll) {

@@ -21,7 +21,7 @@ Experiment from(Experiment e, std::vector<double> start, std::vector<double> tar
   return e;
 }
 std::string refused(const Experiment& e, const SceneOptions& options = {}) {
-  return wordsOf([&] { (void)compileScene(e, options); });
+  return refusalOf([&] { (void)compileScene(e, options); });
 }
 Experiment ellipse(double a, double b) { return onCurve(bead(), std::to_string(a) + "*cos(phi)", std::to_string(b) + "*sin(phi)", "0"); }
 /// A definition of its own, with a domain.

@@ -8,6 +8,7 @@
 #include "sim/dynamics/scene.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
+#include "tests/refusal.h"
 
 namespace reachlab::dynamics {
 namespace {
@@ -190,14 +191,7 @@ TEST(SharedPlant, RefusesWhatItCannotDo) {
 
 // RK4 in phi divides by |r_phi|: where that vanishes it was wrong without a word.
 TEST(SharedPlant, CurvesWithCuspsAreRefusedWithTheirPlace) {
-  const auto sayOf = [](const Experiment& e) -> std::string {
-    try {
-      (void)compileScene(e);
-    } catch (const RefusedError& refused) {
-      return refused.what();
-    }
-    return "";
-  };
+  const auto sayOf = [](const Experiment& e) -> std::string { return refusalOf([&] { (void)compileScene(e); }); };
   const std::vector<experiment::Hand> two{{1, {600}, {5}, {}}, {1, {600}, {5}, {}}};
   Experiment astroid = withHands("cycloid", two);
   astroid.constraint.name.clear();

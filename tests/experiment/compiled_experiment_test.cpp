@@ -6,6 +6,7 @@
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
+#include "tests/refusal.h"
 
 namespace reachlab::experiment {
 namespace {
@@ -31,12 +32,8 @@ TEST(CompiledExperiment, OfAValueIsEqualToTheOneFromItsFile) {
 TEST(CompiledExperiment, RefusesAValueWithAFault) {
   Experiment e = readExperiment("chain-moderate");
   e.object.masses[2] = -1;
-  try {
-    const CompiledExperiment compiled(e);
-    FAIL();
-  } catch (const FaultError& error) {
-    EXPECT_NE(std::string(error.what()).find("object.masses_kg[2]: is -1; allowed: 1e-06 to 1e+06 kg"), std::string::npos) << error.what();
-  }
+  EXPECT_NE(refusalOf([&] { const CompiledExperiment compiled(e); }).find("object.masses_kg[2]: is -1; allowed: 1e-06 to 1e+06 kg"),
+            std::string::npos);
 }
 
 TEST(CompiledExperiment, ACopySharesBothParts) {

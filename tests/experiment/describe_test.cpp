@@ -9,6 +9,7 @@
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
+#include "tests/refusal.h"
 
 namespace reachlab::experiment {
 namespace {
@@ -90,14 +91,7 @@ TEST(Describe, APaceWithoutALeastIsAnUpperBound) {
 }
 
 TEST(Resources, ANameThatIsNoExperimentIsAnsweredByWhatItIs) {
-  const auto told = [](const std::string& name) {
-    try {
-      (void)openExperiment(name);
-      return std::string("opened");
-    } catch (const FaultError& refusal) {
-      return std::string(refusal.what());
-    }
-  };
+  const auto told = [](const std::string& name) { return refusalOf([&] { (void)openExperiment(name); }, "opened"); };
   EXPECT_EQ(told("chain-moderate"), "opened");
   for (const std::string& name : shippedForTwoHands()) EXPECT_EQ(told(name), "opened") << name;
   EXPECT_TRUE(told(".").starts_with(".: is a folder; allowed: an experiment file or name"));

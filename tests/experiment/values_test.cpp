@@ -11,6 +11,7 @@
 #include "base/fault.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment_keys.h"
+#include "tests/refusal.h"
 
 namespace reachlab::experiment {
 namespace {
@@ -251,12 +252,8 @@ TEST(ExperimentValue, WithoutATaskSaysThatATrialNeedsOne) {
   Experiment e = chain().experiment();
   EXPECT_EQ(requiredTask(e).duration, 1.35);
   e.task.reset();
-  try {
-    (void)requiredTask(e);
-    FAIL();
-  } catch (const FaultError& refusal) {
-    EXPECT_STREQ(refusal.what(), "task: is missing, and a trial needs one; allowed: { start, target, duration_s, … }");
-  }
+  EXPECT_EQ(refusalOf([&] { (void)requiredTask(e); }),
+            "task: is missing, and a trial needs one; allowed: { start, target, duration_s, … }");
 }
 
 // Every value another one than its default, and no two the same.

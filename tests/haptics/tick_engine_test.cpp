@@ -13,6 +13,7 @@
 
 #include "base/fault.h"
 #include "tests/haptics/armed_at_once.h"
+#include "tests/refusal.h"
 
 namespace reachlab::haptics {
 namespace {
@@ -749,12 +750,7 @@ TEST_F(TwoHands, TheSecondDeviceMayRenderForceByItself) {
 
 TEST(TickEngine, RefusesOtherThanADeviceForEachHand) {
   const auto refusal = [](const char* name, std::size_t hands) -> std::string {
-    try {
-      TickEngine engine(test::armedAtOnce(name), EngineOptions{std::vector<HandOptions>(hands)});
-    } catch (const FaultError& error) {
-      return error.what();
-    }
-    return "";
+    return refusalOf([&] { TickEngine engine(test::armedAtOnce(name), EngineOptions{std::vector<HandOptions>(hands)}); });
   };
   EXPECT_NE(refusal("chain-two-hands", 1).find("is 1 device where the experiment has 2 hands"), std::string::npos);
   EXPECT_EQ(refusal("chain-two-hands", 2), "");

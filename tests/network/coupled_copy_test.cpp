@@ -14,6 +14,7 @@
 #include "base/ticks.h"
 #include "network/link_check/two_hands.h"
 #include "sim/experiment/experiment.h"
+#include "tests/refusal.h"
 
 namespace reachlab::network {
 namespace {
@@ -309,12 +310,7 @@ TEST(CoupledCopy, ASampleIsItsOwnHandWorkAndCoordinates) {
 
 TEST(CoupledCopy, SaysWhyItCannotBe) {
   const auto told = [](const experiment::Experiment& e, int own) {
-    try {
-      const CoupledCopy copy(e, constraints::makeConstraint(e.constraint), own, {});
-      return std::string("made");
-    } catch (const RefusedError& refusal) {
-      return std::string(refusal.what());
-    }
+    return refusalOf([&] { const CoupledCopy copy(e, constraints::makeConstraint(e.constraint), own, {}); }, "made");
   };
   experiment::Experiment e = makeSharedExperiment(SharedObject::Chain);
   for (const int own : {0, 1}) EXPECT_EQ(told(e, own), "made");

@@ -14,6 +14,7 @@
 #include "sim/predict/line/symmetric_prediction.h"
 #include "sim/predict/peaks.h"
 #include "tests/predict/objects.h"
+#include "tests/refusal.h"
 
 namespace reachlab::predict {
 namespace {
@@ -304,19 +305,9 @@ TEST(Peaks, AreFoundAmongWavesOfTheFastestFrequency) {
   EXPECT_EQ(p.scanCount(), 48 + 253);
 }
 
-std::string wordsOf(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const FaultError& fault) {
-    return fault.what();
-  } catch (const RefusedError& refused) {
-    return refused.what();
-  }
-  return "";
-}
 #define EXPECT_REFUSED(words, ...)                                                 \
   do {                                                                             \
-    const std::string said = wordsOf([&] { (void)(__VA_ARGS__); });                \
+    const std::string said = refusalOf([&] { (void)(__VA_ARGS__); });              \
     EXPECT_NE(said.find(words), std::string::npos) << (said.empty() ? "-" : said); \
   } while (false)
 
@@ -377,8 +368,8 @@ TEST(PredictRefusals, OfAHandThatIsThePoint) {
     experiment::Experiment viscous = makeChain(1, 2, 600, 1);
     viscous.object.viscosity = 1;
     EXPECT_REFUSED("is computed without damping", predict(viscous, c, asHand()));
-    EXPECT_EQ(wordsOf([&] { (void)predict(viscous, MinHandJerk, asHand()); }), "");
-    EXPECT_EQ(wordsOf([&] { (void)predict(makeChain(1, 2, 600, 1), MinComAcceleration, damping); }), "");
+    EXPECT_EQ(refusalOf([&] { (void)predict(viscous, MinHandJerk, asHand()); }), "");
+    EXPECT_EQ(refusalOf([&] { (void)predict(makeChain(1, 2, 600, 1), MinComAcceleration, damping); }), "");
   }
 }
 
@@ -407,7 +398,7 @@ TEST(PredictRefusals, OfAnArmThatDoesNotReach) {
   EXPECT_REFUSED("the arm cannot reach: the hand would be 0.600 m from the shoulder, the arm spans 0.100 to 0.600 m",
                  predict(straight(0.3, 0.5995), MinTorqueChange));
   EXPECT_REFUSED("the hand would be 0.100 m", predict(straight(0.1004, 0.5), MinTorqueChange));
-  EXPECT_EQ(wordsOf([&] { (void)predict(straight(0.3, 0.5), MinTorqueChange); }), "");
+  EXPECT_EQ(refusalOf([&] { (void)predict(straight(0.3, 0.5), MinTorqueChange); }), "");
   experiment::Experiment before = dingwell();  // both ends within reach, and the middle of the line too near
   before.arm.shoulder = {0, -0.05};
   EXPECT_REFUSED("0.050 m from the shoulder", predict(before, MinTorqueChange));
@@ -422,7 +413,8 @@ TEST(PredictRefusals, OfAnObjectOnACurve) {
   const auto few = predict(bent, MinHandJerk, options);
   const auto chosen = predict(bent, MinHandJerk);
   double differs = 0;
-  for (int i = 0; i <= 100; ++i) differs = std::max(differs, std::abs(few->handAt(i / 100.0).velocity - chosen->handAt(i / 100.0).velocity));
+  for (int i = 0; i <= 100; ++i)
+    differs = std::max(differs, std::abs(few->handAt(i / 100.0).velocity - chosen->handAt(i / 100.0).velocity));
   ASSERT_TRUE(few->profileError.has_value());
   EXPECT_GT(*few->profileError, 0.3 * differs / chosen->handPeak) << "what is said of few unknowns";
   EXPECT_LT(*few->profileError, 3 * differs / chosen->handPeak);

@@ -9,18 +9,10 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "tests/predict/objects.h"
+#include "tests/refusal.h"
 
 namespace reachlab::predict {
 namespace {
-
-std::string refusalOf(const std::function<void()>& act) {
-  try {
-    act();
-  } catch (const FaultError& fault) {
-    return fault.what();
-  }
-  return "";
-}
 
 // A hand whose velocity is what the test says.
 class MadePrediction final : public Prediction {

@@ -10,6 +10,7 @@
 
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
+#include "tests/refusal.h"
 
 namespace reachlab::record {
 namespace {
@@ -160,12 +161,7 @@ TEST(Channels, AnInvalidSampleIsAZero) {
 }
 
 TEST(Channels, OneThatIsNotThereIsNamed) {
-  try {
-    (void)makeChannelTable(sceneOf(1), 0).indexOf("mass2_pos_x");
-    FAIL();
-  } catch (const FaultError& refusal) {
-    EXPECT_STREQ(refusal.what(), "no channel named mass2_pos_x");
-  }
+  EXPECT_EQ(refusalOf([&] { (void)makeChannelTable(sceneOf(1), 0).indexOf("mass2_pos_x"); }), "no channel named mass2_pos_x");
 }
 
 TEST(Channels, ATrialIsNumberedFromTheRunsFirst) {

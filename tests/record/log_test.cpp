@@ -15,6 +15,7 @@
 #include "base/fault.h"
 #include "sim/record/log/append_file.h"
 #include "tests/record/made_run.h"
+#include "tests/refusal.h"
 
 namespace reachlab::record {
 namespace {
@@ -153,12 +154,8 @@ TEST(LogWriter, ARecordHolds64MiBAndNoByteMore) {
   const Bytes most(64u << 20, 5);
   Bytes more = most;
   more.push_back(5);
-  try {
-    writer.append(RecordType::Samples, more);
-    FAIL() << "written";
-  } catch (const FaultError& refusal) {
-    EXPECT_EQ(refusal.what(), path + ": a record of 67108865 bytes; allowed: up to 67108864: plan fewer trials a run");
-  }
+  EXPECT_EQ(refusalOf([&] { writer.append(RecordType::Samples, more); }),
+            path + ": a record of 67108865 bytes; allowed: up to 67108864: plan fewer trials a run");
   EXPECT_EQ(writer.size(), 16u);
   writer.append(RecordType::Samples, most);
   LogReader reader(path);

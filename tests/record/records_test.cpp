@@ -12,6 +12,7 @@
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/log/run_log.h"
+#include "tests/refusal.h"
 
 namespace reachlab::record {
 namespace {
@@ -39,12 +40,7 @@ Bytes copyOf(std::span<const std::uint8_t> bytes) { return {bytes.begin(), bytes
 
 template <typename Decode>
 void expectRefused(const Bytes& bytes, const std::string& what, const Decode& decode) {
-  try {
-    decode(bytes);
-    ADD_FAILURE() << what << " record of " << bytes.size() << " bytes is read";
-  } catch (const FaultError& refusal) {
-    EXPECT_EQ(refusal.what(), what + " record of an unknown form");
-  }
+  EXPECT_EQ(refusalOf([&] { decode(bytes); }), what + " record of an unknown form");
 }
 
 // Whole it is read; a byte more or any number of bytes less is refused.
@@ -293,8 +289,9 @@ TEST(EventRecord, IsTickKindTrialValueAndText) {
 }
 
 TEST(EventRecord, EveryKindHasTheNumberAndTheNameThatAreWrittenDown) {
-  const char* names[] = {"trial_start", "armed",        "go",         "onset", "trial_end",    "clamp_begin",  "clamp_end", "device_lost",
-                         "device_back", "ticks_missed", "step_fault", "note",  "device_state", "intervention", "instrument", "channel_broken"};
+  const char* names[] = {"trial_start",  "armed",        "go",          "onset",         "trial_end",  "clamp_begin",
+                         "clamp_end",    "device_lost",  "device_back", "ticks_missed",  "step_fault", "note",
+                         "device_state", "intervention", "instrument",  "channel_broken"};
   for (int kind = 1; kind <= 16; ++kind) EXPECT_EQ(nameOf(static_cast<EventKind>(kind)), names[kind - 1]) << kind;
 }
 

@@ -15,6 +15,7 @@
 #include "sim/experiment/experiment.h"
 #include "tests/record/differing_keys.h"
 #include "tests/record/made_run.h"
+#include "tests/refusal.h"
 
 namespace reachlab::record {
 namespace {
@@ -38,12 +39,7 @@ json madeJson(int hands = 1) {
 
 // What is said of it; "read" where nothing is.
 std::string verdictOn(const json& j) {
-  try {
-    (void)configurationFromJson(j.dump(), "a log");
-    return "read";
-  } catch (const FaultError& refusal) {
-    return refusal.what();
-  }
+  return refusalOf([&] { (void)configurationFromJson(j.dump(), "a log"); }, "read");
 }
 
 std::string verdictWith(json j, const char* pointer, const json& value) {
@@ -116,13 +112,8 @@ TEST(RunConfiguration, BehindTheScenesChannelsStandOnlyThoseOfStations) {
     EXPECT_NO_THROW(checkConfiguration(c)) << name;
   }
   c.table.channels.back().name = "hand_gap";
-  try {
-    checkConfiguration(c);
-    FAIL();
-  } catch (const FaultError& refusal) {
-    EXPECT_EQ(std::string(refusal.what()), "table: has " + std::to_string(scene + 2) + " channels; allowed: " + std::to_string(scene) +
-                                               ", as its masses and hands have");
-  }
+  EXPECT_EQ(refusalOf([&] { checkConfiguration(c); }),
+            "table: has " + std::to_string(scene + 2) + " channels; allowed: " + std::to_string(scene) + ", as its masses and hands have");
   c = madeConfiguration();
   c.table.channels.back().name = "station_gap";
   c.table.channels.pop_back();

@@ -19,6 +19,7 @@
 #include "sim/record/log/append_file.h"
 #include "sim/session/backup_worker.h"
 #include "tests/record/made_run.h"
+#include "tests/refusal.h"
 
 namespace {
 // Files that the system was told to forget what it has of them in memory.
@@ -60,12 +61,7 @@ class Backups : public testing::Test {
   static std::string contentOf(const std::string& path) { return record::readWholeFile(path); }
   std::string inBackup(const std::string& path) const { return backup_ + path.substr(dataset_.size()); }
   std::string refusal() const {
-    try {
-      (void)backUp(dataset_, backup_);
-      return "made";
-    } catch (const Error& error) {
-      return error.what();
-    }
+    return refusalOf([&] { (void)backUp(dataset_, backup_); }, "made");
   }
 
   record::TemporaryFolder folder_{"backup"};

@@ -7,23 +7,19 @@
 #include <map>
 #include <set>
 
-#include "sim/session/checked_programme.h"
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
+#include "sim/session/checked_programme.h"
 #include "sim/session/programme.h"
 #include "sim/session/trial_order.h"
 #include "test_paths.h"
+#include "tests/refusal.h"
 
 namespace reachlab::session {
 namespace {
 
 std::string faultsOf(const std::string& text) {
-  try {
-    parsePlan(text, "p.json");
-    return "";
-  } catch (const FaultError& error) {
-    return error.what();
-  }
+  return refusalOf([&] { parsePlan(text, "p.json"); });
 }
 
 TEST(Plan, ReadsTheKeysOfABlockAndTheDefaultsOfThePlan) {

@@ -9,6 +9,7 @@
 #include "analysis/study/gzip.h"
 #include "base/error.h"
 #include "sim/record/log/append_file.h"
+#include "tests/refusal.h"
 #include "tests/study/made_study.h"
 
 namespace reachlab::study {
@@ -60,12 +61,7 @@ TEST(Chunk, ThatIsDamagedIsToldWithTheRemedy) {
   const std::string path = chunkPath(folder.path(), 3), whole = record::readWholeFile(path);
   const auto refusalOf = [&](const std::string& bytes) -> std::string {
     std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
-    try {
-      readChunk(folder.path(), 3, 99);
-    } catch (const ResourceError& e) {
-      return e.what();
-    }
-    return "";
+    return reachlab::refusalOf([&] { readChunk(folder.path(), 3, 99); });
   };
   for (std::size_t at = 0; at < whole.size(); ++at) {
     std::string other = whole;

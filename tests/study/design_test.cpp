@@ -4,6 +4,7 @@
 
 #include "analysis/study/chunk.h"
 #include "analysis/study/points.h"
+#include "tests/refusal.h"
 
 namespace reachlab::study {
 namespace {
@@ -13,12 +14,7 @@ Design designOf(const std::string& more, const std::string& base = R"("experimen
   return parseDesign(R"({ "schema_version": 1, )" + base + more + " }", "folder/some.json");
 }
 std::string refusalOf(const std::string& more, const std::string& base = R"("experiment": "chain-moderate", "subjects": 3)") {
-  try {
-    designOf(more, base);
-  } catch (const FaultError& e) {
-    return e.what();
-  }
-  return "";
+  return reachlab::refusalOf([&] { designOf(more, base); });
 }
 void expectIn(const std::string& text, const std::string& part) {
   EXPECT_NE(text.find(part), std::string::npos) << part << " in: " << text;
@@ -155,12 +151,8 @@ TEST(StudyPoints, BecomeADeviceAnExperimentAndABlock) {
   EXPECT_EQ(mostTrialsOfSubject(plain), 1);
   for (const char* trials : {"0", "2.5", "1000001"}) {
     const Design bad = designOf(R"(, "vary": { "trials": [)" + std::string(trials) + "] }");
-    try {
-      taskOf(bad, pointAt(bad, 0));
-      FAIL() << trials;
-    } catch (const FaultError& e) {
-      expectIn(e.what(), "point 0 (trials=" + std::string(trials) + "): trials: is " + trials);
-    }
+    expectIn(reachlab::refusalOf([&] { taskOf(bad, pointAt(bad, 0)); }),
+             "point 0 (trials=" + std::string(trials) + "): trials: is " + trials);
   }
 }
 

@@ -11,6 +11,7 @@
 
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
+#include "tests/refusal.h"
 
 namespace reachlab::trial {
 namespace {
@@ -528,12 +529,7 @@ TEST(ProtocolSettings, RefuseATaskThatIsMissingOrWhereTheFormulaHasNoValue) {
   spec.name.clear();
   spec.curve = {"phi", "sqrt(phi)", "0"};
   const auto refusal = [&](double start, double target) -> std::string {
-    try {
-      makeProtocolSettings(withTask(start, target), constraints::makeConstraint(spec));
-    } catch (const FaultError& e) {
-      return e.what();
-    }
-    return "";
+    return refusalOf([&] { makeProtocolSettings(withTask(start, target), constraints::makeConstraint(spec)); });
   };
   EXPECT_NE(refusal(-1, 1).find("task.start"), std::string::npos);
   EXPECT_NE(refusal(1, -1).find("task.target"), std::string::npos);
