@@ -13,7 +13,7 @@ struct HandTerms {
   std::array<Quad, kHandTerms> derivative{};  // of the displacement by * mj(t/T), k-th at [k]
 };
 
-HandTerms handTerms(const HandLaw& law, const Quad& t) {
+HandTerms handTerms(const SceneHand& law, const Quad& t) {
   const Quad p = t / law.duration;
   const Quad d[kHandTerms] = {
       minimumJerk(p), minimumJerkRate(p), minimumJerkAcceleration(p), 60 - 360 * p + 360 * p * p, 720 * p - 360, 720};

@@ -32,7 +32,7 @@ struct PlantRun {
 
   void operator()(Trajectory* out) {
     dynamics::Plant& plant = *compiled.plant;
-    plant.setCoupled(scene.hand.kind != HandLaw::Kind::None);
+    plant.setCoupled(scene.hand.kind != SceneHand::Kind::None);
     if (scene.rate.empty()) plant.placeAtRest(scene.start);
     else plant.place(scene.start, scene.rate);
     if (out) {

@@ -80,7 +80,7 @@ double largestDifference(const std::vector<Quad>& a, const std::vector<Quad>& b)
 }  // namespace
 
 Reference computeReference(const BenchScene& scene) {
-  if (scene.cartesian && scene.hand.kind == HandLaw::Kind::None) return greatCircle(scene, scene.experiment.constraint.shape.at("R"));
+  if (scene.cartesian && scene.hand.kind == SceneHand::Kind::None) return greatCircle(scene, scene.experiment.constraint.shape.at("R"));
   if (scene.experiment.constraint.name != "line") return extrapolatedReference(scene);
   return scene.experiment.object.masses.size() > 10 ? modalChainReference(scene) : exponentialReference(scene);
 }

@@ -33,7 +33,7 @@ BenchScene onLine(std::string name, std::string title, experiment::ObjectKind ki
   if (kind != experiment::ObjectKind::Parallel) e.coupling = experiment::Coupling{600, 0};
   s.start = {0};
   e.task = makeTask(0, 2 * kPi);
-  s.hand.kind = HandLaw::Kind::Straight;
+  s.hand.kind = SceneHand::Kind::Straight;
   s.hand.duration = kReach;
   s.hand.from = {-0.1, 0, 0};
   s.hand.by = {0.2, 0, 0};
@@ -57,7 +57,7 @@ BenchScene onEllipse(std::string name, std::string title, double a, double b, do
   setBead(s, viscosity);
   s.start = {from};
   s.experiment.task = makeTask(from, from + kPi);
-  s.hand.kind = HandLaw::Kind::Ellipse;
+  s.hand.kind = SceneHand::Kind::Ellipse;
   s.hand.duration = kReach;
   s.hand.phi0 = from, s.hand.sweep = kPi;
   s.hand.ellipse = {a, b};
@@ -73,7 +73,7 @@ BenchScene nearCusp(std::string name, std::string title, double small) {
   setBead(s, 0);
   s.start = {kPi / 3};
   s.experiment.task = makeTask(kPi / 3, kPi);
-  s.hand.kind = HandLaw::Kind::Epitrochoid;
+  s.hand.kind = SceneHand::Kind::Epitrochoid;
   s.hand.duration = kReach;
   s.hand.phi0 = kPi / 3, s.hand.sweep = 2 * kPi / 3;
   s.hand.epitrochoid = {0.08, small};
@@ -98,7 +98,7 @@ BenchScene onSurface(std::string name, std::string title, std::string surface, s
   setBead(s, viscosity);
   s.start = std::move(start);
   setStart(s);
-  s.hand.kind = HandLaw::Kind::Straight;
+  s.hand.kind = SceneHand::Kind::Straight;
   s.hand.duration = kReach;
   s.hand.from = from, s.hand.by = by;
   return s;
@@ -108,7 +108,7 @@ BenchScene onSurface(std::string name, std::string title, std::string surface, s
 BenchScene pastPole(std::string name, std::string title, double tilt) {
   BenchScene s = onSurface(std::move(name), std::move(title), "", {{"R", 0.1}}, 0, {}, {}, {});
   s.experiment.constraint.surface = {"R*sin(v)*cos(u)", "R*sin(v)*sin(u)", "R*cos(v)"};  // typed, so that no name tells of the pole
-  s.hand.kind = HandLaw::Kind::None;
+  s.hand.kind = SceneHand::Kind::None;
   s.cartesian = true;
   constexpr double kSpeed = 2;  // [rad/s]
   const double angle = -kSpeed * kReach / 2;
@@ -128,7 +128,7 @@ BenchScene pulledPastPole(std::string name, std::string title, double tilt) {
   s.rate.clear();
   double r[3], ru[3], rv[3], ruu[3], ruv[3], rvv[3];
   SphereShape{s.experiment.constraint.shape.at("R")}.evaluate(s.start[0], s.start[1], r, ru, rv, ruu, ruv, rvv);
-  s.hand.kind = HandLaw::Kind::Straight;
+  s.hand.kind = SceneHand::Kind::Straight;
   s.hand.duration = kReach;
   s.hand.from = {r[0], r[1], r[2]};
   s.hand.by = {0, -2 * r[1], 0};

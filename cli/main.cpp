@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/command_words.h"
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 #include "base/system/kept_memory.h"
 #include "base/system/os.h"
 #include "base/system/processor_level.h"

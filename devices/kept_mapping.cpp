@@ -33,7 +33,7 @@ std::string withKeptMappings(const std::string& device, const std::string& data,
   for (std::string& hand : hands) {
     const std::string kind = kindOf(hand), file = fileOf(hand, data, subject);
     std::error_code error;
-    if (kind == "replay" || handOptionsOf(hand).mapped || !std::filesystem::exists(file, error)) continue;
+    if (kind == "replay" || handSettingsOf(hand).mapped || !std::filesystem::exists(file, error)) continue;
     taken.push_back(file);
     hand += (hand.size() == kind.size() ? "," : hand.back() == ':' ? "" : ",") + ("mapping=" + file);
   }
@@ -44,7 +44,7 @@ std::vector<std::string> keepMappings(const std::string& device, const std::stri
   const std::vector<std::string> hands = splitHands(device);
   std::vector<std::string> kept;
   for (const std::string& hand : hands) {
-    const HandOptions options = handOptionsOf(hand);
+    const HandSettings options = handSettingsOf(hand);
     if (!options.mapped) continue;
     kept.push_back(fileOf(hand, data, subject));
     saveMapping(options.mapping, kept.back());

@@ -29,13 +29,13 @@ Spec parse(const std::string& spec) {
 constexpr std::uint64_t kOfAHand = 0x68616e64;
 
 // What a replayed file is called is its own business.
-bool takesHandOptions(const Spec& asked) { return asked.name != "replay"; }
+bool takesHandSettings(const Spec& asked) { return asked.name != "replay"; }
 
 std::unique_ptr<haptics::HapticDevice> makeBy(const DeviceDriver& driver, const Spec& asked,
                                               const experiment::CompiledExperiment& experiment, std::uint64_t seed) {
-  if (!takesHandOptions(asked)) return driver.make({asked.name, asked.argument, experiment, seed});
+  if (!takesHandSettings(asked)) return driver.make({asked.name, asked.argument, experiment, seed});
   DeviceOptions options(asked.argument, "device " + asked.name);
-  const HandOptions hand = takeHandOptions(options);
+  const HandSettings hand = takeHandSettings(options);
   if (!hand.any()) return driver.make({asked.name, asked.argument, experiment, seed});
   const std::string rest = options.rest(), argument = options.plain() + (options.plain().empty() || rest.empty() ? "" : ",") + rest;
   return guardDevice(driver.make({asked.name, argument, experiment, seed}), hand);
@@ -100,11 +100,11 @@ std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const
   return makeDevice(spec, experiment::CompiledExperiment(experiment), seed);
 }
 
-HandOptions handOptionsOf(const std::string& spec) {
+HandSettings handSettingsOf(const std::string& spec) {
   const Spec asked = parse(spec);
-  if (!takesHandOptions(asked)) return {};
+  if (!takesHandSettings(asked)) return {};
   DeviceOptions options(asked.argument, "device " + asked.name);
-  return takeHandOptions(options);
+  return takeHandSettings(options);
 }
 
 int trialsOnOffer(const std::string& spec) {

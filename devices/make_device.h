@@ -19,7 +19,7 @@ std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::Experiment& experiment, std::uint64_t seed);
 
 /// The options of a device besides its driver's options: mapping and guards (docs/devices.md). Throws FaultError.
-HandOptions handOptionsOf(const std::string& spec);
+HandSettings handSettingsOf(const std::string& spec);
 
 /// The number of trials when a run names none: as many as a replayed source has reaches, one for every other device. Throws ResourceError
 /// when the source has no reach.

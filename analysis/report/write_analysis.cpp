@@ -45,7 +45,7 @@ class TableFiles {
 AnalysisFiles writeAnalysis(const Analysis& analysis, const DatasetIndex& dataset, const ReportHeader& header, const std::string& folder,
                             const std::optional<TruthRecovery>& recovery) {
   AnalysisFiles files;
-  const record::FolderHold hold(folder);  // all that is written here belongs to one analysis
+  const record::FolderHold hold(folder, record::FolderHold::WithoutLocks::HoldNothing);  // all that is written here belongs to one analysis
   TableFiles tables(folder);
   writeTables(analysis, [&](const std::string& name, std::string_view piece) { tables.write(name, piece); });
   if (recovery) tables.write("recovery.csv", recoveryTable(*recovery));

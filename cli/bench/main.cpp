@@ -1,4 +1,4 @@
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 #include "base/system/os.h"
 #include "base/system/stop_signals.h"
 #include "cli/bench/run_bench.h"

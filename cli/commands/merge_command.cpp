@@ -26,7 +26,7 @@ void merge(const Options& o) {
   if (!o.session.empty()) c.session = o.session;
   record::checkConfiguration(c);
   const session::SessionPlace place{o.data, c.subject, c.session};
-  const session::FolderHold hold(o.data);
+  const record::FolderHold hold = session::holdDataset(o.data);
   c.run = session::chooseRun(place, std::nullopt);
   const std::string path = session::logPath(place, c.task, c.run);
   const network::MergeReport report = network::mergeStations(o.logs, c, path);

@@ -6,7 +6,7 @@
 
 #include "base/fault.h"
 #include "base/names.h"
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 #include "cli/terminal/option_words.h"
 #include "sim/session/recorded_run.h"
 
@@ -75,10 +75,10 @@ int exitCodeOf(CLI::App& app, const std::function<int()>& work) {
     std::fprintf(stderr, "%s: %s\n", optionOf("data").c_str(), e.what());
     return 3;
   } catch (const std::exception& e) {
-    const Ending ending = endingOf(e);
+    const ErrorReport report = errorReportOf(e);
     const bool own = dynamic_cast<const Error*>(&e) != nullptr;
-    std::fprintf(stderr, "%s%s\n", own ? "" : "reach: ", ending.sentence.c_str());
-    return ending.exitCode;
+    std::fprintf(stderr, "%s%s\n", own ? "" : "reach: ", report.sentence.c_str());
+    return report.exitCode;
   }
 }
 

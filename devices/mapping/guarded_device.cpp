@@ -24,7 +24,7 @@ Quaternion product(const Quaternion& a, const Quaternion& b) noexcept {
 /// Passes everything on; places, velocities and orientations into the world, forces out of it.
 class GuardedDevice final : public haptics::HapticDevice {
  public:
-  GuardedDevice(std::unique_ptr<haptics::HapticDevice> device, const HandOptions& options)
+  GuardedDevice(std::unique_ptr<haptics::HapticDevice> device, const HandSettings& options)
       : device_(std::move(device)), options_(options), rows_(directions(options.mapping)) {
     const Vec3& r = options.mapping.rotation;
     const double angle = norm(r), half = angle > 0 ? std::sin(angle / 2) / angle : 0;
@@ -81,7 +81,7 @@ class GuardedDevice final : public haptics::HapticDevice {
   Vec3 turned(const Vec3& v) const noexcept { return {dot(rows_[0], v), dot(rows_[1], v), dot(rows_[2], v)}; }
 
   std::unique_ptr<haptics::HapticDevice> device_;
-  HandOptions options_;
+  HandSettings options_;
   std::array<Vec3, 3> rows_;
   Quaternion turn_{};
 };
@@ -104,8 +104,8 @@ std::optional<Vec3> takeVector(DeviceOptions& options, const std::string& key, d
 
 }  // namespace
 
-HandOptions takeHandOptions(DeviceOptions& options) {
-  HandOptions hand;
+HandSettings takeHandSettings(DeviceOptions& options) {
+  HandSettings hand;
   if (const auto file = options.take("mapping")) hand.mapping = readMapping(*file), hand.mapped = true;
   const double scale = options.number("scale", -1, 0.01, 100);
   if (scale > 0) hand.mapping.scale = scale, hand.mapped = true;
@@ -132,7 +132,7 @@ HandOptions takeHandOptions(DeviceOptions& options) {
   return hand;
 }
 
-std::unique_ptr<haptics::HapticDevice> guardDevice(std::unique_ptr<haptics::HapticDevice> device, const HandOptions& options) {
+std::unique_ptr<haptics::HapticDevice> guardDevice(std::unique_ptr<haptics::HapticDevice> device, const HandSettings& options) {
   if (!options.any()) return device;
   if (options.wall && *options.wall == 0 && !(device->info().workspaceRadius > 0))
     throw FaultError(Fault{"device", fmt::format("wall=yes: the workspace of {} is not known", device->info().name), "wall=RADIUS_M"});

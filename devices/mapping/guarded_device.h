@@ -10,7 +10,7 @@
 namespace reachlab::devices {
 
 /// The options of every device besides its driver's options.
-struct HandOptions {
+struct HandSettings {
   Mapping mapping;
   bool mapped = false;
   std::optional<double> wall;        // [m] radius in the world; 0: the device's own workspace
@@ -23,9 +23,9 @@ struct HandOptions {
 
 /// Takes `mapping=FILE`, `scale=`, `offset=X/Y/Z` [m], `rotation=X/Y/Z` [deg], `mirror=x`, `wall=yes|RADIUS_M`, `speed-limit=M_PER_S`,
 /// `stylus-mass=KG`, `passivity=control`, `dead-man-button=N`. Throws FaultError.
-HandOptions takeHandOptions(DeviceOptions& options);
+HandSettings takeHandSettings(DeviceOptions& options);
 
 /// The device as the world sees it, with its mapping and its guards. Without any option it is the device itself.
-std::unique_ptr<haptics::HapticDevice> guardDevice(std::unique_ptr<haptics::HapticDevice> device, const HandOptions& options);
+std::unique_ptr<haptics::HapticDevice> guardDevice(std::unique_ptr<haptics::HapticDevice> device, const HandSettings& options);
 
 }  // namespace reachlab::devices

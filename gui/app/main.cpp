@@ -12,7 +12,7 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 #include "base/system/os.h"
 #include "base/system/processor_level.h"
 #include "base/system/stop_signals.h"
@@ -169,7 +169,7 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& e) {
     return sayFault((std::string("reachlab: ") + e.what()).c_str(), 2, argc, argv);
   } catch (const std::exception& e) {
-    const reachlab::Ending ending = reachlab::endingOf(e);
-    return sayFault(ending.sentence.c_str(), ending.exitCode, argc, argv);
+    const reachlab::ErrorReport report = reachlab::errorReportOf(e);
+    return sayFault(report.sentence.c_str(), report.exitCode, argc, argv);
   }
 }

@@ -15,7 +15,7 @@
 #include <cmath>
 #include <utility>
 
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 #include "gui/app/key_focus.h"
 #include "gui/app/screens.h"
 #include "gui/app/window_layout.h"
@@ -323,7 +323,7 @@ void MainWindow::joinStations() {
   try {
     session_.join(docks_.session->request());
   } catch (const std::exception& e) {
-    message_->say(QString::fromStdString(endingOf(e).sentence));
+    message_->say(QString::fromStdString(errorReportOf(e).sentence));
   }
   showStage();
   showStations();
@@ -367,7 +367,7 @@ void MainWindow::beginNext() {
     message_->say({});
     if (!session_.next(docks_.session->request()) && session_.run() == nullptr) message_->tell(QStringLiteral("The session is complete."));
   } catch (const std::exception& e) {
-    message_->say(QString::fromStdString(endingOf(e).sentence));
+    message_->say(QString::fromStdString(errorReportOf(e).sentence));
   }
   showStage();
 }

@@ -14,7 +14,7 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 #include "constraints/constraint.h"
 #include "gui/choosers/formula_editor.h"
 #include "gui/scene/scene_view.h"
@@ -371,7 +371,7 @@ void ConstraintChooser::save() {
     for (std::size_t i = 0; i < definitions_.size(); ++i)
       if (definitions_[i].name == name) list_->setCurrentRow(static_cast<int>(i));
   } catch (const std::exception& e) {
-    saved_->setText(QString::fromStdString(endingOf(e).sentence));
+    saved_->setText(QString::fromStdString(errorReportOf(e).sentence));
   }
 }
 

@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "analysis/report/write_analysis.h"
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 
 namespace reachlab::gui::inspector {
 namespace {
@@ -53,7 +53,7 @@ void Inspector::start(Work work) {
           work(turn, stop);
         } catch (const GivenUp&) {
         } catch (const std::exception& e) {
-          fault = QString::fromStdString(endingOf(e).sentence);
+          fault = QString::fromStdString(errorReportOf(e).sentence);
         }
         tell(turn, [this, fault] {
           busy_ = false;

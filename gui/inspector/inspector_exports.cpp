@@ -5,7 +5,7 @@
 #include <QPushButton>
 
 #include "base/fault.h"
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 #include "gui/inspector/epsilon_panel.h"
 #include "gui/inspector/inspector.h"
 #include "gui/inspector/analysis_lines.h"
@@ -38,7 +38,7 @@ void InspectorPage::saveFigure() {
     exportTo(file);
     Q_EMIT told(tr("Written: %1").arg(file));
   } catch (const std::exception& e) {
-    Q_EMIT said(QString::fromStdString(endingOf(e).sentence));
+    Q_EMIT said(QString::fromStdString(errorReportOf(e).sentence));
   }
 }
 
@@ -50,7 +50,7 @@ void InspectorPage::saveTable() {
     exportTable(file);
     Q_EMIT told(tr("Written: %1").arg(file));
   } catch (const std::exception& e) {
-    Q_EMIT said(QString::fromStdString(endingOf(e).sentence));
+    Q_EMIT said(QString::fromStdString(errorReportOf(e).sentence));
   }
 }
 

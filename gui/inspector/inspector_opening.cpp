@@ -7,7 +7,7 @@
 #include <QTableView>
 #include <QTimer>
 
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 #include "gui/inspector/inspector.h"
 #include "gui/inspector/marks_panel.h"
 #include "gui/inspector/replay_view.h"
@@ -55,7 +55,7 @@ void InspectorPage::pollOpening() {
   try {
     opened(opening_.get());
   } catch (const std::exception& e) {
-    Q_EMIT said(QString::fromStdString(endingOf(e).sentence));
+    Q_EMIT said(QString::fromStdString(errorReportOf(e).sentence));
   }
 }
 

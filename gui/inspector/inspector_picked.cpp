@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/fault.h"
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 #include "gui/inspector/inspector.h"
 #include "gui/inspector/marks_panel.h"
 #include "gui/inspector/profile_plot.h"
@@ -71,7 +71,7 @@ void InspectorPage::showPicked() {
                  table_->mark(picked_), move.found ? first + move.onset : std::nan(""), move.found ? first + move.offset : std::nan(""));
   } catch (const std::exception& e) {
     replay_->clear();
-    Q_EMIT said(QString::fromStdString(endingOf(e).sentence));
+    Q_EMIT said(QString::fromStdString(errorReportOf(e).sentence));
   }
 }
 
@@ -87,7 +87,7 @@ void InspectorPage::marksDragged(double onset, double end, bool done) {
     if (std::abs(end - move.duration()) > 1e-4) mark.offset = zero + end;
     setMark(mark);
   } catch (const std::exception& e) {
-    Q_EMIT said(QString::fromStdString(endingOf(e).sentence));
+    Q_EMIT said(QString::fromStdString(errorReportOf(e).sentence));
   }
 }
 
@@ -99,7 +99,7 @@ void InspectorPage::setMark(const record::TrialMark& mark) {
     if (mark.excluded != before.excluded || mark.onset != before.onset || mark.offset != before.offset) inspect();  // other numbers
     else showPicked();
   } catch (const std::exception& e) {
-    Q_EMIT said(QString::fromStdString(endingOf(e).sentence));
+    Q_EMIT said(QString::fromStdString(errorReportOf(e).sentence));
   }
 }
 

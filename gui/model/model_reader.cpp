@@ -7,7 +7,7 @@
 #include <cmath>
 #include <exception>
 
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 
 namespace reachlab::gui::model {
 namespace {
@@ -68,7 +68,7 @@ void ModelReader::begin(const std::string& file) {
           read = std::make_shared<Model>(readModel(file, watch));
         } catch (const GivenUp&) {
         } catch (const std::exception& e) {
-          fault = QString::fromStdString(endingOf(e).sentence);
+          fault = QString::fromStdString(errorReportOf(e).sentence);
         }
         tell(turn, [this, read, fault] {
           Q_EMIT idle();

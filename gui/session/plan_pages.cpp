@@ -4,7 +4,7 @@
 #include <QTimer>
 #include <algorithm>
 
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 #include "gui/docks/session_dock.h"
 #include "gui/plan/plan_composer.h"
 #include "gui/plan/start_page.h"
@@ -54,7 +54,7 @@ void PlanPages::refresh() {
     for (const session::PlanBlock& block : plan.blocks)
       if (block.day != 0) what.day = session::sessionDay(request, plan);
   } catch (const std::exception& e) {
-    what.fault = QString::fromStdString(endingOf(e).sentence);
+    what.fault = QString::fromStdString(errorReportOf(e).sentence);
   }
   page_->show(what);
   page_->setVisible(true);

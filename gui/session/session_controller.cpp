@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/fault.h"
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 #include "devices/instruments/instruments.h"
 #include "devices/kept_mapping.h"
 #include "devices/make_device.h"
@@ -61,7 +61,7 @@ std::optional<std::string> SessionController::putInOrder() {
     stop_->allInOrder();
     return std::nullopt;
   } catch (const std::exception& e) {
-    return endingOf(e).sentence;
+    return errorReportOf(e).sentence;
   }
 }
 
@@ -85,7 +85,7 @@ void SessionController::setProgramme(const session::Programme& programme) {
   try {
     if (observed) join(asked_);
   } catch (const std::exception& e) {
-    Q_EMIT failed(QString::fromStdString(endingOf(e).sentence));
+    Q_EMIT failed(QString::fromStdString(errorReportOf(e).sentence));
   }
 }
 
@@ -274,7 +274,7 @@ void SessionController::endRun() {
       backup_->request();
     }
   } catch (const std::exception& e) {
-    Q_EMIT failed(QString::fromStdString(endingOf(e).sentence));
+    Q_EMIT failed(QString::fromStdString(errorReportOf(e).sentence));
   }
   stop_.reset();
   lock.unlock();
@@ -394,7 +394,7 @@ void SessionController::stopInOrder() {
   try {
     if (run() != nullptr && !wrong) run()->finish();
   } catch (const std::exception& e) {
-    wrong = endingOf(e).sentence;
+    wrong = errorReportOf(e).sentence;
   }
   if (wrong) std::fprintf(stderr, "%s\n", wrong->c_str());
   std::_Exit(StopRequest::exitCode());
@@ -402,7 +402,7 @@ void SessionController::stopInOrder() {
 
 // The run cannot go on: what was finished is on the disk, and the loop ends with zero force.
 void SessionController::fail(const std::exception& fault) {
-  const QString sentence = QString::fromStdString(endingOf(fault).sentence);
+  const QString sentence = QString::fromStdString(errorReportOf(fault).sentence);
   mouse_ = nullptr;
   std::unique_lock lock(changing_);
   (void)putInOrder();  // the fault itself is what is told

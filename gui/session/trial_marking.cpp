@@ -3,7 +3,7 @@
 #include <QInputDialog>
 #include <functional>
 
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 #include "gui/docks/trials_dock.h"
 #include "gui/session/session_controller.h"
 #include "gui/widgets/message_bar.h"
@@ -25,7 +25,7 @@ void change(docks::TrialsDock& dock, SessionController& session, MessageBar& mes
     record::writeMarks(log, marks);
     dock.setMark(number, mark);
   } catch (const std::exception& e) {
-    message.say(QString::fromStdString(endingOf(e).sentence));
+    message.say(QString::fromStdString(errorReportOf(e).sentence));
   }
 }
 

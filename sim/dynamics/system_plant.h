@@ -177,8 +177,6 @@ class SystemPlant : public PlantBase {
     return true;
   }
 
-  static constexpr double kTypicalPlace = 0.1;  // [m] the unit of position in which a method states its error
-
   Method<System> method_;
   Adaptive<System> locator_;
   std::array<State, 2> states_;  // now and after the step, by turns, without copies

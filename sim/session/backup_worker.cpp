@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 #include "sim/session/backup.h"
 
 namespace reachlab::session {
@@ -17,7 +17,7 @@ BackupState backUpNow(const std::string& dataset, const std::string& backup) {
                         1e-6 * static_cast<double>(report.copiedBytes))};
   } catch (const std::exception& error) {
     return {BackupState::Kind::Failed,
-            fmt::format("backup {}: not made: {}; the recording itself is safe", backup, endingOf(error).sentence)};
+            fmt::format("backup {}: not made: {}; the recording itself is safe", backup, errorReportOf(error).sentence)};
   }
 }
 

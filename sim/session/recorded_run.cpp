@@ -136,7 +136,7 @@ void RecordedRun::completeConfiguration() {
 
 // The number is free when the log is created: nobody else takes one meanwhile.
 void RecordedRun::openLog() {
-  const FolderHold hold(options_.place.data);
+  const record::FolderHold hold = holdDataset(options_.place.data);
   record::removeLeftovers(options_.place.data);
   takeFreeRun(block_, options_.place, options_.numberAskedFor);
   completeConfiguration();
@@ -266,7 +266,7 @@ void RecordedRun::finish() {
   if (std::exchange(finished_, true)) return;
   inDataset([this] {
     const std::vector<record::RunLog> run{record::RunLog::open(block_.logPath)};
-    const FolderHold hold(options_.place.data);  // the tables are of all runs
+    const record::FolderHold hold = holdDataset(options_.place.data);  // the tables are of all runs
     for (const record::Exporter& exporter : record::exporters())
       if (exporter.withEachRun) record::writeInto(options_.place.data, exporter, run);
   });

@@ -64,7 +64,7 @@ SessionToRun planSession(const SessionRequest& request);
 int sessionDay(const SessionRequest& request, const Plan& plan);
 
 /// Gives the block the next free run number where another program has taken its number since it was planned. A number that was `askedFor`
-/// is refused then (FaultError). Call it under a FolderHold that lasts until the log is created.
+/// is refused then (FaultError). Keep holdDataset until the log is created.
 void takeFreeRun(BlockToRun& block, const SessionPlace& place, bool askedFor);
 
 /// The fault of a seed's text, which must be a whole number from 0 to 2^64 - 1. A sign or a larger number would silently become another

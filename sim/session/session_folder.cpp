@@ -1,18 +1,12 @@
 #include "sim/session/session_folder.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
 #include <filesystem>
 
 #include "base/fault.h"
-#include "sim/record/log/append_file.h"
 #include "sim/record/configuration/limits.h"
 
 namespace reachlab::session {
@@ -72,22 +66,6 @@ int chooseRun(const SessionPlace& place, std::optional<int> asked) {
   return *asked;
 }
 
-FolderHold::FolderHold(const std::string& data) {
-  const std::string folder = data + "/sourcedata";
-  record::makeFolders(folder);
-  descriptor_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor_ < 0) throw ResourceError(fmt::format("{}: cannot be opened: {}", folder, std::strerror(errno)));
-  while (::flock(descriptor_, LOCK_EX) != 0) {
-    if (errno == EINTR) continue;
-    const int fault = errno;
-    ::close(descriptor_);
-    throw ResourceError(fmt::format("{}: cannot be locked against a second program: {}; choose a folder on a disk with locks", folder,
-                                    std::strerror(fault)));
-  }
-}
-
-FolderHold::~FolderHold() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
+record::FolderHold holdDataset(const std::string& data) { return {data + "/sourcedata", record::FolderHold::WithoutLocks::Refuse}; }
 
 }  // namespace reachlab::session

@@ -3,6 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/record/log/append_file.h"
+
 namespace reachlab::session {
 
 /// A dataset's folder and the labels of one session in it.
@@ -27,18 +29,8 @@ std::vector<RunOnDisk> recordedRuns(const SessionPlace& place);
 /// The next free run number, or `asked`. Throws FaultError with a proposal when that number is taken: nothing is overwritten.
 int chooseRun(const SessionPlace& place, std::optional<int> asked);
 
-/// Locks a dataset against other programs that record into it, while a run number is taken or a shared table is rewritten. Waits for
-/// another holder.
-class FolderHold {
- public:
-  /// Makes the folder of the logs if it is missing. Throws ResourceError, also where a file system has no locks.
-  explicit FolderHold(const std::string& data);
-  ~FolderHold();
-  FolderHold(const FolderHold&) = delete;
-  FolderHold& operator=(const FolderHold&) = delete;
-
- private:
-  int descriptor_ = -1;
-};
+/// Locks a dataset against other programs that record into it, while a run number is taken or a shared table is rewritten. Makes the folder
+/// of the logs if it is missing. Throws ResourceError, also where a file system has no locks.
+record::FolderHold holdDataset(const std::string& data);
 
 }  // namespace reachlab::session

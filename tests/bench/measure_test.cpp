@@ -210,7 +210,7 @@ TEST(Contender, WhereAMotionEndsIsTold) {
   scene.experiment.constraint.definition = R"({"schema_version": 1, "name": "own", "kind": "curve", "curve": ["0.1*phi", "0.1*phi^2", "0"],
     "shape": {}, "domain": [0, 2], "periodic": false, "at_end": "stop", "start": [1], "target": [2], "sentence": "s", "source": "s"})";
   scene.experiment.task->start = {1}, scene.experiment.task->target = {2};
-  scene.hand.kind = HandLaw::Kind::None;
+  scene.hand.kind = SceneHand::Kind::None;
   scene.start = {1}, scene.rate = {-10};
   const Contender c = makePlantContender(scene, "auto", kTickSeconds, 0);
   Trajectory out;
@@ -292,10 +292,10 @@ TEST(Quad, ManyTurnsAreTakenOffWithoutLoss) {
 }
 
 // Over half a second: a quintic is cut off nowhere, and a curve's series errs by its ninth term.
-TEST(HandLaw, ASegmentOfManyTicksFollowsTheLawAsFarAsItsDegreeGoes) {
+TEST(SceneHand, ASegmentOfManyTicksFollowsTheLawAsFarAsItsDegreeGoes) {
   for (const auto& [name, dt, within] : {std::tuple{"S1", 0.5, 1e-15}, {"S4", 0.3, 1e-15}, {"S2a", 0.03, 1e-10}, {"S5", 0.02, 1e-10}})
     for (const double t0 : {0.0, 0.35, 0.8}) {
-      const HandLaw law = benchScene(name).hand;
+      const SceneHand law = benchScene(name).hand;
       const dynamics::HandSegment segment = makeSegment(law, t0, dt);
       for (const double s : {0.25, 0.6, 1.0}) {
         const dynamics::HandSample found = dynamics::sampleAt(segment, s), truth = makeSample(law, t0 + s * dt);
@@ -307,7 +307,7 @@ TEST(HandLaw, ASegmentOfManyTicksFollowsTheLawAsFarAsItsDegreeGoes) {
   EXPECT_EQ(makeSegment(benchScene("S7d").hand, 0.4, 1e-3).degree, 0) << "nobody moves";
 }
 
-TEST(HandLaw, TheVelocityIsThePlacesRate) {
+TEST(SceneHand, TheVelocityIsThePlacesRate) {
   for (const char* name : {"S1", "S4", "S2a", "S5"}) {
     const BenchScene scene = benchScene(name);
     for (const double t : {0.2, 0.7, 1.1}) {

@@ -72,7 +72,7 @@ TEST(Quad, SineAndCosineHoldTheirIdentitiesToThirtyTwoDigits) {
 }
 
 // The Taylor segments that drive the plants against the law itself.
-TEST(HandLaw, SegmentsFollowTheLawToRounding) {
+TEST(SceneHand, SegmentsFollowTheLawToRounding) {
   for (const BenchScene& scene : benchScenes()) {
     SCOPED_TRACE(scene.name);
     for (int tick = 0; tick < 1350; tick += 7) {
@@ -92,7 +92,7 @@ TEST(HandLaw, SegmentsFollowTheLawToRounding) {
 // Only the axes and terms of the hand that a scene uses are worked out for the other libraries: as if all were.
 TEST(PeerSystem, FollowsTheWholeHand) {
   for (const BenchScene& scene : benchScenes()) {
-    if (scene.hand.kind == HandLaw::Kind::None) continue;
+    if (scene.hand.kind == SceneHand::Kind::None) continue;
     const dynamics::HandSegment segment = makeSegments(scene, kTickSeconds)->at(400);
     const dynamics::HandSample hand = dynamics::sampleAt(segment, 0.3);
     const double r[3] = {hand.position.x, hand.position.y, hand.position.z}, v[3] = {hand.velocity.x, hand.velocity.y, hand.velocity.z};

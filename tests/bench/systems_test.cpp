@@ -33,7 +33,7 @@ std::vector<double> expectedRates(const BenchScene& scene, const std::vector<dou
     states[i].r = on[i].r, states[i].v = y[n + i] * on[i].rPhi;
   }
   std::vector<double> dy(y.size());
-  const dynamics::Surroundings around{hand, scene.hand.kind != HandLaw::Kind::None, {}};
+  const dynamics::Surroundings around{hand, scene.hand.kind != SceneHand::Kind::None, {}};
   for (int i = 0; i < masses; ++i) {
     places.push_back(states[i].r);
     const Vec3 a = dynamics::netForce(model, around, states, i) / model.mass[i];

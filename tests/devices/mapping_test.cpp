@@ -56,7 +56,7 @@ class Recorded final : public haptics::HapticDevice {
 };
 
 struct Guarded {
-  explicit Guarded(const HandOptions& options) {
+  explicit Guarded(const HandSettings& options) {
     auto owned = std::make_unique<Recorded>();
     inner = owned.get();
     device = guardDevice(std::move(owned), options);
@@ -66,7 +66,7 @@ struct Guarded {
 };
 
 TEST(GuardedDevice, PassesOnWhatIsAskedOfTheDevice) {
-  HandOptions options;
+  HandSettings options;
   options.speedLimit = 1;
   Guarded guarded(options);
   haptics::HapticDevice& device = *guarded.device;
@@ -88,15 +88,15 @@ TEST(GuardedDevice, PassesOnWhatIsAskedOfTheDevice) {
   EXPECT_EQ(device.info().mapping, "");
 }
 
-HandOptions mapped(const Mapping& mapping) {
-  HandOptions options;
+HandSettings mapped(const Mapping& mapping) {
+  HandSettings options;
   options.mapping = mapping;
   options.mapped = true;
   return options;
 }
 
 TEST(DeadManButton, GivesForceOnlyWhileItIsHeld) {
-  HandOptions options;
+  HandSettings options;
   options.deadManButton = 2;
   Guarded guarded(options);
   EXPECT_TRUE(guarded.device->read().released);
@@ -176,7 +176,7 @@ TEST(Mapping, AHandlesAxesAreTurnedAsItsPlaceIs) {
 
 // Twice as large in the world: lengths, steps and speeds as well. The stylus' weight is held along the device's own upwards.
 TEST(Mapping, WhatTheDeviceTellsOfItselfIsOfTheWorld) {
-  HandOptions options = mapped({2, {0.1, 0, 0}, {0, 0, std::numbers::pi / 2}, false});
+  HandSettings options = mapped({2, {0.1, 0, 0}, {0, 0, std::numbers::pi / 2}, false});
   options.wall = 0;
   options.stylusMass = 0.5;
   const haptics::DeviceInfo info = Guarded(options).device->info();
@@ -224,7 +224,7 @@ TEST(Mapping, WhatIsNoMappingIsRefusedWithItsKey) {
     EXPECT_THROW(mappingFromJson(text, "here"), FaultError) << text;
 }
 
-TEST(HandOptions, AreTakenBeforeTheDriversOwn) {
+TEST(HandSettings, AreTakenBeforeTheDriversOwn) {
   const auto experiment = experiment::readExperiment("chain-slow");
   const auto device =
       makeDevice("virtual:omni,arm-mass=1,scale=2,wall=yes,speed-limit=1,stylus-mass=0.295,passivity=control", experiment, 1);
@@ -246,18 +246,18 @@ std::string refusalOf(const std::string& options) {
   DeviceOptions asked(options, "device x");
   return reachlab::refusalOf(
       [&] {
-        (void)takeHandOptions(asked);
+        (void)takeHandSettings(asked);
         asked.done();
       },
       "taken");
 }
 
-HandOptions taken(const std::string& options) {
+HandSettings taken(const std::string& options) {
   DeviceOptions asked(options, "device x");
-  return takeHandOptions(asked);
+  return takeHandSettings(asked);
 }
 
-TEST(HandOptions, AreBoundedAndNoneIsNone) {
+TEST(HandSettings, AreBoundedAndNoneIsNone) {
   EXPECT_FALSE(taken("").any());
   for (const char* good : {"scale=0.01", "scale=100", "offset=10/-10/0", "rotation=360/0/-360", "mirror=no", "mirror=x", "wall=yes",
                            "wall=no", "wall=10", "wall=0.001", "speed-limit=0.01", "speed-limit=20", "stylus-mass=0", "stylus-mass=2",
@@ -276,8 +276,8 @@ TEST(HandOptions, AreBoundedAndNoneIsNone) {
   EXPECT_NE(refusalOf("dead-man-button=1.5").find("dead-man-button=1.5; allowed: a button's number, 1 to 32"), std::string::npos);
 }
 
-TEST(HandOptions, SayWhatWasAskedFor) {
-  const HandOptions all =
+TEST(HandSettings, SayWhatWasAskedFor) {
+  const HandSettings all =
       taken("scale=2,offset=0.1/-0.2/0.3,rotation=90/0/-180,mirror=x,wall=0.4,speed-limit=2.5,stylus-mass=0.3,dead-man-button=3");
   EXPECT_TRUE(all.mapped);
   EXPECT_EQ(all.mapping.scale, 2);
@@ -300,7 +300,7 @@ TEST(HandOptions, SayWhatWasAskedFor) {
   EXPECT_FALSE(taken("mirror=no").any());
 }
 
-TEST(HandOptions, AWallNeedsAWorkspaceOrARadius) {
+TEST(HandSettings, AWallNeedsAWorkspaceOrARadius) {
   struct Unknown final : haptics::HapticDevice {
     haptics::DeviceInfo info() const override {
       haptics::DeviceInfo info;
@@ -310,10 +310,10 @@ TEST(HandOptions, AWallNeedsAWorkspaceOrARadius) {
     haptics::DeviceSample read() noexcept override { return {}; }
     void write(const Vec3&) noexcept override {}
   };
-  const auto refusal = [](const HandOptions& options) {
+  const auto refusal = [](const HandSettings& options) {
     return reachlab::refusalOf([&] { (void)guardDevice(std::make_unique<Unknown>(), options); }, "made");
   };
-  HandOptions options;
+  HandSettings options;
   options.wall = 0;
   EXPECT_NE(refusal(options).find("wall=yes: the workspace of unknown is not known; allowed: wall=RADIUS_M"), std::string::npos);
   options.wall = 0.1;

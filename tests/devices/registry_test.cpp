@@ -168,11 +168,11 @@ TEST(MakeDevice, AReplayOffersEachOfItsReachesOnceAndAllElseOneTrial) {
   EXPECT_THROW(trialsOnOffer("replay:/nowhere"), ResourceError);
 }
 
-TEST(MakeDevice, HandOptionsAreOfTheDeviceWithOrWithoutAName) {
-  EXPECT_EQ(handOptionsOf("virtual:omni,scale=2").mapping.scale, 2);
-  EXPECT_EQ(handOptionsOf("hid,scale=3").mapping.scale, 3);
-  EXPECT_FALSE(handOptionsOf("hid").any());
-  EXPECT_FALSE(handOptionsOf("replay:a,scale=2.csv").any()) << "what a file is called is its own business";
+TEST(MakeDevice, HandSettingsAreOfTheDeviceWithOrWithoutAName) {
+  EXPECT_EQ(handSettingsOf("virtual:omni,scale=2").mapping.scale, 2);
+  EXPECT_EQ(handSettingsOf("hid,scale=3").mapping.scale, 3);
+  EXPECT_FALSE(handSettingsOf("hid").any());
+  EXPECT_FALSE(handSettingsOf("replay:a,scale=2.csv").any()) << "what a file is called is its own business";
   const experiment::Experiment experiment = experiment::readExperiment("chain-slow");
   EXPECT_EQ(makeDevice("simulated,scale=2,noise=0", experiment, 1)->info().name, "simulated") << "the rest is the driver's own";
   EXPECT_THROW(makeDevice("simulated,scale=2,colour=1", experiment, 1), FaultError);

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <new>
 
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 #include "constraints/catalogue/definition.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"

@@ -506,12 +506,12 @@ TEST(SessionFolder, IsWaitedForThroughSignals) {
   }, before{};
   heard.sa_handler = [](int) {};  // without SA_RESTART: what waits is interrupted
   sigaction(SIGUSR1, &heard, &before);
-  auto hold = std::make_unique<FolderHold>(folder / "data");
+  auto hold = std::make_unique<record::FolderHold>(folder / "data/sourcedata", record::FolderHold::WithoutLocks::Refuse);
   std::atomic<bool> held{false};
   std::string refused;
   std::thread other([&] {
     try {
-      const FolderHold second(folder / "data");
+      const record::FolderHold second = holdDataset(folder / "data");
       held = true;
     } catch (const Error& error) {
       refused = error.what();

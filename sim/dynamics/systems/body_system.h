@@ -69,7 +69,7 @@ struct BodySystem : SpaceSystem<Springs<1, true>> {
                  spin.y,
                  spin.z};
   }
-  double scale(int i) const noexcept { return i < 3 ? 0.1 : 1.0; }
+  double scale(int i) const noexcept { return i < 3 ? kTypicalPlace : 1.0; }
   Settled settle(const State&, State& s) const noexcept {
     const double length = 1 / std::sqrt(s[6] * s[6] + s[7] * s[7] + s[8] * s[8] + s[9] * s[9]);
     for (int i = 6; i < 10; ++i) s[i] *= length;

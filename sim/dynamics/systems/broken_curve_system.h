@@ -47,7 +47,7 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N, Parallel>> {
   const constraints::CurvePiece& pieceOf(int i) const noexcept { return regularity->pieces[static_cast<std::size_t>(where[i].piece)]; }
   const constraints::Curve& curveOf(int i) const noexcept { return pieceOf(i).curve; }
   double speedAt(int i, double phi) const noexcept { return norm(evaluate(curveOf(i), phi).rPhi); }
-  double scale(int) const noexcept { return 0.1; }
+  double scale(int) const noexcept { return kTypicalPlace; }
   /// The time [s] in which no mass crosses more than a part of a narrow piece, so that sub-steps see the piece.
   double reach(const State&, const State& rates) const noexcept {
     constexpr double kParts = 24;

@@ -41,7 +41,7 @@ struct CurvePlaces {
   constexpr int states() const noexcept { return 2 * rates(); }
   const constraints::Curve& curveOf(int) const noexcept { return curve; }
   double speedAt(int, double phi) const noexcept { return norm(evaluate(curve, phi).rPhi); }
-  double scale(int i) const noexcept { return i < rates() ? 0.1 : Tangential ? 0.1 : 1.0; }
+  double scale(int i) const noexcept { return i < rates() || Tangential ? kTypicalPlace : 1.0; }
 
   /// Puts all masses at one place, and the unused room too.
   template <class State>

@@ -35,7 +35,7 @@ struct FreeSystem : SpaceSystem<Springs<N, Parallel>> {
       put(dy, n() + i, springs.inverseMass[i] * (force[i] - springs.viscosity * v[i]) + springs.gravity);
     }
   }
-  double scale(int i) const noexcept { return i < 3 * n() ? 0.1 : 1.0; }
+  double scale(int i) const noexcept { return i < 3 * n() ? kTypicalPlace : 1.0; }
 
   void place(std::span<const double> q, std::span<const double> qRate, State& y) const noexcept {
     for (int i = 0; i < n(); ++i) {

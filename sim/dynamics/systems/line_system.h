@@ -48,7 +48,7 @@ struct LineSystem {
       dy[n() + i] = gravity + springs.inverseMass[i] * (force[i] - springs.viscosity * v[i]);
     }
   }
-  double scale(int i) const noexcept { return i < n() ? 0.1 : 1.0; }
+  double scale(int i) const noexcept { return i < n() ? kTypicalPlace : 1.0; }
 
   void place(std::span<const double> q, std::span<const double> qRate, State& y) const noexcept {
     for (int i = 0; i < n(); ++i) y[i] = q[0] * length, y[n() + i] = qRate[0] * length;

@@ -48,7 +48,7 @@ struct QuadricSystem : SpaceSystem<Springs<1, true>> {
     const Vec3 a = mulAdd(-(mulAdd(2, fusedDot(v, quadric.times(v)), fusedDot(n, f)) / fusedDot(n, n)), n, f);
     dy.assign(v.x, v.y, v.z, a.x, a.y, a.z);
   }
-  double scale(int i) const noexcept { return i < 3 ? 0.1 : 1.0; }
+  double scale(int i) const noexcept { return i < 3 ? kTypicalPlace : 1.0; }
 
   /// One step along the great circle: d and v turn by |v| dt / R in the plane that they span. False where a force acts, or where the turn
   /// is too large for the series.

@@ -94,7 +94,7 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
     }
     dy.assign(du, dv, mulAdd(mulAdd(g, a, -(f * b)), inverse, -(drag * du)), mulAdd(mulAdd(e, b, -(f * a)), inverse, -(drag * dv)));
   }
-  double scale(int i) const noexcept { return i < 2 ? 0.1 : 1.0; }
+  double scale(int i) const noexcept { return i < 2 ? kTypicalPlace : 1.0; }
 
   void place(std::span<const double> q, std::span<const double> qRate, State& y) noexcept {
     y.values = {q[0], q[1], qRate[0], qRate[1]};

@@ -72,6 +72,9 @@ concept HooksAgree =
           }});
 }  // namespace systemDetail
 
+/// [m] The size of a usual position, and the unit of position in which a method states its error.
+inline constexpr double kTypicalPlace = 0.1;
+
 /// The equations that a method integrates: a state of kStates numbers (0: known when compiled), and the entry of the hand.
 ///   rate(hand, y, dy)            the equations of motion (7)
 ///   kSecondOrder                 y = (q, q'): the first half of dy is the second half of y

@@ -242,10 +242,20 @@ bool createFileAtomically(const std::string& path, std::string_view text) {
   return file.commitNew();
 }
 
-FolderHold::FolderHold(const std::string& folder) {
+FolderHold::FolderHold(const std::string& folder, WithoutLocks otherwise) {
   makeFolders(folder);
   descriptor_ = os::aboveStandardDescriptors(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if (descriptor_ >= 0) ::flock(descriptor_, LOCK_EX);
+  const bool refuse = otherwise == WithoutLocks::Refuse;
+  if (descriptor_ < 0 && refuse) throw ResourceError(fmt::format("{}: cannot be opened: {}", folder, std::strerror(errno)));
+  while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) != 0) {
+    if (errno == EINTR) continue;
+    const int fault = errno;
+    ::close(descriptor_);
+    descriptor_ = -1;
+    if (refuse)
+      throw ResourceError(fmt::format("{}: cannot be locked against a second program: {}; choose a folder on a disk with locks", folder,
+                                      std::strerror(fault)));
+  }
 }
 
 FolderHold::~FolderHold() {

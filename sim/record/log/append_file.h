@@ -66,11 +66,13 @@ void writeFileAtomically(const std::string& path, std::string_view text);
 /// The same for a new file: of several programs that write it at once, one program succeeds. False: the file exists already.
 bool createFileAtomically(const std::string& path, std::string_view text);
 
-/// While it lives no other program holds the same folder, so that files that belong together come from one program. Where the file system
-/// has no locks it holds nothing. Makes the folder. One thread.
+/// Locks a folder against other programs as long as it lives, so that files that belong together come from one program. Waits for another
+/// holder. Makes the folder. One thread.
 class FolderHold {
  public:
-  explicit FolderHold(const std::string& folder);
+  enum class WithoutLocks { Refuse, HoldNothing };  // on a file system without locks
+  /// Throws ResourceError where `Refuse` is asked for and the folder cannot be locked.
+  FolderHold(const std::string& folder, WithoutLocks otherwise);
   ~FolderHold();
   FolderHold(const FolderHold&) = delete;
   FolderHold& operator=(const FolderHold&) = delete;

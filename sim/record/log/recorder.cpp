@@ -7,7 +7,7 @@
 #include <thread>
 
 #include "base/error.h"
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 #include "base/system/os.h"
 #include "sim/record/log/run_writer.h"
 
@@ -65,7 +65,7 @@ struct Recorder::Impl {
     try {
       work();
     } catch (const std::exception& error) {
-      fault = endingOf(error).sentence;
+      fault = errorReportOf(error).sentence;
     }
   }
   void throwIfFaulty() const {

@@ -10,11 +10,11 @@ inline constexpr int kOwnFaultExit = 70;
 /// The sentence that an exception shows to a person, and the exit code of `reach`. Messages of our exceptions (base/error.h) are shown
 /// unchanged. Exceptions of the standard library and of other libraries get a sentence from here, because theirs name classes and
 /// functions. Any thread.
-struct Ending {
+struct ErrorReport {
   std::string sentence;
   int exitCode = 0;
 };
-Ending endingOf(const std::exception& error);
+ErrorReport errorReportOf(const std::exception& error);
 
 /// Makes an uncaught exception (no memory before main, an exception out of a thread) end the program with a sentence and its exit code
 /// instead of an abort. Every program that calls this has it in force before main. The call itself has no further effect.

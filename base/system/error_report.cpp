@@ -1,4 +1,4 @@
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 
 #include <unistd.h>
 
@@ -52,7 +52,7 @@ struct BeforeMain {
 
 void endOnUncaught() noexcept { std::set_terminate(sayLastWord); }
 
-Ending endingOf(const std::exception& error) {
+ErrorReport errorReportOf(const std::exception& error) {
   const auto* own = dynamic_cast<const Error*>(&error);
   if (dynamic_cast<const FaultError*>(own) != nullptr) return {own->what(), 2};
   if (dynamic_cast<const RefusedError*>(own) != nullptr) return {own->what(), 4};

@@ -1,4 +1,4 @@
-#include "base/system/ending.h"
+#include "base/system/error_report.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -28,11 +28,11 @@ using testing::ExitedWithCode;
 
 template <class E>
 std::string told(const E& error) {
-  const Ending ending = endingOf(error);
-  return std::to_string(ending.exitCode) + " " + ending.sentence;
+  const ErrorReport report = errorReportOf(error);
+  return std::to_string(report.exitCode) + " " + report.sentence;
 }
 
-TEST(Ending, TellsOursAsTheyStandAndOthersInOurWords) {
+TEST(ErrorReport, TellsOursAsTheyStandAndOthersInOurWords) {
   EXPECT_EQ(told(FaultError(Fault{"a", "is 1"})), "2 a: is 1");
   EXPECT_EQ(told(ResourceError("no device")), "3 no device");
   EXPECT_EQ(told(RefusedError("singular")), "4 singular");
@@ -52,10 +52,10 @@ TEST(Ending, TellsOursAsTheyStandAndOthersInOurWords) {
   const std::string own = "70 stopped by a fault of the program itself; what was recorded is safe. Please report what was asked for";
   EXPECT_EQ(told(std::runtime_error("x")), own);
   EXPECT_EQ(told(std::out_of_range("x")), own);
-  EXPECT_EQ(Ending{}.exitCode, 0);
+  EXPECT_EQ(ErrorReport{}.exitCode, 0);
 }
 
-TEST(Ending, WhatNoCatchReachesEndsWithASentence) {
+TEST(ErrorReport, WhatNoCatchReachesEndsWithASentence) {
   const auto uncaught = [](auto thrown) { std::thread([thrown] { throw thrown; }).join(); };
   endOnUncaught();
   EXPECT_EXIT(uncaught(std::bad_alloc()), ExitedWithCode(3), "there is not enough memory for this; what was recorded is safe\n");

@@ -1,4 +1,4 @@
-#include "bench/hand_law.h"
+#include "bench/scene_hand.h"
 
 #include <cmath>
 
@@ -37,10 +37,10 @@ void sineCosineSeries(const Series& a, Series& sine, Series& cosine) {
 
 }  // namespace
 
-dynamics::HandSegment makeSegment(const HandLaw& law, double t0, double dt) {
+dynamics::HandSegment makeSegment(const SceneHand& law, double t0, double dt) {
   const Series q = minimumJerkSeries(t0, dt, law.duration);
   std::array<Series, 3> r{};
-  if (law.kind == HandLaw::Kind::None || law.kind == HandLaw::Kind::Straight) {
+  if (law.kind == SceneHand::Kind::None || law.kind == SceneHand::Kind::Straight) {
     for (int k = 0; k < kTerms; ++k) r[0][k] = law.by.x * q[k], r[1][k] = law.by.y * q[k], r[2][k] = law.by.z * q[k];
     r[0][0] += law.from.x, r[1][0] += law.from.y, r[2][0] += law.from.z;
   } else {
@@ -51,7 +51,7 @@ dynamics::HandSegment makeSegment(const HandLaw& law, double t0, double dt) {
     sineCosineSeries(angle, s, c);
     sineCosineSeries(angle4, s4, c4);
     for (int k = 0; k < kTerms; ++k) {
-      if (law.kind == HandLaw::Kind::Ellipse) {
+      if (law.kind == SceneHand::Kind::Ellipse) {
         r[1][k] = law.ellipse.a * c[k], r[2][k] = law.ellipse.b * s[k];
       } else {
         r[0][k] = law.epitrochoid.bigR * c[k] - law.epitrochoid.small * c4[k];
@@ -69,7 +69,7 @@ dynamics::HandSegment makeSegment(const HandLaw& law, double t0, double dt) {
   return segment;
 }
 
-dynamics::HandSample makeSample(const HandLaw& law, double t) {
+dynamics::HandSample makeSample(const SceneHand& law, double t) {
   double r[3], v[3];
   evaluate(law, t, r, v);
   return {{r[0], r[1], r[2]}, {v[0], v[1], v[2]}, true};

@@ -8,7 +8,7 @@ namespace reachlab::bench {
 
 /// The hand of a scene as a function of time. It is a minimum jerk from 0 to 1 over `duration`, along a chord or along the parameter of a
 /// curve.
-struct HandLaw {
+struct SceneHand {
   enum class Kind { None, Straight, Ellipse, Epitrochoid };
   Kind kind = Kind::None;
   double duration = 1;         // [s] T
@@ -20,26 +20,26 @@ struct HandLaw {
 
 /// Position [m] and velocity [m/s] at 0 <= t <= T, exact in the arithmetic of T.
 template <class T>
-void evaluate(const HandLaw& law, const T& t, T* r, T* v) {
+void evaluate(const SceneHand& law, const T& t, T* r, T* v) {
   const T p = t / law.duration;
   const T q = minimumJerk(p);
   const T rate = minimumJerkRate(p) / law.duration;
   const double from[3] = {law.from.x, law.from.y, law.from.z}, by[3] = {law.by.x, law.by.y, law.by.z};
-  if (law.kind == HandLaw::Kind::None || law.kind == HandLaw::Kind::Straight) {
+  if (law.kind == SceneHand::Kind::None || law.kind == SceneHand::Kind::Straight) {
     for (int i = 0; i < 3; ++i) r[i] = from[i] + by[i] * q, v[i] = by[i] * rate;
     return;
   }
   const T phi = law.phi0 + law.sweep * q;
   T d[3], dd[3];
-  if (law.kind == HandLaw::Kind::Ellipse) law.ellipse.evaluate(phi, r, d, dd);
+  if (law.kind == SceneHand::Kind::Ellipse) law.ellipse.evaluate(phi, r, d, dd);
   else law.epitrochoid.evaluate(phi, r, d, dd);
   for (int i = 0; i < 3; ++i) v[i] = d[i] * (law.sweep * rate);
 }
 
 /// The law over [t0, t0 + dt] within [0, T] as the polynomial that drives a plant. It is the Taylor series, cut where the rest is below
 /// rounding. Degree 5 is exact for a chord.
-dynamics::HandSegment makeSegment(const HandLaw& law, double t0, double dt);
+dynamics::HandSegment makeSegment(const SceneHand& law, double t0, double dt);
 
-dynamics::HandSample makeSample(const HandLaw& law, double t);
+dynamics::HandSample makeSample(const SceneHand& law, double t);
 
 }  // namespace reachlab::bench
