@@ -95,7 +95,7 @@ void addRun(const record::RunLog& run, TableText& table) {
     for (std::size_t hand = 0; hand < together.hands.size(); ++hand) {
       const HandMeasures& m = together.hands[hand];
       table.cell(c.subject).cell(c.session).whole(c.run).whole(trial.trial).cell(c.condition).cell(trial::nameOf(trial.result.outcome));
-      table.whole(static_cast<long long>(hand + 1)).cell(hand == 0 ? c.deviceName : c.otherHands[hand - 1].name);
+      table.whole(static_cast<long long>(hand + 1)).cell(record::devicesOf(c).at(hand).name);
       for (const double value : {m.peakSpeed, m.path, m.peakForce, m.meanForce, m.work, m.positiveWork, m.share, m.lag, m.lagCorrelation,
                                  together.internalForce, together.peakInternalForce})
         table.number(value);

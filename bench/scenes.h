@@ -12,7 +12,7 @@ struct BenchScene {
   std::string name;   // S1 … S8
   std::string title;  // a description of one line
   experiment::Experiment experiment;
-  SceneHand hand;                     // kind None: nobody holds the object
+  SceneHand hand;                   // kind None: nobody holds the object
   double duration = 1.35;           // [s]
   std::vector<double> start, rate;  // common constraint parameters and rates of all masses; rate empty: at rest
   bool cartesian = false;           // the path passes a pole, where the chart has no coordinates: the state is r and v

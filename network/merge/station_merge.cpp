@@ -213,14 +213,12 @@ record::RunConfiguration mergedConfiguration(const std::vector<Station>& station
   record::RunConfiguration c = conductor.log.configuration();
   c.subject = asked.subject, c.session = asked.session, c.run = c.firstRun = asked.run;
   const record::RunConfiguration& first = stations.front().log.configuration();
-  c.device = first.device, c.deviceName = first.deviceName, c.deviceVersion = first.deviceVersion, c.deviceMaxForce = first.deviceMaxForce;
-  c.virtualHand = first.virtualHand, c.rendersForce = first.rendersForce, c.deviceContinuousForce = first.deviceContinuousForce;
-  c.deviceThermalSeconds = first.deviceThermalSeconds, c.guards = first.guards, c.deviceMapping = first.deviceMapping;
+  c.device = first.device;
+  record::setFirstDevice(c, record::devicesOf(first).front());
   for (std::size_t i = 1; i < stations.size(); ++i) {
     const record::RunConfiguration& o = stations[i].log.configuration();
     c.device += " + " + o.device;
-    c.otherHands.push_back({o.deviceName, o.deviceVersion, o.deviceMaxForce, o.virtualHand, o.rendersForce, o.deviceContinuousForce,
-                            o.deviceThermalSeconds, o.guards, o.deviceMapping});
+    c.otherHands.push_back(record::devicesOf(o).front());
   }
   c.methodReason =
       fmt::format("merged from the logs of {} stations, each with a copy of its own ({}); the object is the conductor's, station {}",

@@ -40,7 +40,12 @@ ForceLimits limitsFor(const experiment::Experiment& experiment, const HandOption
 }  // namespace
 
 HandOptions handOptions(const DeviceInfo& device) {
-  return {device.maxForce, device.virtualHand, device.rendersForce, device.maxContinuousForce, device.thermalSeconds, device.guards};
+  return {.deviceMaxForce = device.maxForce,
+          .virtualHand = device.virtualHand,
+          .rendersForce = device.rendersForce,
+          .continuousForce = device.maxContinuousForce,
+          .thermalSeconds = device.thermalSeconds,
+          .guards = device.guards};
 }
 
 EngineOptions engineOptions(HapticDevice& device) {
@@ -169,7 +174,7 @@ void TickEngine::placeFixedPoints() noexcept {
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     Hand& hand = hands_[i];
     dynamics::HandSample& hip = state_.hands[i].hip;
-    const Vec3 fixedPoint = settings_.judgesHand         ? hip.position  // there is no object to hold
+    const Vec3 fixedPoint = settings_.judgesHand       ? hip.position  // there is no object to hold
                             : scene_.shared != nullptr ? scene_.shared->fixedPoint(static_cast<int>(i))
                                                        : state_.masses[0].r + hand.fpInBody;
     hand.fpOffset = hip.position - fixedPoint;

@@ -75,8 +75,8 @@ void compareTrials(const RunLog& log, Replay& replay) {
 /// The stages of a recorded tick. Its watch has judged the samples already, and nobody gets the forces.
 struct RecordedTicks : haptics::NoStages {
   RecordedTicks(const RunLog& theLog, const ReplayHooks& theHooks, const haptics::TickEngine& theEngine)
-      : log(theLog), hooks(theHooks), engine(theEngine), ticks(log.ticks()), furtherHands(log.otherTicks()), setups(log.setups()), rows(log),
-        tracker(log.configuration().firstTrial) {}
+      : log(theLog), hooks(theHooks), engine(theEngine), ticks(log.ticks()), furtherHands(log.otherTicks()), setups(log.setups()),
+        rows(log), tracker(log.configuration().firstTrial) {}
 
   bool read(haptics::TickInput& input) {
     if (replay.ticks == ticks.size()) return false;
@@ -133,20 +133,25 @@ Replay replayRun(const RunLog& log, const ReplayHooks& hooks) {
   const RunConfiguration& c = log.configuration();
   const experiment::CompiledExperiment compiled = recordedExperiment(c);
   const experiment::Experiment& experiment = compiled.experiment();
-  haptics::EngineOptions options{
-      {{c.deviceMaxForce, c.virtualHand, c.rendersForce, c.deviceContinuousForce, c.deviceThermalSeconds, c.guards}}};
-  for (const HandDevice& hand : c.otherHands)
-    options.hands.push_back({hand.maxForce, hand.virtualHand, hand.rendersForce, hand.continuousForce, hand.thermalSeconds, hand.guards});
+  haptics::EngineOptions options{{}};
+  for (const HandDevice& hand : devicesOf(c))
+    options.hands.push_back({.deviceMaxForce = hand.maxForce,
+                             .virtualHand = hand.virtualHand,
+                             .rendersForce = hand.rendersForce,
+                             .continuousForce = hand.continuousForce,
+                             .thermalSeconds = hand.thermalSeconds,
+                             .guards = hand.guards});
   const auto made = hooks.makeEngine ? hooks.makeEngine(compiled, options) : std::make_unique<haptics::TickEngine>(compiled, options);
   haptics::TickEngine& engine = *made;
   experiment::Experiment recorded = experiment;
   if (hooks.makeEngine) recorded.hands.clear();  // a station's own hand alone
   const ChannelTable scene = makeChannelTable(recorded, engine.constraint().parameterCount());
   if (c.table.massCount != scene.massCount || c.table.parameterCount != scene.parameterCount || c.table.body != scene.body ||
-      c.table.hands != scene.hands || c.table.environment != scene.environment ||
-      c.table.cursor != scene.cursor)
-    throw FaultError(
-        Fault{"table", "has not the masses, hands, forces and cursor of its experiment, so the run cannot be simulated again", {}, FilePlace{log.path()}});
+      c.table.hands != scene.hands || c.table.environment != scene.environment || c.table.cursor != scene.cursor)
+    throw FaultError(Fault{"table",
+                           "has not the masses, hands, forces and cursor of its experiment, so the run cannot be simulated again",
+                           {},
+                           FilePlace{log.path()}});
   RecordedTicks ticks{log, hooks, engine};
   haptics::TickInput input;
   while (haptics::runTick(engine, input, ticks)) {}

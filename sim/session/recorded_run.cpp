@@ -104,21 +104,11 @@ RecordedRun::~RecordedRun() {
 void RecordedRun::completeConfiguration() {
   record::RunConfiguration& c = block_.configuration;
   const haptics::DeviceInfo device = conductor_->device();
-  c.deviceName = device.name;
-  c.deviceVersion = device.version;
-  c.deviceMaxForce = device.maxForce;
-  c.virtualHand = device.virtualHand;
-  c.rendersForce = device.rendersForce;
-  c.deviceContinuousForce = device.maxContinuousForce;
-  c.deviceThermalSeconds = device.thermalSeconds;
+  record::setFirstDevice(c, record::deviceOf(device));
   c.timing = block_.experiment.experiment().timing;
-  c.guards = device.guards;
-  c.deviceMapping = device.mapping;
   c.otherHands.clear();  // of the run that is resumed
   const std::vector<haptics::DeviceInfo> hands = conductor_->hands();
-  for (auto hand = hands.begin() + 1; hand != hands.end(); ++hand)
-    c.otherHands.push_back({hand->name, hand->version, hand->maxForce, hand->virtualHand, hand->rendersForce, hand->maxContinuousForce,
-                            hand->thermalSeconds, hand->guards, hand->mapping});
+  for (auto hand = hands.begin() + 1; hand != hands.end(); ++hand) c.otherHands.push_back(record::deviceOf(*hand));
   if (const auto& task = block_.experiment.experiment().task) c.rest = task->rest;
   if (options_.instruments != nullptr) c.instruments = options_.instruments->names();
   c.method = choice_.method;

@@ -262,7 +262,7 @@ TEST(FeedbackGains, ACriterionsRowIsItsIntegrand) {
   for (const auto& [criterion, words] : {std::pair{predict::Criterion::MinTorqueChange, "needs an arm of two links"},
                                          {predict::Criterion::MinCrackle, "min-crackle: asks for a derivative"},
                                          {predict::Criterion::MinHandCrackle, "min-hand-crackle: asks for a derivative"}}) {
-    EXPECT_NE(refusalOf([&] { of(criterion); }).find(words), std::string::npos);
+    EXPECT_NE(refusalOf([&, asked = criterion] { of(asked); }).find(words), std::string::npos);
   }
 }
 

@@ -29,8 +29,7 @@ struct BatchSystem : CurvePlaces<0, Batches * kBatchLanes, Tangential>, SpaceSys
       curve.batch(curve.program, curve.shape.data(), &y[o * kBatchLanes], p);
       BatchMotion& m = motions.value[o];
       const LaneBatch tx = load(p.rPhi[0]), ty = load(p.rPhi[1]), tz = load(p.rPhi[2]), square = mulAdd(tx, tx, mulAdd(ty, ty, tz * tz));
-      if constexpr (Tangential)
-        m.measure = 1.0 / atLeast(squareRoot(square), 1e-290);  // on a cusp T is undefined and unused
+      if constexpr (Tangential) m.measure = 1.0 / atLeast(squareRoot(square), 1e-290);  // on a cusp T is undefined and unused
       else m.measure = 1.0 / square;
       const LaneBatch w = load(&y[rates() + o * kBatchLanes]), speed = Tangential ? w * m.measure : w;
       m.r[0] = load(p.r[0]), m.r[1] = load(p.r[1]), m.r[2] = load(p.r[2]);

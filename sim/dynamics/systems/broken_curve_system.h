@@ -212,7 +212,8 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N, Parallel>> {
   std::string stopReason(StepStatus status, const State& y) const {
     if (status == StepStatus::AtEnd) return endReason();
     if (status == StepStatus::Capped || status == StepStatus::NotFinite) return troubleReason(y);
-    return plainReason(status, "the mass rests on a cusp, or on a kink that pulls it to both sides: which way it would leave is not determined");
+    return plainReason(status,
+                       "the mass rests on a cusp, or on a kink that pulls it to both sides: which way it would leave is not determined");
   }
   std::string endReason() const {
     if (stoppedMass < 0) return "a mass reached the end of the constraint's domain";

@@ -79,6 +79,11 @@ struct RunConfiguration {
 /// The condition of its trials: that of the plan, else the experiment's name.
 inline const std::string& conditionOf(const RunConfiguration& c) { return c.condition.empty() ? c.experimentName : c.condition; }
 
+HandDevice deviceOf(const haptics::DeviceInfo& info);
+/// The devices of all hands, the first hand's at index 0.
+std::vector<HandDevice> devicesOf(const RunConfiguration& configuration);
+void setFirstDevice(RunConfiguration& configuration, const HandDevice& device);
+
 std::string toJson(const RunConfiguration& configuration);
 /// Throws FaultError naming `origin` when the text is no configuration, or a configuration that no recording could have
 /// (checkConfiguration).

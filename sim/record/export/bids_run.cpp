@@ -94,7 +94,7 @@ std::string motionJson(const RunLog& run, int hand) {
   j["RecordingDuration"] = span.seconds();
   j["TrackingSystemName"] = systemName(hand);
   j["Manufacturer"] = "n/a";
-  j["ManufacturersModelName"] = orUnknown(hand == 1 ? c.deviceName : c.otherHands.at(static_cast<std::size_t>(hand - 2)).name);
+  j["ManufacturersModelName"] = orUnknown(devicesOf(c).at(static_cast<std::size_t>(hand - 1)).name);
   j["DeviceSerialNumber"] = "n/a";
   j["SoftwareVersions"] = orUnknown(c.softwareVersion);
   j["InstitutionName"] = "n/a";

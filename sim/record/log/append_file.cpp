@@ -100,9 +100,8 @@ int openTemporary(const std::string& path, std::string& name) {
 // Puts what was written in the place of `path`. A rename puts the new name in place of a link, never through it.
 bool putInPlace(const std::string& temporary, const std::string& path) {
   std::string named = temporary;
-  if (hasNoName(temporary) && withFreeName(path, named, [&] {
-        return ::linkat(AT_FDCWD, temporary.c_str(), AT_FDCWD, named.c_str(), AT_SYMLINK_FOLLOW);
-      }) < 0)
+  if (hasNoName(temporary) &&
+      withFreeName(path, named, [&] { return ::linkat(AT_FDCWD, temporary.c_str(), AT_FDCWD, named.c_str(), AT_SYMLINK_FOLLOW); }) < 0)
     return false;
   if (::rename(named.c_str(), path.c_str()) == 0) return true;
   const int reason = errno;
