@@ -1,3 +1,4 @@
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <clocale>
 #include <memory>
@@ -11,10 +12,7 @@
 #include "base/system/os.h"
 #include "base/system/processor_level.h"
 #include "base/system/stop_signals.h"
-#include "cli/commands/adaptation_command.h"
 #include "cli/commands/commands.h"
-#include "cli/commands/latency_command.h"
-#include "cli/commands/merge_command.h"
 #include "cli/terminal/every_option.h"
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/help_format.h"

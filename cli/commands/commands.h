@@ -1,6 +1,7 @@
 #pragma once
-#include <CLI/CLI.hpp>
-#include <string>
+namespace CLI {
+class App;
+}
 
 namespace reachlab::cli {
 
@@ -23,5 +24,8 @@ void addPeersCommand(CLI::App& app, int& exitCode);
 void addStabilityCommand(CLI::App& app, int& exitCode);
 void addVelocityCommand(CLI::App& app, int& exitCode);
 void addStudyCommand(CLI::App& app, int& exitCode);
+void addAdaptationCommand(CLI::App& app, int& exitCode);
+void addLatencyCommand(CLI::App& app, int& exitCode);
+void addMergeCommand(CLI::App& app, int& exitCode);
 
 }  // namespace reachlab::cli

@@ -1,9 +1,10 @@
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/commands/latency_command.h"
+#include "cli/commands/commands.h"
 #include "devices/driver/registry.h"
 #include "devices/clock_timing.h"
 

@@ -1,5 +1,6 @@
-#include "cli/commands/merge_command.h"
+#include "cli/commands/commands.h"
 
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
 #include <filesystem>
