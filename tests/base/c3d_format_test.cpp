@@ -173,45 +173,6 @@ TEST(C3dFormat, ReadsAFileWithoutParametersByItsHeader) {
   EXPECT_EQ(Made{.sectionBlock = 4}.read().places, file.places) << "the parameters may stand further on";
 }
 
-TEST(C3dFormat, CountsItsFramesByWhicheverCountIsGreatest) {
-  const std::string data = padded(std::string(16, '\0'));  // 32 frames of one point
-  EXPECT_EQ((Made{.first = 11, .last = 13, .data = data}.read().frames), 3u);
-  EXPECT_EQ((Made{.first = 5, .last = 5, .data = data}.read().frames), 1u);
-  EXPECT_EQ((Made{.first = 3, .last = 2, .data = data}.refusal()), "made: has no frames; allowed: at least one frame");
-  const auto field = [](unsigned low, unsigned high, const std::string& name, int type = kWord) {
-    return parameter(1, name, type, {2}, type == kWord ? words({low, high}) : floats({1, 2}));
-  };
-  Made made{.data = data};
-  made.records = group(1, "TRIAL") + field(4, 1, "ACTUAL_START_FIELD") + field(10, 1, "ACTUAL_END_FIELD");
-  EXPECT_EQ(made.read().frames, 7u);
-  made.records = group(1, "TRIAL") + field(7, 0, "ACTUAL_START_FIELD") + field(7, 0, "ACTUAL_END_FIELD");
-  EXPECT_EQ(made.read().frames, 2u) << "fewer than the header's";
-  made.records = group(1, "TRIAL") + field(11, 0, "ACTUAL_START_FIELD") + field(10, 0, "ACTUAL_END_FIELD");
-  EXPECT_EQ(made.read().frames, 2u) << "ends before its start";
-  made.records = group(1, "TRIAL") + field(1, 0, "ACTUAL_START_FIELD", kFloat) + field(10, 0, "ACTUAL_END_FIELD");
-  EXPECT_EQ(made.read().frames, 2u) << "a start that is no word";
-  made.records = group(1, "TRIAL") + field(1, 0, "ACTUAL_START_FIELD") + field(10, 0, "ACTUAL_END_FIELD", kFloat);
-  EXPECT_EQ(made.read().frames, 2u) << "an end that is no word";
-  made.records = group(1, "TRIAL") + field(1, 0, "ACTUAL_START_FIELD") + parameter(1, "ACTUAL_END_FIELD", kWord, {1}, word(9));
-  EXPECT_EQ(made.read().frames, 2u) << "an end of one word";
-  EXPECT_EQ((Made{.first = 3,
-                  .last = 2,
-                  .records = group(1, "TRIAL") + field(9, 0, "ACTUAL_START_FIELD") + field(9, 0, "ACTUAL_END_FIELD"),
-                  .data = data}
-                 .read()
-                 .frames),
-            1u)
-      << "one frame is the first and the last";
-  made.records = group(1, "TRIAL") + field(1, 0, "ACTUAL_END_FIELD");
-  EXPECT_EQ(made.read().frames, 2u) << "no start";
-  made.records = group(1, "POINT") + parameter(1, "LONG_FRAMES", kFloat, {}, floats({8}));
-  EXPECT_EQ(made.read().frames, 8u);
-  made.records = group(1, "POINT") + parameter(1, "LONG_FRAMES", kFloat, {}, floats({3e9f}));
-  EXPECT_EQ(made.read().frames, 2u) << "no count of frames";
-  made.records = group(1, "POINT") + parameter(1, "LONG_FRAMES", kFloat, {}, floats({1}));
-  EXPECT_EQ((Made{.first = 3, .last = 2, .records = made.records, .data = data}.read().frames), 1u);
-}
-
 TEST(C3dFormat, ReadsEventsThatHaveALabelAndATime) {
   Made made;
   const auto events = [&](const std::string& labels, const std::string& times, int type = kFloat) {

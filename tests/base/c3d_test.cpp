@@ -96,23 +96,6 @@ TEST(C3dFile, ReadsNumbersOfEveryWidth) {
   EXPECT_EQ(readC3d(bytes, "made.c3d").rate, 125) << "not the header's";
 }
 
-// Each record says where the next one begins; a text, a byte, a word and a float are all that a parameter may be.
-TEST(C3dFile, WritesParametersOfTheFourTypesAlone) {
-  const std::string bytes = c3dBytes(made(3, 2, 10));
-  const auto byteAt = [&](std::size_t place) { return static_cast<unsigned char>(bytes.at(place)); };
-  int parameters = 0;
-  for (std::size_t record = 512 + 4; byteAt(record) != 0;) {
-    const std::size_t offset = record + 2 + byteAt(record);
-    if (const bool group = byteAt(record + 1) > 127; !group) {
-      const int type = static_cast<signed char>(byteAt(offset + 2));
-      EXPECT_TRUE(type == -1 || type == 1 || type == 2 || type == 4) << bytes.substr(record + 2, byteAt(record)) << " is of type " << type;
-      ++parameters;
-    }
-    record = offset + byteAt(offset) + 256u * byteAt(offset + 1);
-  }
-  EXPECT_GT(parameters, 20);
-}
-
 // The blocks of the section are counted in a byte. A note of 255 letters is half of one, so that every count about the limit comes up.
 TEST(C3dFile, IsReadBackOrRefusedHoweverFullItsSectionIs) {
   int read = 0, refused = 0;

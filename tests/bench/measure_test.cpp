@@ -128,21 +128,6 @@ TEST(Measure, ThePriceIsOfAMillisecondAndItsQuartersStandAboutTheMedian) {
   EXPECT_NEAR(row.nsPerMs - row.nsLow, row.nsHigh - row.nsPerMs, 1e-6 * row.nsPerMs);
 }
 
-// Of a millisecond and three: 1.5, 2 and 2.5.
-TEST(Measure, BetweenTwoRoundsTheQuartersAreDrawnStraight) {
-  int runs = 0, short1 = 0, long1 = 0;
-  const Contender quick = counting(short1, 1e-3), slow = counting(long1, 3e-3);
-  Contender c = quick;
-  c.run = [&](Trajectory* out) { (++runs == 4 ? slow : quick).run(out); };
-  const Row row = measure(tenTicks(), threeNumbers(), {c}, {.rounds = 2, .secondsPerRound = 0})[0];
-  EXPECT_GT(row.nsHigh, 1.3 * row.nsLow);
-  EXPECT_GT(row.nsPerMs, 1.15 * row.nsLow);
-  EXPECT_LT(row.nsHigh, 2 * row.nsLow) << "the longest is not the three-quarter point";
-  runs = 0;
-  const Row one = measure(tenTicks(), threeNumbers(), {c}, {.rounds = 1, .secondsPerRound = 0})[0];
-  EXPECT_EQ(one.nsLow, one.nsHigh);
-}
-
 TEST(Measure, WhoeverDidNotReachTheEndIsGivenNoPrice) {
   int runs = 0, others = 0;
   const std::vector<Row> rows = measure(tenTicks(), threeNumbers(), {counting(runs, 0, "capped at 0.003 s"), counting(others, 0)},
@@ -179,49 +164,6 @@ TEST(Contender, StepsShorterThanATickAreCountedByTheTick) {
   }
 }
 
-TEST(Contender, ARowOfStatesHoldsAllCoordinatesThenTheirRates) {
-  const auto first = [](const char* name, const char* method) {
-    Trajectory out;
-    makePlantContender(benchScene(name), method, kTickSeconds, 0).run(&out);
-    return out;
-  };
-  const Trajectory line = first("S6", "auto"), surface = first("S3", "auto"), pole = first("S7d", "auto");
-  EXPECT_EQ(std::vector<double>(line.states.begin(), line.states.begin() + 4), std::vector<double>(4, 0.0)) << "metres from the start";
-  EXPECT_EQ(line.states.size(), 251u * 4);
-  EXPECT_NEAR(surface.states[0], 0.5, 1e-12);
-  EXPECT_NEAR(surface.states[1], 0, 1e-12);
-  EXPECT_EQ(surface.states.size(), 136u * 4);
-  EXPECT_EQ(pole.states.size(), 136u * 6);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(pole.states[i], pole.positions[i]) << "past a pole places and velocities";
-  EXPECT_NEAR(std::hypot(pole.states[3], pole.states[4], pole.states[5]), 0.2, 1e-12);
-}
-
-TEST(Contender, TheFormTellsWhatAutoChose) {
-  EXPECT_EQ(makePlantContender(benchScene("S1"), "auto", kTickSeconds, 0).form, "exact, line, 10 states");
-  EXPECT_EQ(makePlantContender(benchScene("S1"), "rk4", kTickSeconds, 0).form, "line, 10 states");
-  EXPECT_EQ(makePlantContender(benchScene("S2a"), "adaptive", kTickSeconds, 1e-8).tolerance, 1e-8);
-  EXPECT_THROW((void)makePlantContender(benchScene("S3"), "exact", kTickSeconds, 0), RefusedError);
-}
-
-TEST(Contender, WhereAMotionEndsIsTold) {
-  BenchScene scene = benchScene("S2a");
-  scene.experiment.constraint = {};
-  scene.experiment.constraint.name = "own";
-  scene.experiment.constraint.definition = R"({"schema_version": 1, "name": "own", "kind": "curve", "curve": ["0.1*phi", "0.1*phi^2", "0"],
-    "shape": {}, "domain": [0, 2], "periodic": false, "at_end": "stop", "start": [1], "target": [2], "sentence": "s", "source": "s"})";
-  scene.experiment.task->start = {1}, scene.experiment.task->target = {2};
-  scene.hand.kind = SceneHand::Kind::None;
-  scene.start = {1}, scene.rate = {-10};
-  const Contender c = makePlantContender(scene, "auto", kTickSeconds, 0);
-  Trajectory out;
-  c.run(&out);
-  EXPECT_TRUE(out.failure.starts_with("end of the constraint at 0.")) << out.failure;
-  EXPECT_LT(out.steps, 300u);
-  EXPECT_EQ(out.failure.find(" s"), out.failure.size() - 2);
-  EXPECT_NEAR(std::stod(out.failure.substr(out.failure.find("at ") + 3)), static_cast<double>(out.steps) * 1e-3, 1e-9);
-  c.run(nullptr);
-}
-
 // --- references
 
 // e^-t and a circle, each to what the table of columns is asked for.
@@ -249,25 +191,6 @@ TEST(Extrapolation, GivesUpWhereNoStepIsShortEnough) {
   EXPECT_NEAR(y[0], 0.5, 1e-12) << "as far as there is an equation";
 }
 
-TEST(Reference, MatricesAreForSmallLinearScenesAlone) {
-  for (const char* name : {"S2a", "S1b50"}) {
-    EXPECT_NE(refusalOf([&] { (void)exponentialReference(benchScene(name)); }).find(std::string(name) + ", which has no small matrix"),
-              std::string::npos);
-  }
-}
-
-TEST(Reference, HasASampleEveryHundredthOfASecond) {
-  for (const auto& [name, samples, states, masses] :
-       {std::tuple{"S1", 136, 10, 5}, {"S6", 251, 4, 2}, {"S2a", 136, 2, 1}, {"S7d", 136, 6, 1}, {"S1b50", 136, 100, 50}}) {
-    const Reference r = computeReference(benchScene(name));
-    EXPECT_EQ(r.samples, samples) << name;
-    EXPECT_EQ(r.stateSize, states) << name;
-    EXPECT_EQ(r.massCount, masses) << name;
-    EXPECT_EQ(r.states.size(), static_cast<std::size_t>(samples * states)) << name;
-    EXPECT_EQ(r.positions.size(), static_cast<std::size_t>(samples * masses * 3)) << name;
-  }
-}
-
 TEST(Quad, RootsSquareToWhatTheyAreOf) {
   for (const double x : {1e-20, 0.3, 2.0, 7e15}) {
     const Quad root = squareRoot(Quad(x));
@@ -279,16 +202,6 @@ TEST(Quad, RootsSquareToWhatTheyAreOf) {
   EXPECT_EQ(static_cast<double>(absolute(Quad(3))), 3);
   EXPECT_EQ(absolute(-3.0), 3);
   EXPECT_EQ(squareRoot(2.25), 1.5);
-}
-
-// At a thousand times pi, rounded by 4e-31, the sine is nought to that.
-TEST(Quad, ManyTurnsAreTakenOffWithoutLoss) {
-  const Quad pi = Quad(3.141592653589793) + Quad(1.2246467991473532e-16) + Quad(-2.9947698097183397e-33);
-  for (const int turns : {2, 1000, -1001}) {
-    const auto [sine, cosine] = sineCosine(Quad(pi * turns));
-    EXPECT_LT(std::abs(static_cast<double>(sine)), 6e-34 * std::abs(turns)) << turns;
-    EXPECT_EQ(static_cast<double>(cosine), turns % 2 == 0 ? 1 : -1);
-  }
 }
 
 // Over half a second: a quintic is cut off nowhere, and a curve's series errs by its ninth term.

@@ -84,55 +84,6 @@ TEST(Suite, TheCheapestRowIsTheFirstOfTheLeastPriceThatErrsNoMoreThanAllowed) {
   EXPECT_EQ(cheapest(rows, "S1", 1, [](const Row& r) { return r.method == "exact"; })->method, "exact");
 }
 
-TEST(Suite, AMethodThatASceneIsNotForIsNamedApartFromTheRows) {
-  SuiteOptions options;
-  options.scenes = {"S3"};
-  options.methods = {"exact"};
-  options.quick = true;
-  std::vector<std::string> refusals;
-  EXPECT_TRUE(runSuite(
-                  options, [](const std::string&) {}, refusals)
-                  .empty());
-  ASSERT_EQ(refusals.size(), 1u);
-  EXPECT_TRUE(refusals[0].starts_with("S3 exact: ")) << refusals[0];
-}
-
-// The whole path through 60 um steps of the hand is worse than through the hand's own places, and so is one through noise. Each sample more
-// is an order more, in place and velocity alike.
-TEST(SampledHand, EveryFlawOfTheMeasurementCosts) {
-  std::vector<std::string> progress;
-  const std::vector<SampledRow> rows = measureSampledHand([&](const std::string& line) { progress.push_back(line); });
-  std::map<std::string, std::vector<double>> clean;  // by scene and method: of 1, 2, 3 and 4 samples
-  for (const SampledRow& row : rows) {
-    std::vector<double>& errors = clean[row.scene + " " + row.method];
-    errors.push_back(row.clean);
-    EXPECT_EQ(errors.size(), static_cast<std::size_t>(row.samples)) << row.scene << " " << row.method;
-    if (row.samples != 4) continue;
-    EXPECT_LT(row.clean, row.noise) << row.scene << " " << row.method;
-    EXPECT_LT(row.clean, row.quantised) << row.scene << " " << row.method;
-    EXPECT_LT(row.quantised, 100 * kQuantum) << row.scene << " " << row.method;
-    EXPECT_GT(row.noise, 0.01 * kNoise) << row.scene << " " << row.method;
-    EXPECT_LT(row.noise, 100 * kNoise) << row.scene << " " << row.method;
-  }
-  EXPECT_EQ(clean.size(), 6u + 5 + 5 + 6) << "exact is not for the curved";
-  for (const auto& [name, errors] : clean) {
-    ASSERT_EQ(errors.size(), 4u) << name;
-    for (std::size_t k = 1; k < 3; ++k) EXPECT_LT(3 * errors[k], errors[k - 1]) << name << " " << k;
-    EXPECT_LT(errors[3], 1.01 * errors[2]) << name;
-  }
-  // What the hold and each degree cost a chain of five, measured when the method was designed; here a held sample is a tick old as well.
-  EXPECT_NEAR(std::log2(clean["S1 exact"][0] / 2e-4), 0, 1.5);
-  EXPECT_NEAR(std::log2(clean["S1 exact"][1] / 1e-7), 0, 1);
-  EXPECT_NEAR(std::log2(clean["S1 exact"][2] / 5e-10), 0, 1);
-  EXPECT_LT(clean["S1 exact"][3], 8e-11);
-  ASSERT_EQ(progress.size(), 4u + 2);
-  EXPECT_EQ(progress[0], "sampled hand: S1");
-  EXPECT_EQ(progress[1], "sampled hand: S2a");
-  EXPECT_TRUE(progress[2].starts_with("  exact refused: method exact is for linear scenes")) << progress[2];
-  EXPECT_EQ(kNoise, 1e-5);
-  EXPECT_EQ(kQuantum, 6e-5);
-}
-
 TEST(Suite, UnknownNamesAreRefused) {
   SuiteOptions options;
   std::vector<std::string> refusals;

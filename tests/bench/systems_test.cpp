@@ -85,37 +85,7 @@ TEST(Systems, AHandsVelocityIsAskedForOnlyWhereItIsDamped) {
   for (const char* name : {"S2a", "S3", "S4", "S5", "S7b", "S7c", "S7f", "S8"}) EXPECT_TRUE(asks(name)) << name;
 }
 
-TEST(Systems, ANameWithoutARightHandSideIsRefused) {
-  BenchScene scene = benchScene("S1");
-  scene.name = "S99";
-  EXPECT_NE(refusalOf([&] { visitSystem(scene, [](const auto&) {}); }).find("S99, which has no right-hand side here"), std::string::npos);
-}
-
 // --- the scenes
-
-/// Where the constraint is at the scene's start, or at numbers q.
-Vec3 placeAt(const BenchScene& scene, const std::vector<double>& q) {
-  const constraints::Constraint c = constraints::makeConstraint(scene.experiment.constraint);
-  return c.kind == constraints::ConstraintKind::Curve ? constraints::evaluate(c.curve, q[0]).r
-                                                      : constraints::evaluate(c.surface, q[0], q[1]).r;
-}
-
-TEST(Scenes, GeodesicsPassTheirPoleAsCloseAsTheySayHalfWayAtTwoRadiansASecond) {
-  for (const auto& [name, tilt] : {std::pair{"S7d", 1e-3}, {"S7e", 1e-6}}) {
-    const BenchScene s = benchScene(name);
-    double r[3], v[3];
-    SphereShape{0.1}.placeAndVelocity(s.start[0], s.start[1], s.rate[0], s.rate[1], r, v);
-    EXPECT_NEAR(norm(vec(v)), 0.2, 1e-14) << name;
-    const double turn = 2 * s.duration / 2;
-    const Vec3 half = std::cos(turn) * vec(r) + std::sin(turn) / 2 * vec(v);
-    EXPECT_LT(norm(half - 0.1 * Vec3{std::sin(tilt), 0, std::cos(tilt)}), 1e-14) << name;
-    EXPECT_GT(v[1], 0) << name;
-  }
-  const BenchScene pulled = benchScene("S7f");
-  EXPECT_LT(norm(placeAt(pulled, pulled.start) - placeAt(benchScene("S7d"), benchScene("S7d").start)), 1e-16);
-  const Vec3 from = makeSample(pulled.hand, 0).position, to = makeSample(pulled.hand, pulled.duration).position;
-  EXPECT_LT(norm(to - Vec3{from.x, -from.y, from.z}), 1e-16) << "its mirror image";
-}
 
 TEST(Scenes, AnUnknownOneIsRefusedWithTheNamesThatThereAre) {
   try {
@@ -126,20 +96,6 @@ TEST(Scenes, AnUnknownOneIsRefusedWithTheNamesThatThereAre) {
     EXPECT_NE(words.find("is S9"), std::string::npos) << words;
     EXPECT_NE(words.find("S1, S1b50, S1b500, S2a"), std::string::npos) << words;
     EXPECT_NE(words.find("S7f, S8, constraint-eval"), std::string::npos) << words;
-  }
-}
-
-TEST(PeerSystem, BeginsWhereThePlantDoes) {
-  for (const BenchScene& scene : benchScenes()) {
-    SCOPED_TRACE(scene.name);
-    visitSystem(scene, [&]<class System>(const System& system) {
-      constexpr int n = System::kCoordinates;
-      std::vector<double> y(2 * n, 7.0), r(3 * System::kMasses, 7.0);
-      setInitialState<System>(scene, y.data());
-      system.positions(y.data(), r.data());
-      for (int i = 0; i < System::kMasses; ++i) EXPECT_LT(norm(vec(r.data() + 3 * i) - placeAt(scene, scene.start)), 1e-15);
-      for (int i = 0; i < n; ++i) EXPECT_EQ(y[n + i], scene.rate.empty() ? 0 : scene.rate[i % 2]);
-    });
   }
 }
 

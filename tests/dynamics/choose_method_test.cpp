@@ -73,14 +73,6 @@ TEST(ChooseMethod, EveryMethodForetellsItsError) {
   EXPECT_GT(chosen("rk4", model, facts).predictedError, 0);
 }
 
-TEST(ChooseMethod, AReachOfTwentyCentimetresIn1350MillisecondsIsWhatIsTakenForOne) {
-  const SceneFacts facts;
-  EXPECT_EQ(facts.length, 0.2);
-  EXPECT_EQ(facts.duration, 1.35);
-  EXPECT_EQ(facts.step, 0.001);
-  EXPECT_FALSE(facts.linear || facts.elasticEnds || facts.hardCurve);
-}
-
 // |R(3i)| = |-0.125 - 1.5 i|, R(-3) = 1.375.
 TEST(ChooseMethod, AnUnstableRk4IsRefusedWithItsFastestModeItsGrowthAndItsLongestStep) {
   const std::string undamped = refused("rk4", oscillating(3));
@@ -99,13 +91,6 @@ TEST(ChooseMethod, AnUnstableRk4IsRefusedWithItsFastestModeItsGrowthAndItsLonges
   ObjectModel two = oscillating(3, 3);  // the one that grows most is told, wherever it stands
   two.handStiffness[1] *= 4;
   EXPECT_TRUE(has(refused("rk4", two), "the fastest mode times the step is 6,")) << refused("rk4", two);
-}
-
-TEST(ChooseMethod, Rk4IsWarnedOfHardCurves) {
-  EXPECT_TRUE(chosen("rk4", oscillating(0.1)).warnings.empty());
-  const std::vector<std::string> warnings = chosen("rk4", oscillating(0.1), {.hardCurve = true}).warnings;
-  ASSERT_EQ(warnings.size(), 1u);
-  EXPECT_TRUE(has(warnings[0], "where |r_phi| is small; use method auto"));
 }
 
 TEST(ChooseMethod, WhatAMethodCannotDoIsRefusedWithWhatCan) {

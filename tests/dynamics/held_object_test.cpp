@@ -180,23 +180,6 @@ TEST(HeldObject, TwoCopiesLieApartByTheMeanSquareOfTheirMasses) {
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(by[i], d[i] - loop.shared->places()[i]);
 }
 
-TEST(HeldObject, HasAsManyNumbersAsItsGeometry) {
-  struct Case {
-    Experiment e;
-    int masses, hands, places, rates;
-  };
-  for (const Case& c : {Case{free(chainOfThree()), 3, 3, 9, 9}, Case{onLoop(chainOfThree()), 3, 3, 3, 3},
-                        Case{bodyOf({{1, {600}, {0}, {}}, {1, {600}, {0}, {}}}), 1, 2, 7, 6}}) {
-    const Scene scene = compileScene(c.e);
-    EXPECT_EQ(scene.plant->massCount(), c.masses);
-    EXPECT_EQ(scene.shared->handCount(), c.hands);
-    EXPECT_EQ(scene.shared->placeCount(), c.places);
-    EXPECT_EQ(scene.shared->rateCount(), c.rates);
-    EXPECT_EQ(scene.shared->places().size(), static_cast<std::size_t>(c.places));
-    EXPECT_EQ(scene.shared->rates().size(), static_cast<std::size_t>(c.rates));
-  }
-}
-
 // What was done to it is forgotten: work, grip, a push, and where the hands were.
 TEST(HeldObject, PutUpAnewItMovesAsANewOneDoes) {
   for (const Experiment& e :
@@ -343,26 +326,6 @@ TEST(HeldObject, TheDifferenceOfTwoOrientationsIsTheTurnBetweenThemInBodyAxes) {
     EXPECT_NEAR(by[i], 0.1 * static_cast<double>(i + 1), 1e-15);
     EXPECT_NEAR(by[3 + i], 2 * s * turn[i], 1e-15);
   }
-}
-
-TEST(HeldObject, OneHandIsTheCouplingOrTheParallelSprings) {
-  Experiment chain = chainOfThree();
-  chain.hands.clear();
-  chain.object.fpOffset = {1, 2, 3};
-  const std::vector<HandSprings> one = handSpringsOf(chain);
-  ASSERT_EQ(one.size(), 1u);
-  EXPECT_EQ(one[0].stiffness, (std::vector<double>{600, 0, 0}));
-  EXPECT_EQ(one[0].damping, (std::vector<double>{5, 0, 0}));
-  EXPECT_EQ(one[0].fpOffset, (Vec3{1, 2, 3}));
-  Experiment parallel = makeExperiment(ObjectKind::Parallel, {1, 2}, {40, 50});
-  parallel.object.damping = {4, 5};
-  EXPECT_EQ(handSpringsOf(parallel)[0].stiffness, (std::vector<double>{40, 50}));
-  EXPECT_EQ(handSpringsOf(parallel)[0].damping, (std::vector<double>{4, 5}));
-  const std::vector<HandSprings> three = handSpringsOf(chainOfThree());
-  ASSERT_EQ(three.size(), 3u);
-  EXPECT_EQ(three[1].stiffness, (std::vector<double>{0, 0, 250}));
-  EXPECT_EQ(three[1].damping, (std::vector<double>{0, 0, 1.5}));
-  EXPECT_EQ(three[2].stiffness, (std::vector<double>{50, 100, 150}));
 }
 
 }  // namespace

@@ -100,19 +100,6 @@ TEST(Poles, WhereNothingPullsOnASphereItsGreatCircleIsFollowedInClosedForm) {
   EXPECT_LT(norm(observed(*scene.plant)[0].r - expected), 1e-12);
 }
 
-// Almost 0.1 rad a tick, which is as fast as the closed form's series are good for.
-TEST(Poles, AFastGreatCircleIsFollowedAsWell) {
-  const Scene scene = freeScene(onSurface("0.1*cos(u)*cos(v)", "0.1*sin(u)*cos(v)", "0.1*sin(v)"), {0.3, 0.2}, {90, 35});
-  const MassState begin = observed(*scene.plant)[0];
-  const double turn = norm(begin.v) / 0.1;
-  ASSERT_GT(turn, 90);
-  ASSERT_LT(turn, 100);
-  ASSERT_EQ(run(*scene.plant, noHand, 1), StepStatus::Ok);
-  EXPECT_EQ(scene.plant->rhsEvaluations(), 0u);
-  const Vec3 expected = std::cos(turn) * begin.r + (std::sin(turn) / turn) * begin.v;
-  EXPECT_LT(norm(observed(*scene.plant)[0].r - expected), 1e-12);
-}
-
 // Held, let go, held again, and let go with something that still pulls: as by sub-steps of the equations of motion.
 TEST(Poles, LettingGoOnASphereAndTakingHoldAgainIsAsByTheEquationsOfMotion) {
   enum class Pull { Nothing, Force, Friction };
@@ -162,19 +149,6 @@ TEST(Poles, AConesApexAndAPinchHaveNoContinuation) {
   const Scene umbrella = freeScene(onSurface("u*v", "u", "v^2"), {0, 0.3}, {0, -1});  // Whitney's, along its handle
   EXPECT_EQ(run(*umbrella.plant, noHand, 1), StepStatus::NoContinuation);
   EXPECT_FALSE(umbrella.plant->stopReason().empty());
-}
-
-TEST(Cusps, AnAstroidIsPassedWithoutGainingEnergy) {
-  const Scene scene = freeScene(onCurve(bead(), "0.1*cos(phi)^3", "0.1*sin(phi)^3", "0"), {0.7}, {2});
-  const MassState begin = observed(*scene.plant)[0];
-  const double before = scene.plant->energy({}), speed = norm(begin.v);
-  // Arc length from phi to the next cusp is 0.15 cos(phi)^2; three more quarters of 0.15 follow.
-  const double toCusp = 0.15 * std::cos(0.7) * std::cos(0.7), seconds = (toCusp + 0.45 + 0.15 * std::sin(0.7) * std::sin(0.7)) / speed;
-  const int steps = 2000;
-  ASSERT_EQ(run(*scene.plant, noHand, seconds, seconds / steps), StepStatus::Ok);
-  EXPECT_NEAR(scene.plant->energy({}) / before, 1, kEnergyDrift);
-  EXPECT_LT(norm(observed(*scene.plant)[0].r - begin.r), 1e-10) << "once round, by arc length";
-  EXPECT_NEAR(observed(*scene.plant)[0].q[0], 0.7 + 2 * kPi, 1e-8);
 }
 
 TEST(Cusps, AStartAtRestOnOneIsRefused) {
@@ -403,22 +377,6 @@ TEST(Ends, AJumpInAPeriodIsMetLikeAnEnd) {
       EXPECT_NE(scene.plant->stopReason().find("never crossed: jump at phi = 3.14159265"), std::string::npos) << scene.plant->stopReason();
     }
   }
-}
-
-TEST(Body, SpinningFreelyKeepsEnergyAndAngularMomentum) {
-  experiment::Experiment e = makeExperiment(experiment::ObjectKind::Body, {2}, {}, {600, 0});
-  e.constraint.name = "free";
-  e.object.inertia = {{{0.01, 0, 0}, {0, 0.02, 0}, {0, 0, 0.025}}};
-  e.object.fpOffset = {0.05, 0.02, 0};
-  const Scene scene = compileScene(e);
-  scene.plant->placeAtRest(std::array{0.0, 0.0, 0.0});
-  const HandSample hand{{0.1, 0.05, 0.02}, {}, true};
-  const double before = scene.plant->energy(hand);
-  ASSERT_EQ(run(
-                *scene.plant, [&](double) { return hand; }, 5),
-            StepStatus::Ok);
-  EXPECT_NEAR(scene.plant->energy(hand) / before, 1, kEnergyDrift) << "the spring turns and moves it, and takes nothing";
-  EXPECT_GT(norm(scene.plant->body().angularVelocity), 0.1) << "the force has a moment about the centre";
 }
 
 // Euler's top, its axes of inertia turned against the body's: what nothing turns keeps R I R^T omega in the world.

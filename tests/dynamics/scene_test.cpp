@@ -197,29 +197,6 @@ TEST(Scene, Rk4IsWarnedOfWhatItErrsByAboveAMicrometre) {
       << "without a reach, by the modes alone";
 }
 
-// The hand's law is that of the task: what RK4 errs by over it, against the exact step.
-TEST(Scene, TheReachIsWhatAnRk4sErrorIsMeasuredOn) {
-  for (const double seconds : {0.5, 1.1})
-    for (const double step : {1e-2, 2e-2}) {
-      Experiment chain = from(makeChain(2, 0.5, 300), {0.4}, {3});
-      chain.task->duration = seconds;
-      const Scene rk4 = compileScene(chain, {"rk4", step, 0}), exact = compileScene(chain, {"exact", step, 0});
-      const Vec3 start = observed(*exact.plant)[0].r, chord{0.2 * 2.6 / (2 * std::numbers::pi), 0, 0};
-      EXPECT_LT(norm(start - observed(*rk4.plant)[0].r), 1e-15) << "it is left at its start";
-      EXPECT_LT(norm(observed(*rk4.plant)[0].v), 1e-15);
-      const HandFunction hand = [&](double t) {
-        const MinimumJerk law = heldMinimumJerk(t / seconds);
-        return HandSample{start + law.value * chord, law.rate / seconds * chord, true};
-      };
-      double most = 0;
-      for (int i = 0; i < static_cast<int>(std::ceil(seconds / step)); ++i) {
-        for (const Scene* s : {&rk4, &exact}) ASSERT_EQ(s->plant->step(makeSegment(hand, i * step, step), step), StepStatus::Ok);
-        for (std::size_t m = 0; m < 2; ++m) most = std::max(most, norm(observed(*rk4.plant)[m].r - observed(*exact.plant)[m].r));
-      }
-      EXPECT_NEAR(rk4.choice.predictedError / most, 1, 0.1) << seconds << " " << step;
-    }
-}
-
 // --- several hands
 
 Experiment twoHands(Experiment e) {

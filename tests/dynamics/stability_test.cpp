@@ -85,11 +85,6 @@ TEST(Stability, LimitsOfTheChainAreThoseKnown) {
   }
 }
 
-TEST(Stability, AmplificationIsOneAtTheLimits) {
-  EXPECT_NEAR(rk4Amplification({0, kRk4ImaginaryLimit}), 1, 1e-12);
-  EXPECT_NEAR(rk4Amplification({-kRk4RealLimit, 0}), 1, 1e-12);
-}
-
 // Each is a root of det(lambda^2 M + lambda C + K), here of two unlike masses with every damper there is.
 TEST(Stability, EigenvaluesSolveTheCharacteristicEquation) {
   ObjectModel m;

@@ -99,46 +99,6 @@ TEST(Picture, OfALogarithmicAxisHasDecadesOfOneLengthAndAGrid) {
   EXPECT_NEAR((down[0].first + down[0].second) / 2 - in.top, kHigh / 2, kNear);
 }
 
-TEST(Picture, OfALinearAxisThatPassesNoughtHasALineThere) {
-  const Panel panel = plain();
-  const Box in = areaOf(panel);
-  const auto down = Picture(figureOf(panel)).along(false, in.x() + 3, kFaint, in.top + 2, in.bottom - 2);
-  ASSERT_EQ(down.size(), 1u);
-  EXPECT_NEAR((down[0].first + down[0].second) / 2 - in.top, 0.8 * kHigh, kNear);
-  Panel named = panel, above = panel, below = panel;
-  named.y.ticks = {{1, "one"}};
-  above.y.from = 0.0;
-  below.y.to = 0.0;
-  for (const Panel& without : {named, above, below}) {
-    const Box own = areaOf(without);
-    EXPECT_TRUE(Picture(figureOf(without)).find(kFaint, {own.left + 2, own.top + 2, own.right - 2, own.bottom - 2}).empty());
-  }
-}
-
-TEST(Picture, OfLinesHasTheirWidthAndTheirGaps) {
-  Panel panel = plain();
-  panel.series = {line({2, 12}, {1.5, 1.5}, kRed, 4)};
-  const Box in = areaOf(plain());
-  EXPECT_NEAR(Picture(figureOf(panel)).find(kRed).height(), 4, kNear);
-  // On, off … of a line 2 pt wide, by the multiples of its width.
-  const std::pair<Dash, std::vector<double>> patterns[] = {
-      {Dash::Dashed, {9, 5, 9, 5}}, {Dash::Dotted, {2.4, 4, 2.4, 4}}, {Dash::DashDot, {10, 4, 2.4, 4, 10, 4}}, {Dash::Solid, {200}}};
-  for (const auto& [dash, lengths] : patterns) {
-    panel.series = {line({2, 12}, {1.5, 1.5}, kRed, 2)};
-    panel.series[0].dash = dash;
-    const auto runs = Picture(figureOf(panel)).along(true, in.y(), kRed, in.left - 0.5);
-    double at = in.left;
-    for (std::size_t i = 0; i < lengths.size(); ++i) {
-      if (i % 2 == 0) {
-        ASSERT_LT(i / 2, runs.size());
-        EXPECT_NEAR(runs[i / 2].first, at, 2 * kNear);
-        EXPECT_NEAR(runs[i / 2].second, at + lengths[i], 2 * kNear);
-      }
-      at += lengths[i];
-    }
-  }
-}
-
 TEST(Picture, OfErrorBarsReachesFromEndToEndWithCaps) {
   Panel panel = plain();
   Series s = points({6}, {1}, kRed, MarkerShape::None, 10);
@@ -297,36 +257,6 @@ TEST(Picture, OfALegendKeepsOutOfTheData) {
   banded.bands = {area(kBlue)};
   banded.bands[0].low = {0.5, 0.5}, banded.bands[0].high = {3.9, 3.9};
   EXPECT_TRUE(isAt(Picture(figureOf(banded)).find(kRed), true, true));
-}
-
-// Two columns: margins of a column and of a row are shared, 10 pt lie between.
-TEST(Picture, OfPanelsStandsInRowsAndColumns) {
-  Panel panels[3] = {plain(), plain(), plain()};
-  const Color colors[] = {kRed, kBlue, kPink};
-  for (int i = 0; i < 3; ++i) panels[i].bands = {area(colors[i])}, panels[i].x.ticks = panels[i].y.ticks = {{100, "none"}};
-  panels[0].x.label = "H", panels[2].y.label = "H", panels[1].title = "H";
-  Figure figure = figureOf(panels[0]);
-  figure.panels = {panels[0], panels[1], panels[2]};
-  figure.columns = 2;
-  const Picture picture(figure);
-  const Box first = picture.find(kRed), second = picture.find(kBlue), third = picture.find(kPink);
-  EXPECT_NEAR(first.left, 4 + 3 + 3 + 13, kNear) << "room for the name below it";
-  EXPECT_NEAR(third.left, first.left, kNear);
-  EXPECT_NEAR(first.top, 4 + 15.5, kNear) << "room for the title beside it";
-  EXPECT_NEAR(second.top, first.top, kNear);
-  EXPECT_NEAR(second.left - first.right, 4 + 10 + 6, kNear);
-  EXPECT_NEAR(third.top - first.bottom, 6 + 7 + 12 + 10 + 4, kNear);
-  EXPECT_NEAR(picture.width(), second.right + 4 + 4, kNear);
-  EXPECT_NEAR(picture.height(), third.bottom + 13 + 4, kNear);
-  figure.title = "H";
-  const Picture titled(figure);
-  EXPECT_NEAR(titled.height() - picture.height(), 16, kNear);
-  const Box title = titled.find({0, 0, 0}, {0, 0, 100, 16});
-  EXPECT_NEAR(title.bottom, 4 + 10, kNear);
-  EXPECT_NEAR(title.height(), 7.3, 0.4);
-  EXPECT_NEAR(title.left, 4, 1.2);
-  figure.columns = 0;
-  EXPECT_NEAR(Picture(figure).find(kBlue).left, Picture(figure).find(kRed).left, kNear) << "one column at least";
 }
 
 }  // namespace
