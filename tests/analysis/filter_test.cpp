@@ -37,43 +37,6 @@ TEST(Differentiate, NeedsThreeSamplesAndNoMore) {
   EXPECT_EQ(differentiate(std::vector<double>{0, 1}, 10), std::vector<double>(2, 0.0));
 }
 
-/// Once through the difference equation as it is written, after so long a rest at the first value that nothing is left of the start.
-std::vector<double> runFromRest(const Biquad& s, const std::vector<double>& signal) {
-  std::vector<double> x(3000, signal.front()), y(2, 0.0);
-  x.insert(x.end(), signal.begin(), signal.end());
-  for (std::size_t i = 2; i < x.size(); ++i)
-    y.push_back(s.b[0] * x[i] + s.b[1] * x[i - 1] + s.b[2] * x[i - 2] - s.a[1] * y[i - 1] - s.a[2] * y[i - 2]);
-  return {y.end() - static_cast<std::ptrdiff_t>(signal.size()), y.end()};
-}
-
-std::vector<double> bothWaysByDefinition(const Biquad& section, const std::vector<double>& signal) {
-  const std::size_t n = signal.size(), pad = std::min<std::size_t>(9, n - 1);
-  std::vector<double> x(n + 2 * pad);
-  for (std::size_t i = 0; i < n; ++i) x[pad + i] = signal[i];
-  for (std::size_t i = 1; i <= pad; ++i) {
-    x[pad - i] = 2 * signal[0] - signal[i];
-    x[pad + n - 1 + i] = 2 * signal[n - 1] - signal[n - 1 - i];
-  }
-  x = runFromRest(section, x);
-  std::reverse(x.begin(), x.end());
-  x = runFromRest(section, x);
-  std::reverse(x.begin(), x.end());
-  return {x.begin() + static_cast<std::ptrdiff_t>(pad), x.begin() + static_cast<std::ptrdiff_t>(pad + n)};
-}
-
-TEST(FilterBothWays, IsTheDifferenceEquationThereAndBackWhateverTheSectionAndTheLength) {
-  const Biquad lopsided{{0.3, 0.2, -0.1}, {1, -0.5, 0.2}}, low = butterworthLowPass(10, 0.01);
-  for (const Biquad& section : {lopsided, low})
-    for (const std::size_t n : {2u, 3u, 5u, 9u, 10u, 11u, 40u}) {
-      std::vector<double> x;
-      for (std::size_t i = 0; i < n; ++i) x.push_back(2 + std::sin(0.7 * static_cast<double>(i * i)));
-      const std::vector<double> y = filterBothWays(section, x), expected = bothWaysByDefinition(section, x);
-      ASSERT_EQ(y.size(), n);
-      for (std::size_t i = 0; i < n; ++i) EXPECT_NEAR(y[i], expected[i], 1e-12) << i << " of " << n;
-    }
-  EXPECT_EQ(filterBothWays(lopsided, std::vector<double>{3}), std::vector<double>{3}) << "one sample comes back as it is";
-}
-
 TEST(LowPass, SaysWhichCutOffItRefuses) {
   const std::vector<double> x(20, 0.0);
   EXPECT_NO_THROW(lowPass(x, 100, 49.9));

@@ -33,39 +33,6 @@ FitWindow recordedWith(const Profile& profile, double onset, double duration, do
   return window;
 }
 
-double costOf(const FitWindow& window, const Profile& profile, const MovementFit& fit) {
-  const std::vector<double> r = residualsOf(window, profile, fit);
-  double sum = 0;
-  for (std::size_t i = 0; i < r.size(); ++i) sum += window.weight[i] * r[i] * r[i];
-  return sum;
-}
-
-TEST(Moments, AreThoseOfTheSquares) {
-  const ProfileMoments even = momentsOf(Profile{0.5, 0.25, {1, 2, 1}, {}});
-  EXPECT_DOUBLE_EQ(even.centre, 0.75);
-  EXPECT_DOUBLE_EQ(even.width, 0.25 * std::sqrt(1.0 / 3));
-  const ProfileMoments two = momentsOf(FitWindow{10, 2, {0, 1, -3}, {1, 1, 1}});
-  EXPECT_DOUBLE_EQ(two.centre, 2 + 0.1 * 1.9);
-  EXPECT_DOUBLE_EQ(two.width, 0.1 * 0.3);
-  const ProfileMoments none = momentsOf(Profile{0.5, 0.25, {0, 0}, {}});
-  EXPECT_TRUE(none.centre == 0 && none.width == 0);
-  // A window whose moments are twice as wide and about 5 begins where the profile's centre says.
-  const MovementFit start = startFrom({5, 0.4}, {0.75, 0.2});
-  EXPECT_DOUBLE_EQ(start.duration, 2);
-  EXPECT_DOUBLE_EQ(start.onset, 5 - 1.5);
-  EXPECT_DOUBLE_EQ(startFrom({5, 0.4}, {0.75, 0.2}, 1.5).duration, 3);
-  EXPECT_EQ(startFrom({5, 0.4}, {0.75, 0}).duration, 0);
-}
-
-TEST(MovementFit, CountsResidualsByTheirWeights) {
-  const FitWindow window{10, 0, {1, 2, -3}, {2, 0.5, 1}};
-  EXPECT_DOUBLE_EQ(restCost(window), 2 + 2 + 9);
-  const Profile profile{0, 0.25, {0, 1, 0, -1, 0}, {}};
-  MovementFit fit;
-  fit.onset = -0.1, fit.duration = 0.4, fit.amplitude = 3;  // s = 0.25, 0.5, 0.75
-  EXPECT_EQ(residualsOf(window, profile, fit), (std::vector<double>{-2, 2, 0}));
-}
-
 TEST(MovementFit, FindsWhatItWasMadeFrom) {
   const Profile profile = lopsided();
   const FitWindow window = recordedWith(profile, 2.7, 0.9, 0.4);
@@ -82,28 +49,6 @@ TEST(MovementFit, FindsWhatItWasMadeFrom) {
   }
 }
 
-// With something on top that no bell describes: whichever way the three numbers are moved, it costs more.
-TEST(MovementFit, IsBetterThanAllItsNeighbours) {
-  const Profile profile = lopsided();
-  FitWindow window = recordedWith(profile, 2.7, 0.9, 0.4);
-  for (std::size_t k = 0; k < window.velocity.size(); ++k) window.velocity[k] += 0.05 * std::sin(0.31 * static_cast<double>(k));
-  const MovementFit fit = fitMovement(window, profile, startFrom(momentsOf(window), momentsOf(profile)));
-  ASSERT_TRUE(fit.found);
-  EXPECT_NEAR(fit.cost, costOf(window, profile, fit), 1e-9 * fit.cost);
-  for (const double by : {-1e-4, 1e-4}) {
-    MovementFit later = fit, longer = fit, larger = fit, turned = fit;
-    later.onset += by, longer.duration += by, larger.amplitude += by;
-    turned.onset -= by / 2, turned.duration += by;
-    for (const MovementFit& other : {later, longer, larger, turned}) EXPECT_GT(costOf(window, profile, other), fit.cost);
-  }
-  const MovementFit rough = fitMovement(window, profile, startFrom(momentsOf(window), momentsOf(profile)), kRoughFit);
-  EXPECT_NEAR(rough.cost, fit.cost, 2e-3 * fit.cost);
-  EXPECT_GE(rough.cost, fit.cost * (1 - 1e-12));
-  const MovementFit none = fitMovement(window, profile, startFrom(momentsOf(window), momentsOf(profile)), FitEffort{0, 0});
-  EXPECT_DOUBLE_EQ(none.duration, startFrom(momentsOf(window), momentsOf(profile)).duration) << "no step, no change";
-  EXPECT_TRUE(kRoughFit.steps == 6 && kRoughFit.improvement == 1e-3);
-}
-
 TEST(MovementFit, OfNoStartIsNone) {
   const Profile profile = lopsided();
   const FitWindow window = recordedWith(profile, 2.7, 0.9, 0.4);
@@ -118,23 +63,6 @@ TEST(MovementFit, OfNoStartIsNone) {
   EXPECT_TRUE(fresh.onset == 0 && fresh.duration == 0 && fresh.amplitude == 0 && fresh.cost == 0 && !fresh.found);
   const Profile tiny{0, 0.2, {0, 1, 2, 1, 0}, {}};
   EXPECT_EQ(fitMovement(window, tiny, far).amplitude, 0) << "too few samples for a piece";
-}
-
-TEST(ProfilePieces, FollowAnyCubicExactly) {
-  const auto cubic = [](double s) { return 2 - s + 3 * s * s - 0.5 * s * s * s; };
-  Profile profile{1, 0.5, {}, {}};
-  for (int i = 0; i < 9; ++i) profile.value.push_back(cubic(1 + 0.5 * i));
-  const ProfilePieces pieces(profile);
-  EXPECT_EQ(pieces.first, 1);
-  EXPECT_EQ(pieces.step, 0.5);
-  ASSERT_EQ(pieces.c.size(), 4u) << "two neighbours on either side of a piece";
-  for (std::size_t i = 0; i < 4; ++i)
-    for (const double d : {0.0, 0.3, 1.0}) {
-      const auto& c = pieces.c[i];
-      const double s = 1 + 0.5 * (static_cast<double>(i + 2) + d);
-      EXPECT_NEAR(c[0] + d * (c[1] + d * (c[2] + d * c[3])), cubic(s), 1e-12);
-      EXPECT_NEAR(profile.at(s), cubic(s), 1e-12);
-    }
 }
 
 /// phi = (1 + T^2) s^2 (1 - s), of second degree in T: interpolation over durations is exact.
@@ -282,15 +210,6 @@ TEST(NearPredictions, StartFromTheirNeighboursAtMultiplesAndFromNothingBetween) 
   EXPECT_TRUE(sampler(0.125, phi));
   EXPECT_EQ(asked.size(), 8u + 5) << "of 0 to 0.625 all but the first, and 1.3 s no more";
   EXPECT_FALSE(sampler(0, phi));
-}
-
-TEST(SampleProfile, IsWithoutDimensionAndFinite) {
-  std::vector<double> phi(5);
-  EXPECT_TRUE(sampleProfile(Ramp(2), phi));
-  EXPECT_NEAR(phi[1], 2.0 / 0.5 * 0.5, 1e-12);
-  Ramp still(2);
-  still.distance = 0;
-  EXPECT_FALSE(sampleProfile(still, phi));
 }
 
 /// 200 samples a second, at rest until 1 s, a bell of half a second then.

@@ -185,37 +185,5 @@ TEST(MovementWithin, OfNoWindowIsNone) {
   EXPECT_FALSE(movementWithin(v, 10, std::nan(""), 0.2).found);
 }
 
-TEST(ValueAt, IsLinearBetweenSamplesAndHeldBeyondThem) {
-  const std::vector<double> v{2, 4, 1};
-  EXPECT_DOUBLE_EQ(valueAt(v, 10, 0.025), 2.5);
-  EXPECT_DOUBLE_EQ(valueAt(v, 10, 0.175), 4 - 0.75 * 3);
-  EXPECT_EQ(valueAt(v, 10, -1), 2);
-  EXPECT_EQ(valueAt(v, 10, 0.2), 1);
-  EXPECT_EQ(valueAt(v, 10, 5), 1);
-  EXPECT_EQ(valueAt({}, 10, 0), 0);
-}
-
-TEST(SmoothValue, IsExactForParabolasInsideAndLinearNextToTheEnds) {
-  std::vector<double> v;
-  for (int i = 0; i < 7; ++i) v.push_back(1 + 2 * i - 0.5 * i * i);
-  const auto exact = [](double t) { return 1 + 2 * t - 0.5 * t * t; };
-  for (const double t : {1.0, 1.3, 2.75, 4.0, 4.9}) EXPECT_NEAR(smoothValueAt(v, 10, t / 10), exact(t), 1e-12) << t;
-  for (const double t : {0.3, 0.99, 5.0, 5.5, 6.0, 8.0, -1.0}) EXPECT_EQ(smoothValueAt(v, 10, t / 10), valueAt(v, 10, t / 10)) << t;
-  // Of a cube, the slopes at samples 1 and 2 are (8 - 0) / 2 and (27 - 1) / 2, and the cubic half-way between them follows.
-  EXPECT_NEAR(smoothValueAt(std::vector<double>{0, 1, 8, 27}, 1, 1.5), 4.5 + (4.0 - 13) / 8, 1e-12);
-}
-
-TEST(NormaliseTime, TakesAHundredAndOneInstantsFromOnsetToOffset) {
-  std::vector<double> v;
-  for (int i = 0; i < 30; ++i) v.push_back(3 + 0.5 * i);
-  const std::vector<double> out = normaliseTime(v, 10, 0.4, 2.4), scaled = scaleVelocity(v, 10, 0.4, 2.4, 0.5);
-  ASSERT_EQ(out.size(), 101u);
-  for (std::size_t i = 0; i < out.size(); ++i) {
-    const double expected = 3 + 5 * (0.4 + 2 * static_cast<double>(i) / 100);
-    EXPECT_NEAR(out[i], expected, 1e-12);
-    EXPECT_NEAR(scaled[i], 4 * expected, 1e-12);
-  }
-}
-
 }  // namespace
 }  // namespace reachlab::analysis

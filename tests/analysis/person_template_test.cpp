@@ -34,25 +34,6 @@ std::vector<FitWindow> reaches(std::size_t trials, double scatter) {
   return windows;
 }
 
-TEST(PersonTemplate, WeighsASampleByTheScatterOnEitherSideOfIt) {
-  std::vector<FitWindow> windows = reaches(12, 0.05);
-  const PersonTemplate own = makeTemplate(windows, std::vector<double>(windows.size(), kDuration));
-  const double least = 0.1 * *std::max_element(own.scatter.begin(), own.scatter.end());
-  double smallest = 1e300, greatest = 0;
-  for (std::size_t trial = 0; trial < windows.size(); ++trial)
-    for (std::size_t k = 0; k < windows[trial].weight.size(); ++k) {
-      const double t = windows[trial].begin + static_cast<double>(k) / kRate;
-      const double s = (t - own.place[trial].onset) / own.place[trial].duration;
-      const double x = std::clamp((s - own.mean.first) / own.mean.step, 0.0, static_cast<double>(own.scatter.size() - 2));
-      const auto [low, high] = std::minmax(own.scatter[static_cast<std::size_t>(x)], own.scatter[static_cast<std::size_t>(x) + 1]);
-      EXPECT_GE(windows[trial].weight[k], (1 - 1e-9) * std::pow(std::max(high, least), -2)) << trial << " " << k;
-      EXPECT_LE(windows[trial].weight[k], (1 + 1e-9) * std::pow(std::max(low, least), -2)) << trial << " " << k;
-      smallest = std::min(smallest, windows[trial].weight[k]);
-      greatest = std::max(greatest, windows[trial].weight[k]);
-    }
-  EXPECT_GT(greatest, 4 * smallest) << "the beginning counts for more than the end";
-}
-
 TEST(PersonTemplate, TellsHowWellTheOtherTrialsDescribeOne) {
   double before = 1;
   for (const double scatter : {0.001, 0.02, 0.08}) {
@@ -113,29 +94,6 @@ TEST(PersonTemplate, LaysCopiesOfOneMovementExactlyOverOneAnother) {
     EXPECT_NEAR(scale * own.mean.at((t - own.place[0].onset) / own.place[0].duration),
                 windows[0].velocity[static_cast<std::size_t>(std::lround((t - 2.6) * 200))], 2e-4)
         << t;
-}
-
-TEST(PersonTemplate, KeepsWhatEachTrialLeavesWhenAsked) {
-  std::vector<FitWindow> windows = reaches(6, 0.05);
-  const PersonTemplate own = makeTemplate(windows, std::vector<double>(6, kDuration), true);
-  ASSERT_EQ(own.apart.size(), 6u);
-  for (std::size_t trial = 0; trial < 6; ++trial) {
-    ASSERT_EQ(own.apart[trial].size(), 441u);
-    for (const std::size_t k : {150u, 200u, 260u}) {
-      const double t = own.place[trial].onset + own.place[trial].duration * (own.mean.first + own.mean.step * static_cast<double>(k));
-      const double at = (t - windows[trial].begin) * kRate;
-      const auto i = static_cast<std::size_t>(at);
-      const double measured =
-          windows[trial].velocity[i] + (at - static_cast<double>(i)) * (windows[trial].velocity[i + 1] - windows[trial].velocity[i]);
-      EXPECT_NEAR(own.apart[trial][k], measured - own.place[trial].amplitude * own.mean.value[k], 5e-4) << trial << " " << k;
-    }
-    EXPECT_EQ(own.apart[trial].front(), 0) << "nothing was recorded there";
-  }
-  // Scatter is their root mean square, n - 1, over 0.06 of s: twelve steps.
-  double variance = 0;
-  for (int k = 194; k <= 206; ++k)
-    for (const auto& apart : own.apart) variance += std::pow(apart[static_cast<std::size_t>(k)], 2) / 5 / 13;
-  EXPECT_NEAR(own.scatter[200], std::sqrt(variance), 1e-6);
 }
 
 // Noise that changes at every sample leaves nearly all samples their own; a slow wave few.

@@ -57,37 +57,6 @@ TEST(Smoothness, FallsWithEachSubmovement) {
   }
 }
 
-/// The definition, with every amplitude as the plain sum of its Fourier coefficient.
-double sparcByDefinition(const std::vector<double>& speed, double rate, const SparcOptions& options) {
-  std::size_t bins = 1;
-  while (bins < speed.size()) bins *= 2;
-  for (int i = 0; i < options.padding; ++i) bins *= 2;
-  std::vector<double> f, a;
-  for (std::size_t k = 0; k <= bins / 2; ++k) {
-    std::complex<double> sum = 0;
-    for (std::size_t n = 0; n < speed.size(); ++n)
-      sum += speed[n] * std::polar(1.0, -2 * std::numbers::pi * static_cast<double>(k * n) / static_cast<double>(bins));
-    f.push_back(static_cast<double>(k) * rate / static_cast<double>(bins));
-    a.push_back(std::abs(sum));
-  }
-  const double largest = a.front();
-  std::size_t last = 0;
-  for (std::size_t k = 0; k < f.size() && f[k] <= options.cutoff; ++k)
-    if (a[k] >= options.amplitude * largest) last = k;
-  double length = 0;
-  for (std::size_t k = 1; k <= last; ++k) length += std::hypot((f[k] - f[k - 1]) / f[last], (a[k] - a[k - 1]) / largest);
-  return -length;
-}
-
-TEST(Sparc, IsItsDefinitionForAnySignalAndOption) {
-  const std::vector<double> uneven{0, 1, 4, 2, 0.5, 3, 7, 5, 5, 1, 0.25, 0.5, 2, 0.75, 0.5, 0.25}, odd{0.5, 3, 1, 0, 2, 1, 6}, two{1, 3};
-  for (const std::vector<double>& speed : {uneven, odd, two, minimumJerk(0.7, 100)})
-    for (const double rate : {64.0, 100.0})
-      for (const SparcOptions& options : {SparcOptions{}, SparcOptions{2, 10, 0.01}, SparcOptions{3, 5, 0.2}, SparcOptions{1, 1000, 0.05}})
-        EXPECT_NEAR(computeSparc(speed, rate, options), sparcByDefinition(speed, rate, options), 1e-9)
-            << speed.size() << " samples at " << rate << " Hz, " << options.cutoff;
-}
-
 TEST(Smoothness, NeedsSamplesARateAndFiniteSpeeds) {
   const std::vector<double> bell{0, 2, 5, 1}, one{3}, infinite{0, INFINITY, 1};
   EXPECT_TRUE(std::isnan(computeSparc(one, 100)));
@@ -98,13 +67,6 @@ TEST(Smoothness, NeedsSamplesARateAndFiniteSpeeds) {
   }
   EXPECT_TRUE(std::isnan(computeLogDimensionlessJerk(std::vector<double>{1, 2, 3, 4}, 100))) << "no jerk, no logarithm";
   EXPECT_TRUE(std::isnan(computeLogDimensionlessJerk(infinite, 100)));
-}
-
-TEST(LogDimensionlessJerk, IsWorkedOutByHand) {
-  // v = 0 1 4 2 0.5 at 10 Hz: second differences 2, -5, 0.5 times 100; T = 0.5 s, v_max = 4.
-  EXPECT_NEAR(computeLogDimensionlessJerk(std::vector<double>{0, 1, 4, 2, 0.5}, 10), -std::log(0.125 / 16 * 29250), 1e-12);
-  // v = 0 1 0 at 2 Hz: -2 times 4; T = 1.5 s.
-  EXPECT_NEAR(computeLogDimensionlessJerk(std::vector<double>{0, 1, 0}, 2), -std::log(3.375 * 32), 1e-12);
 }
 
 // 6 stands 1 above the higher of the valleys that part it from 10 and 9; mirrored it is the same.

@@ -41,30 +41,6 @@ TEST(HandSegment, IsAPolynomialOfItsDegreeInPlaceAndInVelocity) {
   }
 }
 
-TEST(HandSegment, APartOfItIsTheSameMotionInLessTime) {
-  for (int degree = 0; degree <= HandSegment::kMaxDegree; ++degree) {
-    const HandSegment whole = segmentOf(degree), later = part(whole, 0.2, 0.7);
-    EXPECT_EQ(later.degree, degree);
-    for (const double at : {0.0, 0.4, 1.0}) {
-      EXPECT_LT(norm(sampleAt(later, at).position - sampleAt(whole, 0.2 + 0.5 * at).position), 1e-14) << degree;
-      EXPECT_LT(norm(sampleAt(later, at).velocity - sampleAt(whole, 0.2 + 0.5 * at).velocity), 1e-14) << degree;
-    }
-    for (int k = degree + 1; k <= HandSegment::kMaxDegree; ++k) EXPECT_EQ(later.position[k], Vec3{}) << "beyond its degree";
-  }
-}
-
-// Through eight points a polynomial of degree seven is found again, and its velocity for itself.
-TEST(HandFunction, ASegmentGoesThroughAFunctionOfSeventhDegreeExactly) {
-  const HandSegment truth = segmentOf(7);
-  const double begin = 0.4, dt = 0.25;
-  const HandSegment made = makeSegment([&](double t) { return sampleAt(truth, (t - begin) / dt); }, begin, dt);
-  EXPECT_EQ(made.degree, 7);
-  for (int k = 0; k <= 7; ++k) {
-    EXPECT_LT(norm(made.position[k] - truth.position[k]), 1e-10) << k;
-    EXPECT_LT(norm(made.velocity[k] - truth.velocity[k]), 1e-10) << k;
-  }
-}
-
 // The error of the best choice of eight points: dt^8/(8! 2^15) of a sine's eighth derivative, times 2 for the ends.
 TEST(HandFunction, ASmoothHandIsFollowedToItsEighthDerivative) {
   const auto hand = [](double t) { return HandSample{{std::sin(t), std::cos(t), std::sin(2 * t)}, {std::cos(t), -std::sin(t), 0}, true}; };
@@ -78,15 +54,6 @@ TEST(HandFunction, ASmoothHandIsFollowedToItsEighthDerivative) {
     EXPECT_NEAR(sampleAt(made, s).velocity.y, -std::sin(1 + s * dt), 1e-11);
   }
   EXPECT_LT(worst, 2 * std::pow(dt, 8) / (40320.0 * 32768)) << "points elsewhere would err more";
-}
-
-TEST(HandFunction, AHeldHandRestsAtItsPlace) {
-  const HandSegment held = heldSegment({0.1, -0.2, 0.3});
-  EXPECT_EQ(held.degree, 0);
-  for (const HandSample& sample : {startOf(held), sampleAt(held, 0.6), endOf(held)}) {
-    EXPECT_EQ(sample.position, (Vec3{0.1, -0.2, 0.3}));
-    EXPECT_EQ(sample.velocity, Vec3{});
-  }
 }
 
 }  // namespace

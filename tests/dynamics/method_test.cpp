@@ -276,30 +276,5 @@ TEST(Method, AStepOfThePairErrsByItsNinthPowerAndEstimatesMore) {
   EXPECT_EQ(next[1], 2);
 }
 
-TEST(Numbers, SixAreTwoVectorsOfThreeAndOthersLieInOneRow) {
-  Numbers<6> six;
-  six.assign(1.0, 2.0, 3.0, 4.0, 5.0, 6.0);
-  for (int i = 0; i < 6; ++i) EXPECT_EQ(six[i], i + 1);
-  EXPECT_EQ(six.values[3], 0) << "room holds zeros";
-  EXPECT_EQ(six.values[7], 0);
-  six[2] = 7, six[3] = 8;
-  EXPECT_EQ(six.values[2], 7);
-  EXPECT_EQ(six.values[4], 8);
-  EXPECT_EQ(Numbers<6>::kRoom, 8);
-  EXPECT_EQ(Numbers<2>::kRoom, 2);
-  EXPECT_EQ(Numbers<3>::kRoom, 4);
-  EXPECT_EQ(Numbers<8>::kRoom, 8);
-  EXPECT_EQ(Numbers<10>::kRoom, 16);
-  const Numbers<10> ten;
-  for (int i = 10; i < 16; ++i) EXPECT_EQ(ten.values[static_cast<std::size_t>(i)], 0);
-  EXPECT_EQ(Numbers<10>::size(), 10);
-  Numbers<0> some(3), others(5);
-  for (int i = 0; i < 3; ++i) some[i] = i + 1;
-  others = some;
-  EXPECT_EQ(others.size(), 3);
-  const Numbers<0> copy(others);
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(copy[i], i + 1);
-}
-
 }  // namespace
 }  // namespace reachlab::dynamics

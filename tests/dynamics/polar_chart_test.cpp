@@ -55,35 +55,6 @@ TEST(PolarChart, IsTheSmoothSurfaceAboutThePole) {
   }
 }
 
-// Nearer than a micrometre's worth the surface is taken for its tangent plane there.
-TEST(PolarChart, AtThePoleItselfItHasItsTangentPlane) {
-  for (const auto& [fixed, side] : kWays) {
-    const constraints::Constraint c = cap(fixed, side);
-    const PolarChart chart{c.surface, fixed, kPole, side};
-    EXPECT_EQ(chart.nearest, 1e-6);
-    for (const auto& [x, y] : {std::pair{0.0, 0.0}, {3e-7, 2e-7}, {-5e-7, 1e-7}, {2e-7, -9e-7}}) {
-      const constraints::SurfacePoint p = constraints::evaluate(chart.surface(), x, y), f = truth(x, y);
-      EXPECT_LT(norm(p.r - f.r), 3e-12) << "of second order in a micrometre";
-      EXPECT_LT(norm(p.rU - f.rU), 3e-6);
-      EXPECT_LT(norm(p.rV - f.rV), 3e-6);
-    }
-  }
-}
-
-TEST(PolarChart, ItsNumbersAndTheSurfacesAreTheSamePlace) {
-  for (const auto& [fixed, side] : kWays) {
-    const constraints::Constraint c = cap(fixed, side);
-    const PolarChart chart{c.surface, fixed, kPole, side};
-    const double angle = 2.1, across = kPole + side * 0.3, u = fixed == 1 ? angle : across, v = fixed == 1 ? across : angle;
-    const std::array<double, 2> local = chart.toLocal(u, v);
-    EXPECT_NEAR(local[0], 0.3 * std::cos(2.1), 1e-15);
-    EXPECT_NEAR(local[1], 0.3 * std::sin(2.1), 1e-15);
-    const std::array<double, 2> back = chart.toBase(local[0], local[1]);
-    EXPECT_NEAR(back[0], u, 1e-14);
-    EXPECT_NEAR(back[1], v, 1e-14);
-  }
-}
-
 // Whatever the two parameter lines are like, the rates give the velocity back; where one of them stands still the other carries it.
 TEST(SurfaceRates, AreThoseWhoseVelocityItIs) {
   constraints::SurfacePoint p;
