@@ -41,7 +41,7 @@ struct Design {
   std::string planText;
 };
 
-inline constexpr std::int64_t kMaxPoints = 100'000'000, kMaxSubjects = 100'000'000, kMaxTrialsOfStudy = 1'000'000'000'000;
+inline constexpr std::int64_t kMaxPoints = 100'000'000, kMaxSubjects = 100'000'000;
 
 /// The texts that a design names. A design that is kept in a folder has them beside it, so that nothing is looked up.
 struct NamedTexts {

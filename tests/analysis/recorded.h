@@ -12,6 +12,7 @@
 #include "sim/haptics/run_conductor.h"
 #include "sim/record/log/recorder.h"
 #include "sim/session/session_folder.h"
+#include "tests/temporary_folder.h"
 
 /// Datasets made the way a session makes them: experiment, device, engine, recorder, on the virtual clock.
 namespace reachlab::analysis {
@@ -21,30 +22,6 @@ struct RunToRecord {
   int run = 1, trials = 3;
   bool practice = false;
   std::uint64_t seed = 1;
-};
-
-/// A folder of its own, gone with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    path_ = (std::filesystem::temp_directory_path() / ("reachlab_analyze_" + std::to_string(getpid()) + "_" + std::to_string(counter()++)))
-                .string();
-    std::filesystem::create_directories(path_);
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::string& path() const { return path_; }
-
- private:
-  static int& counter() {
-    static int value = 0;
-    return value;
-  }
-  std::string path_;
 };
 
 inline std::string recordRun(const std::string& folder, const RunToRecord& what) {
@@ -68,7 +45,8 @@ inline std::string recordRun(const std::string& folder, const RunToRecord& what)
   std::filesystem::create_directories(std::filesystem::path(path).parent_path());
   haptics::LoopOptions options;
   options.virtualClock = true;
-  haptics::RunConductor run(experiment::CompiledExperiment(experiment), devices::makeDevice(what.device, experiment, what.seed), c.trials, options);
+  haptics::RunConductor run(experiment::CompiledExperiment(experiment), devices::makeDevice(what.device, experiment, what.seed), c.trials,
+                            options);
   record::RecorderOptions recording;
   recording.threaded = false;
   record::Recorder recorder(path, c, recording);

@@ -12,8 +12,6 @@
 namespace reachlab::record {
 namespace {
 
-using analysis::TemporaryFolder;
-
 void expectEqual(const TrialIndex& a, const TrialIndex& b) {
   ASSERT_EQ(a.runs.size(), b.runs.size());
   for (std::size_t r = 0; r < a.runs.size(); ++r) {

@@ -13,8 +13,6 @@
 namespace reachlab::record {
 namespace {
 
-using analysis::TemporaryFolder;
-
 TEST(TrialMarks, StandBesideTheLogAndReadBackEqual) {
   const TemporaryFolder folder;
   const std::string log = folder.path() + "/sub-01_ses-01_task-x_run-01_log.reach";

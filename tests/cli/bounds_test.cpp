@@ -35,7 +35,7 @@ TEST(Bounds, OfTimesAndCountsOnTheCommandLine) {
 }
 
 TEST(Bounds, OfAnExperimentsTimes) {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const char* duration : {"1e308", "3601", "0", "-1"}) {
     const std::string file = folder.write("e.json", experimentWith(duration));
     for (const std::string& command :
@@ -48,7 +48,7 @@ TEST(Bounds, OfAnExperimentsTimes) {
 
 // A hundred and sixty times round a torus, and a mass that swings a thousand times on its way: each took many seconds, or gigabytes.
 TEST(Bounds, OfWhatAPredictionMayCost) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto file = [&](const std::string& constraint, const std::string& stiffness, const std::string& task) {
     return folder.write("far.json", R"({"schema_version":1,"constraint":)" + constraint +
                                         R"(,"object":{"kind":"chain","masses_kg":[1,0.01],"stiffness_n_per_m":[)" + stiffness +
@@ -72,24 +72,24 @@ TEST(Bounds, OfWhatAPredictionMayCost) {
 }
 
 TEST(Bounds, OfAReplayedReach) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("far.csv", kReach + "1000000,0.1,0,0\n");
   expectRefusal(reach("run dingwell --fast --device replay:" + file + " --data " + (folder / "data").string()), "at most 600 s");
 }
 
 TEST(Bounds, OfSeeds) {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const char* seed : {"-1", "18446744073709551616", "1e3", "0x10", "1.5", "+1"}) {
-    const Ended ended = reach("run dingwell --device simulated --fast --data " + folder.string() + " --seed=" + seed);
+    const Ended ended = reach("run dingwell --device simulated --fast --data " + folder.path() + " --seed=" + seed);
     EXPECT_EQ(ended.exitCode, 2) << seed;
     EXPECT_NE(ended.err.find("18446744073709551615"), std::string::npos) << ended.err;
   }
-  const Ended largest = reach("run dingwell --device simulated --fast --seed 18446744073709551615 --data " + folder.string());
+  const Ended largest = reach("run dingwell --device simulated --fast --seed 18446744073709551615 --data " + folder.path());
   EXPECT_EQ(largest.exitCode, 0) << largest.err;
 }
 
 TEST(Bounds, AFileThatNeverEndsOrNeverBeginsIsRefused) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string pipe = (folder / "pipe").string();
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   for (const std::string& file : {pipe, std::string("/dev/zero")}) {
@@ -105,7 +105,7 @@ TEST(Bounds, AFileThatNeverEndsOrNeverBeginsIsRefused) {
 
 // Were the cost not in proportion to the size, two million numbers would take days, and the test its time-out.
 TEST(Bounds, ALargeFileIsReadInTimeInProportionToItsSize) {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string numbers = "{\"schema_version\": [", keys = "{";
   for (int i = 0; i < 2'000'000; ++i) numbers += i == 0 ? "1.25" : ",1.25";
   for (int i = 0; i < 500'000; ++i) keys += (i == 0 ? "\"k" : ",\n\"k") + std::to_string(i) + "\": 1";
@@ -118,29 +118,29 @@ TEST(Bounds, ALargeFileIsReadInTimeInProportionToItsSize) {
 }
 
 TEST(Tables, ATextThatASpreadsheetWouldCarryOutIsGuarded) {
-  const Folder folder, csv;
-  ASSERT_EQ(reach("run dingwell --device simulated --seed 1 --fast --notes \"=cmd|' /C calc'!A0\" --data " + folder.string()).exitCode, 0);
-  ASSERT_EQ(reach("export " + folder.string() + " --format csv --out " + csv.string()).exitCode, 0);
+  const TemporaryFolder folder, csv;
+  ASSERT_EQ(reach("run dingwell --device simulated --seed 1 --fast --notes \"=cmd|' /C calc'!A0\" --data " + folder.path()).exitCode, 0);
+  ASSERT_EQ(reach("export " + folder.path() + " --format csv --out " + csv.path()).exitCode, 0);
   const std::string table = contentOf(csv / "trials.csv");
   EXPECT_NE(table.find("\"'=cmd|' /C calc'!A0\""), std::string::npos) << table;
 }
 
 TEST(Resume, IsRefusedWhileTheRunIsBeingRecordedAndNamesItsProcess) {
-  const Folder data;
+  const TemporaryFolder data;
   const std::string log = (data / "sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach").string();
-  const Ended ended = shell("\"$REACH\" run chain-moderate --device simulated --seed 1 --trials 30 --data " + data.string() +
+  const Ended ended = shell("\"$REACH\" run chain-moderate --device simulated --seed 1 --trials 30 --data " + data.path() +
                             " > /dev/null 2>&1 &\nrecording=$!\nfor i in $(seq 500); do [ -s " + log + " ] && break; sleep 0.02; done\n" +
                             "echo process $recording\n\"$REACH\" run chain-moderate --device simulated --resume --fast --data " +
-                            data.string() + "\ncode=$?\nkill -INT $recording\nwait $recording\nexit $code");
+                            data.path() + "\ncode=$?\nkill -INT $recording\nwait $recording\nexit $code");
   EXPECT_EQ(ended.exitCode, 3) << ended.err;
   EXPECT_NE(ended.err.find("is being recorded (" + ended.out.substr(0, ended.out.find('\n')) + ")"), std::string::npos)
       << ended.out << ended.err;
 }
 
 TEST(Run, OfAHandThatIsNeverAtTheStartEnds) {
-  const Folder data;
+  const TemporaryFolder data;
   const Ended ended =
-      reach("run chain-fast --device simulated:criterion=min-hand-force,hand-mass=0 --trials 3 --seed 1 --fast --data " + data.string());
+      reach("run chain-fast --device simulated:criterion=min-hand-force,hand-mass=0 --trials 3 --seed 1 --fast --data " + data.path());
   EXPECT_TRUE(ended.exitCode == 0 || ended.exitCode == 2 || ended.exitCode == 4) << ended.err;
   for (const auto& trial : trialLines(ended.out)) EXPECT_NE(trial.at("outcome"), "interrupted");
 }

@@ -8,7 +8,7 @@ namespace {
 
 const std::string kFormula = "0 | a*cos(phi) | a*sin(phi)/2";
 
-std::string experimentFile(const Folder& folder, const std::string& kind = R"("kind": "point", "masses_kg": [1])") {
+std::string experimentFile(const TemporaryFolder& folder, const std::string& kind = R"("kind": "point", "masses_kg": [1])") {
   return folder.write("typed.json", R"json({ "schema_version": 1,
     "constraint": { "curve": ["0", "a*cos(phi)", "a*sin(phi)/2"], "shape": { "a": 0.1 } },
     "object": { )json" + kind + R"json( }, "coupling": { "stiffness_n_per_m": 600 },
@@ -18,7 +18,7 @@ std::string experimentFile(const Folder& folder, const std::string& kind = R"("k
 
 /// By `reach` with a counter that the linker has put before the compiler of formulas.
 std::vector<std::string> compiledBy(const std::string& arguments) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string err = (folder / "err").string();
   const std::string command =
       "REACHLAB_TELL_COMPILATIONS=1 \"" REACHLAB_BINARY_DIR "/tests/reach_counting\" " + arguments + " > /dev/null 2> " + err;
@@ -33,20 +33,20 @@ std::vector<std::string> compiledBy(const std::string& arguments) {
 }  // namespace
 
 TEST(Compilations, OfARunAreOne) {
-  const Folder folder;
-  EXPECT_EQ(compiledBy("run " + experimentFile(folder) + " --device simulated --trials 3 --seed 1 --fast --data " + folder.string()),
+  const TemporaryFolder folder;
+  EXPECT_EQ(compiledBy("run " + experimentFile(folder) + " --device simulated --trials 3 --seed 1 --fast --data " + folder.path()),
             std::vector<std::string>{kFormula});
 }
 
 TEST(Compilations, OfARunWhoseSubjectPlansOnTheCurveAreOne) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = experimentFile(folder, R"("kind": "chain", "masses_kg": [0.5, 0.5], "stiffness_n_per_m": [600])");
-  EXPECT_EQ(compiledBy("run " + file + " --device simulated --trials 1 --seed 1 --fast --data " + folder.string()),
+  EXPECT_EQ(compiledBy("run " + file + " --device simulated --trials 1 --seed 1 --fast --data " + folder.path()),
             std::vector<std::string>{kFormula});
 }
 
 TEST(Compilations, OfAPredictionAreOne) {
-  const Folder folder;
+  const TemporaryFolder folder;
   EXPECT_EQ(compiledBy("predict " + experimentFile(folder) + " --criterion min-hand-jerk"), std::vector<std::string>{kFormula});
 }
 
@@ -55,19 +55,19 @@ TEST(Compilations, OfASweepAreOne) {
 }
 
 TEST(Compilations, OfASimulationAndOfValidationAreOne) {
-  const Folder folder;
+  const TemporaryFolder folder;
   EXPECT_EQ(compiledBy("simulate " + experimentFile(folder) + " --hand min-jerk --until 0.1"), std::vector<std::string>{kFormula});
   EXPECT_EQ(compiledBy("validate " + experimentFile(folder)), std::vector<std::string>{kFormula});
 }
 
 TEST(Compilations, OfACheckBeforeABlockAreOneWhateverReachesItTries) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string heavy = experimentFile(folder, R"("kind": "point", "masses_kg": [10])");
   EXPECT_EQ(compiledBy("validate " + heavy + " --device virtual:omni"), std::vector<std::string>{kFormula});
 }
 
 TEST(Compilations, OfAPlanOnADeviceAreOneForAllItsBlocks) {
-  const Folder folder;
+  const TemporaryFolder folder;
   experimentFile(folder);
   const std::string plan = folder.write("plan.json", R"({ "schema_version": 1, "trials": 2, "blocks": [
     { "experiment": "typed.json", "practice": true }, { "experiment": "typed.json" } ] })");
@@ -75,7 +75,7 @@ TEST(Compilations, OfAPlanOnADeviceAreOneForAllItsBlocks) {
 }
 
 TEST(Compilations, OfAReplayAndOfAnAnalysisOfManyRunsAreOne) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = experimentFile(folder), data = (folder / "data").string();
   for (const char* run : {"1", "2"})
     compiledBy("run " + file + " --device simulated --trials 3 --fast --seed " + std::string(run) + " --run " + run + " --data " + data);

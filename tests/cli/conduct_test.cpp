@@ -11,22 +11,21 @@ namespace reachlab::cli {
 namespace {
 
 using test::Ended;
-using test::Folder;
 using test::reach;
 using test::trialLines;
 
-std::vector<record::RunLog> logsOf(const Folder& folder) {
+std::vector<record::RunLog> logsOf(const TemporaryFolder& folder) {
   std::vector<record::RunLog> logs;
-  for (const session::RunOnDisk& run : session::recordedRuns({.data = folder.string()})) logs.push_back(record::RunLog::open(run.path));
+  for (const session::RunOnDisk& run : session::recordedRuns({.data = folder.path()})) logs.push_back(record::RunLog::open(run.path));
   return logs;
 }
 
 TEST(Conduct, ThePlansBlocksAreRunsOfTheirOwnEachWithItsLabelAndItsRowsInTheDataset) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string plan = folder.write("plan.json", R"({ "schema_version": 1, "trials": 2, "blocks": [
     { "experiment": "chain-slow", "condition": "slow", "practice": true }, { "experiment": "dingwell" },
     { "experiment": "chain-slow", "condition": "slow", "trials": 1 } ] })");
-  const Ended ended = reach("run " + plan + " --device simulated:noise=0 --seed 4 --fast --data " + folder.string());
+  const Ended ended = reach("run " + plan + " --device simulated:noise=0 --seed 4 --fast --data " + folder.path());
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   EXPECT_EQ(ended.err.find("seed="), std::string::npos);
   const std::vector<record::RunLog> logs = logsOf(folder);
@@ -49,15 +48,15 @@ TEST(Conduct, ThePlansBlocksAreRunsOfTheirOwnEachWithItsLabelAndItsRowsInTheData
     EXPECT_NE(ended.err.find("run " + std::to_string(k + 1) + ": " + conditions[k]), std::string::npos) << ended.err;
   }
   EXPECT_TRUE(std::filesystem::exists(folder / "dataset_description.json"));
-  const Ended again = reach("run " + plan + " --device simulated:noise=0 --fast --resume --data " + folder.string());
+  const Ended again = reach("run " + plan + " --device simulated:noise=0 --fast --resume --data " + folder.path());
   EXPECT_EQ(again.exitCode, 0);
   EXPECT_NE(again.err.find("nothing is left to do"), std::string::npos) << again.err;
   EXPECT_EQ(logsOf(folder).size(), 3u);
 }
 
 TEST(Conduct, TheRecordSaysWithWhatAndWhenItWasMade) {
-  const Folder folder;
-  const Ended ended = reach("run chain-moderate --device simulated:noise=0 --trials 1 --seed 2 --fast --data " + folder.string());
+  const TemporaryFolder folder;
+  const Ended ended = reach("run chain-moderate --device simulated:noise=0 --trials 1 --seed 2 --fast --data " + folder.path());
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   const std::vector<record::RunLog> logs = logsOf(folder);
   ASSERT_EQ(logs.size(), 1u);

@@ -42,7 +42,7 @@ TEST(ConstraintCommand, ShowsEveryDefinition) {
 }
 
 TEST(ConstraintCommand, RefusesAFormulaThatIsAPoint) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("point.json", R"({"schema_version": 1, "constraint": {"curve": ["1", "2", "3"]},
     "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600}})");
   const Ended ended = reach("simulate " + file + " --hand none --at 0 --until 0.1");
@@ -50,7 +50,7 @@ TEST(ConstraintCommand, RefusesAFormulaThatIsAPoint) {
 }
 
 TEST(ConstraintCommand, PointsAtTheCharacterOfASyntaxFault) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("bad.json", R"j({"schema_version": 1, "constraint": {"curve": ["cos(phi", "2", "3"]},
     "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600}})j");
   const Ended ended = reach("validate " + file);
@@ -61,7 +61,7 @@ TEST(ConstraintCommand, PointsAtTheCharacterOfASyntaxFault) {
 
 // sin(10 u) sin(10 v) …: singular along 40 lines and between them at more points than are listed.
 TEST(ConstraintCommand, CheckTellsWhatItFoundAndWhereItStoppedLooking) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto check = [&](const std::string& name, const std::string& kind, const std::string& lines, const std::string& domain) {
     const std::string place = kind == "curve" ? "[0]" : "[0, 0]";
     return reach("constraint check " + folder.write(name + ".json", R"({"schema_version": 1, "name": ")" + name + R"(", "kind": ")" + kind +
@@ -87,7 +87,7 @@ TEST(ConstraintCommand, CheckTellsWhatItFoundAndWhereItStoppedLooking) {
 }
 
 TEST(ConstraintCommand, RefusesTenThousandCharactersAndParentheses) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string open(10000, '('), close(10000, ')');
   std::string sum = "phi";
   while (sum.size() < 10000) sum += "+phi";

@@ -50,27 +50,27 @@ TEST(Devices, ListShowsWhatIsThereWithTheDevicesOwnLimits) {
 }
 
 TEST(Devices, ADeviceThatCannotBeHadIsExitThreeWithItsNameAndTheLoadersWords) {
-  const Folder folder;
-  const Ended run = reach("run chain-slow --device phantom --data " + folder.string(), "LD_LIBRARY_PATH=");
+  const TemporaryFolder folder;
+  const Ended run = reach("run chain-slow --device phantom --data " + folder.path(), "LD_LIBRARY_PATH=");
   EXPECT_EQ(run.exitCode, 3);
   EXPECT_NE(run.err.find("device phantom: libHD.so"), std::string::npos) << run.err;
-  const Ended none = reach("run chain-slow --device phantom:Nowhere --data " + folder.string(), kFakes);
+  const Ended none = reach("run chain-slow --device phantom:Nowhere --data " + folder.path(), kFakes);
   EXPECT_EQ(none.exitCode, 3);
   EXPECT_NE(none.err.find("phantom:Nowhere"), std::string::npos) << none.err;
 }
 
 TEST(Devices, AnUnknownDeviceIsAWrongUse) {
-  const Folder folder;
-  EXPECT_EQ(reach("run chain-slow --device theremin --data " + folder.string()).exitCode, 2);
-  EXPECT_EQ(reach("run chain-slow --device virtual:omni,colour=red --data " + folder.string()).exitCode, 2);
+  const TemporaryFolder folder;
+  EXPECT_EQ(reach("run chain-slow --device theremin --data " + folder.path()).exitCode, 2);
+  EXPECT_EQ(reach("run chain-slow --device virtual:omni,colour=red --data " + folder.path()).exitCode, 2);
 }
 
 TEST(Devices, AVirtualDeviceRunsFastAndItsRecordingReplaysToTheBit) {
-  const Folder folder;
-  const Ended run = reach("run chain-moderate --device virtual:premium15 --trials 2 --seed 1 --fast --data " + folder.string());
+  const TemporaryFolder folder;
+  const Ended run = reach("run chain-moderate --device virtual:premium15 --trials 2 --seed 1 --fast --data " + folder.path());
   ASSERT_EQ(run.exitCode, 0) << run.err;
   EXPECT_EQ(trialLines(run.out).size(), 2u);
-  const Ended replay = reach("replay " + folder.string() + "/sourcedata/*.reach --check");
+  const Ended replay = reach("replay " + folder.path() + "/sourcedata/*.reach --check");
   EXPECT_EQ(replay.exitCode, 0) << replay.out << replay.err;
 }
 
@@ -95,15 +95,15 @@ TEST(Devices, BothOfTwoHandsAreCheckedBeforehand) {
   const Json rows = Json::parse(reach("validate " + hands + " --json").out);
   EXPECT_EQ(rows.front()["hand"], 1);
   EXPECT_EQ(rows.back()["hand"], 2);
-  const Folder folder;
-  const Ended run = reach("run " + hands + " --trials 1 --seed 1 --fast --data " + folder.string());
+  const TemporaryFolder folder;
+  const Ended run = reach("run " + hands + " --trials 1 --seed 1 --fast --data " + folder.path());
   EXPECT_NE(run.err.find("warning: hand 2: workspace"), std::string::npos) << run.err;
   EXPECT_EQ(run.err.find("warning: hand 1"), std::string::npos) << run.err;
 }
 
 TEST(Devices, RunWarnsOfADeviceThatIsTooWeakAndOfNoOther) {
-  const Folder folder;
-  const std::string rest = " --trials 1 --seed 1 --fast --data " + folder.string();
+  const TemporaryFolder folder;
+  const std::string rest = " --trials 1 --seed 1 --fast --data " + folder.path();
   const Ended weak = reach("run chain-fast --device virtual:omni" + rest);
   EXPECT_EQ(weak.exitCode, 0) << weak.err;
   EXPECT_NE(weak.err.find("warning: peak force: "), std::string::npos) << weak.err;
@@ -112,8 +112,8 @@ TEST(Devices, RunWarnsOfADeviceThatIsTooWeakAndOfNoOther) {
 }
 
 TEST(Devices, AMappingIsKeptForDeviceAndSubjectAndRecordedWithTheRun) {
-  const Folder folder;
-  const std::string rest = " --trials 1 --seed 1 --fast --data " + folder.string();
+  const TemporaryFolder folder;
+  const std::string rest = " --trials 1 --seed 1 --fast --data " + folder.path();
   EXPECT_EQ(reach("run chain-slow --device virtual:premium15 --subject 03 --save-mapping" + rest).exitCode, 2) << "there is none to keep";
   const Ended first = reach("run chain-slow --device virtual:premium15,scale=1.25,wall=yes --subject 03 --save-mapping" + rest);
   ASSERT_EQ(first.exitCode, 0) << first.err;
@@ -123,7 +123,7 @@ TEST(Devices, AMappingIsKeptForDeviceAndSubjectAndRecordedWithTheRun) {
   EXPECT_NE(again.err.find("mapping of "), std::string::npos) << again.err;
   const Ended other = reach("run chain-slow --device virtual:premium15 --subject 04" + rest);
   EXPECT_EQ(other.err.find("mapping of "), std::string::npos) << other.err;
-  const std::string name = folder.string() + "/sourcedata/sub-03_ses-01_task-chainslow_run-01_log.reach";
+  const std::string name = folder.path() + "/sourcedata/sub-03_ses-01_task-chainslow_run-01_log.reach";
   const Ended replay = reach("replay " + name + " --check");
   EXPECT_EQ(replay.exitCode, 0) << replay.out << replay.err;
   const std::string log = contentOf(name);
@@ -135,8 +135,8 @@ TEST(Devices, AMappingIsKeptForDeviceAndSubjectAndRecordedWithTheRun) {
 }
 
 TEST(Devices, OfTwoHandsEachKeepsItsOwnMapping) {
-  const Folder folder;
-  const std::string rest = " --subject 03 --trials 1 --seed 1 --fast --data " + folder.string();
+  const TemporaryFolder folder;
+  const std::string rest = " --subject 03 --trials 1 --seed 1 --fast --data " + folder.path();
   const Ended first =
       reach("run chain-two-hands --device \"virtual:premium15,scale=1.25 + virtual:omni,scale=0.5,mirror=x\" --save-mapping" + rest);
   ASSERT_EQ(first.exitCode, 0) << first.err;
@@ -145,7 +145,7 @@ TEST(Devices, OfTwoHandsEachKeepsItsOwnMapping) {
   const Ended again = reach("run chain-two-hands --device virtual:premium15 --device virtual:omni" + rest);
   EXPECT_NE(again.err.find("sub-03_virtual-premium15.json"), std::string::npos) << again.err;
   EXPECT_NE(again.err.find("sub-03_virtual-omni.json"), std::string::npos) << again.err;
-  const std::string log = contentOf(folder.string() + "/sourcedata/sub-03_ses-01_task-chaintwohands_run-02_log.reach");
+  const std::string log = contentOf(folder.path() + "/sourcedata/sub-03_ses-01_task-chaintwohands_run-02_log.reach");
   EXPECT_NE(log.find("\\\"scale\\\":1.25"), std::string::npos);
   EXPECT_NE(log.find("\\\"scale\\\":0.5"), std::string::npos);
 }
@@ -153,8 +153,8 @@ TEST(Devices, OfTwoHandsEachKeepsItsOwnMapping) {
 // A scheduler that never calls, calls twice, or stands still for 30 ms each second: the run is done, or is given up in words.
 TEST(Devices, ASchedulerThatNeverCallsOrTwiceOrLateEndsInWords) {
   for (const char* fault : {"NEVER", "TWICE", "LATE"}) {
-    const Folder folder;
-    const Ended run = reach("run chain-slow --device phantom --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
+    const TemporaryFolder folder;
+    const Ended run = reach("run chain-slow --device phantom --trials 1 --seed 1 --timing-check 0 --data " + folder.path(),
                             kFakes + " FAKE_HD_" + fault + "=1 timeout -s INT 30");
     EXPECT_TRUE(run.exitCode == 0 || run.exitCode == 3) << fault << ": " << run.exitCode << run.err;
     if (run.exitCode == 3) {
@@ -179,12 +179,12 @@ std::map<int, std::pair<double, double>> diaryOf(const std::filesystem::path& fi
 }
 
 TEST(Devices, TwoOmegasAreTwoHandsOfOneExperiment) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string diary = folder / "diary";
-  const Ended run = reachUndisturbed("run " + patient(folder, "chain-two-hands") +
-                                         " --device \"forcedimension:0 + forcedimension:1\" --trials 1 --seed 1 --timing-check 0 --data " +
-                                         folder.string(),
-                                     kFakes + " FAKE_DHD_DEVICES=2 FAKE_DHD_ALONE=1 FAKE_DHD_DIARY=" + diary + " timeout -s INT 30");
+  const Ended run =
+      reachUndisturbed("run " + patient(folder, "chain-two-hands") +
+                           " --device \"forcedimension:0 + forcedimension:1\" --trials 1 --seed 1 --timing-check 0 --data " + folder.path(),
+                       kFakes + " FAKE_DHD_DEVICES=2 FAKE_DHD_ALONE=1 FAKE_DHD_DIARY=" + diary + " timeout -s INT 30");
   EXPECT_TRUE(run.exitCode == 0 || run.exitCode == 3) << run.exitCode << run.err;
   EXPECT_EQ(trialLines(run.out).size(), 1u) << run.out << run.err;
   const auto felt = diaryOf(diary);
@@ -204,19 +204,19 @@ void expectLost(const Ended& run, const std::string& device) {
 }
 
 TEST(Devices, APhantomLostInMidTrialInterruptsIt) {
-  const Folder folder;
-  expectLost(reachUndisturbed("run " + patient(folder, "chain-slow") + " --device phantom --trials 1 --seed 1 --timing-check 0 --data " +
-                                  folder.string(),
-                              kFakes + " FAKE_HD_LOST_AFTER=2.2 timeout -s INT 30"),
+  const TemporaryFolder folder;
+  expectLost(reachUndisturbed(
+                 "run " + patient(folder, "chain-slow") + " --device phantom --trials 1 --seed 1 --timing-check 0 --data " + folder.path(),
+                 kFakes + " FAKE_HD_LOST_AFTER=2.2 timeout -s INT 30"),
              "PHANToM");
 }
 
 TEST(Devices, OneOfTwoOmegasLostInMidTrialInterruptsItAndTakesTheForceFromBoth) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string diary = folder / "diary";
   expectLost(reachUndisturbed(
                  "run " + patient(folder, "chain-two-hands") +
-                     " --device \"forcedimension:0 + forcedimension:1\" --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
+                     " --device \"forcedimension:0 + forcedimension:1\" --trials 1 --seed 1 --timing-check 0 --data " + folder.path(),
                  kFakes + " FAKE_DHD_DEVICES=2 FAKE_DHD_ALONE=1 FAKE_DHD_LOST_AFTER=2.2 FAKE_DHD_DIARY=" + diary + " timeout -s INT 30"),
              "device omega.3 4712 is lost");
   EXPECT_EQ(diaryOf(diary)[0].second, 0) << "the one that is still there";
@@ -235,9 +235,9 @@ TEST(Devices, AnInverse3WhoseServiceEndsInMidTrialInterruptsIt) {
     while (!over.stop_requested() && !(service.largestForce() > 0)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     service.end();
   });
-  const Folder folder;
+  const TemporaryFolder folder;
   expectLost(reach("run " + patient(folder, "chain-slow") + " --device haply:port=" + std::to_string(service.port()) +
-                       " --trials 1 --seed 1 --timing-check 0 --data " + folder.string(),
+                       " --trials 1 --seed 1 --timing-check 0 --data " + folder.path(),
                    "timeout -s INT 30"),
              "Haply Inverse3");
 }

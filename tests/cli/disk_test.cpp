@@ -46,7 +46,7 @@ std::size_t linesThatBegin(const std::string& text, const std::string& with) {
 }
 
 TEST(FullDisk, StopsTheRunWithOneSentenceAndExitCode3AndKeepsEveryAnnouncedTrial) {
-  const record::TemporaryFolder folder("full");
+  const TemporaryFolder folder;
   for (const rlim_t limit : {400'000u, 1'000'000u, 2'222'222u}) {
     const std::string data = folder / std::to_string(limit);
     const Ending ending = runWithFileLimit(data, data, limit);

@@ -117,8 +117,8 @@ TEST(OptionWords, AreOptionsThatThereAre) {
 }
 
 TEST(OptionWords, AreWhatAPersonReads) {
-  const test::Folder folder;
-  const std::string data = " --data " + folder.string();
+  const TemporaryFolder folder;
+  const std::string data = " --data " + folder.path();
   const test::Ended labels = test::reach("run dingwell --device simulated --fast --subject a_b --session c-d" + data);
   EXPECT_EQ(labels.exitCode, 2);
   EXPECT_EQ(labels.err,

@@ -113,7 +113,7 @@ TEST(HandLaw, SaysWhatItsTaskLacks) {
 
 // A cubic spline through samples of a cubic is that cubic; before and after them the hand rests.
 TEST(HandLaw, OfAFileGoesThroughItsSamplesAndRestsOutside) {
-  const test::Folder folder;
+  const TemporaryFolder folder;
   const auto cubic = [](double t) { return 0.1 * t * t * t - 0.2 * t; };
   std::string table = "time_s,x_m,y_m,z_m\n";
   for (int i = 2; i <= 8; ++i) {

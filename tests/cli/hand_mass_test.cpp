@@ -7,7 +7,7 @@ using namespace reachlab::test;
 // The criterion of this hand is known. Where its mass was not among the tried ones, another criterion was named.
 TEST(HandMass, AHeavyHandIsNotTakenForAnotherCriterion) {
   for (const char* mass : {"3", "4"}) {
-    const Folder folder;
+    const TemporaryFolder folder;
     const std::string data = (folder / "data").string();
     ASSERT_EQ(reach("run dingwell --device simulated:criterion=min-hand-force,hand-mass=" + std::string(mass) +
                     " --trials 60 --seed 7 --fast --data " + data)

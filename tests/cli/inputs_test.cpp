@@ -11,8 +11,8 @@ using namespace reachlab::test;
 namespace {
 
 TEST(Inputs, AnEmptyValueIsRefusedByItsOptionsName) {
-  const Folder folder;
-  const std::string run = "cd " + folder.string() + " && $REACH run dingwell --device simulated --fast --trials 1 --seed 1 ";
+  const TemporaryFolder folder;
+  const std::string run = "cd " + folder.path() + " && $REACH run dingwell --device simulated --fast --trials 1 --seed 1 ";
   for (const char* option : {"--data \"\"", "--backup \"\"", "--subject=", "--notes \"\""}) {
     const Ended ended = shell(run + option);
     EXPECT_EQ(ended.exitCode, 2) << option;
@@ -23,9 +23,9 @@ TEST(Inputs, AnEmptyValueIsRefusedByItsOptionsName) {
 }
 
 TEST(Inputs, AWholeNumberIsReadInDecimal) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto run = [&](const std::string& options) {
-    const Ended ended = reach("run dingwell --device simulated --fast --data " + folder.string() + " " + options);
+    const Ended ended = reach("run dingwell --device simulated --fast --data " + folder.path() + " " + options);
     EXPECT_EQ(ended.exitCode, 0) << ended.err;
     return ended.out;
   };
@@ -34,7 +34,7 @@ TEST(Inputs, AWholeNumberIsReadInDecimal) {
 }
 
 TEST(Inputs, AWholeNumberThatADoubleWouldRoundIsRefused) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string plan = R"({"schema_version": 1, "order_seed": )", rest = R"(, "blocks": [{"experiment": "dingwell", "trials": 1}]})";
   EXPECT_EQ(reach("validate " + folder.write("a.json", plan + "9007199254740992" + rest)).exitCode, 0);
   const Ended refused = reach("validate " + folder.write("b.json", plan + "9007199254740993" + rest));
@@ -43,25 +43,27 @@ TEST(Inputs, AWholeNumberThatADoubleWouldRoundIsRefused) {
 }
 
 TEST(Inputs, DayZeroIsNoDay) {
-  const Folder folder;
-  const Ended ended = reach("run paper --device simulated --fast --seed 1 --session 0 --data " + folder.string());
+  const TemporaryFolder folder;
+  const Ended ended = reach("run paper --device simulated --fast --seed 1 --session 0 --data " + folder.path());
   EXPECT_EQ(ended.exitCode, 2);
   EXPECT_NE(ended.err.find("--session: \"0\" is day 0"), std::string::npos) << ended.err;
 }
 
 TEST(Outputs, AreNeitherAnInputNorARecordingNorAmongThem) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string data = folder / "data";
   ASSERT_EQ(reach("run dingwell --device simulated --fast --trials 1 --seed 1 --data " + data).exitCode, 0);
   std::string log;
   for (const auto& entry : std::filesystem::directory_iterator(data + "/sourcedata"))
     if (entry.path().string().ends_with("_log.reach")) log = entry.path();
-  const std::string mine = folder.write("e.json", contentOf(std::filesystem::path(REACHLAB_SOURCE_DIR) / "resources/experiments/chain-slow.json"));
+  const std::string mine =
+      folder.write("e.json", contentOf(std::filesystem::path(REACHLAB_SOURCE_DIR) / "resources/experiments/chain-slow.json"));
   const std::string before = contentOf(mine), recorded = contentOf(log);
-  const std::string predict = "predict " + mine + " --criterion min-hand-jerk ", simulate = "simulate " + mine + " --hand none --until 0.01 ";
+  const std::string predict = "predict " + mine + " --criterion min-hand-jerk ",
+                    simulate = "simulate " + mine + " --hand none --until 0.01 ";
   std::filesystem::create_symlink(log, folder / "link");
   for (const std::string& line :
-       {predict + "--out " + mine, predict + "--out " + folder.string() + "/./e.json", simulate + "--out " + log,
+       {predict + "--out " + mine, predict + "--out " + folder.path() + "/./e.json", simulate + "--out " + log,
         simulate + "--out " + (folder / "link").string(), simulate + "--out " + (folder / "new_log.reach").string(),
         simulate + "--out " + data + "/sourcedata/rows.csv", "show " + log + " --trial 1 --figure " + data + "/sourcedata/f.svg",
         "export " + log + " --format csv --out " + data + "/sourcedata", "analyze " + data + " --out " + data,
@@ -77,12 +79,14 @@ TEST(Outputs, AreNeitherAnInputNorARecordingNorAmongThem) {
 
 // The log's reader refuses names beyond what file names hold; so does whoever would write it.
 TEST(Recordings, WhatCouldNotBeReadAgainIsRefusedBeforeTheFirstTrial) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string text = contentOf(std::filesystem::path(REACHLAB_SOURCE_DIR) / "resources/experiments/dingwell.json");
   const std::string file = folder.write(std::string(61, 'a') + ".json", text), fine = folder.write(std::string(60, 'a') + ".json", text);
-  const std::string plan = folder.write("long.json", R"({"schema_version": 1, "blocks": [{"experiment": "dingwell", "trials": 1, "pause_s": 1e7}]})");
+  const std::string plan =
+      folder.write("long.json", R"({"schema_version": 1, "blocks": [{"experiment": "dingwell", "trials": 1, "pause_s": 1e7}]})");
   for (const std::string& refused : {file, plan})
-    for (const std::string& line : {"validate " + refused, "run " + refused + " --device simulated --fast --seed 1 --data " + (folder / "data").string()}) {
+    for (const std::string& line :
+         {"validate " + refused, "run " + refused + " --device simulated --fast --seed 1 --data " + (folder / "data").string()}) {
       const Ended ended = reach(line);
       EXPECT_EQ(ended.exitCode, 2) << line << ended.err;
       EXPECT_EQ(trialLines(ended.out).size(), 0u) << ended.out;
@@ -93,7 +97,7 @@ TEST(Recordings, WhatCouldNotBeReadAgainIsRefusedBeforeTheFirstTrial) {
 }
 
 TEST(FullDisk, EndsAnExportByALibraryInOneSentenceAndLeavesNothing) {
-  const Folder folder;
+  const TemporaryFolder folder;
   ASSERT_EQ(reach("run dingwell --device simulated --fast --seed 1 --trials 8 --data " + (folder / "data").string()).exitCode, 0);
   for (const char* format : {"hdf5", "mat"}) {
     const std::string out = folder / format;
@@ -114,49 +118,56 @@ std::string chainOf(double mass, double stiffness, double handMass) {
 }
 
 TEST(Limits, NumbersInWhichNoMethodWasTestedAreRefusedByTheirKey) {
-  const Folder folder;
+  const TemporaryFolder folder;
   struct Case {
     double mass, stiffness, handMass;
     const char* key;
   };
-  for (const auto& [mass, stiffness, handMass, key] :
-       {Case{1e-300, 600, 1, "object.masses_kg[0]"}, {5e-324, 600, 1, "object.masses_kg[0]"}, {0.9e-6, 600, 1, "object.masses_kg[0]"},
-        {1.1e6, 600, 1, "object.masses_kg[0]"}, {1, 1e300, 1, "object.stiffness_n_per_m[0]"}, {1, 600, 1e300, "hand_mass_kg"}}) {
+  for (const auto& [mass, stiffness, handMass, key] : {Case{1e-300, 600, 1, "object.masses_kg[0]"},
+                                                       {5e-324, 600, 1, "object.masses_kg[0]"},
+                                                       {0.9e-6, 600, 1, "object.masses_kg[0]"},
+                                                       {1.1e6, 600, 1, "object.masses_kg[0]"},
+                                                       {1, 1e300, 1, "object.stiffness_n_per_m[0]"},
+                                                       {1, 600, 1e300, "hand_mass_kg"}}) {
     const std::string file = folder.write("e.json", chainOf(mass, stiffness, handMass));
-    for (const std::string& line : {"validate " + file, "predict " + file + " --criterion min-hand-jerk", "simulate " + file + " --hand hold",
-                                    "run " + file + " --device simulated --fast --seed 1 --data " + folder.string()}) {
+    for (const std::string& line :
+         {"validate " + file, "predict " + file + " --criterion min-hand-jerk", "simulate " + file + " --hand hold",
+          "run " + file + " --device simulated --fast --seed 1 --data " + folder.path()}) {
       const Ended ended = reach(line);
       EXPECT_EQ(ended.exitCode, 2) << line << ended.err;
       EXPECT_NE(ended.err.find(key), std::string::npos) << key << "\n" << ended.err;
     }
   }
   EXPECT_EQ(reach("predict chain-slow --criterion min-hand-jerk --hand-mass 1e-100").exitCode, 2);
-  EXPECT_EQ(reach("run chain-slow --device simulated:hand-mass=1e-100 --fast --seed 1 --data " + folder.string()).exitCode, 2);
+  EXPECT_EQ(reach("run chain-slow --device simulated:hand-mass=1e-100 --fast --seed 1 --data " + folder.path()).exitCode, 2);
 }
 
 // At the limits a computation may be refused, but it ends.
 TEST(Limits, AtThemEveryCommandEnds) {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const double mass : {1e-6, 1e6})
     for (const double stiffness : {0.0, 1e-9, 1e9})
       for (const double handMass : {0.0, 1e-6, 1e6}) {
         const std::string file = folder.write("e.json", chainOf(mass, stiffness, handMass));
         for (const std::string& line :
-             {"predict " + file + " --criterion min-hand-jerk", "predict " + file + " --criterion min-hand-force-change", "simulate " + file + " --hand min-jerk --until 0.1",
-              "run " + file + " --device simulated --fast --trials 1 --seed 1 --data " + folder.string()}) {
+             {"predict " + file + " --criterion min-hand-jerk", "predict " + file + " --criterion min-hand-force-change",
+              "simulate " + file + " --hand min-jerk --until 0.1",
+              "run " + file + " --device simulated --fast --trials 1 --seed 1 --data " + folder.path()}) {
           const Ended ended = reach(line, "timeout 60");
           EXPECT_TRUE(ended.exitCode == 0 || ended.exitCode == 2 || ended.exitCode == 4)
-              << line << ": " << ended.exitCode << ", mass " << mass << ", stiffness " << stiffness << ", hand " << handMass << "\n" << ended.err;
+              << line << ": " << ended.exitCode << ", mass " << mass << ", stiffness " << stiffness << ", hand " << handMass << "\n"
+              << ended.err;
         }
       }
 }
 
 TEST(Limits, MoreNamesThanAFormulaTakesAreCountedAndNotRead) {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string names;
   for (int i = 0; i < 50'000; ++i) names += (i == 0 ? "\"" : ", \"") + ("n" + std::to_string(i)) + "\": 1";
-  const std::string file = folder.write("e.json", R"({"schema_version": 1, "constraint": {"name": "line", "shape": {)" + names +
-                                                      R"(}}, "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600}})");
+  const std::string file =
+      folder.write("e.json", R"({"schema_version": 1, "constraint": {"name": "line", "shape": {)" + names +
+                                 R"(}}, "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600}})");
   const Ended ended = reach("validate " + file, "timeout 10");
   EXPECT_EQ(ended.exitCode, 2) << ended.err;
   EXPECT_NE(ended.err.find("constraint.shape: has 50000 names"), std::string::npos) << ended.err.substr(0, 1000);
@@ -164,11 +175,12 @@ TEST(Limits, MoreNamesThanAFormulaTakesAreCountedAndNotRead) {
 
 // Each coordinate is thirty sines, one in another: what its length costs is bounded by the count of its pieces.
 TEST(Limits, AFormulaThatBendsWithoutEndIsRefusedSoon) {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string sines = "phi";
   for (int i = 0; i < 30; ++i) sines = "sin(1e3*" + sines + ")";
-  const std::string file = folder.write("e.json", R"({"schema_version": 1, "constraint": {"curve": ["phi/10 + )" + sines + R"(", ")" + sines + R"(", ")" + sines +
-                                                      R"("]}, "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600},
+  const std::string file = folder.write(
+      "e.json", R"({"schema_version": 1, "constraint": {"curve": ["phi/10 + )" + sines + R"(", ")" + sines + R"(", ")" + sines +
+                    R"("]}, "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600},
       "task": {"start": [0], "target": [1], "duration_s": 1, "tolerance": {"position_m": 0.01, "velocity_m_per_s": 0.01, "time_s": 0.5}}})");
   const Ended ended = reach("validate " + file, "timeout 10");
   EXPECT_TRUE(ended.exitCode == 2 || ended.exitCode == 4) << ended.exitCode << ended.err;

@@ -15,14 +15,14 @@ TEST(Instruments, AreToldOfARunAndTheRecordingSaysWhen) {
   char name[128] = {};
   ASSERT_EQ(::openpty(&wire, &slave, name, nullptr, nullptr), 0);
   ::fcntl(wire, F_SETFL, O_NONBLOCK);
-  const Folder folder;
-  const Ended ended = reach("run chain-fast --device simulated --trials 2 --seed 1 --timing-check 0 --data " + folder.string() +
+  const TemporaryFolder folder;
+  const Ended ended = reach("run chain-fast --device simulated --trials 2 --seed 1 --timing-check 0 --data " + folder.path() +
                             " --instrument byte:" + name);
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
   std::string bytes(16, '\0');
   bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(wire, bytes.data(), bytes.size()))));
   EXPECT_TRUE(bytes.starts_with("\1\2")) << "go, onset";
-  const record::RunLog log = record::RunLog::open(record::findLogs(folder.string()).front());
+  const record::RunLog log = record::RunLog::open(record::findLogs(folder.path()).front());
   EXPECT_EQ(log.configuration().instruments, std::string("byte:") + name);
   std::vector<record::RecordedEvent> sent;
   for (const record::RecordedEvent& event : log.events())
@@ -46,16 +46,16 @@ TEST(Instruments, AreToldOfARunAndTheRecordingSaysWhen) {
 }
 
 TEST(Instruments, AreRefusedOnAVirtualClock) {
-  const Folder folder;
-  const Ended ended = reach("run dingwell --device simulated --fast --data " + folder.string() + " --instrument lsl",
+  const TemporaryFolder folder;
+  const Ended ended = reach("run dingwell --device simulated --fast --data " + folder.path() + " --instrument lsl",
                             "LD_LIBRARY_PATH=" + (std::filesystem::path(REACHLAB_BINARY_DIR) / "tests/fakes").string());
   EXPECT_EQ(ended.exitCode, 2);
   EXPECT_NE(ended.err.find("there are instruments, which are on the real clock"), std::string::npos) << ended.err;
 }
 
 TEST(Instruments, AMissingLibraryIsSaid) {
-  const Folder folder;
-  const Ended ended = reach("run dingwell --device simulated --data " + folder.string() + " --instrument lsl");
+  const TemporaryFolder folder;
+  const Ended ended = reach("run dingwell --device simulated --data " + folder.path() + " --instrument lsl");
   EXPECT_EQ(ended.exitCode, 3);
   EXPECT_NE(ended.err.find("liblsl.so"), std::string::npos) << ended.err;
 }

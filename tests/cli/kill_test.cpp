@@ -102,7 +102,7 @@ std::vector<std::string> runArguments(const std::string& data, bool resume) {
 }
 
 TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
-  const record::TemporaryFolder folder("kill");
+  const TemporaryFolder folder;
   const std::string whole = folder / "whole";
   ASSERT_EQ(runAndKill(runArguments(whole, false), -1).status, 0);
   const record::RunLog good = record::RunLog::open(session::recordedRuns({whole}).at(0).path);
@@ -176,7 +176,7 @@ TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
 }
 
 TEST(Kill, OfAnExportLeavesTheLogAsItWasAndNoHalfFile) {
-  const record::TemporaryFolder folder("killexport");
+  const TemporaryFolder folder;
   const std::string data = folder / "data", out = folder / "out";
   ASSERT_EQ(runAndKill(runArguments(data, false), -1).status, 0);
   const std::string log = session::recordedRuns({data}).at(0).path;

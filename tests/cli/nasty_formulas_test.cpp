@@ -31,7 +31,7 @@ std::vector<std::vector<std::string>> cases() {
 }  // namespace
 
 TEST(NastyFormulas, AreRightOrRefusedOrStoppedInWords) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const auto all = cases();
   ASSERT_GE(all.size(), 60u);
   for (const auto& c : all) {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "test_paths.h"
+#include "tests/temporary_folder.h"
 
 namespace reachlab::test {
 
@@ -27,33 +28,9 @@ inline std::string contentOf(const std::filesystem::path& file) {
   return std::move(text).str();
 }
 
-/// A folder of its own that goes away with the test.
-class Folder {
- public:
-  Folder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "reach-test-XXXXXX").string();
-    path_ = mkdtemp(pattern.data());
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  std::string string() const { return path_.string(); }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(path_ / name, std::ios::binary) << text;
-    return (path_ / name).string();
-  }
-
- private:
-  std::filesystem::path path_;
-};
-
 /// Runs `reach ARGUMENTS` in a shell; `environment` stands before it.
 inline Ended reach(const std::string& arguments, const std::string& environment = "") {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string command = environment + " \"" REACH_PROGRAM "\" " + arguments + " > \"" + (folder / "out").string() + "\" 2> \"" +
                               (folder / "err").string() + "\" < /dev/null";
   const int status = std::system(command.c_str());
@@ -62,7 +39,7 @@ inline Ended reach(const std::string& arguments, const std::string& environment 
 
 /// Runs a line of bash in which $REACH is the program; for redirections, pipes and limits of its own.
 inline Ended shell(const std::string& line) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string script = folder.write("script", "REACH=\"" REACH_PROGRAM "\"\n" + line + "\n");
   const std::string command =
       "bash \"" + script + "\" > \"" + (folder / "out").string() + "\" 2> \"" + (folder / "err").string() + "\" < /dev/null";

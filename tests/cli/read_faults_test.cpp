@@ -52,7 +52,7 @@ class ReadFaults : public testing::Test {
   }
   int reads() const { return std::abs(std::stoi(contentOf(folder_ / "count"))); }
 
-  Folder folder_;
+  TemporaryFolder folder_;
   Tables tables_;  // of the latest analysis
 };
 

@@ -23,7 +23,7 @@ int reach(const std::string& arguments) {
 }
 
 TEST(Replay, OfEveryShippedExperimentIsBitIdentical) {
-  const record::TemporaryFolder folder("replay");
+  const TemporaryFolder folder;
   for (const std::string& name : experiment::shippedExperiments()) {
     if (!experiment::readExperiment(name).task) continue;
     const std::string data = folder / name;
@@ -38,7 +38,7 @@ TEST(Replay, OfEveryShippedExperimentIsBitIdentical) {
 }
 
 TEST(Replay, OfSimulatedSubjectsAndOfRealTimeIsBitIdentical) {
-  const record::TemporaryFolder folder("replay2");
+  const TemporaryFolder folder;
   const std::string data = folder / "data";
   ASSERT_EQ(reach("run chain-moderate --device simulated --trials 3 --seed 4 --fast --every-tick --data " + data), 0);
   ASSERT_EQ(reach("run chain-fast --device simulated --trials 1 --seed 4 --data " + data), 0);
@@ -47,7 +47,7 @@ TEST(Replay, OfSimulatedSubjectsAndOfRealTimeIsBitIdentical) {
 
 // Years later, on another computer: the definition's file is gone, or says something else under the same name.
 TEST(Replay, NeedsNoFileOfTheConstraintThatAnExperimentNames) {
-  const record::TemporaryFolder folder("replay4");
+  const TemporaryFolder folder;
   const std::string data = folder / "data", definition = folder / "own-eight.json", experiment = folder / "eight.json";
   const auto write = [](const std::string& file, const std::string& text) { std::ofstream(file) << text; };
   const auto eight = [](const char* x) {
@@ -79,7 +79,7 @@ TEST(Replay, NeedsNoFileOfTheConstraintThatAnExperimentNames) {
 
 // The same log with one number of one row changed, every record good in itself.
 TEST(Replay, NamesTheFirstStateThatDiffersAndExits1) {
-  const record::TemporaryFolder folder("replay3");
+  const TemporaryFolder folder;
   const std::string data = folder / "data", changed = folder / "changed_log.reach";
   ASSERT_EQ(reach("run dingwell --device simulated --trials 2 --seed 4 --fast --data " + data), 0);
   {

@@ -15,7 +15,7 @@ namespace {
 
 const std::string kReaches = REACHLAB_SOURCE_DIR "/resources/reaches";
 
-std::string logOf(const Folder& folder) {
+std::string logOf(const TemporaryFolder& folder) {
   for (const auto& entry : fs::recursive_directory_iterator(folder / "sourcedata"))
     if (entry.path().extension() == ".reach") return entry.path().string();
   return {};
@@ -24,9 +24,9 @@ std::string logOf(const Folder& folder) {
 }  // namespace
 
 TEST(Run, TheSimulatedSubjectIsReproducibleAndHuman) {
-  const Folder one, two;
+  const TemporaryFolder one, two;
   const std::string arguments = "run chain-moderate --device simulated --trials 20 --seed 1 --fast --data ";
-  const Ended first = reach(arguments + one.string()), second = reach(arguments + two.string());
+  const Ended first = reach(arguments + one.path()), second = reach(arguments + two.path());
   ASSERT_EQ(first.exitCode, 0) << first.err;
   EXPECT_EQ(first.out, second.out);
   const auto trials = trialLines(first.out);
@@ -43,19 +43,19 @@ TEST(Run, TheSimulatedSubjectIsReproducibleAndHuman) {
 }
 
 TEST(Run, WithoutNoiseEveryTrialSucceeds) {
-  const Folder folder;
-  const Ended ended = reach("run chain-moderate --device simulated:noise=0 --trials 5 --seed 1 --fast --data " + folder.string());
+  const TemporaryFolder folder;
+  const Ended ended = reach("run chain-moderate --device simulated:noise=0 --trials 5 --seed 1 --fast --data " + folder.path());
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   for (const auto& trial : trialLines(ended.out)) EXPECT_EQ(trial.at("outcome"), "success");
 }
 
 TEST(Run, PlaysTheHumanReachesAndItsCsvReproducesThePrintedResults) {
-  const Folder folder, out;
-  const Ended ended = reach("run chain-moderate --device replay:" + kReaches + " --fast --data " + folder.string());
+  const TemporaryFolder folder, out;
+  const Ended ended = reach("run chain-moderate --device replay:" + kReaches + " --fast --data " + folder.path());
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   const auto trials = trialLines(ended.out);
   ASSERT_EQ(trials.size(), 19u);
-  const Ended exported = reach("export " + logOf(folder) + " --format csv --out " + out.string());
+  const Ended exported = reach("export " + logOf(folder) + " --format csv --out " + out.path());
   ASSERT_EQ(exported.exitCode, 0) << exported.err;
   const Table table = parseCsv(contentOf(out / "trials.csv"));
   ASSERT_EQ(table.rows.size(), 19u);
@@ -70,8 +70,8 @@ TEST(Run, PlaysTheHumanReachesAndItsCsvReproducesThePrintedResults) {
 }
 
 TEST(Run, TakesTheNextFreeRunAndRefusesOneThatExists) {
-  const Folder folder;
-  const std::string arguments = "run dingwell --device simulated --trials 1 --seed 3 --fast --data " + folder.string();
+  const TemporaryFolder folder;
+  const std::string arguments = "run dingwell --device simulated --trials 1 --seed 3 --fast --data " + folder.path();
   ASSERT_EQ(reach(arguments).exitCode, 0);
   ASSERT_EQ(reach(arguments).exitCode, 0);
   int logs = 0;
@@ -83,11 +83,11 @@ TEST(Run, TakesTheNextFreeRunAndRefusesOneThatExists) {
 }
 
 TEST(Run, RunsThatStartAtOnceTakeOneNumberEach) {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::vector<std::future<Ended>> started;
   for (const char* experiment : {"dingwell", "dingwell", "chain-moderate", "dingwell"})
     started.push_back(std::async(std::launch::async, [&folder, experiment] {
-      return reach(std::string("run ") + experiment + " --device simulated --trials 1 --seed 3 --fast --data " + folder.string());
+      return reach(std::string("run ") + experiment + " --device simulated --trials 1 --seed 3 --fast --data " + folder.path());
     }));
   for (auto& run : started) {
     const Ended ended = run.get();
@@ -104,16 +104,15 @@ TEST(Run, RunsThatStartAtOnceTakeOneNumberEach) {
 }
 
 TEST(Run, AMissingReplayFileIsAResourceThatCannotBeHad) {
-  const Folder folder;
-  const Ended ended =
-      reach("run chain-moderate --device replay:" + (folder / "no-such.csv").string() + " --fast --data " + folder.string());
+  const TemporaryFolder folder;
+  const Ended ended = reach("run chain-moderate --device replay:" + (folder / "no-such.csv").string() + " --fast --data " + folder.path());
   EXPECT_EQ(ended.exitCode, 3) << ended.err;
   EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
 }
 
 TEST(Run, TheFirstLineNamesTheMethodAndLeavesItsReasonToTheDataset) {
-  const Folder folder;
-  const Ended run = reach("run chain-slow --device simulated --trials 1 --seed 1 --fast --data " + folder.string());
+  const TemporaryFolder folder;
+  const Ended run = reach("run chain-slow --device simulated --trials 1 --seed 1 --fast --data " + folder.path());
   ASSERT_EQ(run.exitCode, 0) << run.err;
   EXPECT_EQ(run.err, fmt::format("run 1: chain-slow, 1 trial, method exact; recording to {}\n", logOf(folder)));
 }
@@ -127,7 +126,7 @@ TEST(List, TellsWhatAnExperimentAsks) {
 
 // As validate says it: the chord stands at right angles to the ellipse at the start.
 TEST(Run, SaysThatRoundingDecidesWhichWayTheMassLeaves) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("e.json", R"json({"schema_version": 1,
     "constraint": {"curve": ["0.1*cos(phi)", "0.06*sin(phi)", "0"]},
     "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600},

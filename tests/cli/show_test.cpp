@@ -11,7 +11,7 @@ using Json = nlohmann::json;
 namespace {
 
 struct Recorded {
-  Folder folder;
+  TemporaryFolder folder;
   std::string data = (folder / "data").string();
   std::string log = data + "/sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach";
   Ended run = reach("run chain-moderate --device simulated --trials 3 --seed 1 --fast --data " + data);

@@ -42,7 +42,7 @@ Stopped stop(std::vector<std::string> arguments, int signal, const fs::path& fil
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count()};
 }
 
-std::string longChain(const Folder& folder, int masses) {
+std::string longChain(const TemporaryFolder& folder, int masses) {
   std::string mass = "0.001", spring = "60000";
   for (int i = 1; i < masses; ++i) mass += ",0.001";
   for (int i = 2; i < masses; ++i) spring += ",60000";
@@ -57,14 +57,14 @@ std::string longChain(const Folder& folder, int masses) {
 
 TEST(Signals, EndARunWithTheTrialMarkedAndTheLogClosed) {
   for (const auto& [signal, code] : {std::pair{SIGINT, 130}, {SIGTERM, 143}, {SIGHUP, 129}}) {
-    const Folder data;
+    const TemporaryFolder data;
     const Stopped ended = stop(
-        {"run", "chain-moderate", "--device", "simulated", "--trials", "50", "--seed", "1", "--timing-check", "0", "--data", data.string()},
+        {"run", "chain-moderate", "--device", "simulated", "--trials", "50", "--seed", "1", "--timing-check", "0", "--data", data.path()},
         signal, data / "sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach", 700);
     EXPECT_EQ(ended.exitCode, code);
     RecordProperty("seconds", std::to_string(ended.seconds));
-    const Folder csv;
-    const Ended exported = reach("export " + data.string() + " --format csv --out " + csv.string());
+    const TemporaryFolder csv;
+    const Ended exported = reach("export " + data.path() + " --format csv --out " + csv.path());
     EXPECT_EQ(exported.err, "") << "not closed in order";
     const Table trials = parseCsv(contentOf(csv / "trials.csv"));
     ASSERT_FALSE(trials.rows.empty());
@@ -74,7 +74,7 @@ TEST(Signals, EndARunWithTheTrialMarkedAndTheLogClosed) {
 }
 
 TEST(Signals, EndTheLongPlanningOfASimulatedHand) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string experiment = longChain(folder, 500);
   for (const auto& [signal, code] : {std::pair{SIGINT, 130}, {SIGTERM, 143}}) {
     const Stopped ended =

@@ -50,7 +50,7 @@ TEST(Simulate, AMethodThatIsNoneIsRefusedWithThoseThatThereAre) {
 }
 
 TEST(Simulate, AFallingPointFollowsTheClosedForm) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("fall.json", onePoint(R"({"name": "free"})", R"(, "gravity_m_per_s2": [0, -9.81, 0])", ""));
   const Ended ended = reach("simulate " + file + " --hand none --until 1 --at 0.1,0.2,0.3 --rate 1,0,0");
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
@@ -63,7 +63,7 @@ TEST(Simulate, AFallingPointFollowsTheClosedForm) {
 }
 
 TEST(Simulate, ADampedSpringFollowsTheClosedForm) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("spring.json", onePoint(R"({"name": "line", "shape": {"length_m": 0.2}})", "", kLineTask));
   // The hand holds at phi = 0 (x = -0.1); the mass starts 0.1 m to its right: m x'' + 5 x' + 600 x = 0.
   const Table table = parseCsv(reach("simulate " + file + " --hand hold --at 3.141592653589793 --until 2 --every 0.5").out);
@@ -76,7 +76,7 @@ TEST(Simulate, ADampedSpringFollowsTheClosedForm) {
 }
 
 TEST(Simulate, ATypedFormulaEqualsItsCatalogueTwin) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string task = R"(, "task": {"start": [0.3], "target": [2], "duration_s": 1,
     "tolerance": {"position_m": 0.012, "velocity_m_per_s": 0.012, "time_s": 0.5}})";
   const std::string typed =
@@ -89,7 +89,7 @@ TEST(Simulate, ATypedFormulaEqualsItsCatalogueTwin) {
 }
 
 TEST(Simulate, RefusesWhatCannotBeCarriedOut) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string noChord = folder.write("closed.json", onePoint(R"j({"curve": ["cos(phi)", "sin(phi)", "0"]})j", "",
                                                                    R"(, "task": {"start": [0], "target": [0], "duration_s": 1,
     "tolerance": {"position_m": 0.012, "velocity_m_per_s": 0.012, "time_s": 0.5}})"));
@@ -100,7 +100,7 @@ TEST(Simulate, RefusesWhatCannotBeCarriedOut) {
 }
 
 TEST(Simulate, AHandFromAFileIsInterpolatedAndHeld) {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string text = "time_s,x_m,y_m,z_m\n";
   for (int i = 0; i <= 20; ++i) text += std::to_string(0.05 * i) + "," + std::to_string(-0.1 + 0.01 * std::sin(0.05 * i)) + ",0,0\n";
   const std::string file = folder.write("hand.csv", text);
@@ -120,7 +120,7 @@ TEST(Simulate, WritesTheSameBytesUnderAGermanLocale) {
 
 // A cubic through not-a-knot samples is the cubic itself, so that its velocity is known everywhere, at the first and last instant too.
 TEST(Simulate, AHandsFileHasItsInnerVelocityAtBothEndsAndRestsBeyond) {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::string csv = "time_s,x_m,y_m,z_m\n";
   const auto x = [](double t) { return 0.1 + 0.2 * t - 0.3 * t * t + 0.4 * t * t * t; };
   for (int i = 0; i <= 10; ++i) {
@@ -160,7 +160,7 @@ TEST(Simulate, AFreeBodyTurnsAsItWasLetGo) {
 }
 
 TEST(Simulate, ATaskWhoseWayRoundingDecidesIsToldSo) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string ellipse = R"j({"curve": ["0", "0.1*cos(phi)", "0.06*sin(phi)"]})j";
   const auto task = [](const std::string& from, const std::string& to) {
     return R"(, "task": {"start": [)" + from + R"(], "target": [)" + to +

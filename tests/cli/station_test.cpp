@@ -36,7 +36,7 @@ class Stations : public testing::Test {
   }
   std::string dataOf(const char* station) const { return folder_ / station; }
   record::RunLog logOf(const char* station) const { return record::RunLog::open(session::recordedRuns({dataOf(station)}).at(0).path); }
-  const record::TemporaryFolder folder_{"stations"};
+  const TemporaryFolder folder_;
 };
 
 // How old the newest sample in force was at a tick, told from the log's inputs alone (network/link/station_link.cpp writes them): by these

@@ -12,8 +12,8 @@ namespace {
 const std::string kRun = "\"$REACH\" run chain-moderate --device simulated:noise=0 --trials 5 --seed 1 --fast --data ";
 
 int trialsIn(const std::string& data) {
-  const Folder csv;
-  const Ended exported = reach("export " + data + " --format csv --out " + csv.string());
+  const TemporaryFolder csv;
+  const Ended exported = reach("export " + data + " --format csv --out " + csv.path());
   EXPECT_EQ(exported.exitCode, 0) << exported.err;
   EXPECT_EQ(exported.err, "") << "the log is damaged";
   return static_cast<int>(parseCsv(contentOf(csv / "trials.csv")).rows.size());
@@ -43,10 +43,10 @@ std::string onTerminal(const std::string& command) {
 }  // namespace
 
 TEST(StandardStreams, ATerminalIsToldHowFarTheReadingIsFromTheFirstRunToTheLast) {
-  const Folder data, out;
-  for (int run = 0; run < 2; ++run) EXPECT_EQ(shell(kRun + data.string()).exitCode, 0);
+  const TemporaryFolder data, out;
+  for (int run = 0; run < 2; ++run) EXPECT_EQ(shell(kRun + data.path()).exitCode, 0);
   const std::string said =
-      onTerminal("\"" REACH_PROGRAM "\" analyze " + data.string() + " --criterion min-hand-jerk --hand-mass 1 --out " + out.string());
+      onTerminal("\"" REACH_PROGRAM "\" analyze " + data.path() + " --criterion min-hand-jerk --hand-mass 1 --out " + out.path());
   const std::size_t first = said.find("reading run 1 of 2"), last = said.find("reading run 2 of 2");
   EXPECT_LT(first, last) << said;
   EXPECT_NE(last, std::string::npos) << said;
@@ -54,10 +54,10 @@ TEST(StandardStreams, ATerminalIsToldHowFarTheReadingIsFromTheFirstRunToTheLast)
 
 TEST(StandardStreams, ClosedOnesNeverBecomeAFileOfTheRecording) {
   for (const std::string closed : {"0<&- 1>&-", "0<&- 1>&- 2>&-", "1>&-", "2>&-", "0<&- 2>&-"}) {
-    const Folder data;
-    const Ended ended = shell(kRun + data.string() + " " + closed);
+    const TemporaryFolder data;
+    const Ended ended = shell(kRun + data.path() + " " + closed);
     EXPECT_EQ(ended.exitCode, 0) << closed << ": " << ended.err;
-    EXPECT_EQ(trialsIn(data.string()), 5) << closed;
+    EXPECT_EQ(trialsIn(data.path()), 5) << closed;
   }
 }
 
@@ -69,24 +69,24 @@ TEST(StandardStreams, WhatCannotBePrintedIsAnErrorOfOneSentence) {
 }
 
 TEST(StandardStreams, ARunThatCannotPrintIsRecordedToItsEndAndSaysSo) {
-  const Folder data;
-  expectOneSentence(shell(kRun + data.string() + " > /dev/full"));
-  EXPECT_EQ(trialsIn(data.string()), 5);
-  expectOneSentence(shell("\"$REACH\" export " + data.string() + " --format csv > /dev/full"));
+  const TemporaryFolder data;
+  expectOneSentence(shell(kRun + data.path() + " > /dev/full"));
+  EXPECT_EQ(trialsIn(data.path()), 5);
+  expectOneSentence(shell("\"$REACH\" export " + data.path() + " --format csv > /dev/full"));
 }
 
 TEST(StandardStreams, ARunWhoseMessagesCannotBePrintedIsRecordedToItsEnd) {
-  const Folder data;
-  EXPECT_EQ(shell(kRun + data.string() + " 2> /dev/full").exitCode, 0);
-  EXPECT_EQ(trialsIn(data.string()), 5);
+  const TemporaryFolder data;
+  EXPECT_EQ(shell(kRun + data.path() + " 2> /dev/full").exitCode, 0);
+  EXPECT_EQ(trialsIn(data.path()), 5);
 }
 
 TEST(StandardStreams, APipeThatNobodyReadsAnyMoreEndsQuietlyAndLosesNoRecording) {
-  const Folder data;
-  const Ended run = shell("set -o pipefail\n" + kRun + data.string() + " 2> /dev/null | head -n 1");
+  const TemporaryFolder data;
+  const Ended run = shell("set -o pipefail\n" + kRun + data.path() + " 2> /dev/null | head -n 1");
   EXPECT_EQ(run.exitCode, 0);
   EXPECT_EQ(run.err, "");
-  EXPECT_EQ(trialsIn(data.string()), 5);
+  EXPECT_EQ(trialsIn(data.path()), 5);
   // Ten million rows, of which one is read.
   const Ended simulated =
       shell("set -o pipefail\n\"$REACH\" simulate free-point --hand hold --until 9999 --every 0.001 | head -n 1 || exit 1");
@@ -95,7 +95,7 @@ TEST(StandardStreams, APipeThatNobodyReadsAnyMoreEndsQuietlyAndLosesNoRecording)
 }
 
 TEST(StandardStreams, ControlCharactersOfNamesAndKeysAreSpeltOut) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("bad.json",
                                         "{ \"schema_version\": 1, \"a\x7f\xc2\x9b"
                                         "31mkey\": 1, \"\\u001b[31m\\u0007red\": 2 }");

@@ -36,7 +36,7 @@ Table tableOf(const std::string& folder) { return parseCsv(shell("gzip -dc \"" +
 
 class Study : public testing::Test {
  protected:
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("small.json", kStudy);
   std::string at(const std::string& name) const { return (folder / name).string(); }
   Ended run(const std::string& out, const std::string& more = "") const {
@@ -109,7 +109,7 @@ TEST_F(Study, ATrialIsTheSameToTheBitAsThatOfARecordedRun) {
   while (first < 6 * 5 * 3 && !succeeds(first) && !succeeds(first + 1) && !succeeds(first + 2)) first += 3;
   ASSERT_LT(first, 6u * 5u * 3u);
   const std::string subject = table.rows[first][table.column("subject")];
-  const Ended point = reach("study point " + at("a") + " 5 --subject " + subject + " --out " + folder.string());
+  const Ended point = reach("study point " + at("a") + " 5 --subject " + subject + " --out " + folder.path());
   ASSERT_EQ(point.exitCode, 0) << point.err;
   ASSERT_EQ(point.out.substr(0, 10), "reach run ");
   ASSERT_EQ(shell("$REACH " + point.out.substr(6, point.out.size() - 7) + " --data " + at("data")).exitCode, 0);
@@ -119,8 +119,8 @@ TEST_F(Study, ATrialIsTheSameToTheBitAsThatOfARecordedRun) {
   for (std::size_t trial = 0; trial < 3; ++trial) {
     EXPECT_EQ(table.at(first + trial, "point"), 5);
     EXPECT_EQ(table.rows[first + trial][table.column("subject")], subject);
-    for (const char* column :
-         {"trial", "outcome", "movement_time_s", "by", "mass", "peak_hand_speed_m_per_s", "hand_path_m", "mean_force_n", "task_reaction_time_s"})
+    for (const char* column : {"trial", "outcome", "movement_time_s", "by", "mass", "peak_hand_speed_m_per_s", "hand_path_m",
+                               "mean_force_n", "task_reaction_time_s"})
       EXPECT_EQ(table.rows[first + trial][table.column(column)], recorded.rows.at(trial)[recorded.column(column)]) << column;
     for (const char* column : {"reaction_time_s", "duration_s", "epsilon_hand_min_hand_jerk_m_per_s", "epsilon_object_min_crackle_m_per_s"})
       EXPECT_EQ(table.rows[first + trial][table.column(column)], analysed.rows.at(trial)[analysed.column(column)]) << column;

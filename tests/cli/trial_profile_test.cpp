@@ -13,7 +13,7 @@ namespace reachlab::cli {
 namespace {
 
 // A trial of three masses whose speeds and force are multiples of the tick in three dimensions; onset at tick 40, or none.
-record::RunLog recorded(const record::TemporaryFolder& folder, bool moves) {
+record::RunLog recorded(const TemporaryFolder& folder, bool moves) {
   record::RunConfiguration configuration = record::madeConfiguration(3);
   const experiment::Experiment chain = experiment::readExperiment("chain-moderate");
   configuration.experimentText = chain.text;
@@ -29,10 +29,10 @@ record::RunLog recorded(const record::TemporaryFolder& folder, bool moves) {
       const auto t = static_cast<double>(state->tick);
       state->phase = state->tick == 100 ? trial::Phase::Done : moves && state->tick >= 40 ? trial::Phase::Moving : trial::Phase::Waiting;
       state->result.onsetTick = moves ? 40 : 0;
-      state->hands[0].hip.velocity = {2 * t, -3 * t, 6 * t};   // of size 7
-      state->masses[0].v = {t, 4 * t, -8 * t};         // of size 9
-      state->masses[1].v = {1e3, 1e3, 1e3};            // not looked at
-      state->masses[2].v = {-2 * t, 6 * t, 9 * t};     // of size 11
+      state->hands[0].hip.velocity = {2 * t, -3 * t, 6 * t};    // of size 7
+      state->masses[0].v = {t, 4 * t, -8 * t};                  // of size 9
+      state->masses[1].v = {1e3, 1e3, 1e3};                     // not looked at
+      state->masses[2].v = {-2 * t, 6 * t, 9 * t};              // of size 11
       state->hands[0].couplingForce = {-1 * t, -2 * t, 2 * t};  // of size 3
       recorder.onTick(*state, trial::Command::None, 0);
     }
@@ -42,7 +42,7 @@ record::RunLog recorded(const record::TemporaryFolder& folder, bool moves) {
 }
 
 TEST(ShownTrial, IsOfTheSamplesSinceTheOnset) {
-  const record::TemporaryFolder folder("profile");
+  const TemporaryFolder folder;
   const record::RunLog log = recorded(folder, true);
   const ShownTrial profile = profileOf(log, log.trials()[0]);
   EXPECT_TRUE(profile.sinceOnset);
@@ -58,7 +58,7 @@ TEST(ShownTrial, IsOfTheSamplesSinceTheOnset) {
 }
 
 TEST(ShownTrial, OfAHandThatNeverSetOffIsSinceTheTrialWasPutUp) {
-  const record::TemporaryFolder folder("profile");
+  const TemporaryFolder folder;
   const record::RunLog log = recorded(folder, false);
   const ShownTrial profile = profileOf(log, log.trials()[0]);
   EXPECT_FALSE(profile.sinceOnset);
@@ -67,7 +67,7 @@ TEST(ShownTrial, OfAHandThatNeverSetOffIsSinceTheTrialWasPutUp) {
 }
 
 TEST(ShownTrial, IsDrawnWithTheTasksTimes) {
-  const record::TemporaryFolder folder("profile");
+  const TemporaryFolder folder;
   const record::RunLog moved = recorded(folder, true);
   const figure::Figure drawn = drawTrial(moved, moved.trials()[0]);
   ASSERT_EQ(drawn.panels.size(), 2u);

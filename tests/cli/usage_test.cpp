@@ -72,7 +72,7 @@ TEST(Usage, WrongWordsEndWithTwoAndASentence) {
 }
 
 TEST(Usage, MistakesAreAnsweredWithWhatWasMeant) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string experiment = folder.write("mine.json", R"({"schema_version": 1, "object": {}})");
   const std::string table = folder.write("plain", "");
   struct Mistake {
@@ -106,10 +106,10 @@ TEST(Usage, MistakesAreAnsweredWithWhatWasMeant) {
 
 TEST(Usage, PlansAndTheUsersOwnConstraintsAreListed) {
   EXPECT_NE(reach("list plans").out.find("paper                    6 blocks"), std::string::npos) << reach("list plans").out;
-  const Folder folder;
+  const TemporaryFolder folder;
   folder.write("bow.json", R"json({"schema_version": 1, "name": "bow", "sentence": "A bow.", "kind": "curve",
       "curve": ["phi", "phi^2", "0"], "domain": [-1, 1], "start": [0], "target": [0.5]})json");
-  ::setenv("REACHLAB_CONSTRAINTS", folder.string().c_str(), 1);
+  ::setenv("REACHLAB_CONSTRAINTS", folder.path().c_str(), 1);
   const Ended listed = reach("list constraints"), whole = reach("constraint list");
   ::unsetenv("REACHLAB_CONSTRAINTS");
   EXPECT_NE(listed.out.find("bow "), std::string::npos) << listed.out << listed.err;
@@ -117,8 +117,8 @@ TEST(Usage, PlansAndTheUsersOwnConstraintsAreListed) {
 }
 
 TEST(Usage, RecoverGoesThroughAllItsLogs) {
-  const Folder folder;
-  const std::string data = folder.string();
+  const TemporaryFolder folder;
+  const std::string data = folder.path();
   for (int i = 0; i < 2; ++i) ASSERT_EQ(reach("run dingwell --device simulated --trials 1 --seed 1 --fast --data " + data).exitCode, 0);
   const Ended ended = reach("recover " + data + "/sourcedata/none.reach " + data + "/sourcedata/*_log.reach");
   EXPECT_EQ(ended.exitCode, 3) << "one of them is not there";
@@ -140,7 +140,7 @@ TEST(Usage, EveryListHasNames) {
 }
 
 TEST(Usage, ValidateNamesEveryFaultOfEveryFile) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string bad1 = folder.write("one.json", R"({"schema_version": 1, "constraint": {"name": "line"},
   "object": {"kind": "point", "masses_kg": [-1]}, "coupling": {"stiffness_n_per_m": "soft"}})");
   const std::string bad2 = folder.write("two.json", "{ \"schema_version\": 1,");
@@ -158,10 +158,10 @@ std::string lineExperiment(const std::string& version, const std::string& target
 }
 
 TEST(Usage, ValidateRefusesTheTaskThatARunRefuses) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::string file = folder.write("still.json", lineExperiment("1", "1", "0.01", "1", "1"));
   const Ended validated = reach("validate " + file);
-  const Ended run = reach("run " + file + " --device simulated --fast --seed 1 --data " + folder.string());
+  const Ended run = reach("run " + file + " --device simulated --fast --seed 1 --data " + folder.path());
   EXPECT_EQ(validated.exitCode, 2);
   EXPECT_EQ(run.exitCode, 2);
   EXPECT_NE(validated.err.find("same place"), std::string::npos) << validated.err;
@@ -170,7 +170,7 @@ TEST(Usage, ValidateRefusesTheTaskThatARunRefuses) {
 }
 
 TEST(Usage, ValidateWarnsOfNumbersThatAreHardlyMeant) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Ended ended = reach("validate " + folder.write("odd.json", lineExperiment("1", "2", "0.5", "150", "90")));
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
   for (const char* part : {"masses_kg[0]: is 150 kg", "duration_s: is 90 s", "position_m: is 0.5 m"})
@@ -178,13 +178,13 @@ TEST(Usage, ValidateWarnsOfNumbersThatAreHardlyMeant) {
 }
 
 TEST(Usage, ValidateTakesNamesAndSaysWhatItExpects) {
-  const Folder folder;
+  const TemporaryFolder folder;
   for (const char* name : {"chain-moderate", "paper", "cardioid"}) {
     const Ended ended = reach(std::string("validate ") + name);
     EXPECT_EQ(ended.exitCode, 0) << ended.err;
     EXPECT_EQ(ended.err, "") << "nothing shipped is odd";
   }
-  for (const std::string& what : {folder.string(), folder.write("hand.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n")}) {
+  for (const std::string& what : {folder.path(), folder.write("hand.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n")}) {
     const Ended ended = reach("validate " + what);
     EXPECT_EQ(ended.exitCode, 2);
     EXPECT_NE(ended.err.find("allowed: an experiment file, a constraint definition, a session plan or a study"), std::string::npos)

@@ -17,6 +17,7 @@
 #include "tests/devices/driver_answers.h"
 #include "tests/devices/fakes/fake_input.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 #include "tests/until.h"
 
 namespace reachlab::devices {
@@ -27,12 +28,7 @@ using test::fakeInputs;
 /// A folder of files that stand for event nodes.
 class EventNodes : public ::testing::Test {
  protected:
-  EventNodes() : folder(std::filesystem::temp_directory_path() / ("reach-input-" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(folder);
-    folder = std::filesystem::canonical(folder);
-  }
   ~EventNodes() override {
-    std::filesystem::remove_all(folder);
     fakeInputs().nodes.clear();
     fakeInputs().listed.reset();
   }
@@ -44,10 +40,10 @@ class EventNodes : public ::testing::Test {
   }
   std::vector<std::string> names() const {
     std::vector<std::string> found;
-    for (const TabletNode& node : findTablets(folder.string())) found.push_back(node.name);
+    for (const TabletNode& node : findTablets(folder.path())) found.push_back(node.name);
     return found;
   }
-  std::filesystem::path folder;
+  TemporaryFolder folder;
 };
 
 using Names = std::vector<std::string>;
@@ -69,7 +65,7 @@ TEST_F(EventNodes, AreInTheOrderOfTheirNumbers) {
 
 TEST_F(EventNodes, TellTheRangesOfTheirAxes) {
   const std::string path = put("event7", {.name = "pen", .keys = {BTN_TOOL_PEN}, .axes = {ABS_X, ABS_Y}, .ranges = {{ABS_X, {-5, 250}}}});
-  const auto found = findTablets(folder.string());
+  const auto found = findTablets(folder.path());
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].path, path);
   EXPECT_EQ(found[0].whyNot, "");
@@ -80,7 +76,7 @@ TEST_F(EventNodes, TellTheRangesOfTheirAxes) {
 
 TEST_F(EventNodes, OneThatCannotBeOpenedIsListedWithTheSystemsWords) {
   std::filesystem::create_symlink(folder / "nowhere", folder / "event3");
-  const auto found = findTablets(folder.string());
+  const auto found = findTablets(folder.path());
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].whyNot, (folder / "event3").string() + ": No such file or directory");
   EXPECT_TRUE(findTablets((folder / "none").string()).empty());

@@ -17,6 +17,7 @@
 #include "devices/mapping/guarded_device.h"
 #include "sim/experiment/experiment.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace reachlab::devices {
 namespace {
@@ -205,8 +206,8 @@ TEST(Mapping, OneThatCannotBeSavedIsSaid) {
 }
 
 TEST(Mapping, IsReadBackAsItWasSaved) {
-  const auto folder = std::filesystem::temp_directory_path() / ("reach-mapping-" + std::to_string(::getpid()));
-  const std::string file = mappingFile(folder.string(), "03", "phantom");
+  const TemporaryFolder folder;
+  const std::string file = mappingFile(folder.path(), "03", "phantom");
   EXPECT_NE(file.find("sub-03_phantom.json"), std::string::npos);
   const Mapping mapping{1.5, {0.1, -0.2, 0.3}, {0.1, 0.2, -0.3}, true};
   saveMapping(mapping, file);
@@ -215,7 +216,6 @@ TEST(Mapping, IsReadBackAsItWasSaved) {
   EXPECT_EQ(back.offset, mapping.offset);
   EXPECT_LT(norm(back.rotation - mapping.rotation), 1e-15) << "degrees in the file";
   EXPECT_TRUE(back.mirrorX);
-  std::filesystem::remove_all(folder);
 }
 
 TEST(Mapping, WhatIsNoMappingIsRefusedWithItsKey) {
@@ -330,14 +330,13 @@ TEST(HandSettings, AWallNeedsAWorkspaceOrARadius) {
 /// A dataset of its own.
 class KeptMappings : public ::testing::Test {
  protected:
-  KeptMappings() : data((std::filesystem::temp_directory_path() / ("reach-kept-" + std::to_string(::getpid()))).string()) {}
-  ~KeptMappings() override { std::filesystem::remove_all(data); }
   std::string file(const std::string& name) const { return data + "/sourcedata/mappings/sub-07_" + name + ".json"; }
   std::string with(const std::string& device) {
     files.clear();
     return withKeptMappings(device, data, "07", files);
   }
-  const std::string data;
+  const TemporaryFolder folder;
+  const std::string data = folder.path();
   std::vector<std::string> files;
 };
 

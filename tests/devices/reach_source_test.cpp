@@ -11,22 +11,16 @@
 #include "base/fault.h"
 #include "devices/replay/replayed_reach.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace reachlab::devices {
 namespace {
 
 class OthersFiles : public ::testing::Test {
  protected:
-  OthersFiles() : folder(std::filesystem::temp_directory_path() / ("reach-source-" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(folder);
-  }
-  ~OthersFiles() override { std::filesystem::remove_all(folder); }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder / name, std::ios::binary) << text;
-    return (folder / name).string();
-  }
+  std::string write(const std::string& name, const std::string& text) const { return folder.write(name, text); }
   std::string at(const std::string& name) const { return (folder / name).string(); }
-  std::filesystem::path folder;
+  TemporaryFolder folder;
 };
 
 std::vector<RecordedReach> read(const std::string& argument) { return readReaches(reachSourceOf(argument)); }
@@ -86,7 +80,7 @@ struct Bids {
   std::string events;
 };
 
-std::string writeBids(const OthersFiles&, const std::filesystem::path& folder, const Bids& bids) {
+std::string writeBids(const TemporaryFolder& folder, const Bids& bids) {
   const auto put = [&](const std::string& name, const std::string& text) {
     std::filesystem::remove(folder / name);
     if (!text.empty()) std::ofstream(folder / name) << text;
@@ -100,8 +94,8 @@ std::string writeBids(const OthersFiles&, const std::filesystem::path& folder, c
 }
 
 TEST_F(OthersFiles, ABidsPointIsReadWithItsUnits) {
-  expectTwoRows(read(writeBids(*this, folder, {}) + ",point=hand").front());
-  expectTwoRows(read(writeBids(*this, folder, {}) + ",point=elbow").front());
+  expectTwoRows(read(writeBids(folder, {}) + ",point=hand").front());
+  expectTwoRows(read(writeBids(folder, {}) + ",point=elbow").front());
 }
 
 TEST_F(OthersFiles, EachBidsEventThatLastsIsAReach) {
@@ -110,7 +104,7 @@ TEST_F(OthersFiles, EachBidsEventThatLastsIsAReach) {
   bids.motion.clear();
   for (int i = 0; i < 100; ++i) bids.motion += (i == 31 ? "n/a" : std::to_string(10 * i)) + "\t0\t0\t0\t0\t0\n";
   bids.events = "onset\tduration\ttrial_type\n0.5\t1\treach\n1.6\t0\tbeep\n2\t0.5\tcatch\n3\t1.5\treach\n4\tn/a\treach\n";
-  const std::string file = writeBids(*this, folder, bids);
+  const std::string file = writeBids(folder, bids);
   EXPECT_EQ(read(file + ",point=hand").size(), 3u);
   const std::vector<RecordedReach> reaches = read(file + ",point=hand,trial_type=reach");
   ASSERT_EQ(reaches.size(), 2u);
@@ -121,9 +115,7 @@ TEST_F(OthersFiles, EachBidsEventThatLastsIsAReach) {
 }
 
 TEST_F(OthersFiles, WhatIsWrongWithBidsIsSaid) {
-  const auto refusal = [&](Bids bids, const std::string& options = ",point=hand") {
-    return refusalOf(writeBids(*this, folder, bids) + options);
-  };
+  const auto refusal = [&](Bids bids, const std::string& options = ",point=hand") { return refusalOf(writeBids(folder, bids) + options); };
   EXPECT_EQ(refusal({}), "");
   EXPECT_NE(refusal({}, "").find("has 2 tracked points, and none is named; allowed: point= with one of hand, elbow"), std::string::npos);
   EXPECT_NE(refusal({}, ",point=foot").find("has no x, y and z of type POS for the point foot"), std::string::npos);
@@ -203,7 +195,7 @@ TEST_F(OthersFiles, AFolderMayHoldAllKinds) {
   c3d.rate = 2;  // half a second apart is no gap at this rate
   write("b.c3d", c3dBytes(c3d));
   write("c.txt", "no reach");
-  const std::vector<RecordedReach> reaches = read(folder.string());
+  const std::vector<RecordedReach> reaches = read(folder.path());
   ASSERT_EQ(reaches.size(), 2u);
   EXPECT_TRUE(reaches[1].file.ends_with("b.c3d"));
 }
@@ -240,23 +232,23 @@ TEST_F(OthersFiles, ABidsLatencyIsTheTimeSinceItsFirstRow) {
       "hz\tz\tPOS\thand\tm\nhv\tx\tVEL\thand\tm\nq\tquat_w\tPOS\thand\tm\n";
   bids.motion = "10\t100\t2000\t3\t9\t9\r\nn/a\t0\t0\t0\t0\t0\n\n10.5\t400\t5000\t6\t9\t9\n";
   bids.json.clear();
-  const RecordedReach reach = read(writeBids(*this, folder, bids)).front();
+  const RecordedReach reach = read(writeBids(folder, bids)).front();
   expectTwoRows(reach);
   EXPECT_EQ(reach.time.front(), 0);
   EXPECT_EQ(reach.file.substr(reach.file.size() - 11), "_motion.tsv");
   bids.motion = "0\t1\t1\t1\t0\t0\n0\t1\t1\t1\t0\t0\n";
-  EXPECT_NE(refusalOf(writeBids(*this, folder, bids)).find("time does not increase at 0 s"), std::string::npos);
+  EXPECT_NE(refusalOf(writeBids(folder, bids)).find("time does not increase at 0 s"), std::string::npos);
 }
 
 TEST_F(OthersFiles, TheEffectiveRateGoesBeforeTheNominalOneAndTheAskedOneBeforeBoth) {
   Bids bids;
   bids.json = R"({"SamplingFrequency": 3, "SamplingFrequencyEffective": 2})";
-  expectTwoRows(read(writeBids(*this, folder, bids) + ",point=hand").front());
+  expectTwoRows(read(writeBids(folder, bids) + ",point=hand").front());
   bids.json = R"({"SamplingFrequency": 2, "SamplingFrequencyEffective": "n/a"})";
-  expectTwoRows(read(writeBids(*this, folder, bids) + ",point=hand").front());
-  EXPECT_EQ(read(writeBids(*this, folder, bids) + ",point=hand,rate=4").front().time[1], 0.25);
+  expectTwoRows(read(writeBids(folder, bids) + ",point=hand").front());
+  EXPECT_EQ(read(writeBids(folder, bids) + ",point=hand,rate=4").front().time[1], 0.25);
   bids.json = R"({"SamplingFrequency": 0})";
-  EXPECT_NE(refusalOf(writeBids(*this, folder, bids) + ",point=hand").find("SamplingFrequency: is missing or no number above 0"),
+  EXPECT_NE(refusalOf(writeBids(folder, bids) + ",point=hand").find("SamplingFrequency: is missing or no number above 0"),
             std::string::npos);
 }
 
@@ -266,7 +258,7 @@ TEST_F(OthersFiles, AGapOfATenthOfASecondIsLeftToTheSpline) {
     bids.json = R"({"SamplingFrequency": 100})";
     bids.motion.clear();
     for (int i = 0; i < 60; ++i) bids.motion += (i >= 20 && i < 20 + gap ? "n/a" : std::to_string(i)) + "\t0\t0\t0\t0\t0\n";
-    const std::string said = refusalOf(writeBids(*this, folder, bids) + ",point=hand");
+    const std::string said = refusalOf(writeBids(folder, bids) + ",point=hand");
     EXPECT_EQ(said.empty(), isRead) << gap << ": " << said;
   }
 }
@@ -277,23 +269,22 @@ TEST_F(OthersFiles, AnEventHoldsTheSamplesFromItsOnsetToItsEnd) {
   bids.json = R"({"SamplingFrequency": 4})";
   bids.motion.clear();
   for (int i = 0; i < 40; ++i) bids.motion += std::to_string(i) + "\t0\t0\t0\t0\t0\n";
-  EXPECT_EQ(read(writeBids(*this, folder, bids) + ",point=hand").front().time.size(), 40u);
+  EXPECT_EQ(read(writeBids(folder, bids) + ",point=hand").front().time.size(), 40u);
   bids.events = "onset\tduration\n1.25\t2\n5\t0.5\n";
-  const auto reaches = read(writeBids(*this, folder, bids) + ",point=hand");
+  const auto reaches = read(writeBids(folder, bids) + ",point=hand");
   ASSERT_EQ(reaches.size(), 2u);
   EXPECT_EQ(reaches[0].time.front(), 1.25);
   EXPECT_EQ(reaches[0].time.back(), 3.25);
   EXPECT_EQ(reaches[1].time, (std::vector<double>{5, 5.25, 5.5}));
   EXPECT_TRUE(reaches[1].file.ends_with("_motion.tsv: event 2")) << reaches[1].file;
-  EXPECT_NE(refusalOf(writeBids(*this, folder, bids) + ",point=hand,trial_type=reach").find("no event of trial_type reach"),
-            std::string::npos)
+  EXPECT_NE(refusalOf(writeBids(folder, bids) + ",point=hand,trial_type=reach").find("no event of trial_type reach"), std::string::npos)
       << "a table without types has none of that type";
   bids.events = "onset\tduration\nsoon\t2\n";
-  EXPECT_NE(refusalOf(writeBids(*this, folder, bids) + ",point=hand")
-                .find("_events.tsv:2: onset: 'soon' is not a number; allowed: a number or n/a"),
-            std::string::npos);
+  EXPECT_NE(
+      refusalOf(writeBids(folder, bids) + ",point=hand").find("_events.tsv:2: onset: 'soon' is not a number; allowed: a number or n/a"),
+      std::string::npos);
   bids.events = "onset\tduration\n1\tn/a\n1\t-1\n";
-  EXPECT_NE(refusalOf(writeBids(*this, folder, bids) + ",point=hand").find("has no event that lasts"), std::string::npos);
+  EXPECT_NE(refusalOf(writeBids(folder, bids) + ",point=hand").find("has no event that lasts"), std::string::npos);
 }
 
 TEST_F(OthersFiles, AC3dFileMayEndInCapitalsAndGiveItsPlacesPointByPoint) {
@@ -307,7 +298,7 @@ TEST_F(OthersFiles, AC3dFileMayEndInCapitalsAndGiveItsPlacesPointByPoint) {
     c3d.places.push_back(value);
   c3d.seen.assign(6, 1);
   write("UP.C3D", c3dBytes(c3d));
-  const auto reach = read(folder.string() + ",point=B").front();
+  const auto reach = read(folder.path() + ",point=B").front();
   EXPECT_EQ(reach.time, (std::vector<double>{0, 0.02, 0.04}));
   EXPECT_LT(norm(reach.position[1] - Vec3{0.4, 0.5, 0.6}), 1e-12);
   EXPECT_NE(refusalOf(at("gone.c3d")).find("gone.c3d: no such file or folder to replay"), std::string::npos);

@@ -14,6 +14,7 @@
 #include "sim/experiment/resources.h"
 #include "test_paths.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace reachlab::devices {
 namespace {
@@ -22,15 +23,8 @@ const std::string kReaches = REACHLAB_SOURCE_DIR "/resources/reaches";
 
 class Files : public ::testing::Test {
  protected:
-  Files() : folder(std::filesystem::temp_directory_path() / ("reach-replay-" + std::to_string(::getpid()))) {
-    std::filesystem::create_directories(folder);
-  }
-  ~Files() override { std::filesystem::remove_all(folder); }
-  std::string write(const std::string& name, const std::string& text) const {
-    std::ofstream(folder / name) << text;
-    return (folder / name).string();
-  }
-  std::filesystem::path folder;
+  std::string write(const std::string& name, const std::string& text) const { return folder.write(name, text); }
+  TemporaryFolder folder;
 };
 
 // A curved reach in a frame of its own: chord of 0.5 m, a detour of 5 cm, overshoot and return at the end, uneven times.
@@ -88,7 +82,7 @@ TEST(ReplayedReach, AllHumanReachesStartAtTheStartAndPassTheTarget) {
 TEST_F(Files, AFolderIsPlayedInNameOrderAndFromTheFirstAgain) {
   write("b.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n0.2,1,0,0\n");
   write("a.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n0.1,1,0,0\n");
-  const auto device = makeReplayHand(folder.string(), {0, 0, 0}, {1, 0, 0});
+  const auto device = makeReplayHand(folder.path(), {0, 0, 0}, {1, 0, 0});
   const auto ticksOf = [&](int trial) {
     device->prepareTrial(trial);
     device->cue(haptics::Cue::Place);
@@ -108,7 +102,7 @@ TEST_F(Files, SaysWhatIsWrongWithAFile) {
               makeReplayHand((folder / "missing").string(), {}, {1, 0, 0});
             }).find(experiment::resourceFolder() + "/reaches"),
             std::string::npos);
-  EXPECT_THROW(makeReplayHand(folder.string(), {}, {1, 0, 0}), ResourceError) << "an empty folder";
+  EXPECT_THROW(makeReplayHand(folder.path(), {}, {1, 0, 0}), ResourceError) << "an empty folder";
   const std::string header = "time_s,x_m,y_m,z_m\n";
   EXPECT_THROW(layOnto(readReach(write("one.csv", header + "0,0,0,0\n")), {}, {1, 0, 0}), FaultError) << "one place is no reach";
   for (const char* rows : {"", "0,0,0,0\n0,1,0,0\n", "0,0,0,0\n1,1,nan,0\n", "0,0,0,0\n1,1,0\n", "0,0,0,0\n1,1,0,0,5\n", "a,b,c,d\n"})

@@ -41,9 +41,9 @@ inline test::Ended blockWithin(const std::string& options) {
   constexpr int kMostAttempts = 4;
   test::Ended run;
   for (int attempt = 0; attempt < kMostAttempts && run.exitCode != 0; ++attempt) {
-    const test::Folder folder;
+    const TemporaryFolder folder;
     // It waits for a hand as long as it takes.
-    run = test::reach("run " + folder.write("point.json", kPoint) + " " + options + " --data " + folder.string(), "timeout -s INT 60");
+    run = test::reach("run " + folder.write("point.json", kPoint) + " " + options + " --data " + folder.path(), "timeout -s INT 60");
     if (run.exitCode == 0) break;
     EXPECT_EQ(run.exitCode, 3) << run.err;
     EXPECT_NE(run.err.find("device "), std::string::npos) << run.err;

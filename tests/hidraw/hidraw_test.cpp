@@ -56,8 +56,8 @@ TEST(OldArmOverHidraw, IsListedWithWhatToDoAndRefusedBeforeItIsOpened) {
   EXPECT_NE(line.find("not there: its firmware is too old: it sends reports of 8 bytes, and 14 are needed; put a newer one on it"),
             std::string::npos)
       << line;
-  const test::Folder folder;
-  const test::Ended run = test::reach("run chain-slow --device hid:SN0000 --data " + folder.string());
+  const TemporaryFolder folder;
+  const test::Ended run = test::reach("run chain-slow --device hid:SN0000 --data " + folder.path());
   EXPECT_EQ(run.exitCode, 3) << run.out;
   EXPECT_NE(run.err.find("its firmware is too old"), std::string::npos) << run.err;
   EXPECT_EQ(bed.opened(), 0);
@@ -146,16 +146,16 @@ class Running {
   std::string pidFile() const { return (folder_ / "pid").string(); }
 
  private:
-  test::Folder folder_;
+  TemporaryFolder folder_;
   std::future<test::Ended> ended_;
 };
 
 // In the recording, sampled at every tick: force before, and none from the 20th tick without the device on.
-void expectNoForceOnceItIsLost(const test::Folder& folder) {
-  const test::Folder tables;
-  ASSERT_EQ(test::reach("export " + folder.string() + " --format csv --out " + tables.string()).exitCode, 0);
+void expectNoForceOnceItIsLost(const TemporaryFolder& folder) {
+  const TemporaryFolder tables;
+  ASSERT_EQ(test::reach("export " + folder.path() + " --format csv --out " + tables.path()).exitCode, 0);
   std::string name;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(tables.string()))
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(tables.path()))
     if (entry.path().string().ends_with("_samples.csv")) name = entry.path().string();
   const test::Table samples = test::parseCsv(test::contentOf(name));
   constexpr int kMostTicks = 20;
@@ -175,9 +175,9 @@ void expectNoForceOnceItIsLost(const test::Folder& folder) {
 
 TEST_F(ArmOverHidraw, UnpluggedInMidTrialTheTrialIsInterruptedAndTheRunTakenUpAgain) {
   auto firmware = std::make_unique<ArmFirmware>(bed.wire());
-  const test::Folder folder;
+  const TemporaryFolder folder;
   const std::string run = "run " + test::patient(folder, "chain-slow") +
-                          " --timing-check 0 --every-tick --device hid:SN0001 --trials 2 --seed 1 --data " + folder.string();
+                          " --timing-check 0 --every-tick --device hid:SN0001 --trials 2 --seed 1 --data " + folder.path();
   Running program(run);
   ASSERT_TRUE(until([&] { return firmware->most > 0 || program.hasEnded(); })) << "the object is felt";
   if (firmware->most == 0) GTEST_SKIP() << "the computer stood still: " << program.end().err;
@@ -204,9 +204,9 @@ TEST_F(ArmOverHidraw, UnpluggedInMidTrialTheTrialIsInterruptedAndTheRunTakenUpAg
 
 TEST_F(ArmOverHidraw, ReportsFromThePastAreAJumpAndLatchTheForceOff) {
   ArmFirmware firmware(bed.wire());
-  const test::Folder folder;
+  const TemporaryFolder folder;
   Running program("run " + test::patient(folder, "chain-slow") + " --timing-check 0 --device hid:SN0001 --trials 1 --seed 1 --data " +
-                  folder.string());
+                  folder.path());
   // In the middle of its way the arm begins to say what it said at the start.
   ASSERT_TRUE(until([&] { return (firmware.most > 0 && firmware.middle) || program.hasEnded(); }));
   if (program.hasEnded()) GTEST_SKIP() << "the computer stood still: " << program.end().err;
@@ -242,9 +242,9 @@ TEST_F(ArmOverHidraw, GarbageAndShortReportsAreNotBelieved) {
 
 TEST_F(ArmOverHidraw, AStoppedProgramsMotorsAreSwitchedOffByTheFirmware) {
   ArmFirmware firmware(bed.wire());
-  const test::Folder folder;
+  const TemporaryFolder folder;
   Running program("run " + test::patient(folder, "chain-slow") + " --timing-check 0 --device hid:SN0001 --trials 1 --seed 1 --data " +
-                  folder.string());
+                  folder.path());
   ASSERT_TRUE(until([&] { return firmware.most > 0 || program.hasEnded(); }));
   if (program.hasEnded()) GTEST_SKIP() << "the computer stood still: " << program.end().err;
   pid_t pid = 0;
@@ -294,11 +294,10 @@ class SpaceMouseFirmware {
 TEST(SpaceMouseOverHidraw, ABlockOfReachesAtItsOwnRateWithTheLoopAtOneKilohertz) {
   test::HidrawBed bed(0x256F, 0xC635, "SM1", "SpaceMouse");
   SpaceMouseFirmware firmware(bed);
-  const test::Folder folder;
-  const test::Ended run =
-      test::reach("run " + test::patient(folder, "chain-slow") +
-                      " --device spacemouse --trials 3 --seed 1 --timing-check 0 --every-tick --data " + folder.string(),
-                  "timeout -s INT 60");
+  const TemporaryFolder folder;
+  const test::Ended run = test::reach("run " + test::patient(folder, "chain-slow") +
+                                          " --device spacemouse --trials 3 --seed 1 --timing-check 0 --every-tick --data " + folder.path(),
+                                      "timeout -s INT 60");
   ASSERT_EQ(run.exitCode, 0) << run.out << run.err;
   const Block block = judge(run);
   EXPECT_EQ(block.trials, 3) << run.out << run.err;

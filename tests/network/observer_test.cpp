@@ -37,7 +37,7 @@ class ObserverOfStations : public testing::Test {
     for (std::size_t i = 0; i < 5; ++i) heard.sample.places[i] = place;
     ASSERT_TRUE(memory().in[station - 1].tryPush(heard));
   }
-  const record::TemporaryFolder folder_{"observer"};
+  const TemporaryFolder folder_;
   const experiment::CompiledExperiment experiment_{experiment::readExperiment("chain-two-hands")};
   std::unique_ptr<Observer> observer_;
   std::uint32_t sequence_ = 0;

@@ -47,7 +47,7 @@ Asked askedByAStation(const std::string& name) {
   const auto device = std::make_shared<haptics::test::ScriptedDevice>(start.x, start.x + 0.05, 1000);
   device->beside = start;
 
-  const record::TemporaryFolder folder("station-allocation");
+  const TemporaryFolder folder;
   record::RunConfiguration c = record::madeConfiguration();
   c.experimentText = e.text;
   c.sampleEveryTicks = 1;

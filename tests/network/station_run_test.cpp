@@ -146,7 +146,7 @@ class OneStation : public testing::Test {
     return false;
   }
 
-  const record::TemporaryFolder folder_{"station"};
+  const TemporaryFolder folder_;
   std::unique_ptr<StationRun> station_;
   std::unique_ptr<session::RecordedRun> run_;
   std::uint64_t hash_ = 0;

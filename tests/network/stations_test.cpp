@@ -21,9 +21,9 @@
 #include "network/link/station_sink.h"
 #include "network/merge/station_merge.h"
 #include "sim/experiment/experiment.h"
+#include "sim/haptics/tick_order.h"
 #include "sim/record/log/recorder.h"
 #include "tests/record/made_run.h"
-#include "sim/haptics/tick_order.h"
 
 // Two whole stations, engine, sink, rings and log, on clocks of the test: the link between them is a function, so what is judged never
 // depends on how busy the computer is.
@@ -178,7 +178,7 @@ class StationsOnClocks : public testing::Test {
   static Link cutFor(std::int64_t ns) {
     return [ns](std::int64_t sent) { return sent >= kMoving && sent < kMoving + ns ? std::vector<std::int64_t>{} : good(sent); };
   }
-  const record::TemporaryFolder folder_{"stations-on-clocks"};
+  const TemporaryFolder folder_;
   const experiment::CompiledExperiment experiment_{experiment::readExperiment("chain-two-hands")};
   std::array<bool, 2> conducts_{true, false};
   std::vector<std::unique_ptr<Station>> stations_;

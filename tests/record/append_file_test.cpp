@@ -53,7 +53,7 @@ std::size_t countFiles(const std::string& folder) {
 }
 
 TEST(AppendFile, GrowsByWhatIsAppendedInFoldersOfItsOwnMaking) {
-  const TemporaryFolder folder("append");
+  const TemporaryFolder folder;
   const std::string path = folder / "one/two/a_log.reach";
   AppendFile file = AppendFile::create(path);
   EXPECT_EQ(file.size(), 0u);
@@ -67,7 +67,7 @@ TEST(AppendFile, GrowsByWhatIsAppendedInFoldersOfItsOwnMaking) {
 }
 
 TEST(AppendFile, NothingIsOverwritten) {
-  const TemporaryFolder folder("append");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   writeFileAtomically(path, "precious");
   EXPECT_EQ(refusalOf([&] { AppendFile::create(path); }),
@@ -76,7 +76,7 @@ TEST(AppendFile, NothingIsOverwritten) {
 }
 
 TEST(AppendFile, WhatIsThereIsCutToItsGoodPartAndGrowsOn) {
-  const TemporaryFolder folder("append");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   EXPECT_EQ(refusalOf([&] { AppendFile::openAt(path, 0); }),
             path + ": cannot be opened for writing: No such file or directory; check the folder and its permissions");
@@ -89,7 +89,7 @@ TEST(AppendFile, WhatIsThereIsCutToItsGoodPartAndGrowsOn) {
 }
 
 TEST(AppendFile, WhatTheDiskTakesOnlyInPartIsTakenBack) {
-  const TemporaryFolder folder("append");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   AppendFile file = AppendFile::create(path);
   file.append(bytesOf(std::string(60, 'a')));
@@ -124,7 +124,7 @@ TEST(AppendFile, WhatCannotBeTakenBackIsKnownAndNothingIsWrittenBehindIt) {
 }
 
 TEST(AppendFile, OneThatIsMovedKeepsItsLockAndItsPlace) {
-  const TemporaryFolder folder("append");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach", other = folder / "b_log.reach";
   {
     AppendFile first = AppendFile::create(path);
@@ -146,7 +146,7 @@ TEST(AppendFile, OneThatIsMovedKeepsItsLockAndItsPlace) {
 }
 
 TEST(AppendFile, IsBeingWrittenAsLongAsItIsThere) {
-  const TemporaryFolder folder("append");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   EXPECT_FALSE(isBeingWritten(path)) << "there is none";
   EXPECT_EQ(writerOf(path), "");
@@ -161,7 +161,7 @@ TEST(AppendFile, IsBeingWrittenAsLongAsItIsThere) {
 }
 
 TEST(AppendFile, NoticesThatItIsNoLongerUnderItsName) {
-  const TemporaryFolder folder("append");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   const std::string words = path + ": is no longer there: its disk was taken away or it was deleted; put it back before the next run";
   AppendFile file = AppendFile::create(path);
@@ -176,7 +176,7 @@ TEST(AppendFile, NoticesThatItIsNoLongerUnderItsName) {
 }
 
 TEST(AtomicFile, TakesItsNameOnlyWhenItIsWhole) {
-  const TemporaryFolder folder("atomic");
+  const TemporaryFolder folder;
   const std::string path = folder / "sub/table.tsv";
   std::string whole;
   {
@@ -204,7 +204,7 @@ TEST(AtomicFile, TakesItsNameOnlyWhenItIsWhole) {
 }
 
 TEST(AtomicFile, OneThatCannotBeWrittenLeavesTheOldOne) {
-  const TemporaryFolder folder("atomic");
+  const TemporaryFolder folder;
   const std::string path = folder / "table.tsv";
   writeFileAtomically(path, "old");
   {
@@ -219,7 +219,7 @@ TEST(AtomicFile, OneThatCannotBeWrittenLeavesTheOldOne) {
 }
 
 TEST(AtomicFile, CannotTakeTheNameOfAFolder) {
-  const TemporaryFolder folder("atomic");
+  const TemporaryFolder folder;
   const std::string path = folder / "table.tsv";
   std::filesystem::create_directories(path + "/inside");
   EXPECT_EQ(refusalOf([&] { writeFileAtomically(path, "new"); }),
@@ -228,7 +228,7 @@ TEST(AtomicFile, CannotTakeTheNameOfAFolder) {
 }
 
 TEST(AtomicFile, AFolderThatIsAFileIsTold) {
-  const TemporaryFolder folder("atomic");
+  const TemporaryFolder folder;
   const std::string file = folder / "file";
   writeFileAtomically(file, "x");
   EXPECT_EQ(refusalOf([&] { writeFileAtomically(file + "/table.tsv", "new"); }),
@@ -239,7 +239,7 @@ TEST(AtomicFile, AFolderThatIsAFileIsTold) {
 }
 
 TEST(ForeignFile, TakesItsNameWhenItIsCommitted) {
-  const TemporaryFolder folder("foreign");
+  const TemporaryFolder folder;
   const std::string path = folder / "sub/run.mat";
   {
     ForeignFile file(path);
@@ -260,7 +260,7 @@ TEST(ForeignFile, TakesItsNameWhenItIsCommitted) {
 }
 
 TEST(ReadWholeFile, GivesEveryByte) {
-  const TemporaryFolder folder("whole");
+  const TemporaryFolder folder;
   const std::string path = folder / "file";
   std::string bytes;
   for (int i = 0; i < 100'000; ++i) bytes.push_back(static_cast<char>(i * 37 >> 3));
@@ -271,7 +271,7 @@ TEST(ReadWholeFile, GivesEveryByte) {
 }
 
 TEST(ReadWholeFile, RefusesWhatIsNotThereNoFileOrTooLarge) {
-  const TemporaryFolder folder("whole");
+  const TemporaryFolder folder;
   const std::string path = folder / "file";
   EXPECT_EQ(refusalOf([&] { readWholeFile(path); }),
             path + ": cannot be opened: No such file or directory; check the folder and its permissions");
@@ -282,7 +282,7 @@ TEST(ReadWholeFile, RefusesWhatIsNotThereNoFileOrTooLarge) {
 }
 
 TEST(Leftovers, AreFilesOfTheirNameThatAreOlderThanTenMinutes) {
-  const TemporaryFolder folder("leftovers");
+  const TemporaryFolder folder;
   const std::string name = "/.0123456789abcdef.reachlab-tmp";
   const auto now = std::filesystem::file_time_type::clock::now();
   std::map<std::string, bool> stays;

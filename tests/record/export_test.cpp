@@ -60,7 +60,7 @@ class Exported : public testing::Test {
     path_ = folder_ / "sourcedata/sub-01_ses-01_task-made_run-01_log.reach";
     writeMadeRun(path_, 3, configuration_);
   }
-  TemporaryFolder folder_{"export"};
+  TemporaryFolder folder_;
   RunConfiguration configuration_;
   std::string path_;
 };
@@ -162,7 +162,7 @@ TEST_F(Exported, WritingTheDatasetAgainKeepsWhatAPersonHasAddedToIt) {
 }
 
 TEST(ExportedExperiment, SaysWhatWasMovedAndAsked) {
-  const TemporaryFolder folder("experiment");
+  const TemporaryFolder folder;
   RunConfiguration c = madeConfiguration();
   const experiment::Experiment recorded = experiment::readExperiment("chain-on-ellipse");
   c.experimentName = recorded.name;

@@ -55,12 +55,12 @@ void expectRefusal(const std::string& path, const std::string& key) {
 }
 
 TEST(HostileLog, AnEditedButHonestConfigurationIsRead) {
-  const TemporaryFolder folder("hostile");
+  const TemporaryFolder folder;
   EXPECT_EQ(RunLog::open(logWith(folder, [](json& j) { j["run"] = 7; })).configuration().run, 7);
 }
 
 TEST(HostileLog, LabelsAreLabelsBecauseTheyBecomeNamesOfFiles) {
-  const TemporaryFolder folder("hostile");
+  const TemporaryFolder folder;
   for (const char* key : {"subject", "session", "task"})
     for (const char* label : {"x/../../escaped", "", "..", "a b", "a\nb", "\x1b[31m", "/etc"})
       expectRefusal(logWith(folder, [&](json& j) { j[key] = label; }), key);
@@ -68,7 +68,7 @@ TEST(HostileLog, LabelsAreLabelsBecauseTheyBecomeNamesOfFiles) {
 }
 
 TEST(HostileLog, EveryNumberIsWithinItsBounds) {
-  const TemporaryFolder folder("hostile");
+  const TemporaryFolder folder;
   const std::vector<std::pair<const char*, json>> cases{{"run", 0},
                                                         {"run", -3},
                                                         {"run", 100000},
@@ -100,7 +100,7 @@ TEST(HostileLog, EveryNumberIsWithinItsBounds) {
 }
 
 TEST(HostileLog, TheTableHasTheChannelsThatItsCountsAskFor) {
-  const TemporaryFolder folder("hostile");
+  const TemporaryFolder folder;
   expectRefusal(logWith(folder, [](json& j) { j["table"]["mass_count"] = 2'000'000'000; }), "mass_count");
   expectRefusal(logWith(folder, [](json& j) { j["table"]["mass_count"] = -1; }), "mass_count");
   expectRefusal(logWith(folder, [](json& j) { j["table"]["mass_count"] = 3; }), "channels");
@@ -113,7 +113,7 @@ TEST(HostileLog, TheTableHasTheChannelsThatItsCountsAskFor) {
 }
 
 TEST(HostileLog, ATextThatIsNoJsonIsRefusedInWords) {
-  const TemporaryFolder folder("hostile");
+  const TemporaryFolder folder;
   for (const std::string text : {"", "[1]", "{\"run\": ", "\"run\"", "\xff\xfe"}) {
     const std::string path = folder / "text_log.reach";
     std::filesystem::remove(path);
@@ -134,7 +134,7 @@ std::string logWithRecord(const TemporaryFolder& folder, RecordType type, const 
 }
 
 TEST(HostileLog, CountsOfSamplesThatOverflowTheirProductAreRefused) {
-  const TemporaryFolder folder("hostile");
+  const TemporaryFolder folder;
   const std::vector<std::pair<std::uint32_t, std::uint32_t>> cases{
       {0x80000000u, 0x1fffffffu}, {0xffffffffu, 0xffffffffu}, {1u << 31, (1u << 30) - 1}, {1, 0}, {0xffffffffu, 0}, {3, 46}};
   for (const auto& [count, columns] : cases) {
@@ -147,7 +147,7 @@ TEST(HostileLog, CountsOfSamplesThatOverflowTheirProductAreRefused) {
 }
 
 TEST(HostileLog, RecordsOfUnknownKindsOrLengthsAreRefused) {
-  const TemporaryFolder folder("hostile");
+  const TemporaryFolder folder;
   ByteWriter trial;
   encode(RecordedTrial{}, {}, trial);
   for (const std::size_t outcomeAt : {std::size_t{13}, std::size_t{14}}) {  // outcome, reason: behind the trial's setup of 13 bytes
@@ -175,7 +175,7 @@ TEST(HostileLog, RecordsOfUnknownKindsOrLengthsAreRefused) {
 }
 
 TEST(HostileLog, OneThatIsCutShortWhileItIsReadEndsEarly) {
-  const TemporaryFolder folder("hostile");
+  const TemporaryFolder folder;
   const std::string path = folder / "cut_log.reach";
   writeMadeRun(path, 40);
   const RunLog log = RunLog::open(path);
@@ -189,7 +189,7 @@ TEST(HostileLog, OneThatIsCutShortWhileItIsReadEndsEarly) {
 }
 
 TEST(HostileLog, WhatIsNoRegularFileIsRefusedWithoutWaiting) {
-  const TemporaryFolder folder("hostile");
+  const TemporaryFolder folder;
   const std::string pipe = folder / "pipe_log.reach";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_THROW(RunLog::open(pipe), FaultError);
@@ -199,7 +199,7 @@ TEST(HostileLog, WhatIsNoRegularFileIsRefusedWithoutWaiting) {
 }
 
 TEST(AtomicFile, IsNotWrittenThroughALinkThatSomebodyPlanted) {
-  const TemporaryFolder folder("planted");
+  const TemporaryFolder folder;
   const std::string outside = folder / "outside", target = folder / "table.tsv";
   writeFileAtomically(outside, "precious");
   // The name that was guessable, and the target itself.
@@ -212,7 +212,7 @@ TEST(AtomicFile, IsNotWrittenThroughALinkThatSomebodyPlanted) {
 }
 
 TEST(AtomicFile, LeftoversOfAKilledProgramAreRemovedAndNothingElse) {
-  const TemporaryFolder folder("leftover");
+  const TemporaryFolder folder;
   const std::string old = folder / "sub/.0123456789abcdef.reachlab-tmp", young = folder / "sub/.1123456789abcdef.reachlab-tmp";
   const std::string mine = folder / "sub/notes.reachlab-tmp";
   for (const std::string& file : {old, young, mine}) writeFileAtomically(file, "part");
@@ -238,7 +238,7 @@ TEST(Recorder, SaysHowMuchIsLeftOfTheDiskAndHowMuchOfItIsKeptFree) {
 }
 
 TEST(Recorder, StopsBeforeTheDiskIsFull) {
-  const TemporaryFolder folder("reserve");
+  const TemporaryFolder folder;
   const os::DiskSpace disk = os::diskSpace(folder / "");
   if (disk.free >= disk.size / 20) GTEST_SKIP() << "the disk has more than 5 % left; tests/long/disk.sh has a small one";
   EXPECT_THROW(Recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false}), ResourceError);

@@ -103,7 +103,7 @@ TEST(ByteReader, ReadsNothingMoreAfterItWasAskedForMoreThanThereIs) {
 }
 
 TEST(LogWriter, WritesHeaderAndRecordsByteByByteAsDocumented) {
-  const TemporaryFolder folder("frame");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   {
     LogWriter writer = LogWriter::create(path);
@@ -133,7 +133,7 @@ TEST(LogWriter, WritesHeaderAndRecordsByteByByteAsDocumented) {
 }
 
 TEST(LogWriter, GoesOnWhereALogWasCut) {
-  const TemporaryFolder folder("resume");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   const auto offsets = writeLog(path, {payloadOf(10), payloadOf(20), payloadOf(30)});
   LogWriter writer = LogWriter::resume(path, offsets[2], 2);
@@ -148,7 +148,7 @@ TEST(LogWriter, GoesOnWhereALogWasCut) {
 }
 
 TEST(LogWriter, ARecordHolds64MiBAndNoByteMore) {
-  const TemporaryFolder folder("largest");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   LogWriter writer = LogWriter::create(path);
   const Bytes most(64u << 20, 5);
@@ -165,7 +165,7 @@ TEST(LogWriter, ARecordHolds64MiBAndNoByteMore) {
 }
 
 TEST(LogReader, GivesEveryRecordWhereverTheWindowOntoTheFileEnds) {
-  const TemporaryFolder folder("window");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   std::vector<Bytes> payloads;
   for (std::size_t i = 0; i < 60; ++i)
@@ -197,7 +197,7 @@ TEST(LogReader, GivesEveryRecordWhereverTheWindowOntoTheFileEnds) {
 }
 
 TEST(LogReader, AHeaderIsLookedAtWithoutReadingItsRecord) {
-  const TemporaryFolder folder("looks");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   const auto offsets = writeLog(path, {payloadOf(10), payloadOf(20), payloadOf(0)});
   LogReader reader(path);
@@ -215,7 +215,7 @@ TEST(LogReader, AHeaderIsLookedAtWithoutReadingItsRecord) {
 }
 
 TEST(LogReader, EndsAtTheFirstRecordThatIsNotRight) {
-  const TemporaryFolder folder("wrong");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   const auto readable = [&] {
     LogReader reader(path);
@@ -242,7 +242,7 @@ TEST(LogReader, EndsAtTheFirstRecordThatIsNotRight) {
 }
 
 TEST(LogReader, ALengthBeyondTheFileOrTheBoundIsTheEnd) {
-  const TemporaryFolder folder("long");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   const auto offsets = writeLog(path, {payloadOf(10), payloadOf(20)});
   for (const int highest : {1, 4, 5, 255}) {  // of four bytes: 16 MiB and more, 64 MiB and more, nearly 4 GiB
@@ -256,7 +256,7 @@ TEST(LogReader, ALengthBeyondTheFileOrTheBoundIsTheEnd) {
 }
 
 TEST(LogReader, OneThatIsMovedReadsOn) {
-  const TemporaryFolder folder("moved");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach", other = folder / "b_log.reach";
   const auto offsets = writeLog(path, {payloadOf(10), payloadOf(20), payloadOf(30)});
   writeLog(other, {payloadOf(1)});
@@ -277,7 +277,7 @@ TEST(LogReader, OneThatIsMovedReadsOn) {
 }
 
 TEST(LogReader, RefusesWhatIsNoLogInWords) {
-  const TemporaryFolder folder("nolog");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   const auto refusal = [&] {
     try {

@@ -1,8 +1,5 @@
 #pragma once
-#include <unistd.h>
-
 #include <cmath>
-#include <filesystem>
 #include <memory>
 #include <string>
 
@@ -11,28 +8,9 @@
 #include "sim/record/log/recorder.h"
 #include "sim/record/log/run_log.h"
 #include "test_paths.h"
+#include "tests/temporary_folder.h"
 
 namespace reachlab::record {
-
-/// A folder of its own under the build folder, gone at the end of the test.
-class TemporaryFolder {
- public:
-  explicit TemporaryFolder(const std::string& name)
-      : path_(std::filesystem::path(REACHLAB_BINARY_DIR) / "test-files" / (name + std::to_string(::getpid()))) {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~TemporaryFolder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::string operator/(const std::string& name) const { return (path_ / name).string(); }
-
- private:
-  std::filesystem::path path_;
-};
 
 inline RunConfiguration madeConfiguration(int masses = 2) {
   experiment::Experiment experiment;

@@ -19,7 +19,7 @@ using Clock = std::chrono::steady_clock;
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 void measureRate(double seconds) {
-  const TemporaryFolder folder("rate");
+  const TemporaryFolder folder;
   RunConfiguration configuration = madeConfiguration(50);
   configuration.sampleEveryTicks = 1;
   Recorder recorder(folder / "rate_log.reach", configuration);
@@ -41,7 +41,7 @@ void measureRate(double seconds) {
 
 // A session of blocks of 100 trials.
 void measureOpening(int trials) {
-  const TemporaryFolder folder("open");
+  const TemporaryFolder folder;
   const int perRun = std::min(trials, 100);
   for (int run = 0; run < trials / perRun; ++run)
     writeMadeRun(folder / fmt::format("sub-01_ses-01_task-made_run-{:03}_log.reach", run + 1), perRun);

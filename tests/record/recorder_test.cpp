@@ -20,7 +20,7 @@ namespace {
 // One thread pushes as the haptic thread does, the recorder's writes: nothing is lost, torn or out of order. Run under TSan as
 // well.
 TEST(Recorder, KeepsEveryTickThatAnotherThreadPushes) {
-  const TemporaryFolder folder("recorder");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   RunConfiguration configuration = madeConfiguration();
   configuration.sampleEveryTicks = 1;
@@ -53,7 +53,7 @@ TEST(Recorder, KeepsEveryTickThatAnotherThreadPushes) {
 }
 
 TEST(Recorder, SaysWhenItsQueueIsFullInsteadOfWaiting) {
-  const TemporaryFolder folder("queue");
+  const TemporaryFolder folder;
   Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = true, .queueTicks = 8});
   MadeRun run;
   std::uint64_t lost = 0;
@@ -64,7 +64,7 @@ TEST(Recorder, SaysWhenItsQueueIsFullInsteadOfWaiting) {
 }
 
 TEST(Recorder, GoesOnCountingTrialsInAResumedBlock) {
-  const TemporaryFolder folder("count");
+  const TemporaryFolder folder;
   RunConfiguration configuration = madeConfiguration();
   configuration.firstTrial = 8;
   writeMadeRun(folder / "a_log.reach", 2, configuration);
@@ -78,7 +78,7 @@ TEST(Recorder, GoesOnCountingTrialsInAResumedBlock) {
 }
 
 TEST(Recorder, ATrialThatNobodyAnnouncedHasThePlaceOfItsNumber) {
-  const TemporaryFolder folder("unannounced");
+  const TemporaryFolder folder;
   Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
   MadeRun run;
   for (std::uint64_t tick = 0; tick < 2 * MadeRun::kTicksPerTrial; ++tick)
@@ -91,7 +91,7 @@ TEST(Recorder, ATrialThatNobodyAnnouncedHasThePlaceOfItsNumber) {
 
 // Two further hands, over several blocks of a thousand ticks.
 TEST(Recorder, KeepsEveryHandsRawSamples) {
-  const TemporaryFolder folder("hands");
+  const TemporaryFolder folder;
   RunConfiguration configuration = madeConfiguration();
   experiment::Experiment scene;
   scene.object.kind = experiment::ObjectKind::Chain;
@@ -134,7 +134,7 @@ TEST(Recorder, KeepsEveryHandsRawSamples) {
 }
 
 TEST(Recorder, TimeIsCountedFromItsFirstTick) {
-  const TemporaryFolder folder("time");
+  const TemporaryFolder folder;
   RunConfiguration configuration = madeConfiguration();
   configuration.sampleEveryTicks = 4;
   {
@@ -154,7 +154,7 @@ TEST(Recorder, TimeIsCountedFromItsFirstTick) {
 
 TEST(Recorder, TellsTheDiskOnceAndForAll) {
   for (const bool threaded : {false, true}) {
-    const TemporaryFolder folder("once");
+    const TemporaryFolder folder;
     const std::string path = folder / "a_log.reach";
     Recorder recorder(path, madeConfiguration(), {.threaded = threaded});
     EXPECT_EQ(recorder.fault(), "");
@@ -176,7 +176,7 @@ TEST(Recorder, TellsTheDiskOnceAndForAll) {
 }
 
 TEST(Recorder, NotesAndEventsOfOthersStandWhereTheyCame) {
-  const TemporaryFolder folder("notes");
+  const TemporaryFolder folder;
   {
     Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
     recorder.note("before");
@@ -201,7 +201,7 @@ TEST(Recorder, NotesAndEventsOfOthersStandWhereTheyCame) {
 }
 
 TEST(Recorder, ARunThatIsClosedInATrialInterruptsIt) {
-  const TemporaryFolder folder("closed");
+  const TemporaryFolder folder;
   {
     Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
     MadeRun run;
@@ -217,7 +217,7 @@ TEST(Recorder, ARunThatIsClosedInATrialInterruptsIt) {
 
 // A thousand ticks are a block, whatever the clock says; a trial begins one of its own.
 TEST(Recorder, OnAVirtualClockBlocksAreCutByTicksAlone) {
-  const TemporaryFolder folder("blocks");
+  const TemporaryFolder folder;
   {
     Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
     auto state = std::make_unique<haptics::TickState>();
@@ -244,7 +244,7 @@ TEST(Recorder, FurtherColumnsStandBehindTheScenes) {
    public:
     void fill(double* columns) const noexcept override { columns[0] = 12.5, columns[1] = -3; }
   };
-  const TemporaryFolder folder("further");
+  const TemporaryFolder folder;
   const Counted further;
   RunConfiguration configuration = madeConfiguration();
   const std::size_t scene = configuration.table.size();
@@ -268,7 +268,7 @@ TEST(Recorder, FurtherColumnsStandBehindTheScenes) {
 }
 
 TEST(Recorder, NoticesThatItsFileWasTakenAway) {
-  const TemporaryFolder folder("gone");
+  const TemporaryFolder folder;
   Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
   std::filesystem::remove(folder / "a_log.reach");
   MadeRun run;

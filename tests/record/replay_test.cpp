@@ -54,7 +54,7 @@ auto changeOf(std::size_t row, std::size_t column, std::size_t columns) {
 }
 
 TEST(Replay, LooksAtEveryTickRowAndTrial) {
-  const TemporaryFolder folder("replay");
+  const TemporaryFolder folder;
   const RunLog log = edited(folder, [](RecordType, Bytes&) { return true; });
   const Replay replay = replayRun(log);
   EXPECT_TRUE(replay.identical());
@@ -75,7 +75,7 @@ TEST(Replay, LooksAtEveryTickRowAndTrial) {
 }
 
 TEST(Replay, OneNumberThatDiffersIsNamedWithItsTickAndChannel) {
-  const TemporaryFolder folder("replay");
+  const TemporaryFolder folder;
   const ChannelTable table = RunLog::open(kRecorded).configuration().table;
   for (const std::size_t column : {std::size_t{0}, table.indexOf("mass1_pos_x"), table.size() - 1}) {
     const RunLog log = edited(folder, changeOf(3, column, table.size()));
@@ -91,7 +91,7 @@ TEST(Replay, OneNumberThatDiffersIsNamedWithItsTickAndChannel) {
 }
 
 TEST(Replay, ATrialThatDiffersInAnythingIsCounted) {
-  const TemporaryFolder folder("replay");
+  const TemporaryFolder folder;
   const auto withSecond = [&](const std::function<void(trial::TrialResult&)>& change) {
     int trials = 0;
     return replayRun(edited(folder, [&](RecordType type, Bytes& payload) {
@@ -126,7 +126,7 @@ TEST(Replay, ATrialThatDiffersInAnythingIsCounted) {
 }
 
 TEST(Replay, StopsWhereATickIsMissing) {
-  const TemporaryFolder folder("replay");
+  const TemporaryFolder folder;
   int blocks = 0;
   std::uint64_t missing = 0;
   const RunLog log = edited(folder, [&](RecordType type, Bytes& payload) {
@@ -143,13 +143,13 @@ TEST(Replay, StopsWhereATickIsMissing) {
 }
 
 TEST(Replay, ATrialThatNobodyAnnouncedIsSimulatedAsAPlainOne) {
-  const TemporaryFolder folder("replay");
+  const TemporaryFolder folder;
   const Replay replay = replayRun(edited(folder, [](RecordType type, Bytes&) { return type != RecordType::TrialSetup; }));
   EXPECT_EQ(replay.trials.size(), 2u);
 }
 
 TEST(Replay, ATableOfOtherMassesOrHandsIsRefused) {
-  const TemporaryFolder folder("replay");
+  const TemporaryFolder folder;
   const RunConfiguration recorded = RunLog::open(kRecorded).configuration();
   const auto refusalOf = [&](int masses, int parameters, int hands, bool body) {
     experiment::Experiment scene;

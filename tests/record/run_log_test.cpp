@@ -44,7 +44,7 @@ void expectSameTrial(const RecordedTrial& a, const RecordedTrial& b) {
 }
 
 TEST(RunLog, GivesBackWhatWasRecorded) {
-  const TemporaryFolder folder("log");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   writeMadeRun(path, 3);
   const RunLog log = RunLog::open(path);
@@ -80,7 +80,7 @@ TEST(RunLog, GivesBackWhatWasRecorded) {
 }
 
 TEST(RunLog, ListsTheSameTrialsByTheChainAsByReadingEverything) {
-  const TemporaryFolder folder("chain");
+  const TemporaryFolder folder;
   for (const bool closed : {true, false}) {
     const std::string path = folder / (closed ? "closed_log.reach" : "open_log.reach");
     writeMadeRun(path, 12);
@@ -97,7 +97,7 @@ TEST(RunLog, ListsTheSameTrialsByTheChainAsByReadingEverything) {
 }
 
 TEST(RunLog, MarksTheUnfinishedTrialOfABrokenOffLogAsInterrupted) {
-  const TemporaryFolder folder("broken");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   {
     Recorder recorder(path, madeConfiguration(), {.threaded = false});
@@ -117,7 +117,7 @@ TEST(RunLog, MarksTheUnfinishedTrialOfABrokenOffLogAsInterrupted) {
 }
 
 TEST(RecoverLog, LeavesAHealthyLogAlone) {
-  const TemporaryFolder folder("healthy");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   writeMadeRun(path, 2);
   const std::string before = bytesOf(path);
@@ -127,7 +127,7 @@ TEST(RecoverLog, LeavesAHealthyLogAlone) {
 }
 
 TEST(RecoverLog, KeepsEverythingBeforeTheDamageAndTheOriginalBesideIt) {
-  const TemporaryFolder folder("mend");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   writeMadeRun(path, 4);
   const RunLog whole = RunLog::open(path);
@@ -145,7 +145,7 @@ TEST(RecoverLog, KeepsEverythingBeforeTheDamageAndTheOriginalBesideIt) {
 }
 
 TEST(RecoverLog, ClosesTheTrialThatWasUnderWayAndEndsTheLogInOrder) {
-  const TemporaryFolder folder("close");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   writeMadeRun(path, 3);
   const RunLog whole = RunLog::open(path);
@@ -173,7 +173,7 @@ TEST(RecoverLog, ClosesTheTrialThatWasUnderWayAndEndsTheLogInOrder) {
 }
 
 TEST(RecoverLog, WhatIsCutBetweenTwoTrialsHasNoneThatIsInterrupted) {
-  const TemporaryFolder folder("between");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   writeMadeRun(path, 2);
   std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
@@ -186,7 +186,7 @@ TEST(RecoverLog, WhatIsCutBetweenTwoTrialsHasNoneThatIsInterrupted) {
 }
 
 TEST(RecoverLog, KeepsEachDamagedOriginalUnderANameOfItsOwn) {
-  const TemporaryFolder folder("again");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   for (const char* name : {".damaged", ".damaged-2", ".damaged-3"}) {
     std::filesystem::remove(path);
@@ -200,7 +200,7 @@ TEST(RecoverLog, KeepsEachDamagedOriginalUnderANameOfItsOwn) {
 }
 
 TEST(RecoverLog, RefusesALogWithoutItsConfiguration) {
-  const TemporaryFolder folder("headless");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   writeMadeRun(path, 1);
   std::string bytes = bytesOf(path);
@@ -211,7 +211,7 @@ TEST(RecoverLog, RefusesALogWithoutItsConfiguration) {
 
 // As an earlier program wrote them, which no reader took.
 TEST(RecoverLog, ShortensALabelThatFileNamesDoNotHold) {
-  const TemporaryFolder folder("label");
+  const TemporaryFolder folder;
   const std::string good = folder / "good_log.reach", path = folder / "a_log.reach";
   RunConfiguration configuration = madeConfiguration();
   configuration.task = std::string(60, 'a');
@@ -240,7 +240,7 @@ TEST(RecoverLog, ShortensALabelThatFileNamesDoNotHold) {
 }
 
 TEST(Recorder, CreatesNothingThatNobodyCouldRead) {
-  const TemporaryFolder folder("unreadable");
+  const TemporaryFolder folder;
   RunConfiguration configuration = madeConfiguration();
   configuration.run = kMaxRun + 1;
   EXPECT_THROW(Recorder(folder / "a_log.reach", configuration, {.threaded = false}), FaultError);
@@ -248,14 +248,14 @@ TEST(Recorder, CreatesNothingThatNobodyCouldRead) {
 }
 
 TEST(AppendFile, ASecondWriterIsToldThatThereIsOne) {
-  const TemporaryFolder folder("second");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   const AppendFile first = AppendFile::create(path);
   EXPECT_NE(refusalOf([&] { AppendFile::openAt(path, 0); }).find("is being written by another program"), std::string::npos);
 }
 
 TEST(RecoverLog, RefusesALogThatIsBeingWritten) {
-  const TemporaryFolder folder("busy");
+  const TemporaryFolder folder;
   Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
   EXPECT_THROW(recoverLog(folder / "a_log.reach"), ResourceError);
 }
@@ -281,7 +281,7 @@ std::string damaged(const std::string& good, std::mt19937_64& random, std::size_
 
 // Whatever happens to the bytes: no crash, no changed number, and every trial that was finished before the damage is there.
 TEST(RunLog, SurvivesTenThousandRandomDamagesWithoutOneWrongNumber) {
-  const TemporaryFolder folder("damage");
+  const TemporaryFolder folder;
   RunConfiguration configuration = madeConfiguration(1);
   configuration.sampleEveryTicks = 50;
   const std::string whole = folder / "whole_log.reach", hurt = folder / "hurt_log.reach";
@@ -326,7 +326,7 @@ TEST(RunLog, SurvivesTenThousandRandomDamagesWithoutOneWrongNumber) {
 
 // Every reader of a part gives what is in the whole.
 TEST(RunLog, GivesTheRowsBetweenAnyTwoTicks) {
-  const TemporaryFolder folder("part");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   writeMadeRun(path, 4);
   const RunLog log = RunLog::open(path);
@@ -345,7 +345,7 @@ TEST(RunLog, GivesTheRowsBetweenAnyTwoTicks) {
 }
 
 TEST(RunLog, GivesSetupsAndEventsOfTheWholeRun) {
-  const TemporaryFolder folder("setups");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   writeMadeRun(path, 6);
   const std::vector<TrialSetup> setups = RunLog::open(path).setups();
@@ -365,7 +365,7 @@ TEST(RunLog, GivesSetupsAndEventsOfTheWholeRun) {
 }
 
 TEST(RunLog, OfABrokenOffTrialKnowsWhatWasLoggedOfIt) {
-  const TemporaryFolder folder("known");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   {
     Recorder recorder(folder / "whole_log.reach", madeConfiguration(), {.threaded = false});
@@ -395,7 +395,7 @@ TEST(RunLog, OfABrokenOffTrialKnowsWhatWasLoggedOfIt) {
 }
 
 TEST(FindLogs, OfADatasetASessionASubjectOrAFile) {
-  const TemporaryFolder folder("find");
+  const TemporaryFolder folder;
   const auto put = [&](const char* name) { writeFileAtomically(folder / name, ""); };
   for (const char* name : {"data/sourcedata/sub-01_ses-01_task-a_run-01_log.reach", "data/sourcedata/sub-01_ses-02_task-a_run-01_log.reach",
                            "data/sourcedata/sub-02_ses-01_task-a_run-01_log.reach", "data/sourcedata/notes.txt", "data/sub-01/ses-01/x",
@@ -430,7 +430,7 @@ TEST(FindLogs, OfADatasetASessionASubjectOrAFile) {
 }
 
 TEST(LogWriter, RefusesToOverwrite) {
-  const TemporaryFolder folder("clash");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   writeMadeRun(path, 1);
   const std::string before = bytesOf(path);
@@ -439,7 +439,7 @@ TEST(LogWriter, RefusesToOverwrite) {
 }
 
 TEST(LogReader, RefusesAnotherSchemaAndNamesTheOneThatItReads) {
-  const TemporaryFolder folder("schema");
+  const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   for (const int version : {1, 3}) {
     // Another schema version with a CRC of its own that is right: "REACHLOG", the version, crc32 of the twelve bytes.

@@ -37,7 +37,7 @@ class Tables : public testing::Test {
     writeMadeRun(path, trials, configuration_);
     return RunLog::open(path);
   }
-  TemporaryFolder folder_{"tables"};
+  TemporaryFolder folder_;
   RunConfiguration configuration_ = madeConfiguration();
 };
 
@@ -383,7 +383,7 @@ TEST(ColumnDictionary, ExplainsEachColumnOfAHeader) {
 }
 
 TEST(Derivative, SaysWhatItIsAndIsKeptWhereItIsThere) {
-  const TemporaryFolder folder("derivative");
+  const TemporaryFolder folder;
   const auto described = [&](const std::string& software) {
     std::filesystem::remove(folder / "dataset_description.json");
     EXPECT_EQ(describeDerivative(folder / ".", "Tables", software, "../.."), folder / "./dataset_description.json");

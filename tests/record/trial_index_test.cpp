@@ -38,7 +38,7 @@ std::string writeTwoRuns(const TemporaryFolder& folder) {
 }
 
 TEST(TrialIndex, KnowsOfARunWhatItsLogSaysWhetherReadOrKept) {
-  const TemporaryFolder folder("index");
+  const TemporaryFolder folder;
   const std::string data = writeTwoRuns(folder), file = folder / "an.index";
   for (const std::size_t read : {2u, 0u}) {
     SCOPED_TRACE(read);
@@ -77,7 +77,7 @@ TEST(TrialIndex, KnowsOfARunWhatItsLogSaysWhetherReadOrKept) {
 }
 
 TEST(TrialIndex, ALogOfAnotherTimeOrSizeIsReadAnew) {
-  const TemporaryFolder folder("index");
+  const TemporaryFolder folder;
   const std::string data = writeTwoRuns(folder), file = folder / "an.index", log = data + "/a_log.reach";
   EXPECT_EQ(openTrialIndex(data, file).read, 2u);
   std::filesystem::last_write_time(log, std::filesystem::last_write_time(log) - std::chrono::seconds(5));
@@ -93,7 +93,7 @@ TEST(TrialIndex, ALogOfAnotherTimeOrSizeIsReadAnew) {
 }
 
 TEST(TrialIndex, AsksBeforeEachLogThatItMustOpen) {
-  const TemporaryFolder folder("index");
+  const TemporaryFolder folder;
   const std::string data = writeTwoRuns(folder);
   std::vector<std::pair<std::size_t, std::size_t>> asked;
   const TrialIndex index = openTrialIndex(data, "", [&](std::size_t done, std::size_t of) {

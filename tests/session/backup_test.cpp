@@ -64,7 +64,7 @@ class Backups : public testing::Test {
     return refusalOf([&] { (void)backUp(dataset_, backup_); }, "made");
   }
 
-  record::TemporaryFolder folder_{"backup"};
+  TemporaryFolder folder_;
   std::string dataset_ = folder_ / "data", backup_ = folder_ / "second/data";
 };
 

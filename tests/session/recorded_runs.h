@@ -68,7 +68,7 @@ class Recorded : public testing::Test {
     return logs;
   }
 
-  record::TemporaryFolder folder_{"recorded"};
+  TemporaryFolder folder_;
   SessionRequest request_;
   Programme easy_ = programmeOf(experiment::openExperimentText(kEasy, "easy.json"));
 };

@@ -14,7 +14,6 @@ namespace reachlab::session {
 namespace {
 
 using haptics::test::ScriptedDevice;
-using record::TemporaryFolder;
 using test::goodHand;
 using test::kEasy;
 using test::kNeverStop;
@@ -287,7 +286,7 @@ TEST_F(Conducted, ThePlansPauseLiesBetweenTrialsInRealTime) {
 }
 
 TEST(ProgrammeOfASession, CompilesEachExperimentOfAPlanOnce) {
-  const TemporaryFolder folder("programme");
+  const TemporaryFolder folder;
   record::writeFileAtomically(folder / "p.json", R"({ "schema_version": 1, "trials": 1, "blocks": [
       { "experiment": "chain-slow" }, { "experiment": "epitrochoid" }, { "experiment": "chain-slow" } ] })");
   const Programme programme = readProgramme(folder / "p.json");

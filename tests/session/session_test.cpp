@@ -88,7 +88,7 @@ class PlannedSession : public testing::Test {
     record::writeFileAtomically(folder_ / name, text);
     return folder_ / name;
   }
-  record::TemporaryFolder folder_{"session"};
+  TemporaryFolder folder_;
 };
 
 TEST_F(PlannedSession, TakesTheNextNumberWhenAnotherProgramHasTakenItsOwn) {
@@ -501,7 +501,7 @@ TEST(Label, KeepsEveryLetterAndDigitAndNothingElse) {
 
 // A window resized, a child ended: signals come at any time, and the lock is still waited for.
 TEST(SessionFolder, IsWaitedForThroughSignals) {
-  const record::TemporaryFolder folder("hold");
+  const TemporaryFolder folder;
   struct sigaction heard {
   }, before{};
   heard.sa_handler = [](int) {};  // without SA_RESTART: what waits is interrupted
@@ -529,7 +529,7 @@ TEST(SessionFolder, IsWaitedForThroughSignals) {
 }
 
 TEST(SessionFolder, FindsTheRunsOfItsOwnSessionByNumber) {
-  const record::TemporaryFolder folder("runs");
+  const TemporaryFolder folder;
   const SessionPlace place{folder / "data", "1", "2"};
   EXPECT_TRUE(recordedRuns(place).empty());
   EXPECT_EQ(chooseRun(place, {}), 1);

@@ -91,7 +91,7 @@ class TwoHands : public testing::Test {
     run.finish();
     return record::RunLog::open(run.logPath());
   }
-  const record::TemporaryFolder folder_{"twohands"};
+  const TemporaryFolder folder_;
   SessionRequest request_;
   std::vector<trial::TrialResult> results_;
   std::string said_;  // of the devices, after the last trial

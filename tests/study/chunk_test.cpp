@@ -23,7 +23,7 @@ ChunkRows someRows() {
 }
 
 TEST(Chunk, ReadsBackAsItWasWritten) {
-  const OwnFolder folder;
+  const TemporaryFolder folder;
   EXPECT_FALSE(isChunkThere(folder.path(), 1234, 99));
   EXPECT_THROW(readChunk(folder.path(), 1234, 99), ResourceError);
   writeChunk(folder.path(), 1234, 99, someRows());
@@ -47,7 +47,7 @@ TEST(Chunk, ReadsBackAsItWasWritten) {
 }
 
 TEST(Chunk, OfAnotherStudyOrPlaceIsRefused) {
-  const OwnFolder folder;
+  const TemporaryFolder folder;
   writeChunk(folder.path(), 3, 99, someRows());
   EXPECT_THROW(isChunkThere(folder.path(), 3, 98), ResourceError);
   std::filesystem::copy_file(chunkPath(folder.path(), 3), chunkPath(folder.path(), 4));
@@ -56,7 +56,7 @@ TEST(Chunk, OfAnotherStudyOrPlaceIsRefused) {
 
 // Whatever byte of it is not what it was, and wherever it ends.
 TEST(Chunk, ThatIsDamagedIsToldWithTheRemedy) {
-  const OwnFolder folder;
+  const TemporaryFolder folder;
   writeChunk(folder.path(), 3, 99, someRows());
   const std::string path = chunkPath(folder.path(), 3), whole = record::readWholeFile(path);
   const auto refusalOf = [&](const std::string& bytes) -> std::string {
@@ -102,7 +102,7 @@ TEST(Gzip, OfManyMembersIsTheirTextsOneBehindTheOther) {
   std::string large;
   for (int i = 0; i < 40000; ++i) large += std::to_string(i * 7919 % 10007) + ",";
   const std::string bytes = gzipMember("first\n") + gzipMember("") + gzipMember(large);
-  const OwnFolder folder;
+  const TemporaryFolder folder;
   const std::string path = folder.path() + "/x.gz";
   std::ofstream(path, std::ios::binary) << bytes;
   const gzFile file = gzopen(path.c_str(), "rb");

@@ -31,7 +31,7 @@ StudyFolder folderOf(const std::string& path, const std::string& more) {
 
 // Columns: point, subject, trial, seed, the varied one, outcome, reason, by.
 TEST(StudyReport, CountsSuccessByValueAndByStretch) {
-  const OwnFolder folder;
+  const TemporaryFolder folder;
   const StudyFolder study = folderOf(
       folder.path(), R"("subjects": 2, "trials": 25, "chunk_trials": 50, "vary": { "handmass_kg": [0.5, 2] }, "measures": ["by"])");
   ASSERT_EQ(study.chunks.count(), 2);
@@ -96,7 +96,7 @@ StudyFolder madePower(const std::string& path, double by, int subjects, int tria
 }
 
 TEST(StudyReport, OfClearTruthsNamesThemAtTheSmallestDesign) {
-  const OwnFolder folder;
+  const TemporaryFolder folder;
   const StudyReport report = makeReport(madePower(folder.path(), 2, 24, 22), {.studies = 10, .subjects = {}, .trials = {}});
   // A ladder of 5 6 7 8 10 12 people (half of those there are) and 10 12 15 20 22 trials, for each truth.
   ASSERT_EQ(report.power.size(), 2u * 6 * 5);
@@ -127,7 +127,7 @@ TEST(StudyReport, OfClearTruthsNamesThemAtTheSmallestDesign) {
 }
 
 TEST(StudyReport, OfTruthsThatCannotBeToldIsUndecided) {
-  const OwnFolder folder;
+  const TemporaryFolder folder;
   const StudyReport report = makeReport(madePower(folder.path(), 0.02, 12, 12), {.studies = 8, .subjects = {5, 6, 99}, .trials = {12, 10}});
   ASSERT_EQ(report.power.size(), 8u) << "99 people are not there";
   for (const PowerAt& at : report.power) EXPECT_LE(at.right, 2u);
@@ -137,18 +137,18 @@ TEST(StudyReport, OfTruthsThatCannotBeToldIsUndecided) {
 
 // People whose own mean is described far better than their nearest candidate are not concluded upon.
 TEST(StudyReport, TakesPoorFitsForNoConclusion) {
-  const OwnFolder folder;
+  const TemporaryFolder folder;
   const StudyReport report = makeReport(madePower(folder.path(), 2, 10, 10, 0.2), {.studies = 5, .subjects = {}, .trials = {}});
   for (const PowerAt& at : report.power) EXPECT_EQ(at.right + at.wrong, 0u);
 }
 
 TEST(StudyReport, DrawsNothingFromFewerThanFive) {
-  const OwnFolder folder;
+  const TemporaryFolder folder;
   const StudyReport report = makeReport(madePower(folder.path(), 2, 4, 12), {});
   EXPECT_TRUE(report.power.empty());
   ASSERT_EQ(report.notes.size(), 2u);
   EXPECT_EQ(report.notes[0], "min-crackle: 4 virtual subjects with 10 successes; nothing is drawn from fewer than five");
-  const OwnFolder five;
+  const TemporaryFolder five;
   EXPECT_EQ(makeReport(madePower(five.path(), 2, 5, 10), {.studies = 2, .subjects = {}, .trials = {}}).power.size(), 2u);
 }
 
@@ -160,7 +160,7 @@ TEST(StudyReport, SaysWhereNothingReachesTheLevelAndWhatIsNoted) {
   report.success = {{"a", "1", 1, 3, 8}, {"a", "2", 2, 0, 0}, {"w", "word", 0, 1, 2}};
   report.learning = {{"", 1, 10, 3, 8}, {"", 11, 20, 5, 8}};
   report.notes = {"look"};
-  const OwnFolder folder;
+  const TemporaryFolder folder;
   writeReport(report, folder.path());
   EXPECT_EQ(lineWith(folder.path() + "/report.md", "| min-crackle"), "| min-crackle | a=1 | 95 % | none of those looked at | |");
   EXPECT_EQ(lineWith(folder.path() + "/report.md", "Note:"), "Note: look.");
@@ -177,7 +177,7 @@ TEST(StudyFolder, GivesEachShareItsChunks) {
   const Shard second{2, 3};
   for (int chunk = 0; chunk < 9; ++chunk) EXPECT_EQ(second.has(chunk), chunk % 3 == 1) << chunk;
   EXPECT_TRUE(Shard{}.has(5));
-  const OwnFolder folder;
+  const TemporaryFolder folder;
   const StudyFolder study = folderOf(folder.path(), R"("subjects": 7, "trials": 1, "chunk_trials": 1)");
   for (const int chunk : {1, 4}) writeChunk(folder.path(), chunk, study.fingerprint, chunkOf({{0, 1}}));
   EXPECT_EQ(chunksToDo(study).missing, (std::vector<std::int64_t>{0, 2, 3, 5, 6}));
@@ -192,7 +192,7 @@ TEST(StudyFolder, GivesEachShareItsChunks) {
 
 // Chunks a minute apart, after a pause of an hour: only what went on since then tells the rate.
 TEST(StudyFolder, TellsItsRateFromTheLastPauseOn) {
-  const OwnFolder folder;
+  const TemporaryFolder folder;
   const StudyFolder study = folderOf(folder.path(), R"("subjects": 40, "trials": 30, "chunk_trials": 60)");
   const auto begin = std::filesystem::file_time_type::clock::now() - std::chrono::hours(5);
   int chunk = 0;
@@ -210,7 +210,7 @@ TEST(StudyFolder, TellsItsRateFromTheLastPauseOn) {
 }
 
 TEST(StudyFolder, KeepsItsDesignAndRefusesAnother) {
-  const OwnFolder folder;
+  const TemporaryFolder folder;
   const StudyFolder made = folderOf(folder.path(), R"("subjects": 3, "vary": { "handmass_kg": [1, 2] })");
   const StudyFolder opened = openFolder(folder.path());
   EXPECT_EQ(opened.fingerprint, made.fingerprint);
@@ -227,7 +227,7 @@ TEST(StudyFolder, KeepsItsDesignAndRefusesAnother) {
 // Many programs at once: a folder is of the one design that was there first, and every other one is told so.
 TEST(StudyFolder, BegunByTwoStudiesAtOnceIsOfOneOfThem) {
   for (int round = 0; round < 40; ++round) {
-    const OwnFolder folder;
+    const TemporaryFolder folder;
     std::atomic<int> made{0};
     std::string winner;
     {

@@ -37,7 +37,7 @@ namespace {
 class Inspecting : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    folder_ = new analysis::TemporaryFolder;
+    folder_ = new TemporaryFolder;
     cache_ = qgetenv("XDG_CACHE_HOME");
     qputenv("XDG_CACHE_HOME", QByteArray::fromStdString(folder_->path() + "/cache"));
     analysis::recordRun(data(), {.experiment = "chain-moderate", .trials = 24});
@@ -83,7 +83,7 @@ class Inspecting : public ::testing::Test {
   }
   mutable InspectorPage page_;
   QString said_;
-  static inline analysis::TemporaryFolder* folder_ = nullptr;
+  static inline TemporaryFolder* folder_ = nullptr;
   static inline QByteArray cache_;
 };
 
@@ -315,7 +315,7 @@ TEST(Replay, ShowsTheSceneFileOfItsExperiment) {
 }
 
 TEST(InspectPage, BelongsToTheWindowAndKeepsTheTrialsKeysOff) {
-  const analysis::TemporaryFolder folder;
+  const TemporaryFolder folder;
   analysis::recordRun(folder.path() + "/data", {.experiment = "chain-moderate", .trials = 2});
   session::SessionRequest request;
   request.what = "chain-moderate";
