@@ -203,17 +203,6 @@ TEST_F(HidDevices, AnArmsCurrentIsHeldToTwoAmperesUnlessItIsTold) {
   EXPECT_EQ(most("hid,max-current=0.5"), 500);
 }
 
-TEST_F(HidDevices, AnArmIsCalibratedAtItsStartWhereItIsAskedFor) {
-  for (const bool asked : {false, true}) {
-    test::resetFakeHids({teensy()});
-    make(asked ? "hid,calibrate=start" : "hid");
-    const Bytes first = written().at(0);
-    ASSERT_EQ(first.size(), 65u);
-    EXPECT_EQ(first[7], asked ? 1 : 0);
-    EXPECT_EQ(first[13] | first[14] << 8, asked ? 6000 : 0);
-  }
-}
-
 TEST_F(HidDevices, AnArmThatComesBackIsTakenUpAgainByItsName) {
   test::resetFakeHids({teensy()});
   const auto device = make("hid:A1");

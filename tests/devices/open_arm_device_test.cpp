@@ -102,13 +102,6 @@ TEST_F(OpenArmOverAPort, AnswersEveryReportOnceWithTheForcesCurrents) {
   EXPECT_EQ(field(line->sent[0], 3), 0);
 }
 
-TEST_F(OpenArmOverAPort, TakesTheNewestOfWhatHasPiledUp) {
-  for (int i = 0; i < 10; ++i) line->waiting.push_back(reportOf({0.001 * i, 0, 0}));
-  ASSERT_EQ(arm->exchange(wish, sample), Exchange::Report);
-  EXPECT_NEAR(sample.position.z, 0.009, 2e-4);
-  EXPECT_EQ(line->sent.size(), 1u);
-}
-
 TEST_F(OpenArmOverAPort, ALostReportIsAskedForAgainWithoutForce) {
   wish.force = {1, 1, 1};
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Nothing);
@@ -267,17 +260,6 @@ TEST_F(OpenArmOverAPort, ZeroIsToldWithoutBeingAskedFor) {
   EXPECT_TRUE(arm->tellZero()) << "there is nobody to tell";
 }
 
-TEST_F(OpenArmOverAPort, BeforeItsLastWordItHasItsTurn) {
-  line->waiting.push_back(reportOf({}));
-  arm->close();
-  EXPECT_TRUE(line->waiting.empty());
-  EXPECT_EQ(line->readings, (std::vector<std::pair<std::size_t, int>>{{64, 10}}));
-  EXPECT_EQ(line->sent.size(), 1u);
-  arm->close();
-  EXPECT_EQ(line->sent.size(), 1u) << "closed once";
-  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost);
-}
-
 // 1,000 seeded runs of everything a wire can do: garbage, gaps, short reads, jumps, absurd forces, unplugging. No current beyond the
 // limit, none that turns round, and nothing but zero when nothing was read.
 TEST_F(OpenArmOverAPort, NoFaultOfTheWireGivesACurrentBeyondTheLimit) {
@@ -327,12 +309,6 @@ TEST_F(OpenArmOverAPort, ReportsOfAnOldFirmwareAreNotBelievedAndSaidToBeOld) {
   line->waiting.push_back(reportAt({0, 0, 6000}));
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Report);
   EXPECT_EQ(arm->lossText(), "") << "a short one among whole ones is a fault of the line";
-}
-
-TEST_F(OpenArmOverAPort, AnArmThatGivesOldReportsOnlyIsRefusedInWords) {
-  for (int i = 0; i < 1000; ++i) line->waiting.push_back(Report(8, 1));
-  EXPECT_NE(refusalOf([&] { PolledDevice device(std::shared_ptr<Transport>(std::move(arm)), 100); }).find("firmware is too old"),
-            std::string::npos);
 }
 
 }  // namespace

@@ -267,16 +267,6 @@ TEST(Preflight, PassivityAsksForHalfTheStiffnessTimesThePeriodAndTheDamping) {
       << passivity(4).sentence;
 }
 
-TEST(Preflight, DryFrictionHoldsWhatIsSofterThanItSwallows) {
-  const auto e = experiment::readExperiment("chain-moderate");  // 600 N/m
-  haptics::DeviceInfo info = plainDevice();
-  info.resolution = 1e-4;
-  for (const auto& [friction, verdict] : {std::pair{0.0301, Verdict::Fine}, {0.0299, Verdict::Held}}) {
-    info.coulombFriction = friction;
-    EXPECT_EQ(lineOf(check(e, info), "passivity").verdict, verdict) << friction;
-  }
-}
-
 // The device and 0.3 kg of a hand, its friction and the hand's 3 N s/m.
 TEST(Preflight, StabilityIsThatOfARelaxedHand) {
   experiment::Experiment e = stiffPoint(0.7, 1.0);
@@ -299,26 +289,6 @@ TEST(Preflight, StabilityIsThatOfARelaxedHand) {
   info.apparentMass = 0;
   EXPECT_EQ(lineOf(check(e, info), "stability").verdict, Verdict::Unknown);
   EXPECT_FALSE(lineOf(check(e, info), "stability").limit);
-}
-
-TEST(Preflight, AWorkspaceThatTheReachJustFitsIntoIsFine) {
-  const auto e = experiment::readExperiment("chain-slow");
-  haptics::DeviceInfo info = plainDevice();
-  const double farthest = lineOf(check(e, info), "workspace").asked;
-  const auto verdict = [&](double radius) {
-    info.workspaceRadius = radius;
-    return lineOf(check(e, info), "workspace").verdict;
-  };
-  EXPECT_EQ(verdict(farthest), Verdict::Fine);
-  EXPECT_EQ(verdict(farthest * (1 - 0.9e-6)), Verdict::Fine) << "rounding";
-  EXPECT_EQ(verdict(farthest * (1 - 1.1e-6)), Verdict::Warning);
-  EXPECT_EQ(verdict(0), Verdict::Unknown);
-  info.rendersForce = false;
-  EXPECT_EQ(check(e, info).size(), 1u) << "without force that is all";
-  info.rendersForce = true;
-  info.workspaceRadius = 1;
-  info.workspaceCentre = {0.5, 0, 0};
-  EXPECT_NEAR(lineOf(check(e, info), "workspace").asked, 0.6, 2e-3) << "from the workspace's own centre";
 }
 
 // Springs of parallel masses are felt together; those of a hand of its own where it has them.

@@ -181,7 +181,7 @@ TEST(HardCases, LongStiffChainsOnACurveAreTakenOrRefusedInWords) {
     return onCurve(e, "0.1*cos(phi)", "0.06*sin(phi)", "0");
   };
   EXPECT_EQ(compileScene(damped(500)).choice.method, "adaptive") << "4 b/m dt = 200";
-  EXPECT_NE(refusalOf([&] { (void)compileScene(damped(5000)); }).find("at most 24 masses"), std::string::npos);
+  EXPECT_NE(reachlab::refusalOf([&] { (void)compileScene(damped(5000)); }).find("at most 24 masses"), std::string::npos);
 }
 
 // Near-cusps (1 % and 0.1 %) and an ellipse of 0.1 x 1e-4: free motion keeps its energy, and no tick passes the cap.

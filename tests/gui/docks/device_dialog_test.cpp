@@ -13,18 +13,6 @@ namespace {
 
 experiment::CompiledExperiment chain() { return experiment::openExperiment("chain-slow"); }
 
-// The times between reports that were counted are those of every report but the first.
-TEST(LiveDevice, CountsTheTimesBetweenItsReports) {
-  devices::LiveDevice device("virtual:omni", chain());
-  devices::LiveDevice::View view;
-  ASSERT_TRUE(QTest::qWaitFor([&] { return (view = device.look()).reports > 200; }, 20000));
-  EXPECT_EQ(std::accumulate(view.between.begin(), view.between.end(), std::uint64_t{0}), view.reports);
-  EXPECT_GT(view.rate, 0);
-  EXPECT_TRUE(view.valid);
-  EXPECT_EQ(norm(view.force), 0) << "nothing is put up";
-  EXPECT_TRUE(view.fault.empty()) << view.fault;
-}
-
 TEST(DeviceDialog, TheMouseIsSeenInTheWindowItself) {
   DeviceDialog dialog(
       chain(), QStringLiteral("mouse"), [](const QString&) {}, nullptr);
