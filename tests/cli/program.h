@@ -16,6 +16,8 @@
 
 namespace reachlab::test {
 
+using reachlab::TemporaryFolder;
+
 struct Ended {
   int exitCode = -1;
   std::string out, err;

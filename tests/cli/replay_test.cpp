@@ -67,8 +67,8 @@ TEST(Replay, NeedsNoFileOfTheConstraintThatAnExperimentNames) {
   EXPECT_EQ(reach("replay " + log + " --check"), 0) << "the file has changed";
   std::filesystem::remove(definition);
   EXPECT_EQ(reach("replay " + log + " --check"), 0) << "the file is gone";
-  EXPECT_EQ(reach("export " + data + " --format csv --out " + (folder / "tables")), 0);
-  EXPECT_EQ(reach("analyze " + data + " --out " + (folder / "analysis")), 0);
+  EXPECT_EQ(reach("export " + data + " --format csv --out " + (folder / "tables").string()), 0);
+  EXPECT_EQ(reach("analyze " + data + " --out " + (folder / "analysis").string()), 0);
   ::unsetenv("REACHLAB_CONSTRAINTS");
   const record::RunConfiguration recorded = record::RunLog::open(log).configuration();
   EXPECT_NE(recorded.definitionText.find("w_m*sin(phi)*cos(phi)"), std::string::npos);

@@ -169,23 +169,23 @@ TEST_F(Stations, DISABLED_AKilledStationIsLostWithin150MillisecondsAndNoLogLoses
 
 // In real time, by two processes: among the long checks (tests/long/stations.sh).
 TEST_F(Stations, DISABLED_WithCertificatesTheyMeetAndAStrangerIsNotHeard) {
-  ASSERT_EQ(reach("peers init " + (folder_ / "lab") + " --conductor --name left").exitCode, 0);
-  ASSERT_EQ(reach("peers init " + (folder_ / "other") + " --name right").exitCode, 0);
-  ASSERT_EQ(reach("peers add " + (folder_ / "lab") + " " + (folder_ / "other") + "/request.pem").exitCode, 0);
+  ASSERT_EQ(reach("peers init " + (folder_ / "lab").string() + " --conductor --name left").exitCode, 0);
+  ASSERT_EQ(reach("peers init " + (folder_ / "other").string() + " --name right").exitCode, 0);
+  ASSERT_EQ(reach("peers add " + (folder_ / "lab").string() + " " + (folder_ / "other").string() + "/request.pem").exitCode, 0);
   for (const auto& entry : fs::directory_iterator(folder_ / "lab/for-right"))
-    fs::copy(entry.path(), fs::path(folder_ / "other") / entry.path().filename());
-  ASSERT_EQ(reach("peers init " + (folder_ / "stranger") + " --conductor --name right").exitCode, 0);
-  const auto [left, right] = both("station chain-two-hands --number 1 --conductor --device simulated:noise=0 --peers " + (folder_ / "lab") +
-                                      " " + common() + "--data " + dataOf("left"),
-                                  "station chain-two-hands --number 2 --device simulated:noise=0 --peers " + (folder_ / "other") + " " +
-                                      common() + "--data " + dataOf("right"));
+    fs::copy(entry.path(), folder_ / "other" / entry.path().filename());
+  ASSERT_EQ(reach("peers init " + (folder_ / "stranger").string() + " --conductor --name right").exitCode, 0);
+  const auto [left, right] = both("station chain-two-hands --number 1 --conductor --device simulated:noise=0 --peers " +
+                                      (folder_ / "lab").string() + " " + common() + "--data " + dataOf("left"),
+                                  "station chain-two-hands --number 2 --device simulated:noise=0 --peers " + (folder_ / "other").string() +
+                                      " " + common() + "--data " + dataOf("right"));
   EXPECT_EQ(left.exitCode, 0) << left.err << "\n--- right:\n" << right.err;
   EXPECT_EQ(right.exitCode, 0) << right.err;
   const std::string quick = "--interface lo --peer 127.0.0.1 --wait 8 --seed 1 --domain " + domain(2) + " ";
-  const auto [alone, stranger] = both("station chain-two-hands --number 1 --conductor --device simulated --peers " + (folder_ / "lab") +
-                                          " " + quick + "--data " + dataOf("alone"),
-                                      "station chain-two-hands --number 2 --device simulated --peers " + (folder_ / "stranger") + " " +
-                                          quick + "--data " + dataOf("stranger"));
+  const auto [alone, stranger] = both("station chain-two-hands --number 1 --conductor --device simulated --peers " +
+                                          (folder_ / "lab").string() + " " + quick + "--data " + dataOf("alone"),
+                                      "station chain-two-hands --number 2 --device simulated --peers " + (folder_ / "stranger").string() +
+                                          " " + quick + "--data " + dataOf("stranger"));
   EXPECT_EQ(alone.exitCode, 3) << alone.err;
   EXPECT_NE(alone.err.find("station 2: is not there"), std::string::npos) << alone.err;
   EXPECT_EQ(stranger.exitCode, 3) << stranger.err;

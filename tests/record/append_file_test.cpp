@@ -275,7 +275,7 @@ TEST(ReadWholeFile, RefusesWhatIsNotThereNoFileOrTooLarge) {
   const std::string path = folder / "file";
   EXPECT_EQ(refusalOf([&] { readWholeFile(path); }),
             path + ": cannot be opened: No such file or directory; check the folder and its permissions");
-  EXPECT_EQ(refusalOf([&] { readWholeFile(folder / ""); }), (folder / "") + ": is no regular file; allowed: a file on a disk");
+  EXPECT_EQ(refusalOf([&] { readWholeFile(folder / ""); }), (folder / "").string() + ": is no regular file; allowed: a file on a disk");
   writeFileAtomically(path, "");
   std::filesystem::resize_file(path, (1u << 30) + 1);  // takes no room on the disk
   EXPECT_EQ(refusalOf([&] { readWholeFile(path); }), path + ": has 1073741825 bytes; allowed: up to 1073741824");

@@ -422,7 +422,7 @@ TEST(FindLogs, OfADatasetASessionASubjectOrAFile) {
       findLogs(folder / path);
       return std::string("found");
     } catch (const FaultError& error) {
-      return std::string(error.what()).substr((folder / path).size());
+      return std::string(error.what()).substr((folder / path).string().size());
     }
   };
   EXPECT_EQ(refusal("data/sub-01/ses-09"), ": no logs (…_log.reach) in this folder");

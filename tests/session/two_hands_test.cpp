@@ -172,7 +172,7 @@ TEST_F(TwoHands, TheSecondHandMakesTheOnsetToo) {
 
 TEST_F(TwoHands, EachIsATrackingSystemOfTheDataset) {
   const record::RunLog log = record(std::make_unique<Pair>());
-  const std::string motion = folder_ / "data" + "/sub-01/ses-01/motion/sub-01_ses-01_task-both_tracksys-";
+  const std::string motion = folder_.path() + "/data/sub-01/ses-01/motion/sub-01_ses-01_task-both_tracksys-";
   for (const char* system : {"haptic_run-01", "haptic2_run-01"})
     for (const char* ending : {"_motion.tsv", "_motion.json", "_channels.tsv", "_channels.json"})
       EXPECT_TRUE(std::filesystem::exists(motion + system + ending)) << system << ending;
