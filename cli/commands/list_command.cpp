@@ -27,9 +27,11 @@ std::string describeMasses(const std::vector<double>& masses) {
 }
 
 std::string inShort(const experiment::Experiment& e) {
-  const char* kinds[] = {"point of", "chain of", "parallel masses:", "body of"};
+  const char* kinds[] = {"point of ", "chain of ", "parallel masses: ", "body of "};
+  const bool bare = e.object.kind == experiment::ObjectKind::None;
   const std::string& constraint = e.constraint.name;
-  return fmt::format("{} {}{}{}{}", kinds[static_cast<int>(e.object.kind)], describeMasses(e.object.masses),
+  return fmt::format("{}{}{}{}{}", bare ? "hand alone" : kinds[static_cast<int>(e.object.kind)] + describeMasses(e.object.masses),
+                     e.environment.empty() ? "" : fmt::format(", {} force{} on it", e.environment.size(), e.environment.size() == 1 ? "" : "s"),
                      constraint == "free" ? ", free in space"
                      : constraint.empty() ? " on a formula"
                                           : " on " + constraint,

@@ -242,6 +242,9 @@ void simulate(const Request& request) {
   if (!experiment.task && request.at.empty())
     throw FaultError(atTheirPlaces({{"task", "is missing, and a simulation needs its start", "{ start, target, … }, or --at"}},
                                    experiment.text, request.experiment));
+  if (experiment.object.kind == experiment::ObjectKind::None)
+    throw FaultError(atTheirPlaces({{"object.kind", "is none, so there is nothing to simulate", "an object with masses"}}, experiment.text,
+                                   request.experiment));
   const HandLaw law = makeHandLaw(request.hand, experiment, constraint);
   const std::vector<double> at = request.at.empty() ? experiment.task->start : request.at;
   std::vector<double> rate = request.rate;

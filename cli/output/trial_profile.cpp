@@ -44,8 +44,10 @@ ShownTrial profileOf(const record::RunLog& log, const record::RecordedTrial& tri
   const std::uint64_t begin = profile.sinceOnset ? trial.result.onsetTick : trial.startTick;
   for (const std::uint64_t tick : rows.ticks) profile.time.push_back(secondsBetween(begin, tick));
   profile.handSpeed = magnitudeOf(rows, table, "hand_vel");
-  profile.firstSpeed = magnitudeOf(rows, table, "mass1_vel");
-  profile.lastSpeed = magnitudeOf(rows, table, fmt::format("mass{}_vel", table.massCount));
+  if (table.massCount > 0) {
+    profile.firstSpeed = magnitudeOf(rows, table, "mass1_vel");
+    profile.lastSpeed = magnitudeOf(rows, table, fmt::format("mass{}_vel", table.massCount));
+  }
   profile.force = magnitudeOf(rows, table, "coupling_force");
   return profile;
 }
@@ -61,8 +63,9 @@ figure::Figure drawTrial(const record::RunLog& log, const record::RecordedTrial&
   force.y.label = "Force (N)";
   speed.series = {line("hand", profile.time, profile.handSpeed, figure::palette::kBlack, figure::kThick)};
   if (masses > 1) speed.series.push_back(line("mass 1", profile.time, profile.firstSpeed, figure::palette::kBlue, figure::kNormal));
-  speed.series.push_back(
-      line(fmt::format("mass {}", masses), profile.time, profile.lastSpeed, figure::palette::kVermilion, figure::kNormal));
+  if (masses > 0)
+    speed.series.push_back(
+        line(fmt::format("mass {}", masses), profile.time, profile.lastSpeed, figure::palette::kVermilion, figure::kNormal));
   force.series = {line("", profile.time, profile.force, figure::palette::kBlack, figure::kNormal)};
   const experiment::Experiment experiment = record::recordedValues(log.configuration());
   if (profile.sinceOnset && experiment.task) {

@@ -30,7 +30,8 @@ ObjectDock::ObjectDock(QWidget* parent) : Dock(QStringLiteral("Object"), QString
   auto* form = new QFormLayout(body);
   kind_ = new QComboBox;
   kind_->setObjectName(QStringLiteral("objectKind"));
-  kind_->addItems({QStringLiteral("point"), QStringLiteral("chain"), QStringLiteral("parallel"), QStringLiteral("body")});
+  kind_->addItems({QStringLiteral("point"), QStringLiteral("chain"), QStringLiteral("parallel"), QStringLiteral("body"),
+                   QStringLiteral("none")});
   masses_ = new widgets::NumberListEdit;
   masses_->setObjectName(QStringLiteral("masses"));
   stiffness_ = new widgets::NumberListEdit;
@@ -69,6 +70,8 @@ ObjectDock::ObjectDock(QWidget* parent) : Dock(QStringLiteral("Object"), QString
       object_.masses.resize(std::max<std::size_t>(2, object_.masses.size()), object_.masses.empty() ? 1.0 : object_.masses.back());
     if (object_.kind == experiment::ObjectKind::Body && object_.inertia[0][0] == 0)
       for (std::size_t i = 0; i < 3; ++i) object_.inertia[i][i] = 4e-4 * object_.masses[0];
+    if (object_.kind == experiment::ObjectKind::None) object_.masses.clear();
+    else if (object_.masses.empty()) object_.masses = {1};
     fitSprings(object_);
     tell();
   });
@@ -95,6 +98,9 @@ void ObjectDock::display(const experiment::CompiledExperiment& experiment, bool 
   body()->setEnabled(editable);
   kind_->setCurrentIndex(static_cast<int>(object.kind));
   const bool springs = object.kind == experiment::ObjectKind::Chain || object.kind == experiment::ObjectKind::Parallel;
+  const bool any = object.kind != experiment::ObjectKind::None;
+  masses_->setEnabled(any);
+  viscosity_->setEnabled(any);
   stiffness_->setEnabled(springs);
   damping_->setEnabled(springs);
   setRules();
@@ -109,7 +115,7 @@ void ObjectDock::display(const experiment::CompiledExperiment& experiment, bool 
 void ObjectDock::setRules() {
   const bool springs = object_.kind == experiment::ObjectKind::Chain || object_.kind == experiment::ObjectKind::Parallel;
   widgets::NumberListRule rule{
-      QStringLiteral("masses"), QStringLiteral("mass"), {}, QStringLiteral("kg"), 0, false, 1, springs ? experiment::kMaxMasses : 1u};
+      QStringLiteral("masses"), QStringLiteral("mass"), {}, QStringLiteral("kg"), 0, false, object_.kind == experiment::ObjectKind::None ? 0u : 1u, springs ? experiment::kMaxMasses : 1u};
   masses_->setRule(rule);
   rule = {QStringLiteral("springs"), QStringLiteral("spring"), {}, QStringLiteral("N/m"), 0};
   rule.fewest = rule.most = object_.stiffness.size();
@@ -124,7 +130,7 @@ void ObjectDock::tell() {
   experiment::Experiment changed = shown();
   changed.object = object_;
   // The springs of parallel masses are the hand's own.
-  if (object_.kind == experiment::ObjectKind::Parallel) changed.coupling.reset();
+  if (object_.kind == experiment::ObjectKind::Parallel || object_.kind == experiment::ObjectKind::None) changed.coupling.reset();
   else if (!changed.coupling) changed.coupling = experiment::Coupling{600, 0};
   Q_EMIT edited(changed, QStringLiteral("object"));
 }

@@ -14,8 +14,9 @@ TrialReplay::TrialReplay(const record::RunLog& log, const record::RecordedTrial&
   hand_ = table.indexOf("hand_pos_x");
   force_ = table.indexOf("coupling_force_x");
   valid_ = table.indexOf("valid");
-  mass_ = table.indexOf("mass1_pos_x");
-  massCount_ = static_cast<std::size_t>(table.massCount);
+  // Without an object the hand, or its cursor, is drawn as a mass.
+  mass_ = table.indexOf(table.massCount > 0 ? "mass1_pos_x" : table.cursor ? "cursor_pos_x" : "hand_pos_x");
+  massCount_ = static_cast<std::size_t>(std::max(1, table.massCount));
   massStep_ = massCount_ > 1 ? table.indexOf("mass2_pos_x") - mass_ : 0;
   isBody_ = table.body;
   if (isBody_) body_ = table.indexOf("body_quat_w");

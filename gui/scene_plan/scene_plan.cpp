@@ -66,8 +66,10 @@ void planHands(const experiment::Experiment& experiment, int masses, ScenePlan& 
 
 void planMasses(const experiment::Experiment& experiment, ViewOptions::SideBySide wish, ScenePlan& plan) {
   const experiment::Object& object = experiment.object;
-  const std::size_t count = object.masses.size();
-  plan.massRadius = radiiOf(object.masses, std::max(plan.unit, 0.6 * plan.size));
+  // Without an object the hand, or its cursor, is drawn as a mass.
+  const std::vector<double> drawn = object.kind == experiment::ObjectKind::None ? std::vector<double>{1} : object.masses;
+  const std::size_t count = drawn.size();
+  plan.massRadius = radiiOf(drawn, std::max(plan.unit, 0.6 * plan.size));
   plan.massRole.assign(count, MassRole::Middle);
   plan.massShift.assign(count, Vec3{});
   if (count == 0) return;

@@ -246,6 +246,7 @@ void TickEngine::step(const TickInput& input) noexcept {
     scene_.plant->observe(state_.hands[0].hip, state_.masses);
   }
   if (protocol_.gone && (!wasGone || before == trial::Phase::Waiting)) cue_ = Cue::Go;
+  if (cursor_) state_.masses[0].r = (*cursor_)(state_.masses[0].r);  // observed in this tick: the point that the subject sees
 
   state_.status = status;
   state_.phase = protocol_.phase;

@@ -62,21 +62,12 @@ std::unique_ptr<Prediction> makeArmPrediction(const experiment::Experiment& expe
   return makeLineArmPrediction(experiment.arm, task, object, options.unknowns, options.near);
 }
 
-// The hand without an object: no masses and no springs.
-LineObject bareHand(double handMass, double handDamping) {
-  LineObject hand;
-  hand.viscosity = {0};
-  hand.handMass = handMass;
-  hand.handDamping = handDamping;
-  return hand;
-}
-
 // A point that is the hand itself, along a line.
 std::unique_ptr<Prediction> makeStraightHandPrediction(const LineObject& object, Criterion criterion, double distance, double duration) {
   if (criterion == Criterion::MinTorqueChange)
     throw RefusedError("min-torque-change: on a line it is computed for a point behind its spring; allowed: a point behind its spring");
   const bool byForce = criterion == Criterion::MinHandForce || criterion == Criterion::MinHandForceChange;
-  if (byForce && (object.handDamping > 0 || object.viscosity.at(0) > 0))
+  if (byForce && (object.handDamping > 0 || (!object.viscosity.empty() && object.viscosity[0] > 0)))
     throw RefusedError(
         fmt::format("{}: a point that is the hand itself is computed without damping; allowed: no viscosity and no damping of "
                     "the hand, or a point behind its spring",
@@ -238,7 +229,6 @@ std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, co
   if (experiment.object.kind == experiment::ObjectKind::Body)
     throw FaultError(Fault{"object.kind", "is body", "point, chain, parallel: the criteria are not defined for a body that turns"});
   const auto makeObject = [&] {
-    if (bare) return bareHand(handMass, options.handDamping);
     return mergeEqualFrequencies(makeLineObject(experiment, options.handMass.value_or(experiment.handMass), options.handDamping), duration,
                                  warnings);
   };

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 namespace reachlab::environment {
 namespace {
@@ -13,6 +14,13 @@ using namespace experiment;
 const Vec3 kStart{0.1, 0.02, 0.3}, kTarget{0.1, 0.02, 0.2};  // forward on the table
 const Vec3 kHand = kStart + Vec3{0.01, 0.003, -0.04};
 
+Cursor cursorOf(double rotation, double gain = 1, std::optional<double> clamp = {}) {
+  Cursor cursor;
+  cursor.rotation = rotation;
+  cursor.gain = gain;
+  cursor.clamp = clamp;
+  return cursor;
+}
 CursorLaw lawOf(const Cursor& cursor) { return {cursor, TaskPlane::Horizontal, kStart, kTarget}; }
 /// Angle of the way from the start, counterclockwise from the right as seen from above [degrees].
 double angleOf(const Vec3& place) { return std::atan2(-(place.z - kStart.z), place.x - kStart.x) * 180 / std::numbers::pi; }
@@ -21,7 +29,7 @@ TEST(CursorLaw, WithoutRotationAndGainTheCursorIsAtTheHand) { EXPECT_NEAR(norm(l
 
 TEST(CursorLaw, ARotationTurnsTheWayByItsAngleAboutTheStart) {
   for (const double degrees : {-90.0, 30.0, 45.0}) {
-    const Vec3 cursor = lawOf({.rotation = degrees})(kHand);
+    const Vec3 cursor = lawOf(cursorOf(degrees))(kHand);
     EXPECT_NEAR(angleOf(cursor) - angleOf(kHand), degrees, 1e-12) << degrees;
     EXPECT_NEAR(norm(cursor - kStart), norm(kHand - kStart), 1e-16);
     EXPECT_NEAR(cursor.y, kHand.y, 1e-16) << "height is not rotated";
@@ -29,11 +37,11 @@ TEST(CursorLaw, ARotationTurnsTheWayByItsAngleAboutTheStart) {
 }
 
 TEST(CursorLaw, AGainScalesTheWay) {
-  EXPECT_NEAR(norm(lawOf({.gain = 1.5})(kHand) - (kStart + 1.5 * (kHand - kStart))), 0, 1e-16);
+  EXPECT_NEAR(norm(lawOf(cursorOf(0, 1.5))(kHand) - (kStart + 1.5 * (kHand - kStart))), 0, 1e-16);
 }
 
 TEST(CursorLaw, AClampedCursorKeepsItsDirectionWhereverTheHandGoes) {
-  const CursorLaw clamped = lawOf({.clamp = 30.0});
+  const CursorLaw clamped = lawOf(cursorOf(0, 1, 30));
   for (const Vec3& hand : {kHand, kStart + Vec3{0.05, 0, 0.01}, kTarget}) {
     EXPECT_NEAR(angleOf(clamped(hand)), 90 + 30, 1e-9);
     EXPECT_NEAR(norm(clamped(hand) - kStart), norm(hand - kStart), 1e-16);
@@ -43,7 +51,9 @@ TEST(CursorLaw, AClampedCursorKeepsItsDirectionWhereverTheHandGoes) {
 
 TEST(CursorLaw, TellsWhichPointIsJudged) {
   EXPECT_TRUE(lawOf({}).isJudged());
-  EXPECT_FALSE(lawOf({.judge = CursorJudge::Hand}).isJudged());
+  Cursor ofTheHand;
+  ofTheHand.judge = CursorJudge::Hand;
+  EXPECT_FALSE(lawOf(ofTheHand).isJudged());
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ TEST(EnvironmentKeys, ActOnOneHandOnly) {
   e.environment = {{ChannelForce{}}};
   e.task->target[0] = e.task->start[0] + 1;
   EXPECT_TRUE(problems(e).empty());
-  e.hands = {{1, {600}, {0}}, {5, {600}, {0}}};
+  e.hands = {{1, {600}, {0}, {}}, {5, {600}, {0}, {}}};
   ASSERT_EQ(problems(e).size(), 1u);
   EXPECT_EQ(problems(e)[0].key, "environment");
 }

@@ -16,6 +16,14 @@ using namespace experiment;
 
 constexpr double kLimit = 12;  // [N]
 
+Cursor cursorOf(double rotation, double gain = 1, CursorJudge judge = CursorJudge::Cursor) {
+  Cursor cursor;
+  cursor.rotation = rotation;
+  cursor.gain = gain;
+  cursor.judge = judge;
+  return cursor;
+}
+
 /// A free reach of a bare hand, 10 cm forward in 0.5 s.
 Experiment bareReach() {
   Experiment e;
@@ -53,7 +61,7 @@ class Reach {
   template <class Look>
   void reach(const Vec3& way, Look&& look) {
     const Vec3 from = hand;
-    for (int i = 1; i <= 700 && engine.state().phase != trial::Phase::Done; ++i) {
+    for (int i = 1; i <= 1200 && engine.state().phase != trial::Phase::Done; ++i) {
       hand = from + minimumJerk(std::min(1.0, i / 500.0)) * way;
       look(tick());
     }
@@ -98,8 +106,7 @@ TEST(EngineEnvironment, MovementBeginsAtOnsetAndTrialAtArming) {
     run.arm();
     for (int i = 0; i < 50; ++i) run.tick();
     const Vec3 still = run.engine.state().environment.force;
-    if (when == ForceWhen::Movement) EXPECT_EQ(still, Vec3{});
-    else EXPECT_NEAR(norm(still - Vec3{1, 0, 0}), 0, 1e-12);
+    EXPECT_NEAR(norm(still - (when == ForceWhen::Movement ? Vec3{} : Vec3{1, 0, 0})), 0, 1e-12);
     run.hand.z -= 0.002;
     for (int i = 0; i < 30; ++i) run.tick();
     ASSERT_EQ(run.engine.state().phase, trial::Phase::Moving);
@@ -117,7 +124,9 @@ TEST(EngineEnvironment, ItsForceObeysTheLimitAndTheSlewOfTheSafetyLayer) {
   run.reach({0, 0, -0.1}, [&](const TickState& state) {
     const Vec3 force = state.hands[0].deviceForce;
     EXPECT_LE(norm(force), kLimit * (1 + 1e-12));
-    if (norm(force) > 0) EXPECT_LE(norm(force - last), ForceSafety::kSlewPerTick * (1 + 1e-12));
+    if (norm(force) > 0) {
+      EXPECT_LE(norm(force - last), ForceSafety::kSlewPerTick * (1 + 1e-12));
+    }
     last = force;
     most = std::max(most, norm(force));
     asked = std::max(asked, norm(state.hands[0].feedbackForce));
@@ -150,7 +159,9 @@ TEST(EngineEnvironment, AForceThatIsNotFiniteEndsInZeroForceAndAbortsTheTrial) {
   bool beyond = false;
   run.reach({0, 0, -0.1}, [&](const TickState& state) {  // the arm of 0.6 m is stretched after 5 cm
     beyond = beyond || !isFinite(state.environment.force);
-    if (!isFinite(state.environment.force)) EXPECT_EQ(state.hands[0].deviceForce, Vec3{});
+    if (!isFinite(state.environment.force)) {
+      EXPECT_EQ(state.hands[0].deviceForce, Vec3{});
+    }
   });
   EXPECT_TRUE(beyond);
   EXPECT_EQ(run.engine.state().result.reason, trial::Reason::Computation);
@@ -188,19 +199,20 @@ TEST(JudgedCursor, IsBroughtToTheTargetByTheHandThatUndoesItsRotation) {
     run.reach(way);
     return run.engine.state().result.outcome;
   };
-  EXPECT_EQ(outcomeOf({.rotation = 30}, turned), trial::Outcome::Success);
-  EXPECT_EQ(outcomeOf({.rotation = 30}, {0, 0, -0.1}), trial::Outcome::Failure);
-  EXPECT_EQ(outcomeOf({.rotation = 30, .judge = CursorJudge::Hand}, {0, 0, -0.1}), trial::Outcome::Success);
-  EXPECT_EQ(outcomeOf({.gain = 2}, {0, 0, -0.05}), trial::Outcome::Success);
+  EXPECT_EQ(outcomeOf(cursorOf(30), turned), trial::Outcome::Success);
+  EXPECT_EQ(outcomeOf(cursorOf(30), {0, 0, -0.1}), trial::Outcome::Failure);
+  EXPECT_EQ(outcomeOf(cursorOf(30, 1, CursorJudge::Hand), {0, 0, -0.1}), trial::Outcome::Success);
+  EXPECT_EQ(outcomeOf(cursorOf(0, 2), {0, 0, -0.05}), trial::Outcome::Success);
 }
 
 TEST(JudgedCursor, IsKnownInEveryTick) {
   Experiment e = bareReach();
-  e.cursor = Cursor{.gain = 2};
+  e.cursor = cursorOf(0, 2);
   Reach run(e);
   run.hand = {0.3, 0, 0.2};
   run.tick(trial::Command::NextTrial);
   EXPECT_EQ(run.tick().environment.cursor, (Vec3{0.6, 0, 0.4})) << "also on the way to the start";
+  EXPECT_EQ(run.engine.state().masses[0].r, (Vec3{0.6, 0, 0.4})) << "the point that the subject sees";
 }
 
 }  // namespace

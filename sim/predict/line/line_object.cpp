@@ -37,11 +37,14 @@ LineObject makeLineObject(const experiment::Experiment& experiment, double handM
   if (object.kind == experiment::ObjectKind::Body)
     throw FaultError(Fault{"object.kind", "is body", "point, chain, parallel: the criteria are not defined for a body that turns"});
   LineObject line;
+  line.handMass = handMass;
+  line.handDamping = handDamping;
+  if (!(handMass >= 0) || !(handDamping >= 0))
+    throw FaultError(Fault{handMass >= 0 ? "hand_damping" : "hand_mass", "is negative", "0 or more"});
+  if (object.kind == experiment::ObjectKind::None) return line;
   line.parallel = object.kind == experiment::ObjectKind::Parallel;
   line.masses = object.masses;
   line.viscosity.assign(object.masses.size(), object.viscosity);
-  line.handMass = handMass;
-  line.handDamping = handDamping;
   const size_t n = line.masses.size();
   if (!line.parallel) {
     if (!experiment.coupling)
@@ -56,8 +59,6 @@ LineObject makeLineObject(const experiment::Experiment& experiment, double handM
     throw FaultError(Fault{"object.stiffness_n_per_m", "has not as many springs to the hand as there are masses", {}});
   requirePositive(line.masses, "mass", "kg");
   requirePositive(line.springs, line.parallel ? "spring" : "spring (the coupling is number 1)", "N/m");
-  if (!(handMass >= 0) || !(handDamping >= 0))
-    throw FaultError(Fault{handMass >= 0 ? "hand_damping" : "hand_mass", "is negative", "0 or more"});
   line.source.resize(n);
   std::iota(line.source.begin(), line.source.end(), 0);
   return line;

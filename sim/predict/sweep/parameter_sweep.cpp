@@ -47,6 +47,7 @@ double parseNumber(std::string_view text, const std::string& whole) {
 
 void resizeObject(experiment::Experiment& experiment, double value, bool keepTotal) {
   experiment::Object& object = experiment.object;
+  if (object.masses.empty()) throw FaultError(Fault{"sweep", "is of n, and this experiment has no object", "another key"});
   if (value != std::floor(value) || value < 1 || value > experiment::kMaxMasses)
     throw FaultError(
         Fault{"sweep", fmt::format("is n = {}", value), fmt::format("whole numbers of masses from 1 to {}", experiment::kMaxMasses)});
