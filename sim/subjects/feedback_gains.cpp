@@ -87,7 +87,7 @@ FeedbackGains computeFeedbackGains(const ArmWorld& world, const ArmSpec& arm, co
   out.sightDelay = senses.sightDelay;
   if (senses.sight != Sight::None) {
     out.seen.push_back(0);
-    for (int i = senses.sight == Sight::All ? 0 : world.masses - 1; i < world.masses; ++i) out.seen.push_back(world.place(i));
+    for (int i = senses.sight == Sight::All ? 0 : std::max(0, world.masses - 1); i < world.masses; ++i) out.seen.push_back(world.place(i));
   }
   out.sight = static_cast<int>(out.seen.size());
   for (const RowVectorXd& gain : gains) out.control.insert(out.control.end(), gain.data(), gain.data() + n);

@@ -19,6 +19,12 @@ constexpr double kAfterEnd = 0.3;                // [s] that gains go on after t
 constexpr double kShortest = 0.2, kLongest = 3;  // of the task's duration: what may be drawn
 constexpr double kMostForce = 1000;              // [N] that this hand can be given; an experiment may ask for less
 
+/// A field along the way is felt as less damping of the arm.
+ArmSpec inField(ArmSpec arm, const EnvironmentModel& believed) {
+  arm.damping -= believed.along;
+  return arm;
+}
+
 }  // namespace
 
 std::shared_ptr<const FeedbackTask> makeFeedbackTask(const experiment::CompiledExperiment& compiled, const FeedbackSpec& spec) {
@@ -34,6 +40,7 @@ std::shared_ptr<const FeedbackTask> makeFeedbackTask(const experiment::CompiledE
   cost.criterion = spec.criterion;
   cost.effort = spec.criterion ? spec.criterionEffort : spec.effort;
   predict::LineObject object = predict::makeLineObject(experiment, 0, 0);
+  const bool bare = experiment.object.kind == experiment::ObjectKind::None;
   if (spec.criterion) {
     static_cast<void>(criterionRow(makeArmWorld(spec.arm, object), spec.arm, object.totalMass(), *spec.criterion));
     // The least that this criterion can cost here, on a line of the same length: the scale of its weight.
@@ -49,7 +56,14 @@ std::shared_ptr<const FeedbackTask> makeFeedbackTask(const experiment::CompiledE
     cost.criterionWeight = spec.criterionWeight / (scale * scale * predict::predict(line, *spec.criterion, options)->cost);
     if (*spec.criterion == predict::Criterion::MinComAcceleration) cost.criterionWeight /= object.totalMass() * object.totalMass();
   }
-  return std::make_shared<const FeedbackTask>(FeedbackTask{std::move(way), std::move(object), cost});
+  return std::make_shared<const FeedbackTask>(FeedbackTask{
+      .way = std::move(way),
+      .object = std::move(object),
+      .cost = cost,
+      .normal = experiment::normalOf(task.plane),
+      .bare = bare,
+      .pushed = bare || !experiment.environment.empty(),
+      .cursor = experiment.cursor && experiment.cursor->show != experiment::CursorShow::Never});
 }
 
 FeedbackHand::FeedbackHand(std::shared_ptr<const FeedbackTask> task, std::shared_ptr<SubjectState> state, std::uint64_t seed)
@@ -63,6 +77,7 @@ FeedbackHand::FeedbackHand(std::shared_ptr<const FeedbackTask> task, std::shared
   const int most = static_cast<int>((kLongest * task_->cost.duration + task_->cost.hold) / kControlStep) + 2;
   trace_.command.resize(sized(most));
   trace_.sensed.resize(sized(most, g.senses()));
+  errorsAtStep_.resize(sized(most));
   estimate_.resize(sized(g.estimate()));
   next_.resize(estimate_.size());
   error_.resize(sized(g.senses()));
@@ -87,9 +102,10 @@ void FeedbackHand::learnFromTrace() {
   if (trace_.steps == 0) return;
   if (person.learnFast > 0 || person.learnSlow > 0) {
     const ModelError step =
-        computeModelStep(playing_.gains, trace_, playing_.used, person.arm, task_->object, person.senses, task_->cost.distance);
+        computeModelStep(playing_.gains, trace_, playing_.used, inField(person.arm, playing_.believed), task_->object, person.senses, task_->cost.distance);
     learn({person.learnFast, person.keepFast, person.learnSlow, person.keepSlow}, step, state_->model);
   }
+  learn(person.environment, errorsAtStep_[static_cast<std::size_t>(trace_.steps - 1)].error(), state_->environment);
   ++state_->model.trials;
   traceSteps_.store(0, std::memory_order_relaxed);
 }
@@ -113,8 +129,10 @@ void FeedbackHand::prepareTrial(int index) {
   constexpr double kReactionSpread = 0.15;
   const double reaction = person.reaction * (1 + std::min(person.noise, 1.0) * kReactionSpread * draws.boundedNormal());
   reach.reactionTicks = static_cast<int>(std::lround(reaction / kTickSeconds));
-  reach.gains = computeFeedbackGains(makeArmWorld(person.arm, task_->object, reach.used), person.arm, cost, person.senses,
-                                     person.motorNoise, person.forceNoise);
+  reach.believed = state_->environment.current();
+  const ArmSpec arm = inField(person.arm, reach.believed);
+  reach.gains = computeFeedbackGains(makeArmWorld(arm, task_->object, reach.used), arm, cost, person.senses, person.motorNoise,
+                                     person.forceNoise);
   reach.draws.resize(static_cast<std::size_t>(reach.gains.steps) * static_cast<std::size_t>(reach.gains.senses() + 2));
   for (double& draw : reach.draws) draw = person.noise == 0 ? 0 : person.noise * draws.normal();
   reach.ready = true;
@@ -123,7 +141,9 @@ void FeedbackHand::prepareTrial(int index) {
 void FeedbackHand::placeAtStart() noexcept {
   body_ = {-task_->cost.distance, 0, 0, 0};
   aside_ = asideSpeed_ = felt_ = {};
-  push_ = command_ = noisy_ = 0;
+  push_ = command_ = noisy_ = against_ = 0;
+  errors_ = {};
+  aim_ = task_->cursor ? experiment::rotationInPlane(-playing_.believed.angle) : experiment::PlaneRotation{};
   going_ = false;
   ticks_ = steps_ = 0;
   traceSteps_.store(0, std::memory_order_relaxed);
@@ -152,6 +172,8 @@ void FeedbackHand::cue(haptics::Cue cue) noexcept {
   placeAtStart();
 }
 
+Vec3 FeedbackHand::aimed(const Vec3& v) const noexcept { return task_->cursor ? experiment::rotated(v, task_->normal, aim_) : v; }
+
 // One step of estimator and controller; the model's own time runs from the end of the reaction.
 void FeedbackHand::step() noexcept {
   const FeedbackGains& g = playing_.gains;
@@ -159,13 +181,14 @@ void FeedbackHand::step() noexcept {
   const int n = g.states, p = g.touch, v = g.sight, all = g.estimate(), ny = g.senses();
   const int at = std::min(steps_, g.steps - 1);
   const std::span draw{playing_.draws.data() + static_cast<std::ptrdiff_t>(at) * (ny + 2), static_cast<std::size_t>(ny + 2)};
-  const double felt = -dot(felt_, task_->way.at(body_[0] + task_->cost.distance).along);  // the object's force, against the hand
+  const Vec3 along = aimed(task_->way.at(body_[0] + task_->cost.distance).along);
+  const double ofObject = task_->bare ? 0 : -dot(felt_, along);  // against the hand
 
   // What is sensed now comes later.
   const int touchPlace = steps_ % (g.touchDelay + 1), sightPlace = v > 0 ? steps_ % (g.sightDelay + 1) : 0;
   const SenseSpec& s = person.senses;
   double* touched = touched_.data() + touchPlace * p;
-  touched[0] = body_[0], touched[1] = body_[1], touched[2] = felt;
+  touched[0] = body_[0], touched[1] = body_[1], touched[2] = ofObject;
   for (int j = 0; j < v; ++j) {
     const int state = g.seen[static_cast<std::size_t>(j)];
     seen_[static_cast<std::size_t>(sightPlace * v + j)] = state == 0 ? body_[0] : sight_[static_cast<std::size_t>(state - 3)];
@@ -200,12 +223,19 @@ void FeedbackHand::step() noexcept {
   const double* filter = g.filter.data() + static_cast<std::ptrdiff_t>(at) * all * ny;
   for (int c = 0; c < ny; ++c)
     for (int k = 0; k < all; ++k) next[k] += filter[c * all + k] * error_[static_cast<std::size_t>(c)];
+  const double speed = z[1];  // as it is believed to be now
   std::swap(estimate_, next_);
+  if (task_->pushed) {
+    const double unexplained = task_->bare ? dot(felt_, along) - playing_.believed.along * body_[1] : 0;
+    errors_.add(unexplained, dot(felt_, experiment::rightOf(along, task_->normal)) + against_, body_[1]);
+    against_ = -playing_.believed.across * speed;
+  }
 
   noisy_ = command_ * (1 + person.motorNoise * draw[ny]) + person.forceNoise * draw[ny + 1];
   if (steps_ < g.steps) {
     trace_.command[static_cast<std::size_t>(at)] = command_;
     std::copy(y, y + ny, trace_.sensed.data() + static_cast<std::ptrdiff_t>(at) * ny);
+    errorsAtStep_[static_cast<std::size_t>(at)] = errors_;
     traceSteps_.store(steps_ + 1, std::memory_order_release);
   }
   ++steps_;
@@ -216,8 +246,8 @@ haptics::DeviceSample FeedbackHand::read() noexcept {
   if (going_) {
     if (ticks_ >= playing_.reactionTicks) {
       if ((ticks_ - playing_.reactionTicks) % kTicksPerStep == 0) step();
-      const ReachWay::Place place = task_->way.at(body_[0] - start);
-      const double along = dot(felt_, place.along) + push_;
+      const Vec3 direction = aimed(task_->way.at(body_[0] - start).along);
+      const double along = dot(felt_, direction) + push_;
       std::array<double, 4> moved{};
       for (int i = 0; i < 4; ++i) {
         double value = arm_.command(i) * noisy_ + arm_.force(i) * along;
@@ -227,7 +257,8 @@ haptics::DeviceSample FeedbackHand::read() noexcept {
       body_ = moved;
       // Across the way the arm is a spring, critically damped.
       const double mass = state_->person.arm.mass, stiffness = task_->onTheWayStiffness, damping = 2 * std::sqrt(stiffness * mass);
-      const Vec3 across = felt_ - dot(felt_, place.along) * place.along;
+      Vec3 across = felt_ - dot(felt_, direction) * direction;
+      if (task_->pushed) across += against_ * experiment::rightOf(direction, task_->normal);
       asideSpeed_ += kTickSeconds / mass * (across - stiffness * aside_ - damping * asideSpeed_);
       aside_ += kTickSeconds * asideSpeed_;
     }
@@ -235,8 +266,8 @@ haptics::DeviceSample FeedbackHand::read() noexcept {
   }
   const ReachWay::Place place = task_->way.at(body_[0] - start);
   haptics::DeviceSample sample;
-  sample.position = place.position + aside_;
-  sample.velocity = body_[1] * place.along + asideSpeed_;
+  sample.position = (task_->cursor ? task_->way.at(0).position + aimed(place.position - task_->way.at(0).position) : place.position) + aside_;
+  sample.velocity = body_[1] * aimed(place.along) + asideSpeed_;
   sample.hasVelocity = true;
   return sample;
 }
@@ -246,6 +277,11 @@ void FeedbackHand::write(const Vec3& force) noexcept { felt_ = force; }
 // Looked at where the next tick is a control step.
 void FeedbackHand::see(std::span<const dynamics::MassState> masses) noexcept {
   if (ticks_ < playing_.reactionTicks || (ticks_ - playing_.reactionTicks) % kTicksPerStep != 0) return;
+  if (task_->cursor && !masses.empty()) {
+    const ReachWay::Place start = task_->way.at(0);
+    const Vec3 moved = masses[0].r - start.position, right = experiment::rightOf(start.along, task_->normal);
+    errors_.look(elementary::atan2(-dot(moved, right), dot(moved, start.along)) * 180 / std::numbers::pi, body_[1]);
+  }
   const std::size_t count = std::min(masses.size(), sight_.size() - 1);
   for (std::size_t i = 0; i < count; ++i) sight_[i + 1] = task_->way.placeOf(masses[i]) - task_->cost.distance;
 }

@@ -4,7 +4,9 @@
 #include <memory>
 #include <vector>
 
+#include "sim/experiment/task_plane.h"
 #include "sim/haptics/device.h"
+#include "sim/subjects/environment_learner.h"
 #include "sim/subjects/feedback_gains.h"
 #include "sim/subjects/feedback_subject.h"
 #include "sim/subjects/model_learner.h"
@@ -17,6 +19,7 @@ namespace reachlab::subjects {
 struct SubjectState {
   FeedbackSpec person;  // with the values drawn for this person
   LearntModel model;
+  LearntEnvironment environment;
 };
 
 /// The task as the controller sees it, and the data from which its gains are computed. The subjects of an experiment share it.
@@ -25,6 +28,10 @@ struct FeedbackTask {
   predict::LineObject object;
   CostSpec cost;                   // at the task's own duration, with the criterion's weight
   double onTheWayStiffness = 300;  // [N/m] across the path
+  Vec3 normal{0, 1, 0};            // of the task's plane
+  bool bare = false;               // there is no object: a force along the way is one of a field
+  bool pushed = false;             // a force may act on the hand: there is no object, or the experiment has an environment
+  bool cursor = false;             // the subject sees a cursor and aims with it
 };
 
 /// A hand that its arm moves. It feels the written force and sees the shown object. Haptic thread: `read` advances the arm by a tick with
@@ -50,6 +57,7 @@ class FeedbackHand final : public haptics::HapticDevice {
   struct Reach {
     FeedbackGains gains;
     ModelError used;
+    EnvironmentModel believed;
     std::vector<double> draws;  // of every step: senses, then two for the command
     int reactionTicks = 0;
     bool ready = false;
@@ -57,6 +65,7 @@ class FeedbackHand final : public haptics::HapticDevice {
   void placeAtStart() noexcept;
   void step() noexcept;
   void learnFromTrace();
+  Vec3 aimed(const Vec3& v) const noexcept;
 
   std::shared_ptr<const FeedbackTask> task_;
   std::shared_ptr<SubjectState> state_;
@@ -65,12 +74,16 @@ class FeedbackHand final : public haptics::HapticDevice {
   Reach prepared_, playing_;
   bool firstIsThere_ = false;  // `playing_` is what trial 0 would be prepared as
   TrialTrace trace_;           // entries below traceSteps_ keep their values until the next Cue::Place
+  EnvironmentTrace errors_;                     // so far
+  std::vector<EnvironmentTrace> errorsAtStep_;  // kept as the entries of the trace
   std::atomic<int> traceSteps_{0};
+  experiment::PlaneRotation aim_;  // by which the way is turned against the cursor's angle
   bool going_ = false;
   int ticks_ = 0, steps_ = 0;                  // since the go signal; steps of the controller
   std::array<double, 4> body_{};               // h, h', f, g
   Vec3 aside_, asideSpeed_, felt_;             // [m], [m/s] across the path; [N]
   double push_ = 0, command_ = 0, noisy_ = 0;  // [N]
+  double against_ = 0;                         // [N] to the right, against the believed field
   std::vector<double> estimate_, next_, error_, sensed_;
   std::vector<double> touched_, seen_;  // of the last steps, in a ring
   std::vector<double> sight_;           // [m] hand and masses, as shown latest

@@ -96,6 +96,7 @@ FeedbackSpec parseFeedbackSubject(const std::string& text) {
   spec.keepFast = number("keep-fast");
   spec.learnSlow = learning("learn-slow", kSlowOfLearners);
   spec.keepSlow = number("keep-slow");
+  spec.environment = {number("field-learn-fast"), number("field-keep-fast"), number("field-learn-slow"), number("field-keep-slow")};
   spec.noise = number("noise");
   options.done();
   if (!options.plain().empty()) throw FaultError(Fault{"device", "simulated: " + options.plain(), "KEY=VALUE"});
@@ -117,6 +118,7 @@ MakeSubject prepareFeedbackSubjects(const experiment::CompiledExperiment& experi
     }
     if (state->model.day != day) {  // overnight
       state->model.fast = {};
+      state->environment.fast = {};
       state->model.day = day;
     }
     return std::make_unique<FeedbackHand>(task, state, seed);

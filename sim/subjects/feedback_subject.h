@@ -3,6 +3,7 @@
 #include <string>
 
 #include "sim/subjects/feedback_gains.h"
+#include "sim/subjects/model_learner.h"
 #include "sim/subjects/plans/simulated_hand.h"
 
 namespace reachlab::subjects {
@@ -21,6 +22,7 @@ struct FeedbackSpec {
   double practice = 0, practiceTrials = 1;      // SD is larger by a factor 1 + practice exp(-n / practiceTrials)
   ModelError first;                             // theta_0
   double learnFast = 0, keepFast = 0, learnSlow = 0, keepSlow = 1;
+  LearningRates environment{0.21, 0.59, 0.02, 0.992};  // of a field on the hand and of a cursor's angle
   double noiseScale = 1;  // factor on this person's noise, senses and planSd
   bool drawn = false;     // this person is drawn from the seed
   double noise = 1;       // factor on every draw; 0: the mean reach

@@ -1,9 +1,25 @@
 #include "sim/subjects/subject_kinds.h"
 
+#include <fmt/format.h>
+
 #include "base/device_options.h"
 #include "base/fault.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::subjects {
+
+namespace {
+
+/// A hand that plays its plan cannot be pushed aside. In a channel it need not be.
+void requireNothingPushes(const experiment::Experiment& experiment) {
+  for (std::size_t i = 0; i < experiment.environment.size(); ++i)
+    if (!std::holds_alternative<experiment::ChannelForce>(experiment.environment[i].law))
+      throw FaultError(Fault{"device",
+                             fmt::format("simulated: kind=plan plays its plan, and environment[{}] cannot push it aside", i),
+                             "kind=impedance or kind=ofc, which feel forces on the hand"});
+}
+
+}  // namespace
 
 MakeSubject prepareSubjects(const experiment::CompiledExperiment& experiment, const std::string& device) {
   const std::string name = device.substr(0, device.find(':'));
@@ -12,6 +28,7 @@ MakeSubject prepareSubjects(const experiment::CompiledExperiment& experiment, co
   const std::string kind = DeviceOptions(options, "device simulated").word("kind", {"plan", "impedance", "ofc"});
   if (kind == "ofc") return prepareFeedbackSubjects(experiment, options);
   if (kind == "impedance") return prepareImpedanceSubjects(experiment, options);
+  requireNothingPushes(experiment.experiment());
   return prepareSubjects(experiment, parseSubject(options));
 }
 

@@ -4,7 +4,7 @@ namespace reachlab::subjects {
 namespace {
 
 constexpr std::string_view kTodorov = "Todorov 2005, as reimplementations have it", kFitted = "fitted to the success rates of Table 2",
-                           kOurs = "assumed";
+                           kOurs = "assumed", kSmith = "Smith et al. 2006";
 
 constexpr SubjectParameter kFeedback[] = {
     {"arm-mass", "kg", 1.5, 0.05, 20, false, "mass of the arm along the way", "assumed; a point mass of 1 kg in Todorov 2005"},
@@ -39,6 +39,10 @@ constexpr SubjectParameter kFeedback[] = {
     {"keep-fast", "1", 0.6, 0, 1, false, "what a trial leaves of the fast process; overnight nothing is left", kFitted},
     {"learn-slow", "1", 0, 0, 1, false, "gain of the slow process; 0.008 for subjects 1 to 5 and drawn ones", kFitted},
     {"keep-slow", "1", 0.999, 0, 1, false, "what a trial leaves of the slow process", kFitted},
+    {"field-learn-fast", "1", 0.21, 0, 1, true, "learning rate of the fast process, of a field on the hand and of a cursor's angle", kSmith},
+    {"field-keep-fast", "1", 0.59, 0, 1, true, "what a trial leaves of that process; overnight nothing is left", kSmith},
+    {"field-learn-slow", "1", 0.02, 0, 1, true, "learning rate of the slow process, of the same", kSmith},
+    {"field-keep-slow", "1", 0.992, 0, 1, true, "what a trial leaves of that process", kSmith},
     {"noise", "1", 1, 0, 10, false, "scales every draw; 0: the mean reach", kOurs},
 };
 

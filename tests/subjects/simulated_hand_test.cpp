@@ -53,7 +53,7 @@ std::vector<Vec3> motionOf(haptics::HapticDevice& device, int trial) {
 TEST(SimulatedHand, WithoutNoiseItBringsEveryShippedObjectToRestEveryTime) {
   for (const std::string& name : experiment::shippedExperiments()) {
     const experiment::Experiment experiment = experiment::readExperiment(name);
-    if (!experiment.task) continue;
+    if (!experiment.task || !experiment.environment.empty()) continue;  // a plan cannot be pushed aside
     for (const haptics::ConductedTrial& t : conduct(experiment, "simulated:noise=0", 1, 2))
       EXPECT_EQ(t.result.outcome, trial::Outcome::Success)
           << name << " " << trial::nameOf(t.result.reason) << " mass " << t.result.mass << " by " << t.result.by;
