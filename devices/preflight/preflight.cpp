@@ -4,13 +4,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <numeric>
 
 #include "base/ticks.h"
 #include "devices/preflight/reach_demand.h"
+#include "devices/preflight/velocity_delay.h"
 #include "devices/virtual/loop_stability.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment.h"
+#include "sim/trial/protocol.h"
 
 namespace reachlab::devices {
 namespace {
@@ -138,6 +141,70 @@ PreflightLine stability(const Experiment& experiment, const experiment::Coupling
   return line;
 }
 
+// The hand feels the wall beside the object, both in the same direction at worst.
+PreflightLine channelLine(const Experiment& experiment, const experiment::Coupling& coupling, const experiment::ChannelForce& wall,
+                          const haptics::DeviceInfo& device) {
+  const experiment::Coupling felt{coupling.stiffness + wall.stiffness, coupling.damping + wall.damping};
+  PreflightLine line = stability(experiment, felt, device);
+  line.name = "channel";
+  LoopSettings loop = heldLoop(felt, device, experiment);
+  const double asked = loop.friction - passivityMargin(loop);
+  const std::string passive = fmt::format("Colgate's condition asks for {:.3g} N s/m of friction (K T/2 + |B|), and {} has {:.3g}", asked,
+                                          device.name, device.viscosity);
+  if (!line.limit) {
+    line.sentence = fmt::format("the channel's wall has {:.4g} N/m; the apparent mass of {} is not known, so its limit cannot be told; {}",
+                                wall.stiffness, device.name, passive);
+    return line;
+  }
+  line.sentence = fmt::format("the hand feels {:.4g} N/m and {:.3g} N s/m in the channel; {} in a relaxed hand (0.3 kg, 3 N s/m) is stable up "
+                              "to {:.4g} N/m, {:.2g} times as much; {}",
+                              felt.stiffness, felt.damping, device.name, *line.limit, *line.limit / felt.stiffness, passive);
+  if (line.verdict != Verdict::Warning) return line;
+  loop.mass += kRelaxedHandMass;
+  loop.friction += kRelaxedHandDamping;
+  loop.damping = coupling.damping;
+  line.remedy = fmt::format("a channel of stiffness_n_per_m <= {:.4g}, or less damping_n_s_per_m (without it {:.4g} N/m are stable)",
+                            std::max(0.0, *line.limit - coupling.stiffness), largestStableStiffness(loop));
+  return line;
+}
+
+// Half of the antisymmetric part's norm: the coefficient of the curl in its own plane.
+double curlOf(const experiment::SquareMatrix<3>& b) {
+  return 0.5 * std::hypot(b[0][1] - b[1][0], b[0][2] - b[2][0], b[1][2] - b[2][1]);
+}
+
+PreflightLine fieldPower(const CompiledExperiment& compiled, double curl, const haptics::DeviceInfo& device) {
+  const Experiment& experiment = compiled.experiment();
+  const trial::ProtocolSettings settings = trial::makeProtocolSettings(experiment, compiled.constraint());
+  const double radius = norm(settings.target - settings.start) / 2, omega = std::numbers::pi / experiment.task->duration;
+  const double speed = omega * radius, delay = velocityDelay(experiment.velocityEstimator);
+  const double friction = device.viscosity + kLightestHandDamping;
+  PreflightLine line{"field_power", Verdict::Fine, curl * speed * speed * std::sin(omega * delay), friction * speed * speed, "W", {}, {}};
+  line.sentence = fmt::format(
+      "the curl field of {:.4g} N s/m gives {:.3g} W on average, because the velocity estimate lags by {:.2g} ms "
+      "(b v^2 sin(w d) at {:.3g} m/s on a circle); the friction of {} and of a light hand takes {:.3g} W",
+      curl, line.asked, 1e3 * delay, speed, device.name, *line.limit);
+  if (line.asked <= *line.limit) return line;
+  line.verdict = Verdict::Warning;
+  line.sentence += ": the field drives the hand";
+  line.remedy = fmt::format("a weaker field (b <= {:.3g} N s/m), a longer reach, or a velocity_estimator that lags less",
+                            friction / std::sin(omega * delay));
+  return line;
+}
+
+void checkEnvironment(const CompiledExperiment& compiled, const experiment::Coupling& coupling, const haptics::DeviceInfo& device,
+                      std::vector<PreflightLine>& lines) {
+  const Experiment& experiment = compiled.experiment();
+  experiment::SquareMatrix<3> sum{};
+  for (const experiment::HandForce& force : experiment.environment) {
+    if (const auto* wall = std::get_if<experiment::ChannelForce>(&force.law)) lines.push_back(channelLine(experiment, coupling, *wall, device));
+    if (const auto* field = std::get_if<experiment::ViscousForce>(&force.law))
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) sum[i][j] += field->matrix[i][j];
+  }
+  if (const double curl = curlOf(sum); curl > 0) lines.push_back(fieldPower(compiled, curl, device));
+}
+
 PreflightLine workspace(const haptics::DeviceInfo& device, const ReachDemand& demand) {
   PreflightLine line{"workspace", Verdict::Unknown, demand.farthest, std::nullopt, "m", {}, {}};
   if (!(device.workspaceRadius > 0)) {
@@ -172,8 +239,11 @@ std::vector<PreflightLine> checkBeforeBlock(const CompiledExperiment& experiment
   if (device.rendersForce) {
     lines.push_back(peakForce(experiment, device, demand));
     lines.push_back(continuousForce(experiment, device, demand));
-    lines.push_back(passivity(experiment.experiment(), coupling, device));
-    lines.push_back(stability(experiment.experiment(), coupling, device));
+    if (experiment.experiment().object.kind != experiment::ObjectKind::None) {
+      lines.push_back(passivity(experiment.experiment(), coupling, device));
+      lines.push_back(stability(experiment.experiment(), coupling, device));
+    }
+    checkEnvironment(experiment, coupling, device, lines);
   }
   lines.push_back(workspace(device, demand));
   return lines;

@@ -19,11 +19,11 @@ std::string_view nameOf(Verdict verdict);  // "fine", "held", …
 
 /// One row of the check: the demand of the experiment, the limit of the device, and the remedy.
 struct PreflightLine {
-  std::string name;  // "peak_force", "continuous_force", "passivity", "stability", "workspace"
+  std::string name;  // "peak_force", "continuous_force", "passivity", "stability", "channel", "field_power", "workspace"
   Verdict verdict = Verdict::Fine;
   double asked = 0;             // in `unit`
   std::optional<double> limit;  // nullopt: unknown
-  std::string unit;             // "N", "N s/m", "N/m", "m"
+  std::string unit;             // "N", "N s/m", "N/m", "W", "m"
   std::string sentence;         // the numbers as a sentence
   std::string remedy;           // empty where nothing is to be done
   int hand = 0;                 // the hand, from 1; 0: there is only one hand
@@ -35,6 +35,10 @@ struct PreflightLine {
 ///   passivity         Colgate and Schenkel: the friction K T/2 + |B| that is asked against the device's own viscous friction, T the slower
 ///                     of tick and reports. Encoder steps: Abbott and Okamura 2005, K <= 2 c/resolution with Coulomb friction c
 ///   stability         k_h against the largest that dies out on this device held by a relaxed hand (0.3 kg, 3 N s/m)
+///   channel           its stiffness, beside that of the object, against the largest that dies out on this device held by a relaxed hand,
+///                     with the damping of the wall; Colgate's friction is named
+///   field_power       of a viscous field that does no work at exact velocity: b v^2 sin(w d) on the circle over start and target, there and
+///                     back in 2 T, with the delay d of the velocity estimate; against v^2 times the friction of device and lightest hand
 ///   workspace         farthest place of the hand against the device's radius
 /// For a device without force only the workspace is checked. Takes some milliseconds, on a curve up to seconds. Throws FaultError (no task)
 /// or RefusedError (the scene cannot be computed). `hand` is the hand of the experiment that holds the device, from 0.

@@ -47,6 +47,33 @@ void checkTask(const experiment::CompiledExperiment& experiment, const std::stri
   if (!faults.empty()) throw FaultError(std::move(faults));
 }
 
+namespace {
+
+/// Whether x . K x is negative for some x: a principal minor of the symmetric part is.
+bool pushesAway(const experiment::SquareMatrix<3>& k) {
+  const auto s = [&](std::size_t i, std::size_t j) { return 0.5 * (k[i][j] + k[j][i]); };
+  const auto minor = [&](std::size_t i, std::size_t j) { return s(i, i) * s(j, j) - s(i, j) * s(i, j); };
+  const double determinant = s(0, 0) * minor(1, 2) - s(0, 1) * (s(0, 1) * s(2, 2) - s(0, 2) * s(1, 2)) +
+                             s(0, 2) * (s(0, 1) * s(1, 2) - s(0, 2) * s(1, 1));
+  double size = 0;
+  for (const auto& row : k)
+    for (const double entry : row) size = std::max(size, std::abs(entry));
+  const double rounding = 1e-12 * size;
+  for (std::size_t i = 0; i < 3; ++i)
+    if (s(i, i) < -rounding || minor(i, (i + 1) % 3) < -rounding * size) return true;
+  return determinant < -rounding * size * size;
+}
+
+void findFieldsWithoutBound(const experiment::Environment& environment, std::vector<Fault>& found) {
+  for (std::size_t i = 0; i < environment.size(); ++i)
+    if (const auto* elastic = std::get_if<experiment::ElasticForce>(&environment[i].law); elastic != nullptr && pushesAway(elastic->matrix))
+      found.push_back({fmt::format("environment[{}].matrix_n_per_m", i),
+                       "pushes the hand away from the centre, the farther the more; no device can hold such a field without bound",
+                       "a matrix whose symmetric part has no negative eigenvalue"});
+}
+
+}  // namespace
+
 std::vector<Fault> implausibleNumbers(const experiment::CompiledExperiment& compiled) {
   const experiment::Experiment& experiment = compiled.experiment();
   std::vector<Fault> found;
@@ -55,6 +82,7 @@ std::vector<Fault> implausibleNumbers(const experiment::CompiledExperiment& comp
     if (masses[i] > kHeavyMass)
       found.push_back(
           {fmt::format("object.masses_kg[{}]", i), fmt::format("is {} kg; more than {} kg is hardly meant", masses[i], kHeavyMass)});
+  findFieldsWithoutBound(experiment.environment, found);
   if (!experiment.task) return found;
   const experiment::Task& task = *experiment.task;
   if (task.duration > kLongTask)

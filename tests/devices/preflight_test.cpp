@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 #include "devices/make_device.h"
@@ -143,9 +144,10 @@ TEST(Preflight, EveryShippedExperimentIsJudged) {
     info.name = "device";
     info.rendersForce = true;
     const auto lines = check(experiment, info);
-    ASSERT_EQ(lines.size(), 5u) << name;
+    const bool bare = experiment.object.kind == experiment::ObjectKind::None, pushed = !experiment.environment.empty();
+    ASSERT_EQ(lines.size(), (bare ? 3u : 5u) + (pushed ? 1u : 0u)) << name;
     EXPECT_TRUE(std::isfinite(lines[0].asked)) << name;
-    EXPECT_GT(lines[0].asked, 0) << name;
+    EXPECT_EQ(lines[0].asked > 0, !bare || pushed) << name;
     EXPECT_EQ(lines[1].verdict, Verdict::Unknown) << name << ": what the device does not tell is not called fine";
   }
 }
@@ -299,6 +301,76 @@ TEST(Preflight, TheStiffnessIsWhatTheHandFeelsOfAllItsSprings) {
   ASSERT_FALSE(e.coupling);
   EXPECT_EQ(lineOf(check(e, plainDevice()), "stability").asked, stiffness);
   EXPECT_TRUE(warningsBeforeBlock(experiment::CompiledExperiment(e), *makeDevice("simulated", e, 1)).empty());
+}
+
+/// A bare hand's reach of 10 cm in 0.5 s under these forces.
+experiment::Experiment bareReach(const experiment::Environment& environment) {
+  experiment::Experiment e;
+  e.constraint.name = "free";
+  e.object.kind = experiment::ObjectKind::None;
+  e.task.emplace();
+  e.task->start = {0, 0, 0};
+  e.task->target = {0, 0, -0.1};
+  e.task->duration = 0.5;
+  e.velocityEstimator = {"butterworth", 40};
+  e.environment = environment;
+  return e;
+}
+
+TEST(Preflight, AChannelIsHeldAgainstTheDevicesLimitOfStability) {
+  experiment::ChannelForce wall;
+  wall.damping = 2;
+  const auto lineFor = [&](double stiffness) {
+    wall.stiffness = stiffness;
+    const experiment::Experiment e = bareReach({{wall, experiment::ForceWhen::Trial}});
+    return lineOf(check(e, infoOf("virtual:omni", e)), "channel");
+  };
+  const PreflightLine soft = lineFor(500);
+  ASSERT_TRUE(soft.limit);
+  const haptics::DeviceInfo info = infoOf("virtual:omni", bareReach({}));
+  LoopSettings loop;
+  loop.damping = 2;
+  loop.mass = info.apparentMass + 0.3;
+  loop.friction = info.viscosity + 3;
+  loop.estimator = {"butterworth", 40};
+  EXPECT_NEAR(*soft.limit, largestStableStiffness(loop), 1e-9);
+  EXPECT_EQ(soft.verdict, Verdict::Fine);
+  EXPECT_NE(soft.sentence.find("Colgate"), std::string::npos);
+  const PreflightLine stiff = lineFor(1.01 * *soft.limit);
+  EXPECT_EQ(stiff.verdict, Verdict::Warning);
+  EXPECT_NE(stiff.remedy.find("stiffness_n_per_m <= "), std::string::npos) << stiff.remedy;
+}
+
+TEST(Preflight, ABareHandHasNoCouplingToBeJudged) {
+  const experiment::Experiment e = bareReach({});
+  for (const PreflightLine& line : check(e, infoOf("virtual:omni", e))) {
+    EXPECT_NE(line.name, "stability");
+    EXPECT_NE(line.name, "passivity");
+    if (line.name == "peak_force") {
+      EXPECT_EQ(line.asked, 0);
+    }
+  }
+}
+
+// b v^2 sin(w d) with v = w r, r = 5 cm, w = pi/0.5 s, and the delay of a Butterworth filter of 40 Hz on differences.
+TEST(Preflight, ACurlFieldsPowerIsThatOfTheLagOfTheVelocity) {
+  const double b = 13, omega = std::numbers::pi / 0.5, speed = omega * 0.05;
+  const double delay = 0.5e-3 + std::numbers::sqrt2 / (2 * std::numbers::pi * 40);
+  const auto powerOf = [&](const experiment::SquareMatrix<3>& matrix) {
+    const experiment::Experiment e = bareReach({{experiment::ViscousForce{matrix}}});
+    for (const PreflightLine& line : check(e, infoOf("virtual:omni", e)))
+      if (line.name == "field_power") return line.asked;
+    return 0.0;
+  };
+  EXPECT_NEAR(powerOf({{{0, 0, b}, {0, 0, 0}, {-b, 0, 0}}}), b * speed * speed * std::sin(omega * delay), 1e-12);
+  EXPECT_EQ(powerOf({{{-10.1, 0, 11.2}, {0, 0, 0}, {11.2, 0, 11.1}}}), 0) << "a symmetric field is no curl field";
+}
+
+TEST(Preflight, TheForceOfAFieldCountsAmongTheForcesOfAReach) {
+  const double b = 13;
+  const experiment::Experiment e = bareReach({{experiment::ViscousForce{{{{0, 0, b}, {0, 0, 0}, {-b, 0, 0}}}}}});
+  const PreflightLine peak = lineOf(check(e, infoOf("virtual:omni", e)), "peak_force");
+  EXPECT_NEAR(peak.asked, b * 1.875 * 0.1 / 0.5, 0.1) << "b times the peak speed of a minimum-jerk reach";
 }
 
 }  // namespace

@@ -39,6 +39,17 @@ TEST(TaskCheck, TellsOfMassesAndTimesThatAreHardlyMeant) {
       << "a task is not needed";
 }
 
+TEST(TaskCheck, TellsOfAnElasticFieldThatPushesAway) {
+  const auto told = [](const experiment::SquareMatrix<3>& k) {
+    return implausibleWith("chain-moderate", [&](auto& e) { e.environment = {{experiment::ElasticForce{k, {}}}}; }).size();
+  };
+  EXPECT_EQ(told({{{100, 0, 0}, {0, 0, 0}, {0, 0, 100}}}), 0u) << "a direction without a spring is held by nothing and pushed by nothing";
+  EXPECT_EQ(told({{{100, 80, 0}, {-80, 100, 0}, {0, 0, 0}}}), 0u) << "only the symmetric part pushes";
+  EXPECT_EQ(told({{{-1, 0, 0}, {0, 100, 0}, {0, 0, 100}}}), 1u);
+  EXPECT_EQ(told({{{10, 20, 0}, {20, 10, 0}, {0, 0, 10}}}), 1u) << "10 - 20 along the diagonal";
+  EXPECT_EQ(told({{{10, 8, 8}, {8, 10, -8}, {8, -8, 10}}}), 1u) << "each plane holds, and all three together do not: 10 - 16";
+}
+
 // A full lap of a circle is a way, though the chord is none; on a surface the chord counts.
 TEST(TaskCheck, TellsOfAToleranceLargerThanTheWay) {
   const auto onCircle = [](double tolerance) {
