@@ -10,9 +10,9 @@
 namespace reachlab::constraints {
 namespace {
 
-constexpr int kFirstPieces = 8;
-constexpr int kDeepest = 50;         // halvings
-constexpr double kResolved = 1e-13;  // the last two terms of a piece, of its first
+constexpr int kFirstLengths = 8;
+constexpr int kDeepestLength = 50;         // halvings
+constexpr double kResolvedLength = 1e-13;  // the last two terms of a piece, of its first
 constexpr double kSmall = 1e-15;     // the same, of the whole length
 constexpr double kNoPart = 1e-16;    // of the whole length: a piece that is no longer halved
 
@@ -23,8 +23,8 @@ ArcLength::ArcLength(const Constraint& curve, double from, double to) {
   constexpr int kProbes = 256;
   for (int i = 0; i < kProbes; ++i)
     rough_ += norm(evaluate(curve.curve, from + (to - from) * (i + 0.5) / kProbes).rPhi) * std::abs(to - from) / kProbes;
-  for (int i = 0; i < kFirstPieces; ++i)
-    append(curve, from + (to - from) * i / kFirstPieces, from + (to - from) * (i + 1) / kFirstPieces, 0);
+  for (int i = 0; i < kFirstLengths; ++i)
+    append(curve, from + (to - from) * i / kFirstLengths, from + (to - from) * (i + 1) / kFirstLengths, 0);
 }
 
 void ArcLength::append(const Constraint& curve, double begin, double end, int depth) {
@@ -35,10 +35,10 @@ void ArcLength::append(const Constraint& curve, double begin, double end, int de
   piece.rate = projectOnLegendre(rate, rule.node, rule.weight);
   const size_t n = piece.rate.size();
   const double most = std::max(std::abs(piece.rate[n - 1]), std::abs(piece.rate[n - 2])), whole = 2 * piece.rate[0];
-  if (!std::isfinite(whole) && depth == kDeepest)
+  if (!std::isfinite(whole) && depth == kDeepestLength)
     throw RefusedError("the curve has no value, or no end to its length, near phi = " + std::to_string(begin));
-  const bool resolved = std::isfinite(whole) && (most <= std::max(kResolved * piece.rate[0], kSmall * rough_) || whole <= kNoPart * rough_);
-  if (!resolved && depth < kDeepest) {
+  const bool resolved = std::isfinite(whole) && (most <= std::max(kResolvedLength * piece.rate[0], kSmall * rough_) || whole <= kNoPart * rough_);
+  if (!resolved && depth < kDeepestLength) {
     const double middle = (begin + end) / 2;
     append(curve, begin, middle, depth + 1);
     append(curve, middle, end, depth + 1);

@@ -14,12 +14,7 @@ namespace {
 
 constexpr double kAway = 8;
 constexpr double kPart = 0.05;               // of a tick's way: wider ones are seen by the method, and refusing is hard
-constexpr int kSamples = 9, kBoxes = 20000;  // across; stretches looked at on each line
-
-double median(std::vector<double>& all) {
-  std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
-  return all[all.size() / 2];
-}
+constexpr int kSamples = 9;  // across
 
 }  // namespace
 
@@ -37,7 +32,7 @@ std::optional<NarrowBand> findNarrowBand(const Constraint& surface, const std::a
     speeds[1].push_back(norm(p.rV));
   }
   if (bends.empty()) return {};
-  const double most = narrow::kMuch * median(bends);
+  const double most = narrow::kMuch * narrow::median(bends);
   const auto& formula = *std::static_pointer_cast<const CompiledFormula>(surface.owner);
   const double* shape = surface.surface.shape.data();
   try {
@@ -50,9 +45,9 @@ std::optional<NarrowBand> findNarrowBand(const Constraint& surface, const std::a
       const Domain& d = surface.domain[static_cast<std::size_t>(k)];
       const double lo = d.periodic ? centre - kAway : std::max(d.lo, centre - kAway),
                    hi = d.periodic ? centre + kAway : std::min(d.hi, centre + kAway);
-      int boxes = kBoxes;
+      int boxes = narrow::kBoxes;
       const RootSearch search = findRoots(graph, excess, shape, lo, hi, boxes, 1e-12, k, other);
-      const double speed = median(speeds[static_cast<std::size_t>(k)]);
+      const double speed = narrow::median(speeds[static_cast<std::size_t>(k)]);
       for (std::size_t i = 0; i + 1 < search.roots.size(); ++i) {
         const double a = search.roots[i], b = search.roots[i + 1];
         std::array<double, 2> q{other, other};

@@ -12,16 +12,10 @@ namespace reachlab::constraints {
 namespace {
 
 constexpr std::size_t kMost = 64;  // narrow stretches: of a formula with more, none is cut
-constexpr int kSamples = 257;      // of a turn, for what is usual
-constexpr int kBoxes = 20000;      // as of findRoots
+constexpr int kSamplesOfTurn = 257;      // of a turn, for what is usual
 constexpr double kMargin = 0.25;   // of a narrow stretch, that its piece is longer at either end
 
 using Range = std::pair<double, double>;
-
-double median(std::vector<double>& all) {
-  std::nth_element(all.begin(), all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2), all.end());
-  return all[all.size() / 2];
-}
 
 /// Medians of |r_phi| and |r_phiphi| [m] on a piece; false where it has no value.
 struct Usual {
@@ -29,14 +23,14 @@ struct Usual {
 };
 bool findUsual(const Curve& curve, double lo, double hi, Usual& usual) {
   std::vector<double> speeds, bends;
-  for (int i = 0; i < kSamples && lo < hi; ++i) {
-    const CurvePoint p = evaluate(curve, lo + (hi - lo) * (i + 0.5) / kSamples);
+  for (int i = 0; i < kSamplesOfTurn && lo < hi; ++i) {
+    const CurvePoint p = evaluate(curve, lo + (hi - lo) * (i + 0.5) / kSamplesOfTurn);
     if (!isFinite(p)) continue;
     speeds.push_back(norm(p.rPhi));
     bends.push_back(norm(p.rPhiPhi));
   }
   if (speeds.empty()) return false;
-  usual = {median(speeds), median(bends)};
+  usual = {narrow::median(speeds), narrow::median(bends)};
   return true;
 }
 
@@ -82,7 +76,7 @@ std::vector<CurvePiece> cutAtNarrow(ExpressionGraph& graph, const double* shape,
                                     const std::vector<std::vector<int>>& formulas, double from, double to, double about) {
   std::vector<CurvePiece> parts;
   std::size_t count = 0;
-  int boxes = kBoxes;
+  int boxes = narrow::kBoxes;
   for (std::size_t k = 0; k < pieces.size(); ++k) {
     const CurvePiece& piece = pieces[k];
     const double lo = std::max(piece.lo, from), hi = std::min(piece.hi, to);

@@ -19,7 +19,7 @@ namespace {
 constexpr std::int64_t kLookEvery = 200'000;     // [ns]
 constexpr std::size_t kQueueTicks = 4096;        // that the instruments may be behind
 constexpr int kPriority = 40;                    // below the haptic thread's; without the right to it, as any thread
-constexpr std::int64_t kPatience = 500'000'000;  // [ns] for the last ticks of a run
+constexpr std::int64_t kLastTicks = 500'000'000;  // [ns] for the last ticks of a run
 
 class Link final : public record::InstrumentLink {
  public:
@@ -91,7 +91,7 @@ class Link final : public record::InstrumentLink {
   // Until what was pushed has been handled; not for ever.
   void awaitQueue() const {
     const std::uint64_t pushed = pushed_.load();
-    for (const std::int64_t until = os::now() + kPatience; taken_.load() < pushed && os::now() < until;)
+    for (const std::int64_t until = os::now() + kLastTicks; taken_.load() < pushed && os::now() < until;)
       os::sleepUntil(os::now() + kLookEvery);
   }
 

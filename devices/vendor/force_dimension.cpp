@@ -32,7 +32,7 @@ struct Model {
   double maxForce, radius;
 };
 constexpr Model omega(int type) { return {type, kOmegaForce, kOmegaRadius}; }
-constexpr Model kModels[] = {{63, 20, 0.15}, omega(33), omega(34), omega(36), omega(35), omega(37), omega(104), omega(105), {60, 8, 0.04}};
+constexpr Model kKnownModels[] = {{63, 20, 0.15}, omega(33), omega(34), omega(36), omega(35), omega(37), omega(104), omega(105), {60, 8, 0.04}};
 constexpr double kUnknownForce = 8, kUnknownRadius = 0.04;  // of the others, whatever they are: the least of these
 
 class ForceDimension final : public Transport {
@@ -124,9 +124,9 @@ class ForceDimension final : public Transport {
     info_.name = fmt::format("{}{}", name != nullptr && *name != 0 ? name : "Force Dimension", hasSerial ? fmt::format(" {}", serial) : "");
     info_.version = "DHD, " + dhd_.library.name();
     const int type = dhd_.getSystemType != nullptr ? dhd_.getSystemType(id_) : -1;
-    const auto model = std::find_if(std::begin(kModels), std::end(kModels), [&](const Model& m) { return m.type == type; });
-    info_.maxForce = model != std::end(kModels) ? model->maxForce : kUnknownForce;
-    info_.workspaceRadius = model != std::end(kModels) ? model->radius : kUnknownRadius;
+    const auto model = std::find_if(std::begin(kKnownModels), std::end(kKnownModels), [&](const Model& m) { return m.type == type; });
+    info_.maxForce = model != std::end(kKnownModels) ? model->maxForce : kUnknownForce;
+    info_.workspaceRadius = model != std::end(kKnownModels) ? model->radius : kUnknownRadius;
     if (const double told = dhd_.getMaxForce != nullptr ? dhd_.getMaxForce(id_) : 0; std::isfinite(told) && told > 0) info_.maxForce = told;
     info_.rendersForce = true;
     info_.rate = 1e9 / kPeriodNs;

@@ -15,8 +15,7 @@ using haptics::DeviceHealth;
 
 namespace {
 
-constexpr double kMetresPerMm = 1e-3;
-constexpr std::int64_t kPeriodNs = 1'000'000;
+constexpr std::int64_t kSchedulerPeriodNs = 1'000'000;
 constexpr std::int64_t kStaleNs = 20'000'000;  // a force that the tick has not renewed for so long is none
 
 // Every device whose frames are scheduled. The library keeps one stack of errors for all of them; each error names its device.
@@ -64,7 +63,7 @@ haptics::DeviceSample PhantomFrames::read() noexcept {
 
 void PhantomFrames::write(const Vec3& force) noexcept {
   const std::int64_t now = os::now();
-  if (lastTickNs_ != 0) times_.jitter.add(std::abs(now - lastTickNs_ - kPeriodNs));
+  if (lastTickNs_ != 0) times_.jitter.add(std::abs(now - lastTickNs_ - kSchedulerPeriodNs));
   lastTickNs_ = now;
   const Left left{force, now, taken_.takenNs};
   if (tick_ != nullptr) left_ = left, isNew_ = true;

@@ -9,6 +9,8 @@
 
 namespace reachlab::devices {
 
+inline constexpr double kMetresPerMm = 1e-3;  // OpenHaptics measures in millimetres
+
 /// Timing of a device's frames [ns].
 struct FrameTimes {
   haptics::LatenessHistogram age;     // from the sample behind a force until that force is in effect

@@ -16,10 +16,8 @@
 namespace reachlab::network {
 namespace {
 
-constexpr double kEnd = 6.5;                // [s] as long as the study's hands are limp
-constexpr int kSubsteps = 10;               // of a hand in a tick
+constexpr double kLimpEnd = 6.5;                // [s] as long as the study's hands are limp
 constexpr double kPush = 0.1;               // [m/s] of the first hand
-constexpr double kFarAway = 1;              // [m] a hand there has been thrown
 constexpr double kFrequencyStep = 0.5;      // [rad/s]
 constexpr double kMostFrequency = 10;       // [rad/s]: stronger synchronisation is felt as drag
 constexpr std::uint64_t kSeeds[] = {1, 2};  // of losses and jitter
@@ -68,11 +66,11 @@ std::vector<LimpHand> pushedHands(const experiment::Experiment& experiment, cons
 // nobody waits for the answer any more.
 template <class Step, class Force>
 double letBe(std::vector<LimpHand> hands, const std::stop_token& stop, Step&& step, Force&& force) {
-  Growth growth(0, kEnd);
+  Growth growth(0, kLimpEnd);
   std::vector<dynamics::HandSegment> segments(hands.size());
   std::vector<dynamics::HandSample> samples(hands.size());
   std::vector<Vec3> forces(hands.size());
-  const int ticks = static_cast<int>(kEnd / kTickSeconds + 0.5);
+  const int ticks = static_cast<int>(kLimpEnd / kTickSeconds + 0.5);
   for (int k = 1; k <= ticks; ++k) {
     if (stop.stop_requested()) return std::numeric_limits<double>::infinity();
     for (std::size_t i = 0; i < hands.size(); ++i) {
@@ -149,7 +147,7 @@ LinkCheck checkLink(const experiment::Experiment& experiment, const constraints:
       fmt::format("round trip {:.1f} ms, jitter {:.1f} ms, loss {:.0f} %", 1e3 * link.roundTrip, 1e3 * link.jitter, 100 * link.loss);
   const bool ended = !check.stable && stop.stop_requested();
   const std::string how = ended                         ? "ended before it was known"
-                          : std::isfinite(check.growth) ? fmt::format("after {:.1f} s {:.2g} times as fast as at first", kEnd, check.growth)
+                          : std::isfinite(check.growth) ? fmt::format("after {:.1f} s {:.2g} times as fast as at first", kLimpEnd, check.growth)
                                                         : "thrown out of the hands";
   check.sentence = fmt::format("simulated with limp hands over this link ({}) the object {}: {}, synchronised by up to {:.1f} rad/s", over,
                                check.stable ? "comes to rest"

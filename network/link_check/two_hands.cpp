@@ -15,9 +15,7 @@ namespace {
 
 constexpr double kRelaxAt = 6.5, kEnd = 13;  // [s]
 constexpr int kTicks = static_cast<int>(kEnd / kTickSeconds + 0.5);
-constexpr int kSubsteps = 10;  // of a hand in a tick
 constexpr double kStep = kTickSeconds / kSubsteps;
-constexpr double kFarAway = 1;  // [m] a hand there has been thrown
 // On this line a metre is a unit of phi.
 constexpr double kStart = 0;
 

@@ -10,6 +10,9 @@
 /// people.
 namespace reachlab::network {
 
+inline constexpr int kSubsteps = 10;    // of a hand in a tick
+inline constexpr double kFarAway = 1;  // [m] a hand at this distance has been thrown
+
 /// A person's hand as a body about its intended position. A limp hand can be moved easily.
 struct SimulatedArm {
   double mass = 1;                             // [kg]

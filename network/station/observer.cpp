@@ -8,7 +8,7 @@
 namespace reachlab::network {
 namespace {
 
-double now() { return static_cast<double>(os::now()) * 1e-9; }
+double secondsNow() { return static_cast<double>(os::now()) * 1e-9; }
 
 StationSetup observing(StationSetup setup, const experiment::Experiment& experiment) {
   setup.link.station = 0;
@@ -22,7 +22,7 @@ Observer::Observer(const StationSetup& setup, const experiment::CompiledExperime
     : setup_(observing(setup, experiment.experiment())),
       plant_(dynamics::makeSharedPlant(experiment.experiment(), experiment.constraint())),
       link_(std::make_unique<StationLink>(setup_.link, sharedHash(experiment.experiment()))),
-      state_(std::make_unique<haptics::TickState>()), begun_(now()) {}
+      state_(std::make_unique<haptics::TickState>()), begun_(secondsNow()) {}
 
 ObserverNews Observer::poll() {
   ObserverNews news;
@@ -31,7 +31,7 @@ ObserverNews Observer::poll() {
   if (shown_ >= 0) show();
   if (told_) return news;
   news.problem = link_->endpointFault();
-  if (news.problem.empty() && first_ < 0 && now() - begun_ > setup_.wait)
+  if (news.problem.empty() && first_ < 0 && secondsNow() - begun_ > setup_.wait)
     news.problem = fmt::format("no station was heard within {:.0f} s", setup_.wait);
   told_ = !news.problem.empty();
   return news;

@@ -6,14 +6,14 @@ namespace reachlab::dynamics {
 namespace {
 
 template <class System>
-using Multistep = AbmWith<System, CuspAdaptive>;
+using CuspMultistep = AbmWith<System, CuspAdaptive>;
 
 template <class System>
 std::unique_ptr<Plant> make(const ObjectModel& model, const System& system, const MethodRequest& request) {
   if (request.method == "rk4") return std::make_unique<SystemPlant<System, Rk4>>(model, system, request.tolerance);
   if (request.method == "stiff") return std::make_unique<SystemPlant<System, Stiff>>(model, system, request.tolerance);
   if (request.method == "adaptive") return std::make_unique<SystemPlant<System, CuspAdaptive>>(model, system, request.tolerance);
-  return std::make_unique<SystemPlant<System, Multistep>>(model, system, request.tolerance);
+  return std::make_unique<SystemPlant<System, CuspMultistep>>(model, system, request.tolerance);
 }
 
 }  // namespace

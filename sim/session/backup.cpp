@@ -75,7 +75,7 @@ class Pieces {
   int file_;
 };
 
-std::string hashOf(const std::string& path, bool fromDisk) {
+std::string fileHash(const std::string& path, bool fromDisk) {
   Pieces pieces(path, fromDisk);
   Sha256 hash;
   for (std::string_view piece = pieces.next(); !piece.empty(); piece = pieces.next()) hash.add(piece);
@@ -147,7 +147,7 @@ std::string copyVerified(const std::string& from, const std::string& to, std::ui
   }
   copy.commit();
   std::string wanted = hash.text();
-  if (hashOf(to, true) == wanted) return wanted;
+  if (fileHash(to, true) == wanted) return wanted;
   std::error_code error;
   fs::remove(to, error);
   throw ResourceError(
@@ -207,7 +207,7 @@ class Backup {
     std::error_code error;
     if (fs::exists(copy, error)) {
       const bool sameSize = fs::file_size(copy, error) == fs::file_size(log, error);
-      if (sameSize && (list_.contains(inDataset(log, dataset_)) || hashOf(log.string(), false) == hashOf(copy.string(), true))) return {};
+      if (sameSize && (list_.contains(inDataset(log, dataset_)) || fileHash(log.string(), false) == fileHash(copy.string(), true))) return {};
       return fmt::format("{}: is there already with other bytes; nothing is overwritten: move it away if the log was recovered since, or choose "
                          "another folder",
                          copy.string());
@@ -230,9 +230,9 @@ class Backup {
     const auto listed = list_.find(name);
     const bool sameSize = fs::exists(copy, error) && fs::file_size(copy, error) == fs::file_size(file, error);
     // A closed log never changes; what is written again may, at the same length.
-    if (listed != list_.end() && sameSize && (isLog || hashOf(file.string(), false) == listed->second)) return;
+    if (listed != list_.end() && sameSize && (isLog || fileHash(file.string(), false) == listed->second)) return;
     if (isLog && fs::exists(copy, error)) {  // with the same bytes, and in no list
-      list_[name] = hashOf(copy.string(), true);
+      list_[name] = fileHash(copy.string(), true);
       ++report_.copiedFiles;
       return;
     }
@@ -262,7 +262,7 @@ std::vector<std::string> faultsOfBackup(const std::string& backup) {
       continue;
     }
     try {
-      if (hashOf(path, true) != hash) faults.push_back(path + ": has other bytes than were copied");
+      if (fileHash(path, true) != hash) faults.push_back(path + ": has other bytes than were copied");
     } catch (const ResourceError& fault) {
       faults.emplace_back(fault.what());
     }

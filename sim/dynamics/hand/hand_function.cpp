@@ -9,11 +9,11 @@ namespace reachlab::dynamics {
 namespace {
 
 constexpr int kPoints = HandSegment::kMaxDegree + 1;
-using Matrix = std::array<std::array<double, kPoints>, kPoints>;
+using NodeMatrix = std::array<std::array<double, kPoints>, kPoints>;
 
 struct Nodes {
   std::array<double, kPoints> s{};
-  Matrix coefficients{};  // c_k = sum_j coefficients[k][j] p(s_j)
+  NodeMatrix coefficients{};  // c_k = sum_j coefficients[k][j] p(s_j)
 };
 
 /// Monomial coefficients of the Lagrange polynomials at the nodes, multiplied out in long double.
