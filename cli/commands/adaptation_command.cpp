@@ -12,7 +12,7 @@
 namespace reachlab::cli {
 namespace {
 
-struct Request {
+struct AdaptationRequest {
   std::string series;
   int resamples = 400;
   std::uint64_t seed = 1;
@@ -54,7 +54,7 @@ void printStates(const analysis::LearningFit& fit, const std::vector<const char*
   }
 }
 
-void fitSeries(const Request& r) {
+void fitSeries(const AdaptationRequest& r) {
   const analysis::AdaptationFit fit = analysis::fitAdaptation(analysis::readAdaptationSeries(r.series), r.resamples, r.seed);
   if (r.json) {
     nlohmann::ordered_json object;
@@ -78,7 +78,7 @@ void fitSeries(const Request& r) {
 
 void addAdaptationCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("adaptation", "Fits a two-state model of learning to a series of trials");
-  const auto r = std::make_shared<Request>();
+  const auto r = std::make_shared<AdaptationRequest>();
   command->add_option("series", r->series, "CSV file with the columns perturbation (empty in channel trials) and response")->required();
   command->add_option("--resamples", r->resamples, "Bootstrap series for the intervals [default: 400]")->check(CLI::Range(100, 100000));
   command->add_option("--seed", r->seed, "Seed of the bootstrap [default: 1]");

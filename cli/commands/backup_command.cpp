@@ -8,12 +8,12 @@
 namespace reachlab::cli {
 namespace {
 
-struct Options {
+struct BackupOptions {
   std::string dataset, backup;
   bool check = false;
 };
 
-void backUp(const Options& o) {
+void backUp(const BackupOptions& o) {
   const session::BackupReport report = session::backUp(o.dataset, o.backup);
   fmt::print("{}: all {} finished runs are there; {} files, {} bytes copied now and read back equal{}\n", o.backup, report.runs,
              report.copiedFiles, report.copiedBytes, report.pending > 0 ? fmt::format("; {} still being recorded", report.pending) : "");
@@ -30,7 +30,7 @@ void backUp(const Options& o) {
 
 void addBackupCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("backup", "Copies finished runs to a second data folder and verifies them");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<BackupOptions>();
   command->add_option("dataset", o->dataset, "The data folder of `reach run`")->required();
   command->add_option("backup", o->backup, "The second folder, best on another disk")->required();
   command->add_flag("--check", o->check, "Reads every byte of the backup again");

@@ -76,13 +76,13 @@ constraints::Definition definitionOf(const std::string& nameOrFile) {
   return constraints::findDefinition(nameOrFile, "constraint");
 }
 
-struct Options {
+struct ConstraintOptions {
   std::string what, at;
   std::vector<std::string> files, set;
   bool json = false;
 };
 
-void printList(const Options& o) {
+void printList(const ConstraintOptions& o) {
   if (o.json) fmt::print("[\n  {{\"name\": \"free\", \"kind\": \"free\", \"sentence\": \"Nothing binds the object.\"}}");
   else fmt::print("{:<22} {:<8} {}\n", "free", "free", "Nothing binds the object.");
   const auto print = [&](const constraints::Definition& d) {
@@ -162,7 +162,7 @@ void showPlaces(const constraints::Constraint& c) {
   }
 }
 
-void show(const Options& o) {
+void show(const ConstraintOptions& o) {
   const constraints::Definition d = definitionOf(o.what);
   const constraints::Constraint c = constraints::makeConstraint(d, parseShape(o.set));
   if (o.json) return showJson(d, c);
@@ -184,7 +184,7 @@ void show(const Options& o) {
   fmt::print("source    {}\n", d.source);
 }
 
-void eval(const Options& o) {
+void eval(const ConstraintOptions& o) {
   const constraints::Definition d = definitionOf(o.what);
   const constraints::Constraint c = constraints::makeConstraint(d, parseShape(o.set));
   const std::vector<double> q = parseNumbers(o.at, "--at");
@@ -223,7 +223,7 @@ constraints::Constraint makeIn(const std::string& file, const constraints::Defin
 }
 
 // A definition is fine when it can be used at its defaults and at both ends of each shape parameter.
-void check(const Options& o) {
+void check(const ConstraintOptions& o) {
   std::vector<Fault> faults;
   for (const std::string& file : o.files) {
     try {
@@ -243,7 +243,7 @@ void check(const Options& o) {
   if (!faults.empty()) throw FaultError(std::move(faults));
 }
 
-void code(const Options& o) {
+void code(const ConstraintOptions& o) {
   const constraints::Definition d = definitionOf(o.what);
   std::vector<double> defaults;
   for (const constraints::ShapeParameter& p : d.shape) defaults.push_back(p.defaultValue);
@@ -259,8 +259,8 @@ void addConstraintCommand(CLI::App& app, int&) {
   command->footer(
       "Examples:\n  reach constraint list\n  reach constraint eval torus --at 0.3,1.2 --set minor_m=0.05 --json\n  reach constraint check "
       "my-curve.json");
-  const auto options = std::make_shared<Options>();
-  const auto add = [&](const char* name, const char* description, const char* example, void (*run)(const Options&)) {
+  const auto options = std::make_shared<ConstraintOptions>();
+  const auto add = [&](const char* name, const char* description, const char* example, void (*run)(const ConstraintOptions&)) {
     CLI::App* sub = command->add_subcommand(name, description);
     sub->footer(std::string("Example:\n  reach constraint ") + example);
     sub->callback([options, run] { run(*options); });

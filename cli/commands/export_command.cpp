@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct ExportOptions {
   std::string what, format, out;
 };
 
@@ -23,7 +23,7 @@ fs::path datasetOf(const std::string& log) {
   return folder.filename() == "sourcedata" ? folder.parent_path() : folder;
 }
 
-void exportLogs(const Options& options) {
+void exportLogs(const ExportOptions& options) {
   const ReadableLogs logs = openReadableLogs(options.what);
   for (const record::RunLog& run : logs.runs)
     if (run.goodBytes() < run.fileBytes())
@@ -43,7 +43,7 @@ void exportLogs(const Options& options) {
 
 void addExportCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("export", "Writes recorded runs in formats that other programs read");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ExportOptions>();
   std::string formats;
   std::vector<std::string> names;
   for (const record::Exporter& exporter : record::exporters()) {

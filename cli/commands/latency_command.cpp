@@ -11,7 +11,7 @@
 namespace reachlab::cli {
 namespace {
 
-struct Request {
+struct LatencyRequest {
   std::string device;
   double seconds = 5;
   bool json = false;
@@ -24,7 +24,7 @@ std::string deviceOf(const std::string& asked) {
   return asked.empty() ? "phantom" : "phantom:" + asked;
 }
 
-void compare(const Request& r) {
+void compare(const LatencyRequest& r) {
   const auto rows = devices::measureLatency(deviceOf(r.device), r.seconds);
   if (r.json) {
     auto list = nlohmann::ordered_json::array();
@@ -53,7 +53,7 @@ void compare(const Request& r) {
 
 void addLatencyCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("latency", "Measures how regularly a device is served and how old its samples are");
-  const auto r = std::make_shared<Request>();
+  const auto r = std::make_shared<LatencyRequest>();
   command->add_option("device", r->device,
                       "As for `reach run`: forcedimension:0, mouse …; another word is a PHANToM's name [default: phantom]");
   command->add_option("--seconds", r->seconds, "How long each is measured [default: 5 s]")->check(CLI::Range(0.1, 3600.0));

@@ -16,12 +16,12 @@
 namespace reachlab::cli {
 namespace {
 
-struct Options {
+struct MergeOptions {
   std::vector<std::string> logs;
   std::string data = "./data", subject, session;
 };
 
-void merge(const Options& o) {
+void merge(const MergeOptions& o) {
   record::RunConfiguration c = record::RunLog::open(o.logs.at(0), record::LogCheck::Trials).configuration();
   if (!o.subject.empty()) c.subject = o.subject;
   if (!o.session.empty()) c.session = o.session;
@@ -46,7 +46,7 @@ void merge(const Options& o) {
 
 void addMergeCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("merge", "Makes one dataset of the logs that several stations recorded of one run");
-  const auto o = std::make_shared<Options>();
+  const auto o = std::make_shared<MergeOptions>();
   command->add_option("logs", o->logs, "The stations' logs (…_log.reach), one of each")->required()->expected(2, 8);
   command->add_option("--data", o->data, "Folder of the merged dataset")->capture_default_str();
   command->add_option("--subject", o->subject, "Subject's label there [default: the first log's]");

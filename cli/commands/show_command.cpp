@@ -20,7 +20,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-struct Options {
+struct ShowOptions {
   std::string what, figure;
   int trial = 0;
   bool json = false;
@@ -164,7 +164,7 @@ void showTrial(const record::RunLog& log, const record::RecordedTrial& trial, bo
   fmt::print("{}", alignedTable(rows));
 }
 
-void show(const Options& options) {
+void show(const ShowOptions& options) {
   if (!options.figure.empty() && options.trial == 0) throw FaultError(Fault{"--figure", "draws one trial", "beside --trial N"});
   const ReadableLogs readable = openReadableLogs(options.what);
   const std::vector<record::RunLog>& logs = readable.runs;
@@ -189,7 +189,7 @@ void show(const Options& options) {
 
 void addShowCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("show", "What was recorded: sessions, runs, trials; one trial as a table or a figure");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<ShowOptions>();
   command->add_option("what", options->what, "A dataset, a session's folder (data/sub-01/ses-01), or a log (…_log.reach)")->required();
   command->add_option("--trial", options->trial, "Shows this trial of a log, sample by sample")->check(CLI::Range(1, 1000000));
   command->add_option("--figure", options->figure, "Draws the trial's speeds and force: FILE.svg, FILE.pdf or FILE.png");

@@ -21,7 +21,7 @@
 namespace reachlab::cli {
 namespace {
 
-struct Request {
+struct SimulateRequest {
   std::string experiment, hand, method, out;
   double until = -1, every = 0.01, step = 0.001;
   std::vector<double> at, rate, force, angularRate;
@@ -109,7 +109,7 @@ struct Stop {
 
 constexpr double kMostRows = 1e7, kMaxSteps = 1e10;
 
-std::vector<Stop> makeSchedule(const Request& request, double until, const std::vector<double>& breaks) {
+std::vector<Stop> makeSchedule(const SimulateRequest& request, double until, const std::vector<double>& breaks) {
   std::vector<Stop> all;
   const double nearly = 1e-9 * std::min(request.every, request.step);
   for (std::size_t k = 1;; ++k) {
@@ -143,7 +143,7 @@ dynamics::StepStatus stepInHalves(dynamics::Plant& plant, const HandLaw& law, do
 }
 
 /// The end of the simulation [s].
-double checkedEnd(const Request& request, const experiment::Experiment& experiment) {
+double checkedEnd(const SimulateRequest& request, const experiment::Experiment& experiment) {
   const auto positive = [](double value, const char* option) {
     if (!(value > 0) || !std::isfinite(value))
       throw FaultError(Fault{option, fmt::format("is {} s", value), "a positive number of seconds"});
@@ -160,7 +160,7 @@ double checkedEnd(const Request& request, const experiment::Experiment& experime
   return until;
 }
 
-void checkVectors(const Request& request, const std::vector<double>& at, const std::vector<double>& rate, std::size_t coordinates,
+void checkVectors(const SimulateRequest& request, const std::vector<double>& at, const std::vector<double>& rate, std::size_t coordinates,
                   bool body) {
   const auto requireCount = [&](const std::vector<double>& values, const char* option) {
     if (values.size() != coordinates)
@@ -192,7 +192,7 @@ struct Simulation {
 };
 
 /// Steps from row to row and writes them, until the end or a constraint's end.
-void writeRows(const Request& request, double until, const Simulation& s) {
+void writeRows(const SimulateRequest& request, double until, const Simulation& s) {
   dynamics::Plant& plant = *s.scene.plant;
   Table table(request.out);
   writeHeader(table, plant.massCount(), s.parameters, s.body);
@@ -227,7 +227,7 @@ void writeRows(const Request& request, double until, const Simulation& s) {
   table.close();
 }
 
-void simulate(const Request& request) {
+void simulate(const SimulateRequest& request) {
   const experiment::CompiledExperiment compiled = experiment::openExperiment(request.experiment);
   if (compiled.experiment().hands.size() > 1)
     throw FaultError(Fault{"hands", fmt::format("are {}, and simulate moves one", compiled.experiment().hands.size()),
@@ -274,7 +274,7 @@ void simulate(const Request& request) {
 void addSimulateCommand(CLI::App& app, int&) {
   CLI::App* command =
       app.add_subcommand("simulate", "Moves the object with a hand that is a function of time, and writes its states as CSV");
-  const auto request = std::make_shared<Request>();
+  const auto request = std::make_shared<SimulateRequest>();
   command->add_option("experiment", request->experiment, "Experiment file, or the name of a shipped one")->required();
   command
       ->add_option("--hand", request->hand,

@@ -14,7 +14,7 @@
 namespace reachlab::cli {
 namespace {
 
-struct Request {
+struct StabilityRequest {
   std::string model, out;
   devices::StabilityMapSettings settings;
   double coupling = 600;  // [N/m] shown as a line
@@ -27,7 +27,8 @@ std::string tableOf(const std::vector<devices::StabilityPoint>& map) {
   return text;
 }
 
-figure::Figure figureOf(const devices::DeviceModel& model, const Request& request, const std::vector<devices::StabilityPoint>& map) {
+figure::Figure figureOf(const devices::DeviceModel& model, const StabilityRequest& request,
+                        const std::vector<devices::StabilityPoint>& map) {
   figure::Panel panel;
   panel.title = fmt::format("{}, hand of {:g} kg", model.title, request.settings.handMass);
   panel.x.label = "Coupling damping b_h (N s/m)";
@@ -62,7 +63,7 @@ void writeText(const std::string& text, const std::filesystem::path& path) {
   if (!out) throw ResourceError(path.string() + ": cannot be written");
 }
 
-void drawMap(const Request& request) {
+void drawMap(const StabilityRequest& request) {
   const devices::DeviceModel* model = devices::findDeviceModel(request.model);
   if (model == nullptr)
     throw FaultError(Fault{"model", "is " + request.model + ", which is unknown; `reach list devices` has them as virtual:MODEL"});
@@ -84,7 +85,7 @@ void drawMap(const Request& request) {
 
 void addStabilityCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("stability", "Largest coupling stiffness that a held device renders stably");
-  const auto r = std::make_shared<Request>();
+  const auto r = std::make_shared<StabilityRequest>();
   command->add_option("model", r->model, "Device: omni, premium15, premium60, highforce, omega3, inverse3")->required();
   command->add_option("--hand-mass", r->settings.handMass, "Mass of the hand that moves with the handle [default: 0.3 kg]")
       ->check(CLI::Range(0.0, 50.0));

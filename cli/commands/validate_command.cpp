@@ -76,14 +76,14 @@ std::optional<session::Programme> validateFile(const std::string& fileOrName) {
   return std::nullopt;
 }
 
-struct Request {
+struct ValidateRequest {
   std::vector<std::string> files;
   std::string device;
   bool json = false;
 };
 
 // Every experiment of the file against the device, before anybody holds it.
-void checkOnDevice(const Request& r, const session::Programme& programme) {
+void checkOnDevice(const ValidateRequest& r, const session::Programme& programme) {
   for (const experiment::CompiledExperiment& block : programme.experiments) {
     const auto device = devices::makeDevice(r.device, block, 0);
     const auto lines = devices::checkBeforeBlock(block, *device);
@@ -98,7 +98,7 @@ void checkOnDevice(const Request& r, const session::Programme& programme) {
 
 void addValidateCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("validate", "Check experiment files, constraint definitions, session plans and studies");
-  const auto r = std::make_shared<Request>();
+  const auto r = std::make_shared<ValidateRequest>();
   command->add_option("files", r->files, "files to check, or names of shipped ones; every fault of every file is named at once")
       ->required();
   CLI::Option* device = command->add_option(

@@ -11,14 +11,14 @@
 namespace reachlab::cli {
 namespace {
 
-struct Request {
+struct VelocityRequest {
   std::string reaches;
   std::vector<double> millimetres;
   devices::VelocityTableSettings settings;
   bool json = false;
 };
 
-void compare(const Request& r) {
+void compare(const VelocityRequest& r) {
   devices::VelocityTableSettings settings = r.settings;
   if (!r.millimetres.empty()) settings.resolutions.clear();
   for (const double mm : r.millimetres) settings.resolutions.push_back(mm * 1e-3);
@@ -45,7 +45,7 @@ void compare(const Request& r) {
 
 void addVelocityCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("velocity", "Compares the estimators of the hand's velocity on recorded reaches");
-  const auto r = std::make_shared<Request>();
+  const auto r = std::make_shared<VelocityRequest>();
   command->add_option("--reaches", r->reaches, "File or folder of reaches [default: the shipped ones, of people]");
   command->add_option("--step-mm", r->millimetres, "Encoder steps at the handle [default: 0.02 0.055 0.1 mm]")
       ->check(CLI::Range(1e-6, 10.0));

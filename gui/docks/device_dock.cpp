@@ -16,7 +16,7 @@
 namespace reachlab::gui::docks {
 namespace {
 
-constexpr int kLookMs = 1000;
+constexpr int kRefreshMs = 1000;
 enum Column { kName, kWords };
 
 bool isInWindowOnly(const QTreeWidgetItem& row) {
@@ -87,7 +87,7 @@ DeviceDock::DeviceDock(const Finding& finding, QWidget* parent)
   connect(plugs, &QTimer::timeout, this, [this] {
     if (rows_->isVisible() && mayAsk() && finding_.fingerprint() != plugged_) list();
   });
-  plugs->start(kLookMs);
+  plugs->start(kRefreshMs);
   connect(this, &QDockWidget::visibilityChanged, this, [this](bool seen) {
     if (seen && !plugged_ && mayAsk()) list();
   });
