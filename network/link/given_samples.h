@@ -19,7 +19,7 @@ struct GivenSample {
   double roundTrip = -1;  // [s]
   CopySample sample;
 
-  /// Passes the record to the copy, at the same tick as in the run.
+  /// Gives the sample or the order to the copy.
   void giveTo(CoupledCopy& copy) const noexcept;
 };
 

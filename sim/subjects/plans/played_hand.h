@@ -13,7 +13,7 @@ struct PlayedReach {
   std::vector<Vec3> velocity;  // [m/s]; empty: unknown, so it is estimated
 };
 
-/// Minimum number of samples for a played reach is one.
+/// A played reach has at least one sample.
 using PlanReach = std::function<PlayedReach(int trial)>;
 
 /// A virtual hand that plays one reach per trial. It moves by tick count, so that the same reaches give the same run at any speed of the
