@@ -6,12 +6,12 @@
 #include <utility>
 #include <vector>
 
-#include "base/command_words.h"
 #include "base/system/error_report.h"
 #include "base/system/kept_memory.h"
 #include "base/system/os.h"
 #include "base/system/processor_level.h"
 #include "base/system/stop_signals.h"
+#include "base/terminal/command_words.h"
 #include "cli/commands/commands.h"
 #include "cli/terminal/every_option.h"
 #include "cli/terminal/exit_code.h"

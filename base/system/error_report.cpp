@@ -14,8 +14,8 @@ namespace reachlab {
 
 namespace {
 
-constexpr char kNoMemory[] = "there is not enough memory for this; what was recorded is safe";
-constexpr char kOwnFault[] = "stopped by a fault of the program itself; what was recorded is safe. Please report what was asked for";
+constexpr char kNoMemory[] = "there is not enough memory for this. The recorded data are safe";
+constexpr char kOwnFault[] = "stopped by a fault of the program itself. The recorded data are safe. Please report what you did";
 
 // The standard library ends the program from functions of its own that may not throw (a directory that is read on), and then does not say why.
 thread_local bool memoryRefused = false;
@@ -36,7 +36,8 @@ void onNoMemory() {
     } catch (...) {}
   }
   const char* sentence = noMemory ? kNoMemory : kOwnFault;
-  if (::write(STDERR_FILENO, sentence, std::strlen(sentence)) < 0 || ::write(STDERR_FILENO, "\n", 1) < 0) {}  // nobody is left to tell
+  if (::write(STDERR_FILENO, "error: ", 7) < 0 || ::write(STDERR_FILENO, sentence, std::strlen(sentence)) < 0 ||
+      ::write(STDERR_FILENO, "\n", 1) < 0) {}  // nobody is left to tell
   ::_exit(noMemory ? 3 : kOwnFaultExit);
 }
 

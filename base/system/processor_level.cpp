@@ -36,8 +36,8 @@ const char* processorLevel() noexcept { return REACHLAB_LEVEL_NAME; }
 
 void requireProcessorLevel() noexcept {
   if (isThere()) return;
-  say("reachlab: this program is compiled for processors of level " REACHLAB_LEVEL_NAME
-      ", and this computer's is older; build it here from its source: packaging/run\n");
+  say("error: this program is compiled for processors of level " REACHLAB_LEVEL_NAME
+      ", and this computer's processor is older\nhelp: build Reachlab here from its source: packaging/run\n");
   ::_exit(kExitCode);
 }
 

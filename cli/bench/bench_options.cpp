@@ -4,7 +4,7 @@ namespace reachlab::cli {
 
 void addBenchOptions(CLI::App& command, BenchOptions& options) {
   command.add_option("--scene", options.scenes,
-                     "Scenes (S1 S1b50 S1b500 S2a S2b S3 S4 S5 S5h S6 S7a S7b S7c S7d S7e S7f S8), or constraint-eval for the price of a "
+                     "Scenes (S1 S1b50 S1b500 S2a S2b S3 S4 S5 S5h S6 S7a S7b S7c S7d S7e S7f S8), or constraint-eval for the computation time of a "
                      "constraint's derivatives [default: all]");
   command.add_option("--method", options.methods, "Methods (auto rk4 exact abm adaptive stiff, or a peer if built) [default: all]");
   command.add_option("--rounds", options.rounds, "Timed repetitions, interleaved over the methods")
@@ -24,10 +24,10 @@ void addBenchOptions(CLI::App& command, BenchOptions& options) {
       ->capture_default_str();
   command.add_option("--csv", options.csv, "Write the rows of --network to this file");
   command.add_option("--json", options.json, "Write the rows to this file");
-  command.add_option("--svg", options.svg, "Draw price against error into this file");
+  command.add_option("--svg", options.svg, "Draw computation time against error into this file");
   command.footer(
-      "Prices are nanoseconds of processor time per simulated millisecond (median of the rounds, quartiles beside it); errors are the\n"
-      "largest over samples at 100 Hz, in SI units. Compare prices within one run only.\n"
+      "Computation times are nanoseconds of processor time per simulated millisecond (median of the rounds, quartiles beside it). Errors are the\n"
+      "largest over samples at 100 Hz, in SI units. Compare computation times within one run only.\n"
       "Examples: reach bench --scene S1 --scene S2a --quick\n"
       "          reach bench --json rows.json --svg work-precision.svg\n"
       "          reach bench --tick --scene S1 --ticks 100000\n"

@@ -327,7 +327,7 @@ void addAnalyzeCommand(CLI::App& app, int&) {
       ->add_option("--recovery", o->recovery,
                    "Simulate that many studies of this very design for each truth, and say how often each is named (all processors)")
       ->check(CLI::Range(1, 100000));
-  command->add_option("--jobs", o->jobs, "Threads of the recovery [default: one a processor]")->check(CLI::PositiveNumber);
+  command->add_option("--jobs", o->jobs, "Threads of the recovery [default: one per processor]")->check(CLI::PositiveNumber);
   command->add_option("--seed", o->seed, "Seed of the recovery")->capture_default_str();
   command->add_option("--learning-bin", o->bin, "Trials a point of the learning curve")->capture_default_str();
   command->add_option("--experiment", o->experiment, "Experiment of a dataset without logs (file or shipped name)");

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "base/error.h"
+#include "base/terminal/message.h"
 #include "cli/commands/commands.h"
 #include "sim/session/backup.h"
 
@@ -19,7 +20,7 @@ void backUp(const BackupOptions& o) {
              report.copiedFiles, report.copiedBytes, report.pending > 0 ? fmt::format("; {} still being recorded", report.pending) : "");
   if (!o.check) return;
   const std::vector<std::string> faults = session::faultsOfBackup(o.backup);
-  for (const std::string& fault : faults) fmt::print(stderr, "{}\n", fault);
+  for (const std::string& fault : faults) fmt::print(stderr, "{}", messageOf(fault));
   if (!faults.empty())
     throw ResourceError(
         fmt::format("{}: {} of {} files are not what was copied", o.backup, faults.size(), session::filesOfBackup(o.backup)));

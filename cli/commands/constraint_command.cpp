@@ -154,7 +154,7 @@ void showPlaces(const constraints::Constraint& c) {
                  p.fixed < 0 ? fmt::format("u = {:.9g}, v = {:.9g}", p.u, p.v)
                              : fmt::format("{} = {:.9g}", p.fixed == 0 ? "u" : "v", p.fixed == 0 ? p.u : p.v));
     if (places.empty() && branches->smooth())
-      fmt::print("regular   no degenerate place for u in [{:.6g}, {:.6g}], v in [{:.6g}, {:.6g}]{}\n", range[0].lo, range[0].hi,
+      fmt::print("regular   no degenerate position for u in [{:.6g}, {:.6g}], v in [{:.6g}, {:.6g}]{}\n", range[0].lo, range[0].hi,
                  range[1].lo, range[1].hi, constraints::isProvedRegular(c, range) ? ", shown by interval arithmetic" : "");
     if (places.size() >= constraints::kMaxDegeneratePlaces)
       fmt::print("…         isolated points are listed only up to {} places in all: there may be more of them\n",
@@ -281,7 +281,7 @@ void addConstraintCommand(CLI::App& app, int&) {
       add("eval", "Position [m] and derivatives by the parameters [m]", "eval ellipse --at 0.5 --set a_m=0.12 b_m=0.05 --json", eval);
   addName(evaluating), addSet(evaluating), addJson(evaluating);
   evaluating->add_option("--at", options->at, "parameter phi, or u,v (no unit)")->required();
-  CLI::App* checking = add("check", "Every fault of definition files, with its place", "check my-curve.json", check);
+  CLI::App* checking = add("check", "Every error of definition files, with its position", "check my-curve.json", check);
   checking->add_option("files", options->files, "definition files")->required();
   addName(add("code", "C++ of the coordinates and of M, L, V, Q (curve) or G, C, Q (surface)", "code epitrochoid", code));
 }

@@ -41,7 +41,7 @@ HandLaw straightReach(const experiment::Experiment& experiment, const constraint
   const Vec3 start = placeOf(c, task.start, "start"), chord = placeOf(c, task.target, "target") - start;
   const double duration = task.duration;
   if (!(norm(chord) > 1e-12))
-    throw RefusedError("--hand min-jerk: start and target are the same place, so there is no chord to follow; use min-jerk-along or hold");
+    throw RefusedError("--hand min-jerk: start and target are the same position, so there is no chord to follow; use min-jerk-along or hold");
   return {[start, chord, duration](double t) {
             const MinimumJerk law = heldMinimumJerk(t / duration);
             return dynamics::HandSample{start + law.value * chord, (law.rate / duration) * chord, true};
@@ -60,7 +60,7 @@ HandLaw reachAlong(const experiment::Experiment& experiment, const constraints::
   if (c.kind == constraints::ConstraintKind::Free) return straightReach(experiment, c);
   const double from = task.start[0], to = task.target[0], duration = task.duration;
   const auto way = std::make_shared<const constraints::ArcLength>(c, from, to);
-  if (!(way->length() > 1e-12)) throw RefusedError("--hand min-jerk-along: start and target are the same place on the curve");
+  if (!(way->length() > 1e-12)) throw RefusedError("--hand min-jerk-along: start and target are the same position on the curve; use hold");
   const double direction = to < from ? -1 : 1;
   return {[c, way, direction, duration](double t) {
             const MinimumJerk law = heldMinimumJerk(t / duration);

@@ -17,7 +17,7 @@ void addReplayCommand(CLI::App& app, int& exitCode) {
   command->add_option("log", *path, "The log (…_log.reach)")->required();
   command->add_flag("--check", *check, "Are the states bit-identical to the recorded ones? Exits 1 when they differ");
   command->footer(
-      "Prints a line a trial as simulated now (by in m, m/s or s). Results are bit-identical with the program that recorded, on\n"
+      "Prints one line per trial as simulated now (by in m, m/s or s). Results are bit-identical with the program that recorded, on\n"
       "every processor; another version or compiler may round differently.\n\n"
       "Example:\n"
       "  reach replay data/sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach --check");

@@ -62,7 +62,7 @@ void addRunCommand(CLI::App& app, int& exitCode) {
   command->add_option("--backup", r->backup, "Second data folder: every finished run is copied there and verified");
   command->add_option("--seed", r->seed, "Seed of noise and order [default: one is drawn, printed and stored]")->check(wholeSeed());
   command->add_flag("--fast", r->fast, "Virtual clock: as fast as the processor allows, the same results");
-  command->add_flag("--resume", r->resume, "Goes on with the trial at which this session broke off, in the same order");
+  command->add_flag("--resume", r->resume, "Continue with the trial at which this session broke off, in the same order");
   const auto saveMapping = std::make_shared<bool>(false);
   command->add_flag("--save-mapping", *saveMapping,
                     "Keeps the device's mapping (scale=, mirror=, …) for this device and subject in the dataset");
@@ -88,7 +88,7 @@ void addRunCommand(CLI::App& app, int& exitCode) {
            {"Recording", {"--data", "--backup", "--every-tick", "--disk-reserve"}}})
     for (const char* const name : names) command->get_option(name)->group(group);
   command->footer(
-      "Prints one line a trial once it is safe on the disk, `trial=3 outcome=failure reason=velocity mass=5 by=0.004 "
+      "Prints one line per trial once it is safe on the disk, `trial=3 outcome=failure reason=velocity mass=5 by=0.004 "
       "by_unit=m/s\n"
       "time_s=1.310`, and the success table at the end. The data folder is a BIDS dataset, its logs lie in sourcedata. Ctrl-C keeps "
       "the trial\n"

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "base/system/stop_signals.h"
+#include "base/terminal/message.h"
 #include "cli/output/success_table.h"
 #include "devices/instruments/instruments.h"
 #include "devices/make_device.h"
@@ -19,15 +20,15 @@ namespace {
 
 void printNotice(const session::SessionNotice& notice) {
   if (notice.unfinished)
-    fmt::print(stderr, "an earlier run of this session was not finished; --resume goes on with it, this is a new run\n");
-  for (const std::string& sentence : notice.unreadable) fmt::print(stderr, "{}\n", sentence);
+    fmt::print(stderr, "note: an earlier run of this session is not finished. --resume continues it. This is a new run\n");
+  for (const std::string& sentence : notice.unreadable) fmt::print(stderr, "warning: {}\n", sentence);
 }
 
 void printRun(const session::RecordedRun& run) {
   const record::RunConfiguration& c = run.configuration();
   fmt::print(stderr, "run {}: {}, {} trial{}{}, method {}; recording to {}\n", c.run, c.condition, run.trialCount(),
              run.trialCount() == 1 ? "" : "s", c.practice ? " of practice" : "", c.method, run.logPath());
-  for (const Fault& warning : trial::describeWay(run.experiment())) fmt::print(stderr, "warning: {}\n", toText(warning));
+  for (const Fault& warning : trial::describeWay(run.experiment())) fmt::print(stderr, "{}", messageOf(warning, "warning"));
 }
 
 // Which hand is farthest from where it has to be.

@@ -117,7 +117,7 @@ void addStationCommand(CLI::App& app, int& exitCode) {
   command->add_option("--seed", s.seed, "Seed of noise [default: one is drawn and stored]")->check(wholeSeed());
   command->add_flag("--every-tick", s.everyTick, "Samples at 1 kHz instead of 100 Hz");
   command->footer(
-      "Prints one line a trial, as reach run does. No trial is armed while a station is missing, differs in experiment or version, or has "
+      "Prints one line per trial, as reach run does. No trial is armed while a station is missing, differs in experiment or version, or has "
       "too\n"
       "poor a line (more than 120 ms round trip, nothing for more than 50 ms at a time): stderr says which, with the numbers.\n\n"
       "Examples, on one machine:\n"

@@ -43,7 +43,7 @@ void runStudy(const StudyRequest& request) {
       throw FaultError(Fault{"--out",
                              fmt::format("{}: {} of {} chunks of this share are there already", out, todo.there,
                                          todo.there + static_cast<std::int64_t>(todo.missing.size())),
-                             "another folder, or --resume, which goes on with the others"});
+                             "another folder, or --resume, which continues with the other chunks"});
     const unsigned jobs = request.jobs > 0 ? static_cast<unsigned>(request.jobs) : std::max(1u, std::thread::hardware_concurrency());
     fmt::print(stderr, "{}: {} points, {} subjects each, {} chunks{}; {} thread{}\n", design.name, study::pointCount(design),
                design.subjects, folder.chunks.count(), shard.of > 1 ? fmt::format(", share {} of {}", shard.index, shard.of) : "", jobs,
@@ -143,9 +143,9 @@ void addStudyCommand(CLI::App& app, int&) {
   const auto r = std::make_shared<StudyRequest>();
   command->add_option("study", r->study, "Study file (docs/reference/study.md)");
   command->add_option("--out", r->out, "Folder of the study [default: the file's name with -study, here]");
-  command->add_option("--jobs", r->jobs, "Threads [default: one a processor]")->check(CLI::Range(1, 4096));
+  command->add_option("--jobs", r->jobs, "Threads [default: one per processor]")->check(CLI::Range(1, 4096));
   command->add_option("--shard", r->shard, "I/N: share I of N of the chunks, 1 to N [default: the task of a Slurm array, or else all]");
-  command->add_flag("--resume", r->resume, "Goes on with the chunks that are not there");
+  command->add_flag("--resume", r->resume, "Continue with the missing chunks");
   command->footer(
       "The same study gives the same bytes for any number of threads, shares, ranks and interruptions. Each chunk is safe on the disk "
       "when\n"

@@ -6,6 +6,7 @@
 
 #include "base/fault.h"
 #include "base/json/json_reader.h"
+#include "base/terminal/message.h"
 #include "base/text_file.h"
 #include "cli/commands/commands.h"
 #include "cli/output/preflight_output.h"
@@ -70,7 +71,7 @@ std::optional<session::Programme> validateFile(const std::string& fileOrName) {
     const experiment::CompiledExperiment experiment = experiment::openExperimentText(text, file);
     if (experiment.experiment().task) trial::checkTask(experiment, file);
     for (const auto& warnings : {trial::implausibleNumbers(experiment), trial::describeWay(experiment)})
-      for (const Fault& warning : atTheirPlaces(warnings, text, file)) fmt::print(stderr, "warning: {}\n", toText(warning));
+      for (const Fault& warning : atTheirPlaces(warnings, text, file)) fmt::print(stderr, "{}", messageOf(warning, "warning"));
     return session::programmeOf(experiment);
   }
   return std::nullopt;
@@ -99,7 +100,7 @@ void checkOnDevice(const ValidateRequest& r, const session::Programme& programme
 void addValidateCommand(CLI::App& app, int& exitCode) {
   CLI::App* command = app.add_subcommand("validate", "Check experiment files, constraint definitions, session plans and studies");
   const auto r = std::make_shared<ValidateRequest>();
-  command->add_option("files", r->files, "files to check, or names of shipped ones; every fault of every file is named at once")
+  command->add_option("files", r->files, "Files to check, or names of shipped files. Every error of every file is reported at once")
       ->required();
   CLI::Option* device = command->add_option(
       "--device", r->device, "checks also what the experiment asks of this device: forces, stability, workspace; as for reach run");
@@ -115,7 +116,7 @@ void addValidateCommand(CLI::App& app, int& exitCode) {
         if (!r->json) fmt::print("{}: fine\n", file);
         if (!r->device.empty()) checkOnDevice(*r, programme ? *programme : session::readProgramme(file));
       } catch (const FaultError& e) {
-        fmt::print(stderr, "{}\n", toText(inOptionWords(e.faults)));
+        fmt::print(stderr, "{}", messageOf(inOptionWords(e.faults)));
         exitCode = 2;
       }
     }

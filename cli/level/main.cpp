@@ -17,7 +17,7 @@ struct Level {
 };
 
 int fail(const char* program, const std::string& what) {
-  std::fprintf(stderr, "%s: %s\n", program, what.c_str());
+  std::fprintf(stderr, "error: %s: %s\n", program, what.c_str());
   return 3;  // of a resource that cannot be had
 }
 
@@ -31,21 +31,25 @@ int main(int, char** arguments) {
   std::error_code ignored;
   const fs::path own = fs::read_symlink("/proc/self/exe", ignored);
   if (own.empty())
-    return fail(REACHLAB_PROGRAM, "/proc, which tells where this program is installed, is not mounted: mount -t proc proc /proc");
+    return fail(REACHLAB_PROGRAM,
+                "/proc is not mounted\nhelp: mount it with `mount -t proc proc /proc`, because it tells where this program is installed");
   const fs::path folder = own.parent_path() / REACHLAB_LIBEXEC_FROM_BIN;
   const char* asked = std::getenv("REACHLAB_LEVEL");
   if (asked != nullptr && *asked == '\0') asked = nullptr;
   for (const Level& level : levels) {
     if (asked != nullptr ? std::string(asked) != level.name : !level.isHere) continue;
     if (!level.isHere)
-      return fail(REACHLAB_PROGRAM, "REACHLAB_LEVEL is " + std::string(asked) + ", which this computer's processor has not");
+      return fail(REACHLAB_PROGRAM, "REACHLAB_LEVEL is " + std::string(asked) +
+                                        ", which this computer's processor does not have\nhelp: leave REACHLAB_LEVEL out");
     const fs::path program = (folder / level.name / REACHLAB_PROGRAM).lexically_normal();
     ::execv(program.c_str(), arguments);
-    if (asked != nullptr) return fail(REACHLAB_PROGRAM, program.string() + " cannot be started; install Reachlab whole");
+    if (asked != nullptr) return fail(REACHLAB_PROGRAM, program.string() + " cannot be started\nhelp: install all files of Reachlab again");
   }
   if (asked != nullptr)
-    return fail(REACHLAB_PROGRAM, "REACHLAB_LEVEL is " + std::string(asked) + "; allowed: x86-64-v2, x86-64-v3, x86-64-v4");
-  return fail(REACHLAB_PROGRAM,
-              "no program for this computer's processor is in " + folder.lexically_normal().string() +
-                  ": it must be of level x86-64-v2 (most since 2009); otherwise build Reachlab here from its source: packaging/run");
+    return fail(REACHLAB_PROGRAM, "REACHLAB_LEVEL is " + std::string(asked) + "\nhelp: allowed: x86-64-v2, x86-64-v3, x86-64-v4");
+  return fail(
+      REACHLAB_PROGRAM,
+      "no program for this computer's processor is in " + folder.lexically_normal().string() +
+          "\nhelp: packaged programs need a processor of level x86-64-v2 (most since 2009). Otherwise build Reachlab here from its source: "
+          "packaging/run");
 }

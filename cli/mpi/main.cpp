@@ -128,7 +128,7 @@ void runStudy(const std::string& file, const std::string& out, bool resume, cons
     const study::StudyFolder folder = study::makeFolder(design, out);
     if (const std::int64_t there = study::chunksToDo(folder).there; there > 0 && !resume && !study::areTablesThere(folder))
       throw FaultError(Fault{"--out", fmt::format("{}: {} chunks are there already", out, there),
-                             "another folder, or --resume, which goes on with the others"});
+                             "another folder, or --resume, which continues with the other chunks"});
   }
   MPI_Barrier(MPI_COMM_WORLD);  // the folder is there
   const study::StudyFolder folder = study::openFolder(out);
@@ -145,7 +145,7 @@ int run(int argc, char** argv) {
   bool resume = false;
   app.add_option("study", file, "Study file, as for reach study")->required();
   app.add_option("--out", out, "Folder of the study, which every rank reaches")->required();
-  app.add_flag("--resume", resume, "Goes on with the chunks that are not there");
+  app.add_flag("--resume", resume, "Continue with the missing chunks");
   app.footer("Example: mpirun -n 64 reach-mpi study.json --out stiffness --resume");
   const int code = exitCodeOf(app, [&] {
     app.parse(argc, argv);

@@ -58,7 +58,7 @@ figure::Figure drawTrial(const record::RunLog& log, const record::RecordedTrial&
   figure::Panel speed, force;
   speed.title = "(a) Speed";
   force.title = "(b) Coupling force";
-  speed.x.label = force.x.label = profile.sinceOnset ? "Time from onset (s)" : "Time since the trial was put up (s)";
+  speed.x.label = force.x.label = profile.sinceOnset ? "Time from onset (s)" : "Time since the trial was prepared (s)";
   speed.y.label = "Speed (m/s)";
   force.y.label = "Force (N)";
   speed.series = {line("hand", profile.time, profile.handSpeed, figure::palette::kBlack, figure::kThick)};

@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "base/command_words.h"
+#include "base/terminal/command_words.h"
 #include "base/fault.h"
 #include "sim/experiment/resources.h"
 #include "sim/session/programme.h"

@@ -8,6 +8,8 @@
 #include <string_view>
 #include <utility>
 
+#include "base/terminal/parse_fault.h"
+
 namespace reachlab::cli {
 namespace {
 
@@ -36,26 +38,6 @@ std::string wrapped(const std::string& text, std::size_t columns, const std::str
   }
   if (!all.empty()) all.pop_back();
   return all;
-}
-
-// "INT:INT in [default: 1 - 9]" is a type and what is allowed of it.
-std::pair<std::string, std::string> typeAndLimit(const CLI::Option& option) {
-  const std::string name = option.get_type_name();
-  const std::size_t colon = name.find(':');
-  return colon == std::string::npos ? std::pair{name, std::string()} : std::pair{name.substr(0, colon), name.substr(colon + 1)};
-}
-
-std::string allowed(const std::string& limit) {
-  if (limit == "POSITIVE") return "more than 0";
-  if (limit == "NONNEGATIVE") return "0 or more";
-  if (limit.starts_with('{')) {
-    std::string choices;
-    for (const char c : limit.substr(1, limit.size() - 2)) choices += c == ',' ? std::string(", ") : std::string(1, c);
-    return "one of: " + choices;
-  }
-  const std::size_t begin = limit.find(" in ["), dash = limit.find(" - ");
-  if (begin == std::string::npos || dash == std::string::npos) return {};
-  return limit.substr(begin + 5, dash - begin - 5) + " to " + limit.substr(dash + 3, limit.size() - dash - 4);
 }
 
 }  // namespace
@@ -98,7 +80,7 @@ std::string HelpFormat::make_subcommand(const CLI::App* command) const {
 }
 
 std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
-  const std::string type = typeAndLimit(*option).first;
+  const std::string type = typeOf(*option);
   if (type.empty()) return {};
   std::string text = type == "INT" || type == "UINT" ? " <N>" : type == "FLOAT" ? " <X>" : " <TEXT>";
   if (option->get_expected_max() == CLI::detail::expected_max_vector_size) text += " ...";
@@ -108,7 +90,7 @@ std::string HelpFormat::make_option_opts(const CLI::Option* option) const {
 std::string HelpFormat::make_option_desc(const CLI::Option* option) const {
   std::string text = option->get_description();
   if (!option->get_type_name().empty()) {
-    if (const std::string limit = allowed(typeAndLimit(*option).second); !limit.empty()) text += " [" + limit + "]";
+    if (const std::string limit = allowedOf(*option); !limit.empty()) text += " [" + limit + "]";
     if (!option->get_default_str().empty()) text += " [default: " + option->get_default_str() + "]";
     if (option->get_required()) text += " (required)";
   }

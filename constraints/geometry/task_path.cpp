@@ -23,7 +23,7 @@ Vec3 placeOn(const Constraint& constraint, std::span<const double> q) noexcept {
   return {kNowhere, kNowhere, kNowhere};
 }
 
-Fault samePlaceFault() { return {"task.target", "start and target are the same place", "two places"}; }
+Fault samePlaceFault() { return {"task.target", "start and target are the same position", "two positions"}; }
 
 TaskPath::TaskPath(const Constraint& constraint, std::span<const double> start, std::span<const double> target)
     : constraint_(std::make_shared<const Constraint>(constraint)), start_(placeOn(constraint, start)), target_(placeOn(constraint, target)),

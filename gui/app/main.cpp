@@ -16,7 +16,9 @@
 #include "base/system/os.h"
 #include "base/system/processor_level.h"
 #include "base/system/stop_signals.h"
-#include "base/command_words.h"
+#include "base/terminal/command_words.h"
+#include "base/terminal/message.h"
+#include "base/terminal/parse_fault.h"
 #include "gui/app/display.h"
 #include "gui/app/experiment_files.h"
 #include "gui/app/main_window.h"
@@ -39,7 +41,9 @@ struct Arguments {
 // What only a station has; `number`: which it is, 0 where it is none or only observes.
 void parseStation(CLI::App& app, int number, bool observes, const CLI::App& options, reachlab::network::StationSetup& setup, Arguments& a) {
   if (number == 0 && !observes) {
-    if (options.count_all() > 0) throw CLI::RequiresError("an option of a station", "--station");
+    if (options.count_all() > 0)
+      throw reachlab::FaultError(reachlab::Fault{"--station", "is missing; give it with the other options of a station",
+                                                 "1 to " + std::to_string(reachlab::network::kMaxStations)});
     return;
   }
   setup.link.station = number;
@@ -64,7 +68,8 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
       ->take_all();
   app.add_option("--backup", r.backup, "Second data folder: every finished run is copied there and verified");
   app.add_option("--trials", r.trials, "Trials of an experiment [20]; a plan has its own")->check(CLI::Range(1, 1000000));
-  app.add_option("--run", r.run, "Run number; default: the next free one. A taken one is refused")->check(CLI::Range(1, reachlab::record::kMaxRun));
+  app.add_option("--run", r.run, "Run number; default: the next free one. A taken one is refused")
+      ->check(CLI::Range(1, reachlab::record::kMaxRun));
   app.add_option("--subject", r.place.subject, "Subject's label, letters and digits [01]");
   app.add_option("--session", r.place.session, "Session's label, letters and digits [01]");
   app.add_option("--data", r.place.data, "Folder of the dataset [./data]");
@@ -76,7 +81,7 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
             return fault ? reachlab::toText(*fault) : std::string();
           },
           "SEED"));
-  app.add_flag("--resume", r.resume, "Goes on with the trial at which this session broke off");
+  app.add_flag("--resume", r.resume, "Continue with the trial at which this session broke off");
   app.add_option("--pictures", a.pictures, "Draws every constraint of the catalogue into this folder, and ends");
   int number = 0;
   reachlab::network::StationSetup setup;
@@ -111,10 +116,11 @@ int run(const Arguments& arguments, int argc, char** argv) {
   // The scene is drawn over GLX; on Wayland desktops XWayland serves it.
   if (std::getenv("QT_QPA_PLATFORM") == nullptr) {
     if (std::getenv("DISPLAY") == nullptr)
-      throw reachlab::ResourceError("reachlab: there is no display (DISPLAY is not set); `reach run` does without a window");
+      throw reachlab::ResourceError("there is no display, because DISPLAY is not set; use `reach run`, which needs no window");
     if (!reachlab::gui::app::displayAnswers())
-      throw reachlab::ResourceError("reachlab: the display " + std::string(std::getenv("DISPLAY")) +
-                                    " does not answer. Set DISPLAY to the display of your session, or use `reach run`, which needs no window");
+      throw reachlab::ResourceError(
+          "the display " + std::string(std::getenv("DISPLAY")) +
+          " does not answer; set DISPLAY to the display of your session, or use `reach run`, which needs no window");
     setenv("QT_QPA_PLATFORM", "xcb", 0);
   }
   QCoreApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
@@ -145,12 +151,12 @@ int run(const Arguments& arguments, int argc, char** argv) {
 }
 
 // On the terminal, and where there is none (started from a menu) in a box.
-int sayFault(const char* sentence, int status, int argc, char** argv) {
-  std::fprintf(stderr, "%s\n", sentence);
+int sayFault(const std::string& message, const std::string& sentence, int status, int argc, char** argv) {
+  std::fputs(message.c_str(), stderr);
   if (isatty(STDERR_FILENO) == 1 || !reachlab::gui::app::displayAnswers()) return status;
   std::unique_ptr<QApplication> application;
   if (QCoreApplication::instance() == nullptr) application = std::make_unique<QApplication>(argc, argv);
-  QMessageBox(QMessageBox::Critical, QStringLiteral("Reachlab"), QString::fromUtf8(sentence), QMessageBox::Close).exec();
+  QMessageBox(QMessageBox::Critical, QStringLiteral("Reachlab"), QString::fromStdString(sentence), QMessageBox::Close).exec();
   return status;
 }
 
@@ -167,9 +173,12 @@ int main(int argc, char** argv) {
   } catch (const CLI::Success& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    return sayFault((std::string("reachlab: ") + e.what()).c_str(), 2, argc, argv);
+    const reachlab::Fault fault = reachlab::faultOf(app, e);
+    return sayFault(reachlab::messageOf(fault), reachlab::toText(fault), 2, argc, argv);
+  } catch (const reachlab::FaultError& e) {
+    return sayFault(reachlab::messageOf(e.faults), e.what(), 2, argc, argv);
   } catch (const std::exception& e) {
     const reachlab::ErrorReport report = reachlab::errorReportOf(e);
-    return sayFault(report.sentence.c_str(), report.exitCode, argc, argv);
+    return sayFault(reachlab::messageOf(report.sentence), report.sentence, report.exitCode, argc, argv);
   }
 }

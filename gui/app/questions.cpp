@@ -12,7 +12,7 @@ bool askToEndRun(QWidget& window, const QString& doing, std::size_t trialsDone, 
       QMessageBox::NoButton, &window);
   box.setObjectName(QStringLiteral("askToEndRun"));
   const auto* end = box.addButton(QStringLiteral("End the run"), QMessageBox::AcceptRole);
-  box.setDefaultButton(box.addButton(QStringLiteral("Go on with it"), QMessageBox::RejectRole));
+  box.setDefaultButton(box.addButton(QStringLiteral("Continue it"), QMessageBox::RejectRole));
   box.exec();
   return box.clickedButton() == end;
 }

@@ -125,7 +125,7 @@ void DeviceDialog::look() {
   QString buttons;
   for (int i = 0; i < 32; ++i)
     if ((view.buttons >> i & 1u) != 0) buttons += QStringLiteral(" %1").arg(i + 1);
-  numbers_->setText(tr("place %1 %2 %3 mm    speed %4 mm/s    force %5 %6 %7 N    %8 reports/s    buttons%9")
+  numbers_->setText(tr("position %1 %2 %3 mm    speed %4 mm/s    force %5 %6 %7 N    %8 reports/s    buttons%9")
                         .arg(millimetres(view.position.x), millimetres(view.position.y), millimetres(view.position.z))
                         .arg(1e3 * view.speed, 6, 'f', 1)
                         .arg(view.force.x, 5, 'f', 2)
@@ -140,7 +140,7 @@ void DeviceDialog::calibrate() {
   try {
     const widgets::WaitCursor wait;
     device_->calibrate();
-    tell(tr("calibrated: this is its calibration place now"), false);
+    tell(tr("The device is calibrated. This is its calibration position now."), false);
   } catch (const Error& fault) {
     tell(QString::fromStdString(fault.what()), true);
   }

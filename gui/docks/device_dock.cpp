@@ -73,7 +73,7 @@ DeviceDock::DeviceDock(const Finding& finding, QWidget* parent)
     return made;
   };
   take_ = button(tr("Use it"), "deviceUse", tr("the chosen device is the hand of the next run"));
-  look_ = button(tr("Look at it…"), "deviceLook", tr("live: place, force, times between reports, calibration"));
+  look_ = button(tr("Look at it…"), "deviceLook", tr("live: position, force, times between reports, calibration"));
   again_ = button(tr("Look again"), "deviceAgain", tr("asks every driver anew, vendors' libraries too"));
   layout->addLayout(line);
   setBody(body, false);

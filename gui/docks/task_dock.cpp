@@ -84,7 +84,7 @@ void TaskDock::display(const experiment::CompiledExperiment& experiment, bool ed
   targetLabel_->setText(QStringLiteral("target ") + unit);
   const QString places = kind == constraints::ConstraintKind::Free
                              ? QStringLiteral("three coordinates in metres")
-                             : QStringLiteral("the place on the constraint, by its own parameters (rad where one is an angle): ") + unit;
+                             : QStringLiteral("the position on the constraint, by its parameters (rad for an angle): ") + unit;
   start_->setToolTip(places);
   target_->setToolTip(places);
   start_->setNumbers(task.start);

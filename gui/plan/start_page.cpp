@@ -123,7 +123,7 @@ void StartPage::show(const Shown& shown) {
   if (!shown.fault.isEmpty()) next_->setText(shown.fault);
   else if (next == nullptr) next_->setText(tr("Everything of this session is recorded: another subject, or another session."));
   else if (resumes_)
-    next_->setText(tr("Goes on in block %1, %2, with trial %3 of %4.")
+    next_->setText(tr("Continues in block %1, %2, with trial %3 of %4.")
                        .arg(next->block)
                        .arg(QString::fromStdString(next->condition))
                        .arg(next->done + 1)

@@ -24,7 +24,7 @@ QString outcomeText(const trial::TrialResult& result) {
     case trial::Reason::NoOnset: return QStringLiteral("No movement began");
     case trial::Reason::Experimenter: return QStringLiteral("Stopped by the experimenter");
     case trial::Reason::EndOfConstraint: return QStringLiteral("The object ran off the end of its path");
-    case trial::Reason::Computation: return QStringLiteral("The simulation could not go on");
+    case trial::Reason::Computation: return QStringLiteral("The simulation could not continue");
     case trial::Reason::Program: return QStringLiteral("Interrupted");
     case trial::Reason::Early: return QStringLiteral("Too early: wait for the signal");
     case trial::Reason::Timing: return QStringLiteral("The computer was too busy: this trial does not count");

@@ -9,6 +9,7 @@
 
 #include "base/fault.h"
 #include "base/system/error_report.h"
+#include "base/terminal/message.h"
 #include "devices/instruments/instruments.h"
 #include "devices/kept_mapping.h"
 #include "devices/make_device.h"
@@ -35,7 +36,7 @@ bool isSameSession(const session::SessionRequest& a, const session::SessionReque
 QString wordsOf(const session::SessionNotice& notice) {
   QStringList sentences;
   if (notice.unfinished)
-    sentences << QStringLiteral("An earlier run of this session was not finished: Trial, Resume goes on with it. This is a new run.");
+    sentences << QStringLiteral("An earlier run of this session is not finished. Trial, Resume continues it. This is a new run.");
   for (const std::string& sentence : notice.unreadable) sentences << QString::fromStdString(sentence);
   return sentences.join(QLatin1Char('\n'));
 }
@@ -396,7 +397,7 @@ void SessionController::stopInOrder() {
   } catch (const std::exception& e) {
     wrong = errorReportOf(e).sentence;
   }
-  if (wrong) std::fprintf(stderr, "%s\n", wrong->c_str());
+  if (wrong) std::fputs(messageOf(*wrong).c_str(), stderr);
   std::_Exit(StopRequest::exitCode());
 }
 

@@ -76,7 +76,7 @@ TEST(ConstraintCommand, CheckTellsWhatItFoundAndWhereItStoppedLooking) {
   EXPECT_NE(one.out.find("pinch     u = 0, v = 0"), std::string::npos) << one.out;
   EXPECT_EQ(one.out.find("there may be more"), std::string::npos) << one.out;
   EXPECT_NE(one.out.find("umbrella.json: fine: surface umbrella"), std::string::npos) << one.out;
-  EXPECT_NE(check("saddle", "surface", R"(["u/10", "v/10", "u*v/10"])", "[[-1, 1], [-1, 1]]").out.find("no degenerate place"),
+  EXPECT_NE(check("saddle", "surface", R"(["u/10", "v/10", "u*v/10"])", "[[-1, 1], [-1, 1]]").out.find("no degenerate position"),
             std::string::npos);
   EXPECT_NE(check("bend", "curve", R"(["phi/10", "phi^2/10", "0"])", "[-1, 1]").out.find("no kink, jump, pole, end or cusp"),
             std::string::npos);

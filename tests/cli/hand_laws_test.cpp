@@ -95,9 +95,9 @@ TEST(HandLaw, FreeInSpaceAlongIsStraight) {
 
 TEST(HandLaw, SaysWhatItsTaskLacks) {
   EXPECT_EQ(refusalOf("min-jerk", pointOn(kCircle, "[0]", "[\"2*pi\"]")),
-            "--hand min-jerk: start and target are the same place, so there is no chord to follow; use min-jerk-along or hold");
+            "--hand min-jerk: start and target are the same position, so there is no chord to follow; use min-jerk-along or hold");
   EXPECT_EQ(refusalOf("min-jerk-along", pointOn(kCircle, "[1]", "[1]")),
-            "--hand min-jerk-along: start and target are the same place on the curve");
+            "--hand min-jerk-along: start and target are the same position on the curve; use hold");
   EXPECT_EQ(refusalOf("min-jerk-along", experiment::openExperiment("torus")),
             "--hand min-jerk-along follows a curve; on a surface use min-jerk");
   EXPECT_EQ(refusalOf("min-jerk", experiment::openExperiment("torus")), "");

@@ -164,7 +164,7 @@ TEST(Usage, ValidateRefusesTheTaskThatARunRefuses) {
   const Ended run = reach("run " + file + " --device simulated --fast --seed 1 --data " + folder.path());
   EXPECT_EQ(validated.exitCode, 2);
   EXPECT_EQ(run.exitCode, 2);
-  EXPECT_NE(validated.err.find("same place"), std::string::npos) << validated.err;
+  EXPECT_NE(validated.err.find("same position"), std::string::npos) << validated.err;
   EXPECT_EQ(validated.err, run.err);
   EXPECT_EQ(reach("simulate " + file + " --hand hold --until 0.01").exitCode, 0) << "who only simulates needs no way";
 }

@@ -164,7 +164,8 @@ TEST(ReplayedReach, WhatCannotBeLaidIsRefusedInWords) {
   EXPECT_EQ(refusalOf({"f", {1, 601.5}, {{}, {1, 0, 0}}}), "f: time_s: lasts 600.5 s; allowed: a reach of at most 600 s");
   EXPECT_EQ(refusalOf({"f", {0}, {{}}}), "f: fewer than two samples");
   EXPECT_EQ(refusalOf({"f", {0, 1}, {{1, 1, 1}, {1, 1, 1}}}), "f: the hand does not move");
-  EXPECT_EQ(refusalOf({"f", {0, 1}, {{}, {1, 0, 0}}}, {1, 0, 0}), "task.target: start and target are the same place; allowed: two places");
+  EXPECT_EQ(refusalOf({"f", {0, 1}, {{}, {1, 0, 0}}}, {1, 0, 0}),
+            "task.target: start and target are the same position; allowed: two positions");
 }
 
 TEST_F(Files, AReplayIsNamedAndMovesByTickCount) {

@@ -320,7 +320,7 @@ TEST(PredictRefusals, OfATaskThatIsNone) {
   EXPECT_REFUSED("1 numbers each", predict(e, MinHandJerk));
   EXPECT_REFUSED("3 numbers each", predict(freely(dingwell(), {0}, {1, 0, 0}), MinHandJerk));
   EXPECT_REFUSED("3 numbers each", predict(freely(dingwell(), {0, 0, 0}, {1, 0}), MinHandJerk));
-  EXPECT_REFUSED("the same place", predict(freely(dingwell(), {1, 0, 0}, {1, 0, 0}), MinHandJerk));
+  EXPECT_REFUSED("the same position", predict(freely(dingwell(), {1, 0, 0}, {1, 0, 0}), MinHandJerk));
   PredictOptions options;
   for (const double duration : {0.0, -1.0, std::numeric_limits<double>::infinity(), std::nan("")}) {
     e = dingwell();

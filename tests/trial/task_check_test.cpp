@@ -92,7 +92,7 @@ TEST(TaskCheck, NeedsATaskBetweenTwoPlaces) {
   const auto same = problemsWith("chain-moderate", [](auto& e) { e.task->target = e.task->start; });
   ASSERT_EQ(same.size(), 1u);
   EXPECT_EQ(same[0].key, "task.target");
-  EXPECT_EQ(same[0].what, "start and target are the same place");
+  EXPECT_EQ(same[0].what, "start and target are the same position");
   EXPECT_TRUE(problemsWith("ellipse", [](auto& e) { e.task->start = {0}, e.task->target = {2 * std::numbers::pi}; }).empty()) << "a lap";
   experiment::Experiment e = experiment::readExperiment("chain-moderate");
   e.task->target = e.task->start;

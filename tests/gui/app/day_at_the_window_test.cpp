@@ -155,7 +155,7 @@ TEST_F(Day, AChangeInMidRunIsAskedAboutAndDroppedIfTheRunIsToGoOn) {
     QTest::keyClick(masses, Qt::Key_Return);
   };
   {
-    const AnswerBox box(QStringLiteral("Go on with it"));
+    const AnswerBox box(QStringLiteral("Continue it"));
     type();
     EXPECT_TRUE(box.text().startsWith(QStringLiteral("0 of 3 trials are done."))) << box.text().toStdString();
   }
@@ -187,7 +187,7 @@ TEST_F(Day, ClosingAsksWhileARunIsOpenOrAChangeUnsaved) {
   window.nextTrial();
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().run()->latest().phase == trial::Phase::Armed; }, 20000));
   {
-    const AnswerBox box(QStringLiteral("Go on with it"));
+    const AnswerBox box(QStringLiteral("Continue it"));
     EXPECT_FALSE(window.close());
     EXPECT_TRUE(box.asked());
   }

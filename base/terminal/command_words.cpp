@@ -1,4 +1,4 @@
-#include "base/command_words.h"
+#include "base/terminal/command_words.h"
 
 #include <algorithm>
 #include <cctype>
