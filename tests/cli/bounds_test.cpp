@@ -58,7 +58,7 @@ TEST(Bounds, OfWhatAPredictionMayCost) {
   std::string torus = contentOf(std::string(REACHLAB_SOURCE_DIR) + "/resources/experiments/torus.json");
   const std::size_t target = torus.find("\"target\": [") + 11;
   torus.replace(target, torus.find(',', target) - target, "1000");
-  const std::string words[] = {"multiplications, which is what a prediction may cost", "numbers at once; allowed"};
+  const std::string words[] = {"multiplications, which is what a prediction may cost", "numbers at once\nhelp: allowed"};
   const std::string experiments[] = {folder.write("round.json", torus),
                                      file(R"({"name":"ellipse"})", "1e5", R"("start":[0.2],"target":[3])")};
   for (int i = 0; i < 2; ++i) {

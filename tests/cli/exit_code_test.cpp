@@ -68,18 +68,18 @@ TEST(ExitCode, OfOurOwnIsTheOneBehindEach) {
   EXPECT_EQ(endOf([] { throw FaultError(Fault{"x", "is bad"}); }).code, 2);
   EXPECT_EQ(endOf([] { throw ResourceError("no disk"); }).code, 3);
   EXPECT_EQ(endOf([] { throw RefusedError("stiff"); }).code, 4);
-  EXPECT_EQ(endOf([] { throw RefusedError("stiff"); }).words, "stiff\n");
+  EXPECT_EQ(endOf([] { throw RefusedError("stiff"); }).words, "error: stiff\n");
 }
 
 TEST(OptionWords, TellAFaultOfTheRequestByItsOption) {
   EXPECT_EQ(endOf([] {
               throw FaultError(Fault{"participant.age", "is 200", "0 to 130 years"});
             }).words,
-            "--age: is 200; allowed: 0 to 130 years\n");
+            "error: --age: is 200\nhelp: allowed: 0 to 130 years\n");
   EXPECT_EQ(cli::optionOf("disk_reserve"), "--disk-reserve");
   EXPECT_EQ(cli::optionOf("object.masses_kg"), "");
   const Said inFile = endOf([] { throw FaultError(Fault{"method", "is x", "auto", FilePlace{"e.json", 3, 4}}); });
-  EXPECT_EQ(inFile.words, "e.json:3:4: method: is x; allowed: auto\n") << "what stands in a file was not given by an option";
+  EXPECT_EQ(inFile.words, "e.json:3:4: error: method: is x\nhelp: allowed: auto\n") << "what stands in a file was not given by an option";
 }
 
 /// Every option of the table is one that some command has.
@@ -122,10 +122,10 @@ TEST(OptionWords, AreWhatAPersonReads) {
   const test::Ended labels = test::reach("run dingwell --device simulated --fast --subject a_b --session c-d" + data);
   EXPECT_EQ(labels.exitCode, 2);
   EXPECT_EQ(labels.err,
-            "--subject: \"a_b\" is not a label; allowed: up to 60 letters and digits\n"
-            "--session: \"c-d\" is not a label; allowed: up to 60 letters and digits\n");
+            "error: --subject: \"a_b\" is not a label\nhelp: allowed: up to 60 letters and digits\n"
+            "error: --session: \"c-d\" is not a label\nhelp: allowed: up to 60 letters and digits\n");
   EXPECT_TRUE(
-      test::reach("predict chain-slow --criterion min-hand-jerk --sweep n=1:2").err.starts_with("--sweep: is n=1:2; allowed: KEY=FROM"));
-  EXPECT_TRUE(test::reach("predict ellipse --criterion min-hand-jerk --point behind-spring --unknowns 1").err.starts_with("--unknowns: "));
-  EXPECT_TRUE(test::reach("bench --scene S99 --quick").err.starts_with("--scene: is S99; allowed: S1"));
+      test::reach("predict chain-slow --criterion min-hand-jerk --sweep n=1:2").err.starts_with("error: --sweep: is n=1:2\nhelp: allowed: KEY=FROM"));
+  EXPECT_TRUE(test::reach("predict ellipse --criterion min-hand-jerk --point behind-spring --unknowns 1").err.starts_with("error: --unknowns: "));
+  EXPECT_TRUE(test::reach("bench --scene S99 --quick").err.starts_with("error: --scene: is S99\nhelp: allowed: S1"));
 }

@@ -1,4 +1,5 @@
 #pragma once
+#include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -7,6 +8,7 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -30,13 +32,34 @@ inline std::string contentOf(const std::filesystem::path& file) {
   return std::move(text).str();
 }
 
+/// Each message of a wrong command has the one form (base/terminal/message.h), and no text of a library in it. REACHLAB_MESSAGES names a file
+/// that collects them (tests/cli/messages.py).
+inline void expectTheOneForm(const std::string& arguments, const Ended& ended) {
+  if (ended.exitCode < 2 || ended.exitCode > 4) return;
+  static const std::regex head("(?:.+?(?::[0-9]+){0,2}: )?(?:error|warning): \\S.*"), below(" +[0-9]+ \\| .*| +\\| +\\^|help: \\S.*|note: .*");
+  std::istringstream lines(ended.err);
+  bool told = false;
+  for (std::string line; std::getline(lines, line);) {
+    const bool isHead = std::regex_match(line, head);
+    told = told || (isHead && line.find("error: ") != std::string::npos);
+    EXPECT_TRUE(!told || isHead || std::regex_match(line, below)) << "reach " << arguments << "\n" << ended.err;
+  }
+  EXPECT_TRUE(told) << "reach " << arguments << "\n" << ended.err;
+  for (const char* foreign : {"not in range", "Could not convert", "required", "parse error", "syntax error", "json.exception", "std::", "INT", "FLOAT"})
+    EXPECT_EQ(ended.err.find(foreign), std::string::npos) << "reach " << arguments << "\n" << ended.err;
+  if (const char* list = std::getenv("REACHLAB_MESSAGES"))
+    std::ofstream(list, std::ios::app) << "$ reach " << arguments << "\n" << ended.err;
+}
+
 /// Runs `reach ARGUMENTS` in a shell; `environment` stands before it.
 inline Ended reach(const std::string& arguments, const std::string& environment = "") {
   const TemporaryFolder folder;
   const std::string command = environment + " \"" REACH_PROGRAM "\" " + arguments + " > \"" + (folder / "out").string() + "\" 2> \"" +
                               (folder / "err").string() + "\" < /dev/null";
   const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contentOf(folder / "out"), contentOf(folder / "err")};
+  Ended ended{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contentOf(folder / "out"), contentOf(folder / "err")};
+  expectTheOneForm(arguments, ended);
+  return ended;
 }
 
 /// Runs a line of bash in which $REACH is the program; for redirections, pipes and limits of its own.

@@ -53,7 +53,7 @@ TERMS = [(re.compile(pattern, re.I), wanted, short) for pattern, wanted, short i
     (r"\bprices?\b", "computation time", False),
     (rf"\b(?:samples|frames|numbers|words|lines|times|trials|reports|pictures|messages|bytes|calls|one|once|line|row|sentence) an? (?:{COUNTED})\b(?=[,.;:)]|$)", "per", False),
     (r"\b(?:along|off|round) the way\b", "path", False),
-    (r"\bfaults?\b(?! of the program)", "error", True),
+    (r"\bfaults?\b(?!\\| of the program)", "error", True),
     (r"\b(?:same|calibration|degenerate|on this|of this) places?\b|\bplaces? on\b", "position", True),
 ]]
 
