@@ -24,7 +24,7 @@ DatasetAnalysis::DatasetAnalysis(QString program, QObject* parent)
   connect(&process_, QOverload<int, QProcess::ExitStatus>::of(&QProcess::finished), this,
           [this](int code, QProcess::ExitStatus status) { end(status == QProcess::NormalExit && code == 0); });
   connect(&process_, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
-    if (error == QProcess::FailedToStart) Q_EMIT said(tr("The analysis cannot be begun: %1: %2").arg(program_, process_.errorString()));
+    if (error == QProcess::FailedToStart) Q_EMIT said(tr("The analysis cannot start: %1: %2").arg(program_, process_.errorString()));
   });
 }
 
@@ -36,21 +36,21 @@ DatasetAnalysis::~DatasetAnalysis() {
 
 void DatasetAnalysis::begin(const QString& dataset) {
   if (process_.state() != QProcess::NotRunning) {
-    Q_EMIT said(tr("%1 is being analysed; another dataset can be when that is done").arg(dataset_));
+    Q_EMIT said(tr("%1 is being analysed. Wait until it is done, then analyse the other dataset.").arg(dataset_));
     return;
   }
   if (program_.isEmpty()) {
-    Q_EMIT said(tr("The analysis needs the program reach: package reachlab-cli"));
+    Q_EMIT said(tr("The analysis needs the program reach. Install the package reachlab-cli."));
     return;
   }
   dataset_ = dataset;
-  Q_EMIT told(tr("%1 is being analysed").arg(dataset_));
+  Q_EMIT told(tr("%1 is being analysed.").arg(dataset_));
   process_.start(program_, {QStringLiteral("analyze"), dataset_});
 }
 
 void DatasetAnalysis::end(bool good) {
   if (good) {
-    Q_EMIT told(tr("The report is %1").arg(reportOf(dataset_)));
+    Q_EMIT told(tr("The report is in %1.").arg(reportOf(dataset_)));
     Q_EMIT reported(reportOf(dataset_));
     return;
   }

@@ -76,7 +76,7 @@ void FrameRecorder::write(const std::stop_token& stop) {
     lock.lock();
     ++(good ? written_ : failed_);
   }
-  QString sentence = tr("%1 pictures, %2 a second, in %3").arg(written_).arg(kPerSecond).arg(folder_);
+  QString sentence = tr("%1 pictures, %2 per second, are in %3").arg(written_).arg(kPerSecond).arg(folder_);
   if (leftOut_ > 0) sentence += tr("; %1 left out: the disk was too slow").arg(leftOut_);
   if (failed_ > 0) sentence += tr("; %1 could not be written").arg(failed_);
   QMetaObject::invokeMethod(

@@ -163,7 +163,7 @@ void addScenery(MainWindow& window, QMenu& menu) {
     look.sceneFile = file.toStdString();
     window.setLook(look);
   });
-  QAction* none = menu.addAction(QObject::tr("No scene from a file"));
+  QAction* none = menu.addAction(QObject::tr("Remove the scene from a file"));
   QObject::connect(none, &QAction::triggered, &window, [&window] {
     SceneLook look = window.look();
     look.sceneFile.clear();
@@ -232,7 +232,7 @@ void addLookMenu(MainWindow& window, QMenu& menu) {
   light->setChecked(QSettings().value(QStringLiteral("window/theme")).toString() == QLatin1String("light"));
   QObject::connect(light, &QAction::triggered, &window, [&window](bool on) {
     QSettings().setValue(QStringLiteral("window/theme"), on ? QStringLiteral("light") : QStringLiteral("dark"));
-    window.tell(QObject::tr("The %1 theme holds when the window is opened again.").arg(on ? QObject::tr("light") : QObject::tr("dark")));
+    window.tell(QObject::tr("The %1 theme is used when you open the window again.").arg(on ? QObject::tr("light") : QObject::tr("dark")));
   });
   addMovie(window, menu);
 }

@@ -63,18 +63,19 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
   app.add_option("--device", r.device,
                  "mouse, simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER, phantom …; `reach list devices` tells all [mouse]");
   app.add_option("--instrument", r.instruments,
-                 "lsl, parallel:PATH, rts:PATH or byte:PATH, told of go, onset and success; may be given several times")
+                 "Instrument: lsl, parallel:PATH, rts:PATH or byte:PATH. It is told go, onset and end. May be given several times")
       ->expected(1)
       ->take_all();
   app.add_option("--backup", r.backup, "Second data folder: every finished run is copied there and verified");
-  app.add_option("--trials", r.trials, "Trials of an experiment [20]; a plan has its own")->check(CLI::Range(1, 1000000));
-  app.add_option("--run", r.run, "Run number; default: the next free one. A taken one is refused")
+  app.add_option("--trials", r.trials, "Number of trials of an experiment. A plan has its own numbers [default: 20]")
+      ->check(CLI::Range(1, 1000000));
+  app.add_option("--run", r.run, "Run number. A number that is taken is refused [default: the next free number]")
       ->check(CLI::Range(1, reachlab::record::kMaxRun));
   app.add_option("--subject", r.place.subject, "Subject's label, letters and digits [01]");
   app.add_option("--session", r.place.session, "Session's label, letters and digits [01]");
   app.add_option("--data", r.place.data, "Folder of the dataset [./data]");
   app.add_option("--day", r.day, "Day of the plan, when the session's label is no number")->check(CLI::Range(1, 10000));
-  app.add_option("--seed", r.seed, "Seed of noise and order; default: one is drawn and stored")
+  app.add_option("--seed", r.seed, "Seed of noise and order [default: a seed is drawn and stored]")
       ->check(CLI::Validator(
           [](std::string& text) {
             const auto fault = reachlab::session::seedFault(text);
@@ -82,7 +83,7 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
           },
           "SEED"));
   app.add_flag("--resume", r.resume, "Continue with the trial at which this session broke off");
-  app.add_option("--pictures", a.pictures, "Draws every constraint of the catalogue into this folder, and ends");
+  app.add_option("--pictures", a.pictures, "Draw every constraint of the catalogue into this folder, and end");
   int number = 0;
   reachlab::network::StationSetup setup;
   CLI::App* station = app.add_option_group("Station", "One of several stations that move one object together");
@@ -90,9 +91,7 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
                    ->check(CLI::Range(1, reachlab::network::kMaxStations));
   reachlab::network::addStationOptions(*station, setup);
   bool observes = false;
-  station
-      ->add_flag("--observe,--look-on", observes,
-                 "Without a hand: shows what the stations do; nothing is recorded, and they do not wait for it")
+  station->add_flag("--observe,--look-on", observes, "Without a hand: show the stations. Nothing is recorded, and they do not wait for it")
       ->excludes(here)
       ->excludes(station->get_option("--conductor"));
   app.footer(

@@ -418,8 +418,8 @@ void MainWindow::showPage() {
 void MainWindow::openManual() {
   const QString page = manualPage();
   if (page.isEmpty() || !QDesktopServices::openUrl(QUrl::fromLocalFile(page)))
-    message_->say(page.isEmpty() ? QStringLiteral("The manual is not installed: package reachlab-doc.")
-                                 : QStringLiteral("No program opens the manual; it is %1").arg(page));
+    message_->say(page.isEmpty() ? QStringLiteral("The manual is not installed. Install the package reachlab-doc.")
+                                 : QStringLiteral("No program opens the manual. Open this file in a browser: %1").arg(page));
 }
 
 void MainWindow::analyse(const QString& dataset) { analysis_.begin(dataset); }

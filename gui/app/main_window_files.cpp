@@ -81,7 +81,7 @@ bool MainWindow::saveExperimentAs() {
 }
 
 bool MainWindow::saveTo(const QString& file, const experiment::Experiment& experiment) {
-  if (session_.isPlan()) return message_->say(QStringLiteral("A plan is composed and saved by Session plan… (Ctrl+P).")), false;
+  if (session_.isPlan()) return message_->say(QStringLiteral("Use Session plan… (Ctrl+P) to compose and save a plan.")), false;
   try {
     writeExperiment(experiment, file);
     if (experiment.name != session_.experiment().name && session_.run() == nullptr)
@@ -126,7 +126,7 @@ void MainWindow::savePicture() {
   if (file.isEmpty()) return;
   if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".png");
   if (picture.save(file)) message_->tell(tr("Written: %1").arg(file));
-  else message_->say(tr("%1 cannot be written.").arg(file));
+  else message_->say(tr("%1 cannot be written. Choose another folder, or free disk space.").arg(file));
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {

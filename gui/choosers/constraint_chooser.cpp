@@ -355,8 +355,9 @@ void ConstraintChooser::save() {
   const auto values = sliders_->values();
   for (constraints::ShapeParameter& p : d.shape) p.defaultValue = values.at(p.name);
   try {
-    if (name.empty()) throw FaultError(Fault{.what = "a definition needs a name: lower-case words joined by '-'"});
-    if (constraints::findInCatalogue(name) != nullptr) throw FaultError(Fault{.what = "there is already a definition of the name " + name});
+    if (name.empty()) throw FaultError(Fault{.what = "The definition has no valid name. Use lower-case words joined by '-'."});
+    if (constraints::findInCatalogue(name) != nullptr)
+      throw FaultError(Fault{.what = "Another definition has this name. Choose another name than " + name});
     const std::string content = constraints::toJson(d);
     namespace fs = std::filesystem;
     const fs::path folder = constraints::userDefinitionFolder(), file = folder / (name + ".json");

@@ -110,7 +110,7 @@ void DeviceDialog::openOrLetGo() {
     force_ = info.rendersForce && info.maxForce > 0 ? info.maxForce : 1;
     const QString hint = QString::fromStdString(device_->calibrationHint());
     tell(QString::fromStdString(info.name) +
-             (hint.isEmpty() ? tr(": needs no calibration") : tr(": to calibrate, %1, and press Calibrate").arg(hint)),
+             (hint.isEmpty() ? tr(" needs no calibration") : tr(": to calibrate, %1, and press Calibrate").arg(hint)),
          false);
     timer_->start(kLookMs);
   } catch (const Error& fault) {

@@ -74,7 +74,7 @@ DeviceDock::DeviceDock(const Finding& finding, QWidget* parent)
   };
   take_ = button(tr("Use it"), "deviceUse", tr("the chosen device is the hand of the next run"));
   look_ = button(tr("Look at it…"), "deviceLook", tr("live: position, force, times between reports, calibration"));
-  again_ = button(tr("Look again"), "deviceAgain", tr("asks every driver anew, vendors' libraries too"));
+  again_ = button(tr("Look again"), "deviceAgain", tr("asks every driver again, including the vendors' libraries"));
   layout->addLayout(line);
   setBody(body, false);
 
@@ -119,7 +119,7 @@ void DeviceDock::list() {
   plugged_ = finding_.fingerprint();
   rows_->clear();
   auto* there = addGroup(*rows_, tr("Connected"));
-  auto* absent = addGroup(*rows_, tr("Not there, and why"));
+  auto* absent = addGroup(*rows_, tr("Missing devices, and why"));
   auto* made = addGroup(*rows_, tr("Hands without a device"));
   for (const devices::FoundDevice& found : finding_.all()) {
     const devices::DeviceDriver* driver = devices::findDriver(found.kind);
@@ -146,7 +146,7 @@ void DeviceDock::showButtons() {
   take_->setEnabled(usable);
   look_->setEnabled(usable && !isInWindowOnly(*row));
   again_->setEnabled(!busy_);
-  hint_->setText(busy_                ? tr("A run has its devices; they are asked again when it has ended.")
+  hint_->setText(busy_                ? tr("The run uses its devices. End the run to search for devices again.")
                  : chosen().isEmpty() ? QString()
                                       : row->text(kWords));
   hint_->setVisible(!hint_->text().isEmpty());

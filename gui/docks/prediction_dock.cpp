@@ -35,7 +35,7 @@ PredictionDock::PredictionDock(QWidget* parent)
   table_->horizontalHeaderItem(kLast)->setToolTip(
       QStringLiteral("the paper's epsilon of the last trial: RMS difference of the hand's velocity, time-scaled [m/s]"));
   table_->horizontalHeaderItem(kAll)->setToolTip(QStringLiteral(
-      "the paper's epsilon over the trials of this run that succeeded, as in reach analyze; grey: over failed ones, while none has [m/s]"));
+      "the paper's epsilon over the trials of this run that succeeded, as in reach analyze; grey: over failed trials, until a trial has succeeded [m/s]"));
   table_->horizontalHeaderItem(kFitted)->setToolTip(QStringLiteral(
       "the fitted epsilon over the trials of this run that succeeded, from ten on, as in reach analyze: onset, duration and amplitude "
       "fitted to each trial [m/s]"));

@@ -92,7 +92,7 @@ QHBoxLayout* SessionDock::makeDeviceRow() {
   hands->addWidget(device_, 1);
   auto* devices = new QPushButton(QStringLiteral("…"));
   devices->setObjectName(QStringLiteral("devicesButton"));
-  devices->setToolTip(QStringLiteral("the dock Devices: which there are, why others are not, and one of them live"));
+  devices->setToolTip(QStringLiteral("opens the dock Devices: the present devices, why others are missing, and a live view"));
   devices->setMaximumWidth(48);
   connect(devices, &QPushButton::clicked, this, &SessionDock::devicesRequested);
   hands->addWidget(devices);
@@ -117,7 +117,7 @@ void SessionDock::addRun(QVBoxLayout& layout) {
   abort_->setObjectName(QStringLiteral("abort"));
   repeat_ = new QPushButton(QStringLiteral("Repeat  (Ctrl+R)"));
   repeat_->setObjectName(QStringLiteral("repeat"));
-  repeat_->setToolTip(QStringLiteral("puts the last trial up once more, at the end of the run"));
+  repeat_->setToolTip(QStringLiteral("repeats the last trial at the end of the run"));
   end_ = new QPushButton(QStringLiteral("End run  (Ctrl+E)"));
   end_->setObjectName(QStringLiteral("end"));
   auto* buttons = new QGridLayout;
@@ -128,7 +128,7 @@ void SessionDock::addRun(QVBoxLayout& layout) {
   layout.addLayout(buttons);
   for (auto* button : {next_, abort_, repeat_, end_}) button->setFocusPolicy(Qt::NoFocus);
 
-  automatic_ = new QCheckBox(QStringLiteral("next trial by itself after"));
+  automatic_ = new QCheckBox(QStringLiteral("start the next trial after"));
   pause_ = new widgets::UnitSpinBox(0, 600, QStringLiteral("s"));
   pause_->show(1);
   auto* pausing = new QHBoxLayout;
@@ -192,8 +192,9 @@ void SessionDock::check() {
   const bool fineAge = age.isEmpty() || (isNumber && years >= 0 && years <= record::kMaxAge);
   QStringList faults{
       mark(subject_, labelFault(subject_, "subject")), mark(session_, labelFault(session_, "session")),
-      mark(age_, fineAge ? QString() : QStringLiteral("age \"%1\": allowed: 0 to %2 years, or nothing").arg(age).arg(record::kMaxAge)),
-      mark(data_, data_->text().trimmed().isEmpty() ? QStringLiteral("data in: nothing; allowed: a folder") : QString())};
+      mark(age_,
+           fineAge ? QString() : QStringLiteral("age: \"%1\" is no age; allowed: 0 to %2 years, or nothing").arg(age).arg(record::kMaxAge)),
+      mark(data_, data_->text().trimmed().isEmpty() ? QStringLiteral("data in: is empty; allowed: a folder") : QString())};
   faults.removeAll({});
   this->faults()->setFaults(faults);
 }

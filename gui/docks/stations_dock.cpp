@@ -49,12 +49,12 @@ StationsDock::StationsDock(QWidget* parent) : Dock(tr("Stations"), QStringLitera
   table_->setHorizontalHeaderLabels({tr("link"), tr("no."), tr("name"), tr("round trip\n[ms]"), tr("jitter\n[ms]"), tr("lost\n[%]"),
                                      tr("overtaken\n[%]"), tr("clock\n[ms]"), tr("age\n[ms]"), tr("device"), tr("software")});
   const std::pair<Column, QString> tips[] = {
-      {kRoundTrip, tr("there and back; a trial is armed up to 120 ms")},
+      {kRoundTrip, tr("round trip time; a trial is armed up to 120 ms")},
       {kJitter, tr("standard deviation of the round trip")},
-      {kLoss, tr("what it sent in the last two seconds and did not come; a trial is armed up to 20 %")},
-      {kOvertaken, tr("samples of the last second that came after a newer one, and were not needed")},
-      {kOffset, tr("its clock less this one's")},
-      {kAge, tr("since its newest sample came")}};
+      {kLoss, tr("share of its messages of the last two seconds that did not arrive; a trial is armed up to 20 %")},
+      {kOvertaken, tr("share of samples of the last second that came after a newer sample and were not used")},
+      {kOffset, tr("its clock minus the clock of this station")},
+      {kAge, tr("time since its newest sample")}};
   for (const auto& [column, tip] : tips) table_->horizontalHeaderItem(column)->setToolTip(tip);
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(25);
@@ -105,15 +105,15 @@ void StationsDock::showStations(const network::StationSetup& here, Stage stage, 
   }
   if (!placed) fill(row, own, true);
   const QString why = obstacles.join(QStringLiteral("; "));
-  const QString next = stage == Stage::Observing ? tr("Observing: nothing is recorded, and nobody waits for this window.") +
-                                                       (why.isEmpty() ? QString() : QLatin1Char(' ') + why + QLatin1Char('.'))
-                       : stage == Stage::Closed ? tr("No run is open here: Space opens one, and the others hear of this station.")
-                       : stage == Stage::UnderWay
-                           ? tr("A trial is under way.") + (why.isEmpty() ? QString() : QLatin1Char(' ') + why + QLatin1Char('.'))
-                       : !why.isEmpty()         ? tr("Not armed: %1.").arg(why)
-                       : stage == Stage::Arming ? tr("Every link is good: the trial is being armed.")
-                       : own.conductor          ? tr("Every link is good. Space arms the next trial.")
-                                                : tr("Every link is good. The conductor arms the next trial.");
+  const QString next =
+      stage == Stage::Observing ? tr("This window only observes. It records nothing, and the stations do not wait for it.") +
+                                      (why.isEmpty() ? QString() : QLatin1Char(' ') + why + QLatin1Char('.'))
+      : stage == Stage::Closed   ? tr("No run is open here. Press Space to open a run and to join the other stations.")
+      : stage == Stage::UnderWay ? tr("A trial is under way.") + (why.isEmpty() ? QString() : QLatin1Char(' ') + why + QLatin1Char('.'))
+      : !why.isEmpty()           ? tr("Not armed: %1.").arg(why)
+      : stage == Stage::Arming   ? tr("Every link is good: the trial is being armed.")
+      : own.conductor            ? tr("Every link is good. Space arms the next trial.")
+                                 : tr("Every link is good. The conductor arms the next trial.");
   sentence_->setText(here.insecure ? next + QLatin1Char(' ') + tr("Nothing is encrypted.") : next);
 }
 

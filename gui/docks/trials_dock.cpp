@@ -60,14 +60,15 @@ TrialsDock::TrialsDock(QWidget* parent) : Dock(QStringLiteral("Trials"), QString
     line->addWidget(made);
     return made;
   };
-  connect(button(tr("⚑ Flag"), "flagTrial", tr("to be looked at again: the chosen trial, else the newest")), &QToolButton::clicked, this,
-          [this] {
+  connect(button(tr("⚑ Flag"), "flagTrial", tr("flags the chosen trial, or the newest trial, to look at it again")), &QToolButton::clicked,
+          this, [this] {
             if (const auto at = chosen()) Q_EMIT flagRequested(rows_[*at].number);
           });
-  connect(button(tr("Exclude…"), "excludeTrial", tr("with a reason: the analysis leaves it out")), &QToolButton::clicked, this, [this] {
-    if (const auto at = chosen()) Q_EMIT excludeRequested(rows_[*at].number, QString::fromStdString(rows_[*at].mark.excluded));
-  });
-  connect(button(tr("Undo repeat"), "undoRepeat", tr("the last repeat that is still to come is not done")), &QToolButton::clicked, this,
+  connect(button(tr("Exclude…"), "excludeTrial", tr("excludes the trial from the analysis, with a reason")), &QToolButton::clicked, this,
+          [this] {
+            if (const auto at = chosen()) Q_EMIT excludeRequested(rows_[*at].number, QString::fromStdString(rows_[*at].mark.excluded));
+          });
+  connect(button(tr("Undo repeat"), "undoRepeat", tr("cancels the last planned repeat")), &QToolButton::clicked, this,
           &TrialsDock::takeBackRequested);
   line->addStretch(1);
   layout->addLayout(line);

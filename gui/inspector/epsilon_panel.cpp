@@ -109,8 +109,8 @@ void EpsilonPanel::show(const analysis::Analysis& analysis, std::size_t conditio
   for (const auto& [why, count] : r.exclusions) out << tr("%1 × %2").arg(count).arg(QString::fromStdString(why));
   if (!out.isEmpty()) words += tr("; not: %1").arg(out.join(QStringLiteral(", ")));
   const bool anyFitted = best[kFitted] >= 0;
-  if (!anyFitted) words += tr(". ε is fitted from %1 counted trials of a person on").arg(analysis::kFewestTrials);
-  if (r.onlyFailures) words += tr(". None succeeded: the failed ones are described");
+  if (!anyFitted) words += tr(". ε is fitted when a person has at least %1 counted trials").arg(analysis::kFewestTrials);
+  if (r.onlyFailures) words += tr(". No trial succeeded, so the failed trials are described");
   told_->setText(words + QLatin1Char('.'));
 }
 

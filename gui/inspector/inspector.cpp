@@ -144,7 +144,7 @@ void InspectorPage::wire() {
   });
   connect(&inspector_, &Inspector::failed, this, &InspectorPage::said);
   connect(&inspector_, &Inspector::reported, this, [this](const QString& file) {
-    Q_EMIT told(tr("The report is %1").arg(file));
+    Q_EMIT told(tr("The report is in %1.").arg(file));
     Q_EMIT reported(file);
   });
 }
@@ -174,7 +174,7 @@ void InspectorPage::inspect() {
   std::vector<int> rows = chosenRows();
   if (rows.empty()) return;
   if (static_cast<int>(rows.size()) > kMostInspected) {
-    Q_EMIT said(tr("%1 trials are chosen: the first %2 are shown; the report takes all.").arg(rows.size()).arg(kMostInspected));
+    Q_EMIT said(tr("%1 trials are chosen. The first %2 are shown. The report uses all of them.").arg(rows.size()).arg(kMostInspected));
     rows.resize(kMostInspected);
   }
   // Rows of one log together, as they are read; those of experiments without a task are left out by the reading.
@@ -217,7 +217,8 @@ void InspectorPage::showRead() {
   }
   const std::vector<int> chosen = chosenRows();
   if (std::find(chosen.begin(), chosen.end(), picked_) == chosen.end()) picked_ = chosen.empty() ? -1 : chosen.front();
-  if (inspection_->input.trials.empty()) Q_EMIT said(tr("The chosen trials have nothing to show: their experiment has no task."));
+  if (inspection_->input.trials.empty())
+    Q_EMIT said(tr("The chosen trials cannot be shown, because their experiment has no task. Choose trials of another experiment."));
   draw();
   showPicked();
 }

@@ -38,7 +38,7 @@ void InspectorPage::addTop(QVBoxLayout& layout) {
     if (!path_.isEmpty()) open(path_);
   });
   openButton->setMenu(menu);
-  title_ = new QLabel(tr("No recording is open."));
+  title_ = new QLabel(tr("No recording is open. Use File, Inspect to open a dataset or a session."));
   title_->setStyleSheet(QStringLiteral("font-weight: 600;"));
   words_ = new QLineEdit;
   words_->setObjectName(QStringLiteral("inspectorFilter"));
@@ -64,7 +64,7 @@ void InspectorPage::addTop(QVBoxLayout& layout) {
   exportButton->setMenu(exports);
   report_ = new QPushButton(tr("Report"));
   report_->setObjectName(QStringLiteral("inspectorReport"));
-  report_->setToolTip(tr("analyses everything that is open, as `reach analyze` does, and shows the report"));
+  report_->setToolTip(tr("analyses all open recordings, as `reach analyze` does, and shows the report"));
   report_->setEnabled(false);
   top->addWidget(openButton);
   top->addWidget(title_);
@@ -94,7 +94,7 @@ QWidget* InspectorPage::makeRight() {
   fitted_ = new QCheckBox(tr("fitted"));
   fitted_->setObjectName(QStringLiteral("inspectorFitted"));
   fitted_->setChecked(true);
-  fitted_->setToolTip(tr("the mean of the movements that were fitted to a person's trials; from ten trials on"));
+  fitted_->setToolTip(tr("the mean of the movements that were fitted to a person's trials (ten trials or more)"));
   for (QWidget* widget : std::initializer_list<QWidget*>{signal_, axis_, predicted_, fitted_}) row->addWidget(widget);
   row->addStretch(1);
   column->addLayout(row);

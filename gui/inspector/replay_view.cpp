@@ -83,7 +83,7 @@ ReplayView::ReplayView(QWidget* parent) : QWidget(parent) {
   loop_->setObjectName(QStringLiteral("replayLoop"));
   ghostsShown_ = new QCheckBox(tr("ghosts"));
   ghostsShown_->setObjectName(QStringLiteral("replayGhosts"));
-  ghostsShown_->setToolTip(tr("the other chosen trials at the same time since their onset, faintly"));
+  ghostsShown_->setToolTip(tr("shows the other chosen trials faintly, at the same time since their onset"));
   ghostsShown_->setChecked(true);
   told_ = new QLabel;
   told_->setProperty("role", "quiet");

@@ -180,7 +180,7 @@ QWidget* PlanComposer::makeBlock() {
   experiment_ = new QComboBox;
   experiment_->setObjectName(QStringLiteral("planExperiment"));
   experiment_->setEditable(true);
-  experiment_->setToolTip(tr("a shipped one, or a file; files beside the plan are named without their folder"));
+  experiment_->setToolTip(tr("a shipped experiment or a file. Files beside the plan are named without their folder"));
   for (const std::string& name : experiment::shippedExperiments()) experiment_->addItem(from(name));
   condition_ = new QLineEdit;
   condition_->setObjectName(QStringLiteral("planCondition"));
@@ -194,9 +194,9 @@ QWidget* PlanComposer::makeBlock() {
   trials_ = whole("planTrials", 1, 1'000'000);
   day_ = whole("planDay", 0, 10'000);
   day_->setSpecialValueText(tr("every day"));
-  practice_ = new QCheckBox(tr("practice: recorded, but in no statistics"));
+  practice_ = new QCheckBox(tr("practice: recorded, but not used in statistics"));
   practice_->setObjectName(QStringLiteral("planPractice"));
-  repeatAborted_ = new QCheckBox(tr("aborted trials once more at the end"));
+  repeatAborted_ = new QCheckBox(tr("repeat aborted trials at the end"));
   const auto number = [&](const char* name, double high, const QString& unit) {
     auto* made = new widgets::UnitSpinBox(0, high, unit);
     made->setObjectName(QLatin1String(name));
@@ -267,8 +267,9 @@ void PlanComposer::showList(int select) {
   list_->setRowCount(static_cast<int>(plan_.blocks.size()));
   for (int i = 0; i < list_->rowCount(); ++i) {
     const session::PlanBlock& block = plan_.blocks[static_cast<std::size_t>(i)];
-    const QString texts[] = {QString::number(i + 1),        QFileInfo(from(block.experiment)).completeBaseName(),      from(conditionOf(block)),
-                             QString::number(block.trials), block.day == 0 ? tr("every") : QString::number(block.day), kindOf(block)};
+    const QString texts[] = {
+        QString::number(i + 1),        QFileInfo(from(block.experiment)).completeBaseName(),      from(conditionOf(block)),
+        QString::number(block.trials), block.day == 0 ? tr("every") : QString::number(block.day), kindOf(block)};
     for (int column = 0; column < kColumns; ++column) {
       if (list_->item(i, column) == nullptr) list_->setItem(i, column, new QTableWidgetItem);
       list_->item(i, column)->setText(texts[column]);
@@ -336,11 +337,11 @@ void PlanComposer::takeWhole() {
 
 QStringList PlanComposer::faults() const {
   QStringList lines;
-  if (plan_.name.empty()) lines << tr("the plan has no name");
+  if (plan_.name.empty()) lines << tr("The plan has no name. Enter a name.");
   for (const Fault& fault : session::problems(plan_)) {
     const std::size_t open = fault.key.find('['), close = fault.key.find("].");
     if (open == std::string::npos || close == std::string::npos) {
-      lines << (plan_.blocks.empty() ? tr("there is no block yet: Add") : widgets::inWords(fault));
+      lines << (plan_.blocks.empty() ? tr("The plan has no block. Press Add.") : widgets::inWords(fault));
       continue;
     }
     Fault own = fault;

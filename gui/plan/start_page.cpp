@@ -121,7 +121,7 @@ void StartPage::show(const Shown& shown) {
   }
   blocks_->setFixedHeight(blocks_->horizontalHeader()->sizeHint().height() + 4 + 25 * std::clamp(blocks_->rowCount(), 1, kMostRows));
   if (!shown.fault.isEmpty()) next_->setText(shown.fault);
-  else if (next == nullptr) next_->setText(tr("Everything of this session is recorded: another subject, or another session."));
+  else if (next == nullptr) next_->setText(tr("All trials of this session are recorded. Choose another subject or another session."));
   else if (resumes_)
     next_->setText(tr("Continues in block %1, %2, with trial %3 of %4.")
                        .arg(next->block)
@@ -129,8 +129,10 @@ void StartPage::show(const Shown& shown) {
                        .arg(next->done + 1)
                        .arg(next->trials));
   else
-    next_->setText(
-        tr("Begins with block %1, %2: %3 trials.").arg(next->block).arg(QString::fromStdString(next->condition)).arg(next->trials));
+    next_->setText(tr("The first block is block %1, %2, with %3 trials.")
+                       .arg(next->block)
+                       .arg(QString::fromStdString(next->condition))
+                       .arg(next->trials));
   if (next != nullptr && !next->instructions.empty())
     next_->setText(next_->text() + QStringLiteral("\n") + QString::fromStdString(next->instructions));
   const bool can = shown.fault.isEmpty() && next != nullptr;

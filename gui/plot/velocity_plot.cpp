@@ -112,7 +112,7 @@ VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent), impl_(std::make_u
   auto* row = new QHBoxLayout;
   impl_->freeze = new QCheckBox(tr("freeze"));
   impl_->freeze->setObjectName(QStringLiteral("velocityFreeze"));
-  impl_->freeze->setToolTip(tr("holds the picture; the trial under way is drawn when it is let go"));
+  impl_->freeze->setToolTip(tr("freezes the plot. Press it again to show the current trial"));
   auto* save = new QToolButton;
   save->setText(tr("Export…"));
   row->addWidget(impl_->freeze);

@@ -29,13 +29,13 @@ ScenePlan planOf(const constraints::Definition& definition) {
 }
 
 void save(const QImage& image, const QString& file) {
-  if (!image.save(file)) throw ResourceError(file.toStdString() + ": could not be written");
+  if (!image.save(file)) throw ResourceError(file.toStdString() + " could not be written. Choose another folder, or free disk space");
 }
 
 }  // namespace
 
 int drawPictures(const QString& folder) {
-  if (!QDir().mkpath(folder)) throw ResourceError(folder.toStdString() + ": the folder could not be made");
+  if (!QDir().mkpath(folder)) throw ResourceError(folder.toStdString() + ": the folder could not be made. Choose another folder");
   SceneView view;
   OverlayState overlay;
   overlay.semaphoreShown = false;

@@ -19,7 +19,7 @@ QString outcomeText(const trial::TrialResult& result) {
       return QStringLiteral("Time is up: %1 is %2 mm too far from the target").arg(massName(result.mass), number(1000 * result.by, 1));
     case trial::Reason::Velocity:
       return QStringLiteral("Time is up: %1 still moves %2 mm/s too fast").arg(massName(result.mass), number(1000 * result.by, 1));
-    case trial::Reason::ForceLimit: return QStringLiteral("The force went over its limit");
+    case trial::Reason::ForceLimit: return QStringLiteral("The force exceeded its limit");
     case trial::Reason::DeviceLost: return QStringLiteral("The device was lost");
     case trial::Reason::NoOnset: return QStringLiteral("No movement began");
     case trial::Reason::Experimenter: return QStringLiteral("Stopped by the experimenter");

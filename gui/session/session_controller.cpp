@@ -124,8 +124,7 @@ void SessionController::planRuns(const session::SessionRequest& request) {
   if (follows()) asked.trials = 1;  // the conductor's count holds
   std::vector<std::string> mappings;
   asked.device = devices::withKeptMappings(asked.device, asked.place.data, asked.place.subject, mappings);
-  for (const std::string& file : mappings)
-    onOpening_ << tr("The hand has the mapping that is kept in %1.").arg(QString::fromStdString(file));
+  for (const std::string& file : mappings) onOpening_ << tr("The mapping of the hand is read from %1.").arg(QString::fromStdString(file));
   if (!instruments_) instruments_ = devices::openInstruments(request.instruments);
   auto planned = std::make_unique<session::RecordedSession>(
       programme_, asked, [this](const auto& spec, const auto& experiment, auto seed) { return makeDeviceHere(spec, experiment, seed); },
@@ -179,9 +178,7 @@ void SessionController::beginAnew() {
   resume_ = false;
 }
 
-double SessionController::restLeft() const {
-  return recorded_ ? recorded_->pacing().restLeft(std::chrono::steady_clock::now()) : 0;
-}
+double SessionController::restLeft() const { return recorded_ ? recorded_->pacing().restLeft(std::chrono::steady_clock::now()) : 0; }
 
 bool SessionController::takeNextTrial() { return recorded_ && recorded_->pacing().takeNextTrial(std::chrono::steady_clock::now()); }
 

@@ -60,10 +60,10 @@ scene::OverlayState overlayOf(SessionController& session, bool mouse, bool masse
           QStringLiteral("Block %1 of %2, ").arg(run->configuration().block).arg(session.blockCount()) + overlay.counter.toLower();
     if (session.station() != nullptr) tellStations(session, overlay);
     if (isOver(session)) {
-      overlay.detail = session.restLeft() > 0     ? QStringLiteral("the block is done: rest %1 s more").arg(std::ceil(session.restLeft()))
-                       : session.blocksLeft() > 0 ? QStringLiteral("the block is done: rest; Space: next block")
-                       : session.isPlan()         ? QStringLiteral("the session is complete")
-                                                  : QStringLiteral("the run is complete");
+      overlay.detail = session.restLeft() > 0 ? QStringLiteral("The block is done. Rest for %1 s more").arg(std::ceil(session.restLeft()))
+                       : session.blocksLeft() > 0 ? QStringLiteral("The block is done. Rest, then press Space for the next block")
+                       : session.isPlan()         ? QStringLiteral("The session is complete")
+                                                  : QStringLiteral("The run is complete");
     }
   }
   const bool startPage = run == nullptr && session.isPlan();  // it says what is asked, and stands there

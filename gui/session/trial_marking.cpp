@@ -13,7 +13,7 @@ namespace {
 
 void change(docks::TrialsDock& dock, SessionController& session, MessageBar& message, int number,
             const std::function<void(record::TrialMark&)>& how) {
-  if (session.run() == nullptr) return message.say(QObject::tr("The run is closed: its trials are marked on the page Inspect."));
+  if (session.run() == nullptr) return message.say(QObject::tr("The run is closed. Mark its trials on the page Inspect."));
   try {
     const std::string& log = session.run()->logPath();
     record::RunMarks marks = record::readMarks(log);
@@ -39,12 +39,12 @@ void wireMarking(docks::TrialsDock& dock, SessionController& session, MessageBar
     bool fine = false;
     const QString reason =
         QInputDialog::getText(&dock, QObject::tr("Exclude trial %1").arg(number),
-                              QObject::tr("Why it is not to count (nothing: it counts):"), QLineEdit::Normal, known, &fine);
+                              QObject::tr("Reason for the exclusion (empty: the trial counts):"), QLineEdit::Normal, known, &fine);
     if (!fine) return;
     change(dock, session, message, number, [&](record::TrialMark& mark) { mark.excluded = reason.trimmed().toStdString(); });
   });
   QObject::connect(&dock, &docks::TrialsDock::takeBackRequested, &dock, [&session, &message] {
-    if (!session.takeBackRepeat()) message.say(QObject::tr("No repeat is still to be done."));
+    if (!session.takeBackRepeat()) message.say(QObject::tr("No repeat is planned."));
   });
 }
 

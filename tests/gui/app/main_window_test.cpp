@@ -445,9 +445,9 @@ TEST_F(Window, ABadLabelOrAgeIsMarkedAtItsFieldAndStartingIsRefusedInTheSameWord
     const char *field, *wrong, *says, *right;
   } entries[] = {{"subject", "anna-b", "subject: \"anna-b\" is not a label; allowed: up to 60 letters and digits", "annab"},
                  {"session", "", "session: \"\" is not a label; allowed: up to 60 letters and digits", "2"},
-                 {"age", "old", "age \"old\": allowed: 0 to 130 years, or nothing", "34"},
-                 {"age", "131", "age \"131\": allowed: 0 to 130 years, or nothing", ""},
-                 {"data", "", "data in: nothing; allowed: a folder", nullptr}};
+                 {"age", "old", "age: \"old\" is no age; allowed: 0 to 130 years, or nothing", "34"},
+                 {"age", "131", "age: \"131\" is no age; allowed: 0 to 130 years, or nothing", ""},
+                 {"data", "", "data in: is empty; allowed: a folder", nullptr}};
   for (const auto& entry : entries) {
     auto* field = find<QLineEdit>(entry.field);
     const QString right = entry.right ? QString::fromLatin1(entry.right) : field->text();

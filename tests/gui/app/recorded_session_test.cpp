@@ -141,11 +141,11 @@ TEST_F(RecordingWindow, APlanIsOpenedFromTheMenuAndLeftForAnExperiment) {
   doTrial();
   const scene::OverlayState between = overlayOf(session(), false, false);
   EXPECT_EQ(between.counter.toStdString(), "Block 1 of 2, trial 1 of 1");
-  EXPECT_EQ(between.detail.toStdString(), "the block is done: rest; Space: next block");
+  EXPECT_EQ(between.detail.toStdString(), "The block is done. Rest, then press Space for the next block");
   EXPECT_EQ(subjectsOverlayOf(session(), {}, 0).detail, QStringLiteral("Rest a little"));
   doTrial();
   EXPECT_EQ(overlayOf(session(), false, false).counter.toStdString(), "Block 2 of 2, trial 1 of 1");
-  EXPECT_EQ(overlayOf(session(), false, false).detail, QStringLiteral("the session is complete"));
+  EXPECT_EQ(overlayOf(session(), false, false).detail, QStringLiteral("The session is complete"));
   EXPECT_EQ(session().experiment().name, "dingwell");
   window_->nextTrial();
   EXPECT_EQ(window_->message(), QStringLiteral("The session is complete."));

@@ -65,7 +65,8 @@ TEST_F(DeviceDockOnPlugs, WhatIsPluggedInAndOutShowsByItself) {
   show();
   plugged = {arm("/dev/hidraw0: Permission denied")};
   nodes = 2;
-  ASSERT_TRUE(QTest::qWaitFor([&] { return rowOf(QStringLiteral("hid:SN0001")).second == QStringLiteral("Not there, and why"); }, 5000));
+  ASSERT_TRUE(
+      QTest::qWaitFor([&] { return rowOf(QStringLiteral("hid:SN0001")).second == QStringLiteral("Missing devices, and why"); }, 5000));
   EXPECT_EQ(rowOf(QStringLiteral("hid:SN0001")).first->text(1), QStringLiteral("/dev/hidraw0: Permission denied"));
   plugged.clear();
   nodes = 3;
@@ -120,7 +121,7 @@ TEST(DeviceDock, SaysWhatIsThereWhatIsNotAndWhy) {
   QTreeWidgetItem* phantom = rowOf(QStringLiteral("phantom"));
   ASSERT_NE(phantom, nullptr);
   EXPECT_TRUE(phantom->text(1).contains(QStringLiteral("libHD.so"))) << phantom->text(1).toStdString();
-  EXPECT_EQ(phantom->parent()->text(0), QStringLiteral("Not there, and why"));
+  EXPECT_EQ(phantom->parent()->text(0), QStringLiteral("Missing devices, and why"));
   QTreeWidgetItem* subject = rowOf(QStringLiteral("simulated"));
   ASSERT_NE(subject, nullptr);
   EXPECT_EQ(subject->parent()->text(0), QStringLiteral("Hands without a device"));
