@@ -302,10 +302,13 @@ std::string describeEffect(const Analysis& analysis, const Effect& e) {
 }
 
 std::string describeSlope(const Analysis& analysis, const LearningSlope& s) {
-  std::string text = fmt::format("{}: {}{} percentage points in 100 trials", analysis.conditions[s.condition].name,
-                                 s.perHundred >= 0 ? "+" : "", shortNumber(s.perHundred));
+  // Ten trials are fewer than any series has: a slope in a hundred of them may be more than all successes.
+  constexpr double kTens = 10;
+  std::string text = fmt::format("{}: {}{} percentage points per ten trials", analysis.conditions[s.condition].name,
+                                 s.perHundred >= 0 ? "+" : "", shortNumber(s.perHundred / kTens));
   if (s.people < 2) return text + " (one subject: no interval).";
-  return text + fmt::format(" {}, {} ({}).", intervalText(s.interval), pText(s.p), plural(s.people, "subject"));
+  return text + fmt::format(" {}, {} ({}).", intervalText({s.interval.low / kTens, s.interval.high / kTens}), pText(s.p),
+                            plural(s.people, "subject"));
 }
 
 }  // namespace reachlab::analysis

@@ -181,8 +181,8 @@ TEST(Wording, OfEffectsGivesIntervalsForTwoPeopleOrMore) {
   EXPECT_EQ(describeEffect(analysis, analysis.effects[0]),
             "quick, D2 − D1: +21 percentage points [5, 37], odds ratio 2.5 [1.25, 5], p = 0.012 (2 subjects).");
   EXPECT_EQ(describeEffect(analysis, analysis.effects[1]), "quick − slow pace: −12.5 percentage points (one subject: no interval).");
-  EXPECT_EQ(describeSlope(analysis, analysis.slopes[0]), "quick: +7.5 percentage points in 100 trials [−2.5, 17.5], p = 0.2 (2 subjects).");
-  EXPECT_EQ(describeSlope(analysis, analysis.slopes[1]), "slow pace: −3 percentage points in 100 trials (one subject: no interval).");
+  EXPECT_EQ(describeSlope(analysis, analysis.slopes[0]), "quick: +0.75 percentage points per ten trials [−0.25, 1.75], p = 0.2 (2 subjects).");
+  EXPECT_EQ(describeSlope(analysis, analysis.slopes[1]), "slow pace: −0.3 percentage points per ten trials (one subject: no interval).");
   Effect none = analysis.effects[1];
   none.points.mean = 0;
   expectIn(describeEffect(analysis, none), {": +0 percentage"});
