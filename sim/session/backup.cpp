@@ -215,7 +215,7 @@ class Backup {
     try {
       const record::RunLog run = record::RunLog::open(log.string(), record::LogCheck::Trials);
       if (run.healthy() && run.closed()) return {};
-      return fmt::format("{}: its run was not ended in order; mend it with: reach recover {}", log.string(), log.string());
+      return fmt::format("{}: its run was not ended in order; repair it with: reach recover {}", log.string(), log.string());
     } catch (const FaultError& fault) {
       return fault.what();
     }

@@ -181,7 +181,7 @@ void RunLog::visit(std::uint64_t firstTick, Visit&& visit) const {
   while (reader.goodEnd() < goodBytes_) {
     if (!reader.next(record))
       throw FaultError(
-          Fault{{}, fmt::format("damaged after byte {}; mend it with: reach recover {}", reader.goodEnd(), path_), {}, FilePlace{path_}});
+          Fault{{}, fmt::format("damaged after byte {}; repair it with: reach recover {}", reader.goodEnd(), path_), {}, FilePlace{path_}});
     try {
       if (!visit(record)) return;
     } catch (const FaultError& error) {
