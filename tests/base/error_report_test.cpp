@@ -37,7 +37,7 @@ TEST(ErrorReport, TellsOursAsTheyStandAndOthersInOurWords) {
   EXPECT_EQ(told(ResourceError("no device")), "3 no device");
   EXPECT_EQ(told(RefusedError("singular")), "4 singular");
   EXPECT_EQ(told(Error("something")), "3 something");
-  const std::string noMemory = "3 there is not enough memory for this; what was recorded is safe";
+  const std::string noMemory = "3 there is not enough memory for this. The recorded data are safe";
   EXPECT_EQ(told(std::bad_alloc()), noMemory);
   EXPECT_EQ(told(std::length_error("vector")), noMemory);
   const std::error_code gone = std::make_error_code(std::errc::no_such_file_or_directory);
@@ -49,7 +49,7 @@ TEST(ErrorReport, TellsOursAsTheyStandAndOthersInOurWords) {
   } catch (const std::exception& error) {
     EXPECT_EQ(told(error), "2 a file that was read does not hold what Reachlab wrote there, or should find there");
   }
-  const std::string own = "70 stopped by a fault of the program itself; what was recorded is safe. Please report what was asked for";
+  const std::string own = "70 stopped by a fault of the program itself. The recorded data are safe. Please report what you did";
   EXPECT_EQ(told(std::runtime_error("x")), own);
   EXPECT_EQ(told(std::out_of_range("x")), own);
   EXPECT_EQ(ErrorReport{}.exitCode, 0);
@@ -58,17 +58,17 @@ TEST(ErrorReport, TellsOursAsTheyStandAndOthersInOurWords) {
 TEST(ErrorReport, WhatNoCatchReachesEndsWithASentence) {
   const auto uncaught = [](auto thrown) { std::thread([thrown] { throw thrown; }).join(); };
   endOnUncaught();
-  EXPECT_EXIT(uncaught(std::bad_alloc()), ExitedWithCode(3), "there is not enough memory for this; what was recorded is safe\n");
+  EXPECT_EXIT(uncaught(std::bad_alloc()), ExitedWithCode(3), "error: there is not enough memory for this. The recorded data are safe\n");
   EXPECT_EXIT(uncaught(std::runtime_error("x")), ExitedWithCode(70), "Please report what was asked for\n");
   EXPECT_EXIT(uncaught(7), ExitedWithCode(70), "Please report what was asked for\n");
-  EXPECT_EXIT(std::terminate(), ExitedWithCode(70), "stopped by a fault of the program itself");
+  EXPECT_EXIT(std::terminate(), ExitedWithCode(70), "error: stopped by a fault of the program itself");
   const auto withoutMemory = [] {
     try {
       std::get_new_handler()();
     } catch (const std::bad_alloc&) {}
     std::terminate();  // as the standard library does where it may not throw
   };
-  EXPECT_EXIT(withoutMemory(), ExitedWithCode(3), "there is not enough memory");
+  EXPECT_EXIT(withoutMemory(), ExitedWithCode(3), "error: there is not enough memory");
 }
 
 TEST(StopSignals, EndAtOnceWhereNothingIsToBePutInOrder) {
