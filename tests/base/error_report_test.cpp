@@ -59,8 +59,8 @@ TEST(ErrorReport, WhatNoCatchReachesEndsWithASentence) {
   const auto uncaught = [](auto thrown) { std::thread([thrown] { throw thrown; }).join(); };
   endOnUncaught();
   EXPECT_EXIT(uncaught(std::bad_alloc()), ExitedWithCode(3), "error: there is not enough memory for this. The recorded data are safe\n");
-  EXPECT_EXIT(uncaught(std::runtime_error("x")), ExitedWithCode(70), "Please report what was asked for\n");
-  EXPECT_EXIT(uncaught(7), ExitedWithCode(70), "Please report what was asked for\n");
+  EXPECT_EXIT(uncaught(std::runtime_error("x")), ExitedWithCode(70), "Please report what you did\n");
+  EXPECT_EXIT(uncaught(7), ExitedWithCode(70), "Please report what you did\n");
   EXPECT_EXIT(std::terminate(), ExitedWithCode(70), "error: stopped by a fault of the program itself");
   const auto withoutMemory = [] {
     try {
