@@ -30,7 +30,7 @@ std::string outOf(const StudyRequest& request) {
 }
 
 void runStudy(const StudyRequest& request) {
-  if (request.study.empty()) throw FaultError(Fault{"study", "is required", "a study file, or one of status, report, point and sbatch"});
+  if (request.study.empty()) throw FaultError(Fault{"study", "is missing", "a study file, or one of status, report, point and sbatch"});
   const study::Design design = study::readDesign(request.study);
   const study::Shard shard = shardOf(request.shard);
   const study::PrepareSubjects prepare = prepareSimulated();

@@ -103,7 +103,7 @@ TEST(FullDisk, EndsAnExportByALibraryInOneSentenceAndLeavesNothing) {
     const std::string out = folder / format;
     const Ended ended = shell("ulimit -f 40; $REACH export " + (folder / "data").string() + " --format " + format + " --out " + out);
     EXPECT_EQ(ended.exitCode, 3) << format << ended.err;
-    EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << format << ended.err;
+    EXPECT_EQ(errorsIn(ended.err), 1) << format << ended.err;
     EXPECT_TRUE(std::filesystem::is_empty(out)) << format;
   }
 }

@@ -32,11 +32,19 @@ inline std::string contentOf(const std::filesystem::path& file) {
   return std::move(text).str();
 }
 
+/// How many errors a text of the standard error tells.
+inline int errorsIn(const std::string& text) {
+  int count = 0;
+  for (std::size_t at = 0; (at = text.find("error: ", at)) != std::string::npos; ++at) ++count;
+  return count;
+}
+
 /// Each message of a wrong command has the one form (base/terminal/message.h), and no text of a library in it. REACHLAB_MESSAGES names a file
 /// that collects them (tests/cli/messages.py).
 inline void expectTheOneForm(const std::string& arguments, const Ended& ended) {
   if (ended.exitCode < 2 || ended.exitCode > 4) return;
-  static const std::regex head("(?:.+?(?::[0-9]+){0,2}: )?(?:error|warning): \\S.*"), below(" +[0-9]+ \\| .*| +\\| +\\^|help: \\S.*|note: .*");
+  static const std::regex head("(?:.+?(?::[0-9]+){0,2}: )?(?:error|warning): \\S.*"),
+      below(" +[0-9]+ \\| .*| +\\| +\\^|help: \\S.*|note: .*");
   std::istringstream lines(ended.err);
   bool told = false;
   for (std::string line; std::getline(lines, line);) {
@@ -45,7 +53,8 @@ inline void expectTheOneForm(const std::string& arguments, const Ended& ended) {
     EXPECT_TRUE(!told || isHead || std::regex_match(line, below)) << "reach " << arguments << "\n" << ended.err;
   }
   EXPECT_TRUE(told) << "reach " << arguments << "\n" << ended.err;
-  for (const char* foreign : {"not in range", "Could not convert", "required", "parse error", "syntax error", "json.exception", "std::", "INT", "FLOAT"})
+  for (const char* foreign :
+       {"not in range", "Could not convert", "required", "parse error", "syntax error", "json.exception", "std::", " INT", " FLOAT"})
     EXPECT_EQ(ended.err.find(foreign), std::string::npos) << "reach " << arguments << "\n" << ended.err;
   if (const char* list = std::getenv("REACHLAB_MESSAGES"))
     std::ofstream(list, std::ios::app) << "$ reach " << arguments << "\n" << ended.err;

@@ -107,7 +107,7 @@ TEST(Run, AMissingReplayFileIsAResourceThatCannotBeHad) {
   const TemporaryFolder folder;
   const Ended ended = reach("run chain-moderate --device replay:" + (folder / "no-such.csv").string() + " --fast --data " + folder.path());
   EXPECT_EQ(ended.exitCode, 3) << ended.err;
-  EXPECT_EQ(std::count(ended.err.begin(), ended.err.end(), '\n'), 1) << ended.err;
+  EXPECT_EQ(errorsIn(ended.err), 1) << ended.err;
 }
 
 TEST(Run, TheFirstLineNamesTheMethodAndLeavesItsReasonToTheDataset) {
