@@ -48,6 +48,7 @@ def main():
             ended = subprocess.run([sys.argv[1], "simulate", str(file), "--hand", "none", "--at=" + row["at"], "--rate=" + row["rate"],
                                     "--until", row["seconds"], "--every", row["seconds"]], capture_output=True, text=True)
             said = re.sub(re.escape(str(file)) + r"(:\d+)*: ", "", ended.stderr.strip())
+            said = re.sub(r"\n +\d* \|[^\n]*", "", said).replace("error: ", "").replace("\nhelp: ", "; ")  # without the line and its caret
             if ended.returncode != 0:
                 verdict, words = "refused", said
             elif said:
