@@ -44,29 +44,10 @@ TEST(Wording, OfNumbersHasThreeDigitsAndARealMinus) {
   EXPECT_EQ(pText(0.99e-4), "p < 0.0001");
 }
 
-TEST(Wording, OfACandidateNamesAllThatPredictTheSame) {
-  EXPECT_EQ(describeCandidate(kNames[0]), "(1) min-hand-jerk");
-  EXPECT_EQ(describeCandidate(kNames[1]), "(4) min-hand-force and (6) min-com-acceleration, which predict the same");
-  EXPECT_EQ(describeCandidate({Criterion::MinHandJerk, Criterion::MinCrackle, Criterion::MinHandForce}),
-            "(1) min-hand-jerk, (3) min-crackle and (4) min-hand-force, which predict the same");
-  EXPECT_EQ(describeCandidate({}), "a minimum jerk that ignores the object");
-  const Analysis analysis = madeStudy();
-  EXPECT_EQ(candidatesOf(analysis.results[0]), (std::vector<std::vector<Criterion>>{kNames[0], kNames[1], {}}));
-}
-
 /// Without the candidates behind it.
 std::string told(const Conclusion& c) {
   const std::string text = describeConclusion(c, kNames);
   return text.substr(0, text.find(" Compared were "));
-}
-
-TEST(Wording, OfAConclusionNamesWhatWasCompared) {
-  const std::string text = describeConclusion(decided(), {{predict::Criterion::MinHandJerk},
-                                                          {predict::Criterion::MinHandForce, predict::Criterion::MinComAcceleration},
-                                                          {}});
-  EXPECT_TRUE(text.ends_with(
-      " Compared were (1) min-hand-jerk, (4) min-hand-force, (6) min-com-acceleration and a minimum jerk that ignores the object."))
-      << text;
 }
 
 TEST(Wording, OfAConclusionSaysWhomItIsAbout) {

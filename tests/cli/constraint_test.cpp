@@ -16,13 +16,6 @@ TEST(ConstraintCommand, EvaluatesACurveWithItsDerivatives) {
   EXPECT_EQ(json.at("r_phiphi")[0].get<double>(), 0);
 }
 
-TEST(ConstraintCommand, EvaluatesASurfaceWithItsDerivatives) {
-  const Ended ended = reach("constraint eval torus --at 0.3,0.5 --json");
-  ASSERT_EQ(ended.exitCode, 0) << ended.err;
-  const Json json = Json::parse(ended.out);
-  for (const char* key : {"at", "r_m", "r_u", "r_v", "r_uu", "r_uv", "r_vv"}) EXPECT_TRUE(json.contains(key)) << key;
-}
-
 TEST(ConstraintCommand, ShowsEveryDefinition) {
   const Json rows = Json::parse(reach("list constraints --json").out);
   int curves = 0, surfaces = 0;

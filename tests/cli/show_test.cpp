@@ -17,23 +17,7 @@ struct Recorded {
   Ended run = reach("run chain-moderate --device simulated --trials 3 --seed 1 --fast --data " + data);
 };
 
-std::size_t countOf(const std::string& text, const std::string& word) {
-  std::size_t count = 0;
-  for (std::size_t at = text.find(word); at != std::string::npos; at = text.find(word, at + 1)) ++count;
-  return count;
-}
-
 }  // namespace
-
-TEST(Show, NamesEveryRunOfADataset) {
-  const Recorded recorded;
-  ASSERT_EQ(reach("run dingwell --device simulated --trials 1 --seed 1 --fast --subject 02 --data " + recorded.data).exitCode, 0);
-  const Ended shown = reach("show " + recorded.data);
-  EXPECT_EQ(shown.exitCode, 0) << shown.err;
-  EXPECT_EQ(countOf(shown.out, "\n"), 3u) << shown.out;  // the head and a line a run
-  EXPECT_NE(shown.out.find("chain-moderate"), std::string::npos) << shown.out;
-  EXPECT_NE(shown.out.find("dingwell"), std::string::npos) << shown.out;
-}
 
 TEST(Show, TellsTheTrialsAsTheyWereJudged) {
   const Recorded recorded;

@@ -44,22 +44,6 @@ class Study : public testing::Test {
   }
 };
 
-TEST_F(Study, WritesARowForEachTrialOfEachSubjectOfEachPoint) {
-  ASSERT_EQ(run("a").exitCode, 0);
-  const Table table = tableOf(at("a"));
-  ASSERT_EQ(table.rows.size(), 2u * 2u * 2u * 5u * 3u);
-  EXPECT_EQ(table.rows[0][table.column("point")], "0");
-  EXPECT_EQ(table.rows.back()[table.column("point")], "7");
-  EXPECT_EQ(table.rows.back()[table.column("subject")], "5");
-  EXPECT_EQ(table.rows.back()[table.column("subject.criterion")], "min-crackle");
-  EXPECT_EQ(table.at(0, "coupling.stiffness_n_per_m"), 500);
-  // The draws of a random axis are the same at every point of the grid.
-  EXPECT_EQ(table.at(0, "subject.noise"), table.at(4 * 5 * 3, "subject.noise"));
-  EXPECT_NE(table.at(0, "subject.noise"), table.at(5 * 3, "subject.noise"));
-  const auto dictionary = nlohmann::json::parse(contentOf(at("a") + "/trials.json"));
-  for (const std::string& column : table.header) EXPECT_FALSE(dictionary.at(column).at("Description").get<std::string>().empty()) << column;
-}
-
 TEST_F(Study, GivesTheSameBytesForAnyNumberOfThreadsAndShares) {
   ASSERT_EQ(run("one", "--jobs 1").exitCode, 0);
   const std::string bytes = tablesOf(at("one"));
@@ -296,13 +280,6 @@ TEST_F(Study, ALearnerTakesWhatItLearntThroughThePlan) {
   EXPECT_NE(learner[6], none[6]) << "the second block's first trial has the first block behind it";
   EXPECT_NE(learner[12], none[12]) << "the second day's has the first day";
   EXPECT_EQ(rows("again", R"({"kind": "ofc", "subject": 1})"), learner);
-}
-
-TEST_F(Study, WritesTheScriptOfASlurmArray) {
-  const Ended script = reach("study sbatch " + file + " --out there --tasks 7 --cpus 2");
-  EXPECT_EQ(script.exitCode, 0);
-  for (const char* part : {"#SBATCH --array=1-7\n", "--cpus-per-task=2", "--out 'there'", "--resume"})
-    EXPECT_NE(script.out.find(part), std::string::npos) << part;
 }
 
 TEST_F(Study, RefusesAFolderOfAnotherStudy) {

@@ -66,22 +66,5 @@ TEST(ShownTrial, OfAHandThatNeverSetOffIsSinceTheTrialWasPutUp) {
   EXPECT_EQ(profile.time.back(), 0.09);
 }
 
-TEST(ShownTrial, IsDrawnWithTheTasksTimes) {
-  const TemporaryFolder folder;
-  const record::RunLog moved = recorded(folder, true);
-  const figure::Figure drawn = drawTrial(moved, moved.trials()[0]);
-  ASSERT_EQ(drawn.panels.size(), 2u);
-  EXPECT_EQ(drawn.columns, 2);
-  ASSERT_EQ(drawn.panels[0].series.size(), 3u);
-  EXPECT_EQ(drawn.panels[0].series[2].label, "mass 3");
-  EXPECT_EQ(drawn.panels[0].series[1].y, profileOf(moved, moved.trials()[0]).firstSpeed);
-  EXPECT_EQ(drawn.panels[1].series[0].y, profileOf(moved, moved.trials()[0]).force);
-  std::vector<double> rules;
-  for (const figure::Rule& rule : drawn.panels[0].rules) rules.push_back(rule.at);
-  EXPECT_EQ(rules, (std::vector<double>{0, 1.35 - 0.5, 1.35 + 0.5})) << "onset, and the earliest and the latest arrival";
-  const record::RunLog still = recorded(folder, false);
-  EXPECT_TRUE(drawTrial(still, still.trials()[0]).panels[0].rules.empty());
-}
-
 }  // namespace
 }  // namespace reachlab::cli

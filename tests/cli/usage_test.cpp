@@ -139,17 +139,6 @@ TEST(Usage, EveryListHasNames) {
   }
 }
 
-TEST(Usage, ValidateNamesEveryFaultOfEveryFile) {
-  const TemporaryFolder folder;
-  const std::string bad1 = folder.write("one.json", R"({"schema_version": 1, "constraint": {"name": "line"},
-  "object": {"kind": "point", "masses_kg": [-1]}, "coupling": {"stiffness_n_per_m": "soft"}})");
-  const std::string bad2 = folder.write("two.json", "{ \"schema_version\": 1,");
-  const Ended ended = reach("validate " + bad1 + " " + bad2);
-  EXPECT_EQ(ended.exitCode, 2);
-  for (const char* part : {"one.json:2:", "masses_kg[0]", "coupling.stiffness_n_per_m", "two.json:1:"})
-    EXPECT_NE(ended.err.find(part), std::string::npos) << part << "\n" << ended.err;
-}
-
 std::string lineExperiment(const std::string& version, const std::string& target, const std::string& tolerance, const std::string& mass,
                            const std::string& duration) {
   return R"({"schema_version": )" + version + R"(, "constraint": {"name": "line"}, "object": {"kind": "point", "masses_kg": [)" + mass +

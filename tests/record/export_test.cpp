@@ -35,12 +35,6 @@ std::vector<std::vector<std::string>> cellsOf(const std::string& text, char sepa
   return rows;
 }
 
-bool isNumber(const std::string& text) {
-  double value = 0;
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return fault == std::errc{} && end == text.data() + text.size();
-}
-
 // A text that is given piece by piece.
 template <typename Write, typename Of>
 std::string textOf(Write&& write, const Of& of) {
@@ -64,16 +58,6 @@ class Exported : public testing::Test {
   RunConfiguration configuration_;
   std::string path_;
 };
-
-// No validator looks at these: a header row in motion.tsv, decimal commas, units, doubled channels, counts, the task's name.
-TEST_F(Exported, MotionHasNoHeaderAndANumberInEveryCell) {
-  const auto rows = cellsOf(textOf(firstHandMotion, RunLog::open(path_)), '\t');
-  ASSERT_EQ(rows.size(), 3 * MadeRun::kTicksPerTrial / 10 + 1);
-  for (const auto& row : rows) {
-    ASSERT_EQ(row.size(), configuration_.table.size());
-    for (const std::string& cell : row) ASSERT_TRUE(cell == "n/a" || isNumber(cell)) << cell;
-  }
-}
 
 TEST_F(Exported, MotionCellsReadBackAsTheRecordedNumbers) {
   const RunLog log = RunLog::open(path_);
@@ -183,32 +167,6 @@ TEST(ExportedExperiment, SaysWhatWasMovedAndAsked) {
   const std::string words = json::parse(motionJson(run)).at("TaskDescription");
   EXPECT_EQ(experimentNameIn(words), c.experimentName);
   EXPECT_NE(words.find(experiment::describe(recorded)), std::string::npos) << words;
-}
-
-TEST(ExportedExperiment, IsToldInWordsWithItsUnits) {
-  EXPECT_EQ(
-      experiment::describe(experiment::readExperiment("chain-moderate")),
-      "a chain of 5 masses (0.6 kg each) joined by springs of 600 N/m each, the first coupled to the hand by 600 N/m, on line, r(phi) = "
-      "(length_m*(phi/(2*pi) - 1/2), 0, 0) m with length_m = 0.2; from rest at phi = 0 to rest at phi = 6.28319 in 1.35 ± 0.5 s, every "
-      "mass within 0.012 m and 0.012 m/s");
-  EXPECT_TRUE(experiment::describe(experiment::readExperiment("parallel"))
-                  .starts_with("2 parallel masses (3 kg each), tied to the hand by springs of 50, 250 N/m, on"));
-  EXPECT_NE(experiment::describe(experiment::readExperiment("torus"))
-                .find("minor_m*sin(u)) m with major_m = 0.1, minor_m = 0.04; from rest at (u, v) = (0, 0.5)"),
-            std::string::npos);
-  EXPECT_NE(experiment::describe(experiment::readExperiment("free-body"))
-                .find("free in space; from rest at (-0.1, 0, 0) m to rest at (0.1, 0, 0) m"),
-            std::string::npos);
-}
-
-TEST_F(Exported, ScansNameTheMotionFilesThatAreThere) {
-  std::vector<RunLog> runs;
-  runs.push_back(RunLog::open(path_));
-  const std::string out = folder_ / "dataset";
-  writeBids(runs, out);
-  const TsvTable scans = parseTsv(readWholeFile(out + "/sub-01/ses-01/sub-01_ses-01_scans.tsv"));
-  ASSERT_EQ(scans.rows.size(), 1u);
-  EXPECT_TRUE(std::filesystem::exists(out + "/sub-01/ses-01/" + scans.rows[0][0])) << scans.rows[0][0];
 }
 
 TEST_F(Exported, ARunOfNoTrialHasTablesWithoutRows) {

@@ -47,39 +47,6 @@ std::map<std::string, std::string> rowOf(const TsvTable& table, std::size_t row)
   return cells;
 }
 
-// MadeRun: of 275 ticks a trial 20 waiting, 30 armed, 200 moving, 25 done; the go signal of trial i comes 5 i ticks after arming.
-TEST_F(Tables, EveryEventCellIsOfItsTrial) {
-  configuration_.block = 4, configuration_.day = 2;
-  std::string text;
-  eventsTsv(recorded(), [&](std::string_view piece) { text += piece; });
-  const TsvTable table = parseTsv(text);
-  ASSERT_EQ(table.rows.size(), 3u);
-  std::map<std::string, std::string> row = rowOf(table, 1);
-  const std::map<std::string, std::string> expected{{"onset", "0.325"},
-                                                    {"duration", "0.2"},
-                                                    {"trial_type", "reach"},
-                                                    {"trial", "2"},
-                                                    {"block", "4"},
-                                                    {"phase", "recorded"},
-                                                    {"condition", "made"},
-                                                    {"outcome", "failure"},
-                                                    {"reason", "velocity"},
-                                                    {"mass", "2"},
-                                                    {"by", "0.002"},
-                                                    {"movement_time", "0.2"},
-                                                    {"reaction_time", "0.02"},
-                                                    {"go", "0.305"},
-                                                    {"foreperiod", "0.01"},
-                                                    {"armed", "0.295"},
-                                                    {"missed_ticks", "0"},
-                                                    {"dropped_samples", "0"},
-                                                    {"day", "2"}};
-  for (const auto& [column, cell] : expected) EXPECT_EQ(row[column], cell) << column;
-  EXPECT_NEAR(std::stod(row["elapsed_s"]), (0.525 - 0.305) * 1.000003, 1e-9) << "by the computer's clock";
-  EXPECT_EQ(rowOf(table, 2)["outcome"], "success");
-  EXPECT_EQ(rowOf(table, 2)["reason"], "none");
-}
-
 TEST_F(Tables, TimesAreSinceTheFirstRowAndNotTheFirstTick) {
   configuration_.sampleEveryTicks = 10;
   const std::string path = folder_ / "late_log.reach";
@@ -160,49 +127,6 @@ TEST_F(Tables, TheMotionFileTellsItsLengthAndItsEffectiveRate) {
   const json none = json::parse(motionJson(RunLog::open(folder_ / "none_log.reach")));
   EXPECT_EQ(none["RecordingDuration"], 0);
   EXPECT_EQ(none["SamplingFrequencyEffective"], 50) << "of a run of no rows, the one that was asked for";
-}
-
-TEST_F(Tables, EveryHandHasItsOwnTrackingSystem) {
-  experiment::Experiment scene;
-  scene.object.kind = experiment::ObjectKind::Chain;
-  scene.object.masses.assign(2, 0.6);
-  scene.hands.resize(3);
-  configuration_.table = makeChannelTable(scene, 1);
-  configuration_.deviceName = "first";
-  configuration_.otherHands.resize(2);
-  configuration_.otherHands[0].name = "second";
-  const ChannelTable& table = configuration_.table;
-  const auto namesOf = [&](int hand) {
-    std::vector<std::string> names;
-    for (const std::size_t column : columnsOf(table, hand)) names.push_back(table.channels[column].name);
-    return names;
-  };
-  EXPECT_EQ(namesOf(1).size(), 24u + 2 * 11 + 1);
-  for (int hand = 2; hand <= 3; ++hand) {
-    const std::vector<std::string> names = namesOf(hand);
-    EXPECT_EQ(names.size(), 21u);
-    EXPECT_EQ(names.front(), "latency");
-    const std::string number = std::to_string(hand);
-    for (std::size_t i = 1; i < names.size(); ++i)
-      EXPECT_TRUE(names[i].starts_with("hand" + number + "_") || names[i].starts_with("device" + number + "_")) << names[i];
-  }
-  const RunLog run = recorded();
-  const char* names[] = {"first", "second", "n/a"};
-  const char* systems[] = {"haptic", "haptic2", "haptic3"};
-  for (int hand = 1; hand <= 3; ++hand) {
-    const json motion = json::parse(motionJson(run, hand));
-    EXPECT_EQ(motion["ManufacturersModelName"], names[hand - 1]);
-    EXPECT_EQ(motion["TrackingSystemName"], systems[hand - 1]);
-    EXPECT_EQ(parseTsv(channelsTsv(configuration_, hand)).rows.size(), namesOf(hand).size());
-  }
-  const std::vector<std::string> written = writeBidsRun(run, folder_ / "data");
-  for (const char* system : systems)
-    EXPECT_EQ(
-        std::count_if(written.begin(), written.end(),
-                      [&](const std::string& file) { return file.find("tracksys-" + std::string(system) + "_") != std::string::npos; }),
-        system == systems[0] ? 6 : 4)
-        << "motion and channels; the first has the events too";
-  for (const std::string& file : written) EXPECT_TRUE(std::filesystem::exists(file)) << file;
 }
 
 TEST_F(Tables, TheDatasetsTablesTellPeopleSessionsAndWhenTheyWereRecorded) {

@@ -170,19 +170,6 @@ TEST_F(TwoHands, TheSecondHandMakesTheOnsetToo) {
   EXPECT_LT(early, results_.at(0).onsetTick);
 }
 
-TEST_F(TwoHands, EachIsATrackingSystemOfTheDataset) {
-  const record::RunLog log = record(std::make_unique<Pair>());
-  const std::string motion = folder_.path() + "/data/sub-01/ses-01/motion/sub-01_ses-01_task-both_tracksys-";
-  for (const char* system : {"haptic_run-01", "haptic2_run-01"})
-    for (const char* ending : {"_motion.tsv", "_motion.json", "_channels.tsv", "_channels.json"})
-      EXPECT_TRUE(std::filesystem::exists(motion + system + ending)) << system << ending;
-  const record::ChannelTable& table = log.configuration().table;
-  const auto first = record::columnsOf(table, 1), second = record::columnsOf(table, 2);
-  EXPECT_EQ(first.size() + second.size(), table.size() + 1) << "all but the time belong to one system";
-  for (const std::size_t column : second)
-    EXPECT_TRUE(table.channels[column].type == "LATENCY" || table.channels[column].name.find('2') != std::string::npos);
-}
-
 TEST_F(TwoHands, EachHasARowForEveryTrialInTheAnalysis) {
   record(std::make_unique<Pair>(0.1, 300));
   const std::string table = analysis::handsTable(analysis::openDataset(request_.place.data));
