@@ -37,31 +37,6 @@ TEST(Adaptation, ReboundsAsTheTwoStateModelWasPublished) {
   EXPECT_EQ(rebound - (series.begin() + 320), 10);  // the eleventh channel trial
 }
 
-// The fit stops at 1e-12 of the sum, which is 1e-6 of the parameters.
-TEST(Adaptation, FindsTheStatesThatMadeASeriesWithoutNoise) {
-  for (const auto& states : {kSmith, std::vector<LearningState>{{0.85, 0.11}, {0.998, 0.021}}}) {  // the second: Joiner & Smith 2008
-    const AdaptationFit fit = fitAdaptation(savings(states), 100, 1);
-    for (std::size_t k = 0; k < 2; ++k) {
-      EXPECT_NEAR(fit.two.states[k].retention, states[k].retention, 1e-6);
-      EXPECT_NEAR(fit.two.states[k].learningRate, states[k].learningRate, 1e-6);
-    }
-    EXPECT_EQ(fit.count, StateCount::Two);
-    EXPECT_EQ(fit.channels, 100u);
-  }
-}
-
-TEST(Adaptation, HoldsTheStatesThatMadeANoisySeriesWithinItsIntervals) {
-  const AdaptationFit fit = fitAdaptation(savings(kSmith, 0.05, 7), 400, 1);
-  for (std::size_t k = 0; k < 2; ++k) {
-    const auto& [retention, rate] = fit.two.intervals[k];
-    EXPECT_LE(retention.low, kSmith[k].retention);
-    EXPECT_GE(retention.high, kSmith[k].retention);
-    EXPECT_LE(rate.low, kSmith[k].learningRate);
-    EXPECT_GE(rate.high, kSmith[k].learningRate);
-    EXPECT_LT(retention.low, retention.high);
-  }
-}
-
 TEST(Adaptation, SaysThatOneStateIsEnoughWhereOneMadeTheSeries) {
   EXPECT_EQ(fitAdaptation(savings({{0.97, 0.1}}, 0.05, 3), 100, 1).count, StateCount::One);
 }

@@ -16,16 +16,6 @@ constexpr double kClose = 2e-4;  // of differences and interpolation at 500 Hz
 double placeAt(double s) { return s <= 0 ? 0 : s >= 1 ? kWay : kWay * s * s * s * (4 - 3 * s); }
 double speedAt(double s) { return s <= 0 || s >= 1 ? 0 : 12 * s * s * (1 - s) * kWay / kTime; }
 
-/// Where the speed passes `share` of the peak: upwards below s = 2/3, downwards above.
-double crossingOf(double share, bool upwards) {
-  double low = upwards ? 0 : 2.0 / 3, high = upwards ? 2.0 / 3 : 1;
-  for (int i = 0; i < 60; ++i) {
-    const double middle = (low + high) / 2;
-    ((speedAt(middle) < share * kPeak) == upwards ? low : high) = middle;
-  }
-  return low;
-}
-
 TrialData reach() {
   TrialData trial;
   trial.rate = kRate;
@@ -55,51 +45,6 @@ MeasureOptions unfiltered() {
 
 TrialMeasures measured(const TrialData& trial, const MeasureOptions& options = unfiltered()) {
   return computeMeasures(trial, computeSignals(trial, options));
-}
-
-TEST(Measures, OfALopsidedReachAreItsClosedForms) {
-  const TrialMeasures m = measured(reach());
-  const double from = crossingOf(0.05, true), to = crossingOf(0.05, false);
-  EXPECT_NEAR(m.onset, kFirst + kRest + kTime * from, kClose);
-  EXPECT_NEAR(m.offset, kFirst + kRest + kTime * to, kClose);
-  EXPECT_NEAR(m.duration, kTime * (to - from), kClose);
-  EXPECT_NEAR(m.reactionTime, m.onset - 0.2, 1e-12);
-  EXPECT_FALSE(m.beforeGo);
-  EXPECT_NEAR(m.movementTime, 0.95, 1e-12);
-  EXPECT_NEAR(m.peakSpeed, kPeak, kClose);
-  EXPECT_NEAR(m.timeToPeak, kTime * (2.0 / 3 - from), 2 * kClose);
-  EXPECT_NEAR(m.timeToPeakPercent, 100 * (2.0 / 3 - from) / (to - from), 0.1);
-  EXPECT_NEAR(m.symmetryRatio, (2.0 / 3 - from) / (to - 2.0 / 3), 0.005);
-  EXPECT_NEAR(m.pathLength, placeAt(to) - placeAt(from), 5e-4) << "to a sample at either end";
-  EXPECT_EQ(m.speedPeaks, 1);
-  EXPECT_LT(m.sparc, -1.3);
-  EXPECT_TRUE(std::isfinite(m.ldlj));
-}
-
-TEST(Measures, OfWhereTheHandAndTheObjectCameGoByWhatWasAsked) {
-  TrialData trial = reach();
-  trial.target = trial.target + Vec3{0, 0.02, 0.01};  // at right angles to the way
-  const TrialMeasures m = measured(trial);
-  const double at = placeAt(crossingOf(0.05, false));
-  EXPECT_NEAR(m.handEndpointError, std::hypot(at - 0.24, std::sqrt(5e-4)), kClose) << "the hand's own start does not matter";
-  EXPECT_NEAR(m.objectEndpointError, std::hypot(1.02 * kWay - 0.24, std::sqrt(5e-4)), kClose);
-  EXPECT_NEAR(m.handOvershoot, kWay - 0.24, kClose);
-  EXPECT_NEAR(m.objectOvershoot, 1.02 * kWay - 0.24, kClose);
-  trial.target = trial.start + 0.3 * kAlong;
-  EXPECT_EQ(measured(trial).handOvershoot, 0) << "what stops short does not overshoot";
-  trial.along.assign(trial.hand.size(), kAlong);
-  EXPECT_TRUE(std::isnan(measured(trial).handOvershoot)) << "a curve has no beyond";
-  EXPECT_TRUE(std::isnan(measured(trial).objectOvershoot));
-}
-
-TEST(Measures, TakeTheObjectsPlaceAtTheTrialsEnd) {
-  TrialData trial = reach();
-  trial.taskEnd = kFirst + kRest + kTime / 2;
-  EXPECT_NEAR(measured(trial).objectEndpointError, std::abs(1.02 * placeAt(0.5) - 0.24), 1e-9);
-  trial.taskEnd = kNotMeasured;
-  EXPECT_NEAR(measured(trial).objectEndpointError, 1.02 * kWay - 0.24, 1e-9) << "the last place where no end is known";
-  trial.object.clear();
-  EXPECT_TRUE(std::isnan(measured(trial).objectEndpointError));
 }
 
 TEST(Measures, OfTheForceAreTheLogsWhereItHasThem) {
@@ -138,27 +83,6 @@ TEST(Measures, WithoutAMovementAreTheTasksAndTheLogsAlone) {
   for (const double none : {m.onset, m.offset, m.duration, m.reactionTime, m.peakSpeed, m.timeToPeak, m.pathLength, m.speedPeaks, m.sparc,
                             m.handEndpointError, m.objectEndpointError, m.handOvershoot, m.objectOvershoot})
     EXPECT_TRUE(std::isnan(none));
-}
-
-TEST(Signals, AreTheHandsSpeedAndTheVelocitiesAlongThePath) {
-  TrialData trial = reach();
-  trial.along = {Vec3{0, -1, 0}};
-  const TrialSignals signals = computeSignals(trial, unfiltered());
-  for (const std::size_t i : {300u, 450u, 600u}) {
-    const double v = speedAt((static_cast<double>(i) / kRate - kRest) / kTime);
-    EXPECT_NEAR(signals.speed[i], v, kClose);
-    EXPECT_NEAR(signals.handVelocity[i], v / 3, kClose);
-    EXPECT_NEAR(signals.objectVelocity[i], 1.02 * v / 3, 1e-12);
-  }
-  trial.along.clear();
-  EXPECT_NEAR(computeSignals(trial, unfiltered()).objectVelocity[450], 1.02 * speedAt(0.5), 1e-12) << "speed where there is no direction";
-  // A curve: a direction a sample, the last one held.
-  trial.along.assign(451, kAlong);
-  trial.along[450] = -1 * kAlong;
-  const TrialSignals curve = computeSignals(trial, unfiltered());
-  EXPECT_NEAR(curve.handVelocity[449], speedAt(0.4975), kClose);
-  EXPECT_NEAR(curve.handVelocity[450], -speedAt(0.5), kClose);
-  EXPECT_NEAR(curve.handVelocity[600], -speedAt(0.875), kClose);
 }
 
 // A closed curve leads to its target either way round: the way that the hand went is forwards.

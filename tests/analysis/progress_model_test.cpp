@@ -16,54 +16,6 @@ void attempts(std::vector<Attempt>& to, const std::string& subject, const std::s
 
 double logit(double s, double n) { return std::log((s + 0.5) / (n - s + 0.5)); }
 
-TEST(SuccessTable, CountsEachSubjectDayAndConditionApart) {
-  std::vector<Attempt> all;
-  attempts(all, "a", "1", 1, 0, 3, 4);
-  attempts(all, "a", "2", 2, 0, 1, 5);
-  attempts(all, "b", "1", 1, 0, 0, 2);
-  attempts(all, "a", "1", 1, 1, 7, 7);
-  const std::vector<SuccessCell> cells = successTable(all);
-  ASSERT_EQ(cells.size(), 4u);
-  const SuccessCell& second = cells[2];  // by subject, then condition, then day
-  EXPECT_EQ(cells[0].successes, 3u);
-  EXPECT_EQ(cells[0].trials, 4u);
-  EXPECT_DOUBLE_EQ(cells[0].share(), 0.75);
-  EXPECT_EQ(cells[1].day, 2);
-  EXPECT_EQ(cells[1].successes, 1u);
-  EXPECT_EQ(second.condition, 1u);
-  EXPECT_EQ(second.successes, 7u);
-  EXPECT_EQ(cells[3].subject, "b");
-  EXPECT_NEAR(second.interval.low, computeBinomialInterval(7, 7).low, 1e-15);
-  const SuccessCell fresh;
-  EXPECT_TRUE(fresh.day == 0 && fresh.condition == 0 && fresh.successes == 0 && fresh.trials == 0);
-}
-
-TEST(LearningCurves, GroupAttemptsOfOneSubjectConditionAndSession) {
-  std::vector<Attempt> all;
-  attempts(all, "a", "1", 1, 0, 2, 5);
-  attempts(all, "a", "2", 2, 0, 1, 2);
-  attempts(all, "b", "2", 1, 0, 3, 3);
-  attempts(all, "b", "2", 1, 1, 1, 1);
-  const std::vector<LearningPoint> points = learningCurves(all, 3);
-  ASSERT_EQ(points.size(), 5u);
-  const int first[] = {1, 4, 6, 1, 1}, last[] = {3, 5, 7, 3, 1};
-  const std::size_t successes[] = {2, 0, 1, 3, 1}, trials[] = {3, 2, 2, 3, 1};
-  for (std::size_t i = 0; i < 5; ++i) {
-    EXPECT_EQ(points[i].firstTrial, first[i]) << i;
-    EXPECT_EQ(points[i].lastTrial, last[i]) << i;
-    EXPECT_EQ(points[i].successes, successes[i]) << i;
-    EXPECT_EQ(points[i].trials, trials[i]) << i;
-    const Bounds exact = computeBinomialInterval(successes[i], trials[i]);
-    EXPECT_EQ(points[i].interval.low, exact.low) << i;
-    EXPECT_EQ(points[i].interval.high, exact.high) << i;
-  }
-  EXPECT_EQ(points[2].session, "2");
-  EXPECT_EQ(points[4].condition, 1u);
-  EXPECT_TRUE(learningCurves({}, 10).empty());
-  const LearningPoint fresh;
-  EXPECT_TRUE(fresh.firstTrial == 0 && fresh.lastTrial == 0 && fresh.successes == 0 && fresh.trials == 0 && fresh.condition == 0);
-}
-
 /// Three people, two days, two conditions; the third does not do the second condition on the second day.
 std::vector<SuccessCell> cells() {
   std::vector<Attempt> all;

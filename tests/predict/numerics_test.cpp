@@ -213,40 +213,6 @@ TEST(WideLanes, ACholeskyRootKeepsThirtyDigits) {
   EXPECT_LT(relative(l[2] * l[2] + l[3] * l[3], wide(third)), 10 * kDigits);
 }
 
-// Nineteen intervals, more than two batches; on each a polynomial in s of its own.
-TEST(PiecewiseSeries, IsItsPolynomialOnEveryInterval) {
-  for (const double centre : {0.0, 0.5}) {
-    PiecewiseSeries series(2, 4, 19);
-    series.width = 0.1;
-    series.centre = centre;
-    const auto coefficient = [](int interval, int output, int k) { return 1.0 + interval - 3.0 * output + 0.5 * k * k; };
-    for (int i = 0; i < 19; ++i)
-      for (int output : {0, 1})
-        for (int k = 0; k < 4; ++k) series.of(i, output)[k][i % 8] = coefficient(i, output, k);
-    for (const double t : {0.0, 0.03, 0.15, 0.77, 0.85, 1.234, 1.61, 1.9, 1.95}) {
-      const int interval = std::min(static_cast<int>(t / 0.1), 18);
-      const double s = t / 0.1 - interval - centre;
-      for (int output : {0, 1}) {
-        const auto c = [&](int k) { return coefficient(interval, output, k); };
-        const PredictedHand at = series.evaluate(output, t);
-        EXPECT_NEAR(at.position, c(0) + c(1) * s + c(2) * s * s + c(3) * s * s * s, 1e-11) << t;
-        EXPECT_NEAR(at.velocity, (c(1) + 2 * c(2) * s + 3 * c(3) * s * s) / 0.1, 1e-10) << t;
-        EXPECT_NEAR(at.acceleration, (2 * c(2) + 6 * c(3) * s) / 0.01, 1e-8) << t;
-      }
-    }
-    for (const double end : {1.9, 0.7})
-      for (const std::size_t count : {2, 5, 80}) {
-        std::vector<double> velocity(count, -1);
-        series.sampleVelocity(1, end, velocity);
-        for (std::size_t i = 0; i < count; ++i) {
-          const double t = end * static_cast<double>(i) / static_cast<double>(count - 1), x = t / 0.1;
-          if (std::abs(x - std::round(x)) < 1e-9) continue;  // a sample on a border is of either side
-          EXPECT_NEAR(velocity[i], series.evaluate(1, t).velocity, 1e-9) << t;
-        }
-      }
-  }
-}
-
 TEST(WorkLimit, RefusesOnceAllThatWasSpentIsTooMuch) {
   WorkLimit limit;
   EXPECT_NO_THROW(limit.spend(1e10));

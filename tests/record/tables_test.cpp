@@ -162,47 +162,6 @@ TEST_F(Tables, AnExperimentThatNobodyUnderstandsIsKeptAsItIs) {
   EXPECT_EQ(json::parse(experimentJson(configuration_))["experiment"], (json{{"of", "a later version"}}));
 }
 
-TEST_F(Tables, ThePointsOfAC3dFileAreInMillimetresAndTheirFramesAtTheirTimes) {
-  const RunLog run = recorded();
-  const RecordedTrial& second = run.trials()[1];
-  const C3dFile file = c3dOf(run, second);
-  EXPECT_EQ(file.rate, 100);
-  EXPECT_EQ(file.pointUnit, "mm");
-  std::vector<std::string> points;
-  for (const C3dLabel& label : file.points) points.push_back(label.name);
-  EXPECT_EQ(points, (std::vector<std::string>{"hand", "device", "mass1", "mass2"}));
-  ASSERT_EQ(file.frames, 25u) << "ticks 280 to 520";
-  ASSERT_EQ(file.places.size(), 25u * 4 * 3);
-  for (std::size_t frame = 0; frame < file.frames; ++frame) {
-    const double x = MadeRun::valueAt(280 + 10 * frame);
-    const double expected[4][3] = {{x, -x, 2 * x}, {x, -x, 2 * x}, {x, 0, 0}, {x + 1, 0, 0}};
-    for (std::size_t point = 0; point < 4; ++point) {
-      EXPECT_TRUE(file.seen[4 * frame + point]);
-      for (std::size_t axis = 0; axis < 3; ++axis)
-        EXPECT_EQ(file.places[3 * (4 * frame + point) + axis], static_cast<float>(1000 * expected[point][axis])) << frame << point << axis;
-    }
-  }
-  std::map<std::string, std::size_t> signals;
-  for (std::size_t k = 0; k < file.analogs.size(); ++k) signals[file.analogs[k].name] = k;
-  EXPECT_FALSE(signals.contains("latency") || signals.contains("measured_time") || signals.contains("hand_pos_x")) << "clocks and points";
-  EXPECT_EQ(signals.size(), run.configuration().table.size() - 2 - 3 * 4);
-  EXPECT_EQ(file.analogs[signals.at("coupling_force_x")].unit, "N");
-  EXPECT_EQ(file.analogs[signals.at("phase")].unit, "");
-  for (std::size_t frame = 0; frame < file.frames; ++frame)
-    EXPECT_EQ(file.signals[frame * signals.size() + signals.at("coupling_force_x")],
-              static_cast<float>(10 * MadeRun::valueAt(280 + 10 * frame)));
-  ASSERT_EQ(file.events.size(), 3u);
-  const std::pair<const char*, double> events[] = {{"go", 0.025}, {"onset", 0.045}, {"end", 0.245}};
-  for (std::size_t k = 0; k < 3; ++k) {
-    EXPECT_EQ(file.events[k].label, events[k].first);
-    EXPECT_NEAR(file.events[k].time, events[k].second, 1e-12) << "since the first frame";
-  }
-  std::map<std::string, std::string> notes(file.notes.begin(), file.notes.end());
-  EXPECT_EQ(notes["BEGIN_S"], "0.28");
-  EXPECT_EQ(notes["TRIAL"], "2");
-  EXPECT_EQ(notes["OUTCOME"], "failure");
-}
-
 TEST_F(Tables, WhereADeviceIsLostOrAPlaceIsNoNumberAPointIsNotSeen) {
   configuration_.sampleEveryTicks = 5;
   const std::string path = folder_ / "lost_log.reach";
@@ -232,17 +191,6 @@ TEST_F(Tables, WhereADeviceIsLostOrAPlaceIsNoNumberAPointIsNotSeen) {
   }
   EXPECT_EQ(seen(10), "\1\1\1\1");
   EXPECT_EQ(writeC3d({}, folder_ / "").size(), 0u);
-}
-
-TEST_F(Tables, EveryTrialHasAC3dFileOfItsOwn) {
-  std::vector<RunLog> runs;
-  runs.push_back(recorded());
-  const std::vector<std::string> written = writeC3d(runs, folder_ / "c3d");
-  ASSERT_EQ(written.size(), 3u);
-  for (std::size_t i = 0; i < 3; ++i) {
-    EXPECT_EQ(written[i], folder_ / ("c3d/sub-01_ses-01_task-made_run-01_trial-00" + std::to_string(i + 1) + ".c3d"));
-    EXPECT_EQ(readC3d(readWholeFile(written[i]), "c3d").frames, c3dOf(runs[0], runs[0].trials()[i]).frames);
-  }
 }
 
 TEST_F(Tables, ATrialBetweenTwoRowsHasNoC3dFile) {
@@ -339,14 +287,6 @@ TEST_F(Tables, EveryWayToExportIsFoundByItsNameAndWritesIntoItsFolder) {
     EXPECT_EQ(std::count(again.begin(), again.end(), description), 0) << "it is there";
   }
   EXPECT_EQ(findExporter("pdf"), nullptr);
-}
-
-TEST(Utf16, HasOneUnitForACharacterOfTheBasicPlane) {
-  EXPECT_EQ(utf16Of(""), u"");
-  EXPECT_EQ(utf16Of("a\x7f"), u"a\u007f");
-  EXPECT_EQ(utf16Of("\xc2\x80\xdf\xbf"), u"\u0080\u07ff");
-  EXPECT_EQ(utf16Of("\xe0\xa0\x80\xed\x9f\xbf\xee\x80\x80\xef\xbf\xbf"), u"\u0800\ud7ff\ue000\uffff");
-  EXPECT_EQ(utf16Of("x\xf0\x9d\x9b\xbdy"), u"x\ufffdy") << "two units cannot be written";
 }
 
 TEST(Utf16, WhatIsNoUtf8IsTheSignForThat) {

@@ -24,33 +24,6 @@ Design asking(std::vector<std::string> measures) {
   return design;
 }
 
-TEST(StudyColumns, BeginWithWhoAndWhatWasVaried) {
-  Design design = asking({"by", "mass"});
-  design.axes = {{"coupling.stiffness_n_per_m", {"300", "1e3"}, {}},
-                 {"subject.criterion", {"\"a\"", "\"b c\""}, {}},
-                 {"profiled", {"true", "false"}, {}}};
-  EXPECT_EQ(namesOf(design), (std::vector<std::string>{"point", "subject", "trial", "seed", "coupling.stiffness_n_per_m",
-                                                       "subject.criterion", "profiled", "outcome", "reason", "by", "mass"}));
-  const std::vector<Column> columns = columnsOf(design);
-  EXPECT_TRUE(columns[4].words.empty()) << "numbers";
-  EXPECT_EQ(columns[5].words, (std::vector<std::string>{"a", "b c"}));
-  EXPECT_EQ(columns[6].words, (std::vector<std::string>{"true", "false"}));
-  EXPECT_EQ(columns[7].words, (std::vector<std::string>{"none", "success", "failure", "aborted", "interrupted"}));
-  EXPECT_EQ(columns[8].words.size(), 16u);
-  EXPECT_EQ(columns[8].words[0], "");
-  EXPECT_EQ(columns[8].words[15], "peer_lost");
-  EXPECT_EQ(identityColumns(design), 7u);
-  design.planText = R"({ "schema_version": 1, "name": "p", "blocks": [{ "experiment": "chain-slow", "trials": 2, "day": 1 },
-      { "experiment": "chain-fast", "trials": 3, "condition": "quick", "day": 2 }, { "experiment": "chain-slow", "trials": 1, "day": 2 }] })";
-  design.plan = "p.json";
-  const std::vector<Column> ofPlan = columnsOf(design);
-  EXPECT_EQ(identityColumns(design), 12u);
-  EXPECT_EQ(ofPlan[2].name, "session");
-  EXPECT_EQ(ofPlan[5].name, "condition");
-  EXPECT_EQ(ofPlan[5].words, (std::vector<std::string>{"chain-slow", "quick"})) << "each once";
-  EXPECT_EQ(ofPlan[7].name, "trial");
-}
-
 TEST(StudyColumns, OfFamiliesAreOneForEachCriterion) {
   Design design = asking({"epsilon", "score"});
   design.criteria = {"min-hand-jerk", "min-crackle"};
