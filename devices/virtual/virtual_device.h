@@ -39,9 +39,6 @@ class VirtualDevice final : public haptics::HapticDevice {
   void write(const Vec3& force) noexcept override;
   void see(std::span<const dynamics::MassState> masses) noexcept override { hand_->see(masses); }
 
-  /// The true position of the handle [m], after `read`.
-  const Vec3& truePlace() const noexcept { return place_; }
-
  private:
   void advanceTick(const Vec3& from, const Vec3& to) noexcept;
 
