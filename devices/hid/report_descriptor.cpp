@@ -27,10 +27,16 @@ std::size_t inputReportBytes(std::span<const std::uint8_t> descriptor) noexcept 
   return (bits + 7) / 8;
 }
 
-std::vector<std::uint8_t> readSystemDescriptor(const std::string& hidraw) {
+namespace {
+
+std::vector<std::uint8_t> readFromSystem(const std::string& hidraw) {
   const std::string node = hidraw.substr(hidraw.rfind('/') + 1);
   std::ifstream in("/sys/class/hidraw/" + node + "/device/report_descriptor", std::ios::binary);
   return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
 }
+
+}  // namespace
+
+std::vector<std::uint8_t> (*readSystemDescriptor)(const std::string&) = readFromSystem;
 
 }  // namespace reachlab::devices

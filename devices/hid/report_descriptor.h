@@ -12,7 +12,8 @@ namespace reachlab::devices {
 /// a form that this function does not read (report numbers, long items, kept globals).
 std::size_t inputReportBytes(std::span<const std::uint8_t> descriptor) noexcept;
 
-/// The descriptor of /dev/hidrawN as the system keeps it. Empty when the system has no descriptor.
-std::vector<std::uint8_t> readSystemDescriptor(const std::string& hidraw);
+/// The descriptor of /dev/hidrawN as the system keeps it. Empty when the system has no descriptor. Another reader may take its place
+/// before a device is opened.
+extern std::vector<std::uint8_t> (*readSystemDescriptor)(const std::string& hidraw);
 
 }  // namespace reachlab::devices

@@ -25,7 +25,9 @@ struct TabletNode {
 };
 
 /// The tablets of the folder in the order of their numbers. A node that cannot be opened is listed too, because its kind is unknown.
-std::vector<TabletNode> findTablets(const std::string& folder = "/dev/input");
+std::vector<TabletNode> findTablets(const std::string& folder);
+/// The tablets of this computer, those of /dev/input. Another list may take its place before a device is opened.
+extern std::vector<TabletNode> (*listTablets)();
 
 /// Keeps the state of the pen that the events report. One thread.
 class PenState {

@@ -125,7 +125,7 @@ constexpr const char* kNone = "no tablet is among /dev/input/event*";
 
 TabletNode chooseTablet(const std::string& path, const std::string& words) {
   std::string why = kNone;
-  for (const TabletNode& node : findTablets()) {
+  for (const TabletNode& node : listTablets()) {
     if (!path.empty() && node.path != path) continue;
     if (node.whyNot.empty()) return node;
     why = node.whyNot;
@@ -145,7 +145,7 @@ std::unique_ptr<haptics::HapticDevice> makeTablet(const DeviceRequest& request) 
 std::vector<FoundDevice> findTabletDevices(const DeviceDriver& self) {
   std::vector<FoundDevice> found;
   std::string why = kNone;
-  for (const TabletNode& node : findTablets()) {
+  for (const TabletNode& node : listTablets()) {
     if (!node.whyNot.empty()) {
       why = node.whyNot;
       continue;

@@ -6,8 +6,9 @@
 #include <cerrno>
 #include <chrono>
 #include <thread>
+#include <utility>
 
-#define REACHLAB_READ_DESCRIPTOR "_ZN8reachlab7devices20readSystemDescriptorERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE"
+#include "devices/hid/report_descriptor.h"
 
 namespace reachlab::test {
 namespace {
@@ -21,20 +22,20 @@ FakeHid* byPath(const std::string& path) {
 FakeHid& of(hid_device* device) { return *reinterpret_cast<FakeHid*>(device); }
 wchar_t* textOf(std::wstring& text) { return text.empty() ? nullptr : text.data(); }
 
+std::vector<std::uint8_t> readFake(const std::string& node);
+std::vector<std::uint8_t> (*const readFromSystem)(const std::string&) = std::exchange(devices::readSystemDescriptor, readFake);
+std::vector<std::uint8_t> readFake(const std::string& node) {
+  const std::lock_guard lock(hids.mutex);
+  const FakeHid* hid = byPath(node);
+  return hid == nullptr ? readFromSystem(node) : hid->descriptor;
+}
+
 }  // namespace
 
 FakeHids& fakeHids() { return hids; }
 void resetFakeHids(const std::vector<FakeHid>& list) {
   const std::lock_guard lock(hids.mutex);
   hids.list.assign(list.begin(), list.end());
-}
-
-std::vector<std::uint8_t> reallyRead(const std::string& node) asm("__real_" REACHLAB_READ_DESCRIPTOR);
-std::vector<std::uint8_t> readFake(const std::string& node) asm("__wrap_" REACHLAB_READ_DESCRIPTOR);
-std::vector<std::uint8_t> readFake(const std::string& node) {
-  const std::lock_guard lock(hids.mutex);
-  const FakeHid* hid = byPath(node);
-  return hid == nullptr ? reallyRead(node) : hid->descriptor;
 }
 
 }  // namespace reachlab::test

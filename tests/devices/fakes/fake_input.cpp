@@ -7,8 +7,7 @@
 #include <cstdarg>
 #include <cstring>
 #include <filesystem>
-
-#define REACHLAB_FIND_NODES "_ZN8reachlab7devices11findTabletsERKNSt7__cxx1112basic_stringIcSt11char_traitsIcESaIcEEE"
+#include <utility>
 
 namespace reachlab::test {
 namespace {
@@ -47,19 +46,17 @@ int answer(const FakeInput& node, unsigned long request, void* argument) {
   return 0;
 }
 
+std::vector<TabletNode> (*const listOfSystem)() = std::exchange(devices::listTablets, [] {
+  {
+    const std::lock_guard lock(inputs.mutex);
+    if (inputs.listed) return *inputs.listed;
+  }
+  return listOfSystem();
+});
+
 }  // namespace
 
 FakeInputs& fakeInputs() { return inputs; }
-
-std::vector<TabletNode> reallyFind(const std::string& folder) asm("__real_" REACHLAB_FIND_NODES);
-std::vector<TabletNode> findFakes(const std::string& folder) asm("__wrap_" REACHLAB_FIND_NODES);
-std::vector<TabletNode> findFakes(const std::string& folder) {
-  {
-    const std::lock_guard lock(inputs.mutex);
-    if (inputs.listed && folder == "/dev/input") return *inputs.listed;
-  }
-  return reallyFind(folder);
-}
 
 }  // namespace reachlab::test
 
