@@ -105,19 +105,6 @@ TEST_F(ArmOverHidraw, GivesItsPlaceAndGetsItsForce) {
   EXPECT_LE(firmware.most, 2000);
 }
 
-TEST_F(ArmOverHidraw, UnpluggedItIsLostAndPluggedInAgainItComesBack) {
-  auto firmware = std::make_unique<ArmFirmware>(bed.wire());
-  const auto device = makeDevice("hid:SN0001", experiment, 1);
-  ASSERT_TRUE(until([&] { return device->read().reports > 10; }));
-  firmware.reset();
-  bed.unplug();
-  ASSERT_TRUE(until([&] { return !device->read().valid; }));
-  EXPECT_EQ(device->health(), haptics::DeviceHealth::Lost);
-  bed.plug();
-  firmware = std::make_unique<ArmFirmware>(bed.wire());
-  EXPECT_TRUE(until([&] { return device->read().valid; }));
-}
-
 TEST_F(ArmOverHidraw, ABlockOfReachesWhoseEncoderWrapsInEachOfThem) {
   ArmFirmware firmware(bed.wire(), true);
   const test::Ended run = blockWithin("--device hid:SN0001 --trials 3 --seed 1");
@@ -200,44 +187,6 @@ TEST_F(ArmOverHidraw, UnpluggedInMidTrialTheTrialIsInterruptedAndTheRunTakenUpAg
   if (!lines.empty()) {
     EXPECT_EQ(lines.front().at("trial"), "1") << resumed.out;
   }
-}
-
-TEST_F(ArmOverHidraw, ReportsFromThePastAreAJumpAndLatchTheForceOff) {
-  ArmFirmware firmware(bed.wire());
-  const TemporaryFolder folder;
-  Running program("run " + test::patient(folder, "chain-slow") + " --timing-check 0 --device hid:SN0001 --trials 1 --seed 1 --data " +
-                  folder.path());
-  // In the middle of its way the arm begins to say what it said at the start.
-  ASSERT_TRUE(until([&] { return (firmware.most > 0 && firmware.middle) || program.hasEnded(); }));
-  if (program.hasEnded()) GTEST_SKIP() << "the computer stood still: " << program.end().err;
-  firmware.replays = true;
-  const test::Ended ended = program.end();
-  EXPECT_EQ(ended.exitCode, 3) << ended.out << ended.err;
-  EXPECT_NE(ended.err.find("fault: "), std::string::npos) << ended.err;
-  EXPECT_TRUE(until([&] { return firmware.last == 0; }));
-}
-
-TEST_F(ArmOverHidraw, GarbageAndShortReportsAreNotBelieved) {
-  ArmFirmware firmware(bed.wire());
-  firmware.moves = false;
-  const auto device = makeDevice("hid:SN0001", experiment, 1);
-  haptics::DeviceSample sample;
-  ASSERT_TRUE(until([&] { return (sample = device->read()).reports > 10; }));
-  firmware.shortens = true;
-  // The line has no report boundaries: short ones run together, and what is read is either no whole report or a shifted one, which the watch
-  // judges by the place that it gives. Nothing hangs, and no current is beyond the limit.
-  const int answers = firmware.answers;
-  ASSERT_TRUE(until([&] {
-    device->write({1, 0, 0});
-    return firmware.answers > answers + 20;
-  }));
-  firmware.shortens = false;
-  firmware.garbles = true;
-  ASSERT_TRUE(until([&] {
-    device->write({1, 0, 0});
-    return firmware.answers > answers + 200;
-  }));
-  EXPECT_LE(firmware.most, 2000);
 }
 
 TEST_F(ArmOverHidraw, AStoppedProgramsMotorsAreSwitchedOffByTheFirmware) {

@@ -266,44 +266,5 @@ TEST(TwoHands, WithoutSynchronisationAChainIsNotStable) {
   EXPECT_TRUE(std::isinf(thrown.growth));
 }
 
-TEST(RandomSetups, ArePeopleAndCouplingsFromTheirRangesEachOnItsOwn) {
-  struct Range {
-    SharedObject object;
-    std::function<double(const TwoHandsSetup&)> of;
-    double least, most;
-  };
-  std::vector<Range> ranges;
-  for (const SharedObject object : kSharedObjects)
-    for (const Range& r : {Range{object, [](const TwoHandsSetup& s) { return s.arm.stiffness; }, 100, 600},
-                           Range{object, [](const TwoHandsSetup& s) { return s.arm.damping; }, 5, 40},
-                           Range{object, [](const TwoHandsSetup& s) { return s.arm.limpStiffness; }, 0, 60},
-                           Range{object, [](const TwoHandsSetup& s) { return s.arm.limpDamping; }, 3, 10},
-                           Range{object, [](const TwoHandsSetup& s) { return s.arm.mass; }, 0.5, 2}})
-      ranges.push_back(r);
-  ranges.push_back({SharedObject::Chain, [](const TwoHandsSetup& s) { return s.experiment.coupling->stiffness; }, 200, 600});
-  ranges.push_back({SharedObject::Chain, [](const TwoHandsSetup& s) { return s.experiment.coupling->damping; }, 0, 5});
-  ranges.push_back({SharedObject::Parallel, [](const TwoHandsSetup& s) { return s.experiment.object.damping[0]; }, 0, 2.5});
-  for (const Range& r : ranges) {
-    double least = 1e9, most = -1e9;
-    for (int i = 0; i < 300; ++i) {
-      const double value = r.of(makeRandomSetup(r.object, 1, i));
-      least = std::min(least, value), most = std::max(most, value);
-    }
-    const double slack = 0.03 * (r.most - r.least);
-    EXPECT_GE(least, r.least);
-    EXPECT_LE(least, r.least + slack);
-    EXPECT_LE(most, r.most);
-    EXPECT_GE(most, r.most - slack);
-  }
-  for (int i = 0; i < 6; ++i) {
-    const TwoHandsSetup chain = makeRandomSetup(SharedObject::Chain, 1, i);
-    EXPECT_EQ(chain.experiment.object.damping, Numbers(4, i % 3 == 0 ? 1 : 0)) << "every third damps its own springs";
-    EXPECT_EQ(chain.experiment.coupling->damping > 0, i % 2 == 1);
-    EXPECT_NE(chain.arm.mass, makeRandomSetup(SharedObject::Parallel, 1, i).arm.mass);
-    EXPECT_NE(chain.arm.mass, makeRandomSetup(SharedObject::Chain, 2, i).arm.mass);
-    EXPECT_EQ(chain.arm.mass, makeRandomSetup(SharedObject::Chain, 1, i).arm.mass);
-  }
-}
-
 }  // namespace
 }  // namespace reachlab::network
