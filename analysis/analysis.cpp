@@ -161,6 +161,7 @@ void AnalysisBuilder::add(TrialData&& data, std::size_t condition) {
   const TrialSignals signals = computeSignals(data, options.measure);
   trial.otherWay = signals.otherWay;
   trial.measures = computeMeasures(data, signals);
+  trial.scene = data.scene;
   trial.exclusion = whyExcluded(trial, data.excluded, signals.movement, options.includePractice);
   trial.counted = data.excluded.empty() && !trial.catchTrial && (!trial.practice || options.includePractice) &&
                   (trial.result.outcome == trial::Outcome::Success || trial.result.outcome == trial::Outcome::Failure);

@@ -64,6 +64,8 @@ record::ChannelTable readChannels(const fs::path& path) {
     channel.name = row.at(name);
     if (channel.name.starts_with("mass") && channel.name.ends_with("_pos_x")) ++table.massCount;
     if (channel.name.starts_with("mass1_q") && !channel.name.ends_with("_rate")) ++table.parameterCount;
+    if (channel.name == "environment_force_x") table.environment = true;
+    if (channel.name == "cursor_pos_x") table.cursor = true;
     table.channels.push_back(channel);
   }
   return table;

@@ -10,6 +10,7 @@
 #include <set>
 #include <utility>
 
+#include "analysis/measures/across.h"
 #include "analysis/tables.h"
 #include "analysis/trials/equal_runs.h"
 #include "analysis/trials/experiment_difference.h"
@@ -94,6 +95,17 @@ void noteMixedDevices(DatasetIndex& dataset) {
 
 }  // namespace
 
+namespace {
+
+std::optional<experiment::SquareMatrix<3>> trainedField(const experiment::Experiment& experiment, const std::string& subject,
+                                                        DatasetIndex& index) {
+  if (const auto field = viscousFieldOf(experiment)) index.trained[subject] = *field;
+  const auto known = index.trained.find(subject);
+  return known == index.trained.end() ? std::nullopt : std::optional(known->second);
+}
+
+}  // namespace
+
 void addRun(const RunSource& run, const experiment::CompiledExperiment& compiled, DatasetIndex& index, const TrialSink& sink) {
   const experiment::Experiment& experiment = compiled.experiment();
   const record::RunConfiguration& c = run.configuration;
@@ -103,7 +115,8 @@ void addRun(const RunSource& run, const experiment::CompiledExperiment& compiled
     return;
   }
   const std::size_t condition = conditionIndex(index, index.runs.back().condition, compiled);
-  const RunTrials trials(c.table, c.sampleEveryTicks, {compiled.constraint(), experiment.task->start, experiment.task->target});
+  const RunTrials trials(c.table, c.sampleEveryTicks, {compiled.constraint(), experiment.task->start, experiment.task->target},
+                         sceneOf(experiment, trainedField(experiment, c.subject, index)));
   for (const record::RecordedTrial& recorded : run.trials) {
     TrialData trial = trials.read(recorded, run.rowsOf);
     trial.key = {c.subject, c.session, index.conditions[condition].name, c.day, c.run, c.block, recorded.trial};

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <span>
 #include <string>
 #include <vector>
@@ -27,6 +28,7 @@ struct DatasetIndex {
   std::vector<Condition> conditions;
   std::vector<RunProvenance> runs;
   std::vector<std::string> notes;       // what was left out or mended, one sentence each
+  std::map<std::string, experiment::SquareMatrix<3>> trained;  // [N s/m] by subject: the viscous field of the latest run that had one
   std::vector<std::string> unreadable;  // of those the runs that the disk did not give
 };
 

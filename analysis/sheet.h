@@ -49,5 +49,7 @@ class Sheet {
 void writeTrialTables(const Analysis& analysis, const TableWriter& write);
 void writeConditionTables(const Analysis& analysis, const TableWriter& write);
 void writeProgressTables(const Analysis& analysis, const TableWriter& write);
+/// Writes nothing where no trial has a trained field or a rotated cursor.
+void writeAdaptationTable(const Analysis& analysis, const TableWriter& write);
 
 }  // namespace reachlab::analysis

@@ -57,6 +57,7 @@ void writeTables(const Analysis& analysis, const TableWriter& write) {
   writeTrialTables(analysis, write);
   writeConditionTables(analysis, write);
   writeProgressTables(analysis, write);
+  writeAdaptationTable(analysis, write);
 }
 
 std::string numberedName(predict::Criterion criterion) {

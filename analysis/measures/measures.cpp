@@ -5,6 +5,7 @@
 #include <numeric>
 #include <span>
 
+#include "analysis/measures/across.h"
 #include "analysis/measures/filter.h"
 #include "analysis/measures/smoothness.h"
 
@@ -40,6 +41,19 @@ constexpr Measure kMeasures[] = {
      "peak force (N)", 1, 2},
     {"mean_force_n", "Mean coupling force over every tick of the movement; without logs, over its samples", &TrialMeasures::meanForce,
      "mean force (N)", 1, 2},
+    {"max_perpendicular_m", "Largest distance of the hand from the straight line to the target, positive to the right of the way; recorded samples, unfiltered",
+     &TrialMeasures::maxPerpendicular, "largest deviation (mm)", 1e3, 1},
+    {"perpendicular_at_peak_speed_m", "The same at the largest recorded speed", &TrialMeasures::perpendicularAtPeakSpeed,
+     "deviation at peak speed (mm)", 1e3, 1},
+    {"hand_angle_deg", "Direction of the hand from the start at the largest recorded speed, counterclockwise from the target",
+     &TrialMeasures::handAngle, "hand angle at peak speed (°)", 1, 1},
+    {"hand_angle_at_radius_deg", "The same where the hand first reaches the target's distance from the start; empty where it does not",
+     &TrialMeasures::handAngleAtRadius, "hand angle at the target's radius (°)", 1, 1},
+    {"channel_leak_m", "Largest distance of the hand from the line of a channel; empty in other trials", &TrialMeasures::channelLeak,
+     "leak of the channel (mm)", 1e3, 1},
+    {"adaptation_percent", "Force against a channel's wall as a share of that which would cancel the trained field; empty in other trials",
+     &TrialMeasures::adaptation, "adaptation (%)", 1, 1},
+    {"adaptation_r2", "R² of that share, without an intercept", &TrialMeasures::adaptationR2, "R² of the adaptation", 1, 2},
 };
 
 double component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
@@ -134,6 +148,7 @@ TrialSignals computeSignals(const TrialData& trial, const MeasureOptions& option
 TrialMeasures computeMeasures(const TrialData& trial, const TrialSignals& signals) {
   TrialMeasures m;
   m.movementTime = trial.taskEnd - trial.taskOnset;
+  measureAcross(trial, m);
   m.peakForce = trial.peakForce;
   m.meanForce = trial.meanForce;
   const Movement& move = signals.movement;

@@ -30,6 +30,11 @@ struct TrialMeasures {
   double handOvershoot = kNotMeasured, objectOvershoot = kNotMeasured;  // [m] farthest beyond the target, straight tasks only, >= 0
   double sparc = kNotMeasured, ldlj = kNotMeasured;
   double peakForce = kNotMeasured, meanForce = kNotMeasured;  // [N] coupling force
+  // Across the way (across.h).
+  double maxPerpendicular = kNotMeasured, perpendicularAtPeakSpeed = kNotMeasured;  // [m]
+  double handAngle = kNotMeasured, handAngleAtRadius = kNotMeasured;                // [degrees]
+  double channelLeak = kNotMeasured;                                                // [m]
+  double adaptation = kNotMeasured, adaptationR2 = kNotMeasured;                    // [%], [1]
 };
 
 /// One measure of a trial. Tables, their dictionaries, studies and the report follow from `measures`. The measures of the haptic ticks

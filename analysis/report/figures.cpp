@@ -67,6 +67,7 @@ std::vector<NamedFigure> makeFigures(const Analysis& analysis, const std::option
       if (!figure.figure.panels.empty()) out.push_back(std::move(figure));
   }
   if (NamedFigure figure = learningFigure(analysis); !figure.figure.panels.empty()) out.push_back(std::move(figure));
+  if (NamedFigure figure = adaptationFigure(analysis); !figure.figure.panels.empty()) out.push_back(std::move(figure));
   return out;
 }
 

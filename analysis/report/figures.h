@@ -41,6 +41,10 @@ NamedFigure peopleFigure(const Analysis& analysis, std::size_t condition);
 /// Success against trial number, a panel per condition, a line per subject.
 NamedFigure learningFigure(const Analysis& analysis);
 
+/// Adaptation in channels, deviations, and hand angles over trials, by kind of trial. No panels where nobody was perturbed. In
+/// adaptation_figure.cpp.
+NamedFigure adaptationFigure(const Analysis& analysis);
+
 /// All figures of the study that have something to show.
 std::vector<NamedFigure> makeFigures(const Analysis& analysis, const std::optional<TruthRecovery>& recovery);
 

@@ -4,6 +4,7 @@
 
 #include "analysis/conclusions/fit_window.h"
 #include "analysis/conclusions/person_fit.h"
+#include "analysis/measures/across.h"
 #include "base/error.h"
 #include "sim/experiment/experiment.h"
 
@@ -29,7 +30,8 @@ MeasuredTrial Measurer::measure(const BlockRun& run, const record::RecordedTrial
   const std::size_t place = measured_++;
   if (!needs_.samples) return trial;
   const analysis::RunTrials trials(run.table(), BlockRun::kSampleEvery,
-                                  {experiment_.constraint(), experiment_.experiment().task->start, experiment_.experiment().task->target});
+                                  {experiment_.constraint(), experiment_.experiment().task->start, experiment_.experiment().task->target},
+                                  analysis::sceneOf(experiment_.experiment(), analysis::viscousFieldOf(experiment_.experiment())));
   const analysis::TrialData data =
       trials.read(recorded, [&](std::uint64_t first, std::uint64_t last) { return run.rowsBetween(first, last); });
   const analysis::TrialSignals signals = analysis::computeSignals(data, options_);

@@ -14,13 +14,20 @@ Vec3 vectorAt(const record::SampleRows& rows, std::size_t row, std::size_t colum
   return {rows.at(row, column), rows.at(row, column + 1), rows.at(row, column + 2)};
 }
 
+/// 0: the table has no such channel. No vector begins there.
+std::size_t columnOf(const record::ChannelTable& table, std::string_view name) {
+  const auto found = std::find_if(table.channels.begin(), table.channels.end(), [&](const record::Channel& c) { return c.name == name; });
+  return found == table.channels.end() ? 0 : static_cast<std::size_t>(found - table.channels.begin());
+}
+
 }  // namespace
 
-RunTrials::RunTrials(const record::ChannelTable& table, std::uint64_t every, constraints::TaskPath path)
-    : every_(std::max<std::uint64_t>(1, every)), path_(std::move(path)) {
-  const std::string last = fmt::format("mass{}", table.massCount);
+RunTrials::RunTrials(const record::ChannelTable& table, std::uint64_t every, constraints::TaskPath path, const TrialScene& scene)
+    : every_(std::max<std::uint64_t>(1, every)), path_(std::move(path)), scene_(scene) {
+  const std::string last = table.massCount > 0 ? fmt::format("mass{}", table.massCount) : std::string("hand");
   columns_ = {table.indexOf("hand_pos_x"), table.indexOf("coupling_force_x"), table.indexOf(last + "_pos_x"),
-              table.indexOf(last + "_vel_x"), table.parameterCount == 1 ? table.indexOf("mass1_q1") : 0};
+              table.indexOf(last + "_vel_x"), table.massCount > 0 && table.parameterCount == 1 ? table.indexOf("mass1_q1") : 0,
+              columnOf(table, "hand_vel_x"), columnOf(table, "environment_force_x")};
 }
 
 /// Rows may be missing (dropped, or a tick was late); between its neighbours a missing one is interpolated.
@@ -28,6 +35,8 @@ void RunTrials::appendEvenly(TrialData& trial, const record::SampleRows& rows) c
   const auto put = [&](std::size_t a, std::size_t b, double part) {
     const auto mix = [&](std::size_t column) { return (1 - part) * vectorAt(rows, a, column) + part * vectorAt(rows, b, column); };
     trial.hand.push_back(mix(columns_.hand));
+    if (columns_.handVelocity > 0) trial.velocity.push_back(mix(columns_.handVelocity));
+    if (columns_.environment > 0) trial.environment.push_back(mix(columns_.environment));
     trial.object.push_back(mix(columns_.object));
     trial.objectVelocity.push_back(mix(columns_.velocity));
     trial.force.push_back(norm(mix(columns_.force)));
@@ -50,6 +59,7 @@ TrialData RunTrials::read(const record::RecordedTrial& recorded, const RowsBetwe
   trial.rate = kTicksPerSecond / static_cast<double>(every_);
   trial.start = path_.start();
   trial.target = path_.target();
+  trial.scene = scene_;
   trial.closed = path_.bent() && path_.constraint().domain[0].periodic;
   if (path_.straight() && !(path_.directionAt(0) == Vec3{})) trial.along = {path_.directionAt(0)};
   if (recorded.armedTick == 0) return trial;

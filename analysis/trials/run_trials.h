@@ -13,7 +13,7 @@ namespace reachlab::analysis {
 class RunTrials {
  public:
   /// `every`: ticks between two rows.
-  RunTrials(const record::ChannelTable& table, std::uint64_t every, constraints::TaskPath path);
+  RunTrials(const record::ChannelTable& table, std::uint64_t every, constraints::TaskPath path, const TrialScene& scene);
 
   /// Gives the rows between two ticks, both included.
   using RowsBetween = std::function<record::SampleRows(std::uint64_t first, std::uint64_t last)>;
@@ -25,12 +25,14 @@ class RunTrials {
   struct Columns {  // their positions in the table
     std::size_t hand = 0, force = 0, object = 0, velocity = 0;
     std::size_t parameter = 0;  // of mass 1, on curves
+    std::size_t handVelocity = 0, environment = 0;  // 0: the table has none
   };
   void appendEvenly(TrialData& trial, const record::SampleRows& rows) const;
 
   Columns columns_;
   std::uint64_t every_;
   constraints::TaskPath path_;
+  TrialScene scene_;
 };
 
 }  // namespace reachlab::analysis

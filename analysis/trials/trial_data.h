@@ -1,10 +1,12 @@
 #pragma once
 #include <array>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/math/vec3.h"
+#include "sim/experiment/environment.h"
 #include "sim/trial/outcome.h"
 
 namespace reachlab::analysis {
@@ -18,6 +20,16 @@ struct TrialKey {
   int run = 0, block = 0, trial = 0;
 };
 
+/// The part of a trial's scene that measures across the way need (measures/across.h).
+struct TrialScene {
+  Vec3 normal{0, 1, 0};                                // of the task's plane
+  bool channel = false;                                // a channel is the only force on the hand
+  bool inField = false;                                // a viscous field acts
+  bool cursor = false;                                 // the hand is not seen where it is
+  double rotation = 0;                                 // [degrees] of the cursor
+  std::optional<experiment::SquareMatrix<3>> trained;  // [N s/m] of the viscous field that is trained
+};
+
 /// One recorded trial as plain arrays, evenly sampled from arming to its end. Sample i is at first + i / rate after arming. Nothing is
 /// filtered.
 struct TrialData {
@@ -29,7 +41,9 @@ struct TrialData {
   double goTime = kNotMeasured;                               // [s] go signal, since arming like all times here
   double taskOnset = kNotMeasured, taskEnd = kNotMeasured;    // [s] the task's own window: t = 0 and t_e (or where it was broken off)
   std::vector<Vec3> hand;                                     // [m] HIP as the coupling saw it
-  std::vector<Vec3> object;                                   // [m] last mass
+  std::vector<Vec3> velocity;                                 // [m/s] of the hand, as it was estimated and recorded
+  std::vector<Vec3> environment;                              // [N] on the hand; empty where no force acts on it
+  std::vector<Vec3> object;                                   // [m] last mass; the hand, where there is no object
   std::vector<Vec3> objectVelocity;                           // [m/s] of the simulation
   std::vector<double> force;                                  // [N] coupling force on the object
   double peakForce = kNotMeasured, meanForce = kNotMeasured;  // [N] over every tick, where the log has them
@@ -41,6 +55,7 @@ struct TrialData {
   std::string excluded;                                            // why the trial is not to count; empty: it counts
   double markedOnset = kNotMeasured, markedOffset = kNotMeasured;  // [s] of the movement, in place of the rule's
   Vec3 start, target;                                              // [m] of the object
+  TrialScene scene;
 };
 
 }  // namespace reachlab::analysis

@@ -1,0 +1,69 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "analysis/adaptation/state_space.h"
+#include "analysis/sheet.h"
+#include "analysis/taught_trials.h"
+#include "base/error.h"
+
+namespace reachlab::analysis {
+namespace {
+
+constexpr int kResamples = 200;  // of the intervals
+
+AdaptationTrial seen(const AnalyzedTrial& trial, bool rotated) {
+  const auto known = [](double value) { return std::isfinite(value) ? std::optional(value) : std::nullopt; };
+  if (rotated) return {trial.scene.rotation, known(-trial.measures.handAngle)};
+  if (trial.scene.channel) return {std::nullopt, known(trial.measures.adaptation / 100)};
+  return {trial.scene.inField ? 1.0 : 0.0, std::nullopt};
+}
+
+void row(Sheet& table, const std::string& subject, const std::string& block, const AdaptationSeries& series, bool rotated) {
+  const auto count = [&](auto&& is) { return static_cast<std::size_t>(std::count_if(series.begin(), series.end(), is)); };
+  table.cell(subject).cell(block).cell(rotated ? "deg" : "field");
+  table.count(series.size());
+  table.count(count([](const AdaptationTrial& t) { return !t.perturbation; }));
+  table.count(count([](const AdaptationTrial& t) { return t.response.has_value(); }));
+  try {
+    const AdaptationFit fit = fitAdaptation(series, kResamples, 1);
+    table.cell(fit.count == StateCount::One ? "one" : fit.count == StateCount::Two ? "two" : "undecided");
+    for (const LearningFit* of : {&fit.two, &fit.one}) {
+      for (std::size_t k = 0; k < of->states.size(); ++k) {
+        table.number(of->states[k].retention).bounds(of->intervals[k][0]);
+        table.number(of->states[k].learningRate).bounds(of->intervals[k][1]);
+      }
+      table.number(std::sqrt(of->meanSquare));
+    }
+    table.cell("");
+  } catch (const RefusedError& error) {
+    table.cell("");
+    constexpr int kNumbers = 3 * 2 * 3 + 2;  // three states, retention and rate with their intervals; two residuals
+    for (int i = 0; i < kNumbers; ++i) table.number(kNotMeasured);
+    table.cell(error.what());
+  }
+  table.endRow();
+}
+
+}  // namespace
+
+void writeAdaptationTable(const Analysis& analysis, const TableWriter& write) {
+  const auto people = taughtTrials(analysis);
+  if (people.empty()) return;
+  Sheet table(write, "adaptation.csv");
+  for (const auto& [subject, person] : people) {
+    AdaptationSeries all;
+    std::map<int, AdaptationSeries> blocks;
+    for (const AnalyzedTrial* trial : person.trials) {
+      all.push_back(seen(*trial, person.rotated));
+      blocks[trial->key.block].push_back(all.back());
+    }
+    for (const auto& [block, series] : blocks) row(table, subject, std::to_string(block), series, person.rotated);
+    row(table, subject, "all", all, person.rotated);
+  }
+  table.flush();
+}
+
+}  // namespace reachlab::analysis
