@@ -62,7 +62,8 @@ void compareTrials(const RunLog& log, Replay& replay) {
   std::size_t simulated = 0;
   for (const RecordedTrial& recorded : log.trials()) {
     if (!recorded.complete || recorded.result.reason == trial::Reason::Program) continue;  // broken off: there is no result to compare
-    if (simulated < replay.trials.size() && sameResult(recorded.result, replay.trials[simulated].result)) {
+    if (simulated < replay.trials.size() && sameResult(recorded.result, replay.trials[simulated].result) &&
+        recorded.channelBroken == replay.trials[simulated].channelBroken) {
       ++simulated;
       continue;
     }

@@ -135,7 +135,7 @@ void eventsTsv(const RunLog& run, const TakePiece& take) {
   TableText table('\t', "n/a");
   table.row({"onset",     "duration",   "trial_type",   "trial",         "block",         "phase", "condition",       "outcome",
              "reason",    "mass",       "by",           "movement_time", "reaction_time", "go",    "foreperiod",      "peak_hand_speed",
-             "hand_path", "peak_force", "missed_ticks", "armed",         "mean_force",    "day",   "dropped_samples", "elapsed_s"});
+             "hand_path", "peak_force", "missed_ticks", "armed",         "mean_force",    "day",   "dropped_samples", "elapsed_s", "channel_broken"});
   const std::uint64_t first = run.firstSampleTick();
   for (const RecordedTrial& trial : run.trials()) {
     const TrialTimes times = timesOf(trial, first);
@@ -152,7 +152,7 @@ void eventsTsv(const RunLog& run, const TakePiece& take) {
         .number(secondsOf(trial.planned.foreperiodTicks));
     table.number(trial.peakHandSpeed).number(trial.handPathLength).number(trial.peakForce);
     table.whole(static_cast<long long>(trial.missedTicks)).number(times.armed).number(trial.meanForce).whole(c.day);
-    table.whole(static_cast<long long>(trial.droppedTicks)).number(trial.elapsed);
+    table.whole(static_cast<long long>(trial.droppedTicks)).number(trial.elapsed).whole(trial.channelBroken);
     table.endRow();
     take(table.takeText());
   }
@@ -193,6 +193,7 @@ std::string eventsJson(const RunLog& run) {
   j["day"] = described("Day of the session's plan; 0: the plan gives none");
   j["dropped_samples"] = described("Ticks of 1 ms that were simulated but not recorded, because the disk was too slow");
   j["elapsed_s"] = described("From the go signal to the end of the trial by the computer's clock", "s");
+  j["channel_broken"] = described("1: the hand left the walls of a channel, which let go; 0: it did not");
   j["StimulusPresentation"] = {{"SoftwareName", "reachlab"}, {"SoftwareVersion", orUnknown(c.softwareVersion)}};
   return j.dump(2) + "\n";
 }

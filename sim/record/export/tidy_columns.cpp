@@ -73,6 +73,8 @@ const std::vector<TrialColumn>& trialColumns() {
       measured("peak_force_n"),
       measured("mean_force_n"),
       measured("clamped_ticks"),
+      {"channel_broken", "1: the hand left the walls of a channel, which let go; 0: it did not",
+       [](const Row& r) { return whole(r.trial.channelBroken); }},
       measured("missed_ticks"),
       measured("dropped_samples"),
       measured("elapsed_s"),
