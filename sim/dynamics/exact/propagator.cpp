@@ -95,6 +95,27 @@ void takeDifferences(std::vector<T>& columns, int n, int width) {
       for (int j = 0; j < width; ++j) columns[(block + i) * width + j] -= columns[(block + i - 1) * width + j];
 }
 
+/// Doubles the time of a step: d is the change of the state, q that of a force's powers of time, g that of gravity.
+template <class T>
+void doubleStep(Matrix<T>& d, std::array<std::vector<T>, kForceTerms>& q, std::vector<T>& g, int m) {
+  std::array<std::vector<T>, kForceTerms> next;
+  for (int k = 0; k < kForceTerms; ++k) {
+    next[k] = times(d, q[k], m);
+    T binomial = 1;
+    for (int i = 0; i < m; ++i) next[k][i] += q[k][i];
+    for (int j = 0; j <= k; ++j) {
+      for (int i = 0; i < m; ++i) next[k][i] += binomial * q[j][i];
+      binomial = binomial * T(k - j) / T(j + 1);
+    }
+    for (T& value : next[k]) value /= T(std::exp2(k));
+  }
+  q = next;
+  const std::vector<T> dg = times(d, g, m);
+  for (int i = 0; i < m; ++i) g[i] = 2 * g[i] + dg[i];
+  const Matrix<T> dd = product(d, d, m);
+  for (int i = 0; i < m * m; ++i) d[i] = 2 * d[i] + dd[i];
+}
+
 template <class T>
 Propagator compute(const ObjectModel& model, bool coupled, double dt) {
   const int n = model.count(), m = 2 * n;
@@ -135,24 +156,7 @@ Propagator compute(const ObjectModel& model, bool coupled, double dt) {
     for (T& value : column) value *= h;
   for (T& value : g) value *= h;
 
-  for (int doubling = 0; doubling < halvings; ++doubling) {
-    std::array<std::vector<T>, kForceTerms> next;
-    for (int k = 0; k < kForceTerms; ++k) {
-      next[k] = times(d, q[k], m);
-      T binomial = 1;
-      for (int i = 0; i < m; ++i) next[k][i] += q[k][i];
-      for (int j = 0; j <= k; ++j) {
-        for (int i = 0; i < m; ++i) next[k][i] += binomial * q[j][i];
-        binomial = binomial * T(k - j) / T(j + 1);
-      }
-      for (T& value : next[k]) value /= T(std::exp2(k));
-    }
-    q = next;
-    const std::vector<T> dg = times(d, g, m);
-    for (int i = 0; i < m; ++i) g[i] = 2 * g[i] + dg[i];
-    const Matrix<T> dd = product(d, d, m);
-    for (int i = 0; i < m * m; ++i) d[i] = 2 * d[i] + dd[i];
-  }
+  for (int doubling = 0; doubling < halvings; ++doubling) doubleStep(d, q, g, m);
 
   const auto scale = [&](int i) { return i < n ? T(1) : T(1) / unit; };
   for (int i = 0; i < m; ++i)
