@@ -147,6 +147,7 @@ def main():
     parser.add_argument("--built", nargs="+", type=Path, metavar="FOLDER")
     parser.add_argument("--turns", type=int, default=5)
     parser.add_argument("--scene", nargs="*", default=[])
+    parser.add_argument("--note", default="", help="a sentence of the page on how the folders were built")
     parser.add_argument("--same-bits", type=Path, metavar="FILE")
     wishes = parser.parse_args()
     built = [folder.resolve() for folder in wishes.built or map(build, LEVELS)]
@@ -158,7 +159,7 @@ def main():
     load = f"{before:.1f} to {os.getloadavg()[1]:.1f}"
     bits = "Its output:\n\n```\n" + wishes.same_bits.read_text().rstrip() + "\n```" if wishes.same_bits else "It was not part of this run."
     page = (Path(__file__).parent / "processor-levels.md.in").read_text()
-    for key, text in {"PROCESSOR": processor(), "TURNS": str(wishes.turns), "LOAD": load, "LEVELS": ", ".join(folders), "SPEED": speed, "BELOW": below, "WORK": work_table(rows),
+    for key, text in {"PROCESSOR": processor(), "TURNS": str(wishes.turns), "NOTE": wishes.note and " " + wishes.note, "LOAD": load, "LEVELS": ", ".join(folders), "SPEED": speed, "BELOW": below, "WORK": work_table(rows),
                       "TICK": tick, "ALLOCATIONS": allocations, "ROWS": bits_table(rows), "BITS": bits}.items():
         page = page.replace(f"@{key}@", text)
     (ROOT / "docs/benchmarks/processor-levels.md").write_text(page)
