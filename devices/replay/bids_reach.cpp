@@ -163,13 +163,13 @@ std::vector<Sample> samplesOf(const std::string& motion, const Layout& layout, c
   return samples;
 }
 
-struct Span {
+struct ReachSpan {
   double begin = 0, end = 0;  // [s] since the first row
 };
 
-std::vector<Span> reachesIn(const std::string& file, const std::string& trialType) {
+std::vector<ReachSpan> reachesIn(const std::string& file, const std::string& trialType) {
   const TsvColumns events(file, readTextFile(file));
-  std::vector<Span> spans;
+  std::vector<ReachSpan> spans;
   for (std::size_t row = 0; row < events.rows(); ++row) {
     if (!trialType.empty() && (!events.has("trial_type") || events.cell(row, "trial_type") != trialType)) continue;
     const auto valueOf = [&](const std::string& column) -> std::optional<double> {
@@ -201,7 +201,7 @@ std::vector<RecordedReach> readBidsReaches(const std::string& motion, const Reac
   if (!fs::exists(motion, error)) throw ResourceError(motion + ": cannot be opened");
   if (!fs::exists(channels, error)) throw FaultError(Fault{{}, "is missing", "the channels of motion.tsv beside it", FilePlace{channels}});
   const std::vector<Sample> samples = samplesOf(motion, layoutOf(channels, columns), columns);
-  std::vector<Span> spans{{samples.front().time, samples.back().time}};
+  std::vector<ReachSpan> spans{{samples.front().time, samples.back().time}};
   if (fs::exists(events, error)) spans = reachesIn(events, columns.trialType);
   std::vector<RecordedReach> reaches;
   for (std::size_t i = 0; i < spans.size(); ++i) {
