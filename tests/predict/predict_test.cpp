@@ -305,6 +305,19 @@ TEST(Peaks, AreFoundAmongWavesOfTheFastestFrequency) {
   EXPECT_EQ(p.scanCount(), 48 + 253);
 }
 
+// Nothing hangs on the hand, so the hand's own movement is the object's in every table and figure.
+TEST(HandAlone, IsItsOwnObjectUnderEveryCriterion) {
+  experiment::Experiment e = dingwell();
+  e.object = {};
+  e.object.kind = experiment::ObjectKind::None;
+  e.coupling.reset();
+  for (const Criterion criterion : {MinHandJerk, MinTorqueChange, MinCrackle, MinHandForce, MinHandForceChange, MinComAcceleration}) {
+    const auto prediction = predict(e, criterion);
+    EXPECT_EQ(prediction->objectPeak, prediction->handPeak) << nameOf(criterion);
+    EXPECT_EQ(prediction->objectVelocityAt(0.3), prediction->handAt(0.3).velocity) << nameOf(criterion);
+  }
+}
+
 #define EXPECT_REFUSED(words, ...)                                                 \
   do {                                                                             \
     const std::string said = refusalOf([&] { (void)(__VA_ARGS__); });              \

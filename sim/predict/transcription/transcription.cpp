@@ -279,17 +279,19 @@ class LegendrePrediction final : public Prediction {
     for (size_t i = 0; i < masses_.size(); ++i)
       position[i] = valueAt(masses_[i].position, x), velocity[i] = valueAt(masses_[i].velocity, x);
   }
-  double objectVelocityAt(double t) const override { return valueAt(masses_.back().velocity, 2 * t / duration - 1); }
+  double objectVelocityAt(double t) const override { return valueAt(objectSeries().velocity, 2 * t / duration - 1); }
   void sampleVelocities(std::span<double> hand, std::span<double> object) const override {
     const auto last = static_cast<double>(hand.size() - 1);
     for (size_t i = 0; i < hand.size(); ++i) {
       const double x = 2 * (static_cast<double>(i) / last) - 1;
       hand[i] = valueAt(hand_.velocity, x);
-      object[i] = valueAt(masses_.back().velocity, x);
+      object[i] = valueAt(objectSeries().velocity, x);
     }
   }
 
  private:
+  const MotionSeries& objectSeries() const { return masses_.empty() ? hand_ : masses_.back(); }  // without an object the hand itself moves
+
   MotionSeries hand_;
   std::vector<MotionSeries> masses_;
 };
