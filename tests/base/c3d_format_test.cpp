@@ -251,5 +251,45 @@ TEST(C3dFormat, RefusesParametersThatLeadNowhere) {
   EXPECT_EQ(refusalOfRecords(parameter(1, "GREAT", kByte, {128, 8}, "1")), "made: ends within its parameter GREAT; allowed: a whole file");
 }
 
+TEST(C3dFormat, WhatIsNoTextIsNoName) {
+  Made made;
+  made.records = group(1, "POINT") + parameter(1, "LABELS", kByte, {1, 1}, "a");
+  EXPECT_EQ(made.read().points[0].name, "point1");
+  made.records = group(1, "POINT") + parameter(1, "LABELS", kText, {}, "a");
+  EXPECT_EQ(made.read().points[0].name, "point1") << "no dimension";
+  made.records = group(1, "POINT") + parameter(1, "LABELS", kText, {0, 3}, "");
+  EXPECT_EQ(made.read().points[0].name, "point1") << "no width";
+}
+
+TEST(C3dFormat, ANumberThatIsTooShortIsNone) {
+  for (const auto& [type, size] : {std::pair{kFloat, 4}, {kWord, 2}, {kByte, 1}}) {
+    Made made;
+    made.records = group(1, "POINT") + parameter(1, "RATE", type, {0}, "");
+    EXPECT_EQ(made.read().rate, 50) << "the header's, not one of " << size << " bytes that are not there";
+  }
+  Made made;
+  made.records = group(1, "POINT") + parameter(1, "RATE", kText, {4}, "1234");
+  EXPECT_EQ(made.read().rate, 50);
+  made.records = group(1, "POINT") + parameter(1, "RATE", kWord, {}, word(0x1234));
+  EXPECT_EQ(made.read().rate, 0x1234);
+}
+
+// The section's block holds 508 bytes of records: the last one ends with it, or a byte later.
+TEST(C3dFormat, ReadsToTheLastByteAndNotBeyond) {
+  const auto endingAt = [](std::size_t end, const std::string& last) {
+    return group(1, "A", std::string(end - group(1, "A").size() - last.size(), 'x')) + last;
+  };
+  const std::string whole = parameter(1, "B", kByte, {2}, "12").substr(0, 3 + 2 + 3 + 2);  // without its description's length
+  EXPECT_EQ(refusalOfRecords(endingAt(508, "")), kReadOn);
+  for (const std::size_t missing : {0, 1, 2}) {
+    const std::string told = refusalOfRecords(endingAt(508, whole.substr(0, whole.size() - missing)));
+    EXPECT_EQ(told, missing == 0 ? kReadOn : "made: ends within its parameter B; allowed: a whole file") << missing;
+  }
+  EXPECT_EQ(refusalOfRecords(endingAt(508, whole.substr(0, 3 + 2 + 2))), "made: has a parameter B of too many dimensions; allowed: up to 7")
+      << "its dimension is missing";
+  EXPECT_EQ(refusalOfRecords(endingAt(508, whole.substr(0, 3 + 2 + 1))), "made: ends within its parameter B; allowed: a whole file");
+  EXPECT_EQ(refusalOfRecords(endingAt(508, whole.substr(0, 3 + 1))), "made: ends within its parameters; allowed: a whole file");
+}
+
 }  // namespace
 }  // namespace reachlab
