@@ -48,7 +48,7 @@ TEST(RunTrials, InterpolateRowsThatAreMissing) {
   const experiment::Experiment e = chainExperiment(1.35);
   const experiment::CompiledExperiment compiled(e);
   const record::ChannelTable table = record::makeChannelTable(e, compiled.constraint().parameterCount());
-  const RunTrials trials(table, kEvery, {compiled.constraint(), e.task->start, e.task->target});
+  const RunTrials trials(table, kEvery, {compiled.constraint(), e.task->start, e.task->target}, {});
   std::pair<std::uint64_t, std::uint64_t> asked;
   const TrialData trial = trials.read(recordedTrial(), [&](std::uint64_t first, std::uint64_t last) {
     asked = {first, last};
@@ -81,7 +81,7 @@ TEST(RunTrials, OfACurveHaveADirectionForEachSample) {
   const experiment::CompiledExperiment compiled(e);
   const record::ChannelTable table = record::makeChannelTable(e, compiled.constraint().parameterCount());
   const constraints::TaskPath path(compiled.constraint(), e.task->start, e.task->target);
-  const TrialData trial = RunTrials(table, kEvery, path).read(recordedTrial(), [&](std::uint64_t, std::uint64_t) {
+  const TrialData trial = RunTrials(table, kEvery, path, {}).read(recordedTrial(), [&](std::uint64_t, std::uint64_t) {
     return rowsAt(table, {1010, 1030});
   });
   EXPECT_TRUE(trial.closed);
@@ -94,7 +94,7 @@ TEST(RunTrials, OfATrialThatWasNeverArmedOrNeverLeftHaveNoMoments) {
   const experiment::Experiment e = chainExperiment(1.35);
   const experiment::CompiledExperiment compiled(e);
   const record::ChannelTable table = record::makeChannelTable(e, compiled.constraint().parameterCount());
-  const RunTrials trials(table, kEvery, {compiled.constraint(), e.task->start, e.task->target});
+  const RunTrials trials(table, kEvery, {compiled.constraint(), e.task->start, e.task->target}, {});
   const auto rows = [&](std::uint64_t, std::uint64_t) { return rowsAt(table, {1010, 1020}); };
   record::RecordedTrial recorded = recordedTrial();
   recorded.armedTick = 0;
