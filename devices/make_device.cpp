@@ -11,6 +11,7 @@
 #include "devices/driver/registry.h"
 #include "devices/hands/several_hands.h"
 #include "devices/replay/reach_source.h"
+#include "sim/subjects/hands_in_scenes.h"
 
 namespace reachlab::devices {
 namespace {
@@ -31,14 +32,29 @@ constexpr std::uint64_t kOfAHand = 0x68616e64;
 // What a replayed file is called is its own business.
 bool takesHandSettings(const Spec& asked) { return asked.name != "replay"; }
 
+// What a virtual person learns in one scene is kept for the next.
+std::unique_ptr<haptics::HapticDevice> makeInScenes(const DeviceDriver& driver, const std::string& name, const std::string& argument,
+                                                    std::span<const experiment::CompiledExperiment> scenes, std::uint64_t seed,
+                                                    std::shared_ptr<void>* kept) {
+  std::shared_ptr<void> ofBlock;
+  std::shared_ptr<void>* learnt = kept != nullptr && scenes.size() > 1 ? kept : &ofBlock;
+  std::vector<std::unique_ptr<haptics::HapticDevice>> hands;
+  for (const experiment::CompiledExperiment& scene : scenes) {
+    hands.push_back(driver.make({name, argument, scene, seed, learnt}));
+    if (scenes.size() == 1 || !hands.front()->info().virtualHand) return std::move(hands.front());
+  }
+  return subjects::joinScenes(std::move(hands));
+}
+
 std::unique_ptr<haptics::HapticDevice> makeBy(const DeviceDriver& driver, const Spec& asked,
-                                              const experiment::CompiledExperiment& experiment, std::uint64_t seed) {
-  if (!takesHandSettings(asked)) return driver.make({asked.name, asked.argument, experiment, seed});
+                                              std::span<const experiment::CompiledExperiment> scenes, std::uint64_t seed,
+                                              std::shared_ptr<void>* learnt) {
+  if (!takesHandSettings(asked)) return makeInScenes(driver, asked.name, asked.argument, scenes, seed, learnt);
   DeviceOptions options(asked.argument, "device " + asked.name);
   const HandSettings hand = takeHandSettings(options);
-  if (!hand.any()) return driver.make({asked.name, asked.argument, experiment, seed});
+  if (!hand.any()) return makeInScenes(driver, asked.name, asked.argument, scenes, seed, learnt);
   const std::string rest = options.rest(), argument = options.plain() + (options.plain().empty() || rest.empty() ? "" : ",") + rest;
-  return guardDevice(driver.make({asked.name, argument, experiment, seed}), hand);
+  return guardDevice(makeInScenes(driver, asked.name, argument, scenes, seed, learnt), hand);
 }
 
 // Only the first hand's device may be the clock; another one that could be is sampled, unless it is told how.
@@ -47,13 +63,13 @@ Spec sampled(const Spec& asked) {
   return {asked.name, asked.argument + ",clock=computer"};
 }
 
-std::unique_ptr<haptics::HapticDevice> makeHand(const std::string& spec, const experiment::CompiledExperiment& experiment,
-                                                std::uint64_t seed, bool first) {
+std::unique_ptr<haptics::HapticDevice> makeHand(const std::string& spec, std::span<const experiment::CompiledExperiment> scenes,
+                                                std::uint64_t seed, bool first, std::shared_ptr<void>* learnt) {
   const Spec asked = parse(spec);
   if (const DeviceDriver* driver = findDriver(asked.name)) {
     const std::string words = "device " + asked.name;
     try {
-      return makeBy(*driver, first ? asked : sampled(asked), experiment, seed);
+      return makeBy(*driver, first ? asked : sampled(asked), scenes, seed, learnt);
     } catch (const ResourceError& error) {  // a loader's or a system's own words do not say what was asked for
       if (std::string_view(error.what()).starts_with(words)) throw;
       throw ResourceError(words + ": " + error.what());
@@ -86,13 +102,18 @@ void requireTheirOwn(const std::vector<std::string>& hands) {
 
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
                                                   std::uint64_t seed) {
+  return makeDevice(spec, std::span(&experiment, 1), seed);
+}
+
+std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, std::span<const experiment::CompiledExperiment> scenes,
+                                                  std::uint64_t seed, std::shared_ptr<void>* learnt) {
   const std::vector<std::string> hands = splitHands(spec);
-  if (hands.size() == 1) return makeHand(spec, experiment, seed, true);
+  if (hands.size() == 1) return makeHand(spec, scenes, seed, true, learnt);
   requireTheirOwn(hands);
   std::vector<std::unique_ptr<haptics::HapticDevice>> all;
   // Two subjects of one seed would move alike.
   for (std::size_t i = 0; i < hands.size(); ++i)
-    all.push_back(makeHand(hands[i], experiment, i == 0 ? seed : seededBits(seed, kOfAHand + i), i == 0));
+    all.push_back(makeHand(hands[i], scenes, i == 0 ? seed : seededBits(seed, kOfAHand + i), i == 0, nullptr));
   return joinDevices(std::move(all));
 }
 

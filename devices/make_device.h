@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "devices/mapping/guarded_device.h"
@@ -15,6 +16,10 @@ namespace reachlab::devices {
 /// this movement).
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
                                                   std::uint64_t seed);
+/// The same for the scenes of a block. A virtual hand does each trial in the scene of its number. Real devices take the first scene. Where a
+/// block has several scenes, `learnt` keeps what the virtual person of one hand learns, from block to block.
+std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, std::span<const experiment::CompiledExperiment> scenes,
+                                                  std::uint64_t seed, std::shared_ptr<void>* learnt = nullptr);
 /// Checks and compiles the experiment first.
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::Experiment& experiment, std::uint64_t seed);
 

@@ -21,23 +21,28 @@ std::unique_ptr<haptics::HapticDevice> checked(std::unique_ptr<haptics::HapticDe
 }
 
 // A scene moves without a task, a trial does not.
-dynamics::Scene compileWithTask(const experiment::CompiledExperiment& experiment) {
-  (void)experiment::requiredTask(experiment.experiment());
-  return dynamics::compileScene(experiment);
+std::vector<dynamics::Scene> compileWithTask(std::span<const experiment::CompiledExperiment> experiments) {
+  std::vector<dynamics::Scene> scenes;
+  for (const experiment::CompiledExperiment& one : experiments) {
+    (void)experiment::requiredTask(one.experiment());
+    scenes.push_back(dynamics::compileScene(one));
+  }
+  return scenes;
 }
 
 }  // namespace
 
-BlockRun::BlockRun(const experiment::CompiledExperiment& experiment, bool withSamples)
-    : experiment_(&experiment), scene_(compileWithTask(experiment)), withSamples_(withSamples) {
-  if (withSamples_) table_ = record::makeChannelTable(experiment.experiment(), experiment.constraint().parameterCount(), false);
+BlockRun::BlockRun(std::span<const experiment::CompiledExperiment> experiments, bool withSamples)
+    : experiments_(experiments), scenes_(compileWithTask(experiments)), withSamples_(withSamples) {
+  if (withSamples_)
+    table_ = record::makeChannelTable(record::channelsOfAll(experiments), experiments.front().constraint().parameterCount(), false);
   rows_.columns = table_.size();
 }
 
 void BlockRun::begin(std::unique_ptr<haptics::HapticDevice> hand) {
   hand_ = checked(std::move(hand));
-  if (engine_) scene_ = std::move(*engine_).takeScene();
-  engine_.emplace(experiment_->experiment(), std::move(scene_), haptics::engineOptions(*hand_));
+  if (engine_) scenes_ = std::move(*engine_).takeScenes();
+  engine_.emplace(experiments_, std::move(scenes_), haptics::engineOptions(*hand_));
   if (dynamic_cast<const haptics::BlindHand*>(hand_.get()) != nullptr) engine_->setLookedAtEvery(withSamples_ ? kSampleEvery : 0);
   tracker_ = record::TrialTracker();
   trial_ = 0;
@@ -87,7 +92,7 @@ void BlockRun::keepRow(const haptics::TickState& state) {
 }
 
 const record::RecordedTrial& BlockRun::runTrial(const trial::PlannedTrial& planned) {
-  hand_->prepareTrial(planned.index);
+  hand_->prepareTrial(planned.index, planned.scene);
   rows_.ticks.clear();
   rows_.values.clear();
   ++trial_;

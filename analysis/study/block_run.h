@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "sim/experiment/compiled_experiment.h"
@@ -16,8 +17,9 @@ class BlockRun {
  public:
   static constexpr std::uint64_t kSampleEvery = 10;  // [ticks] as recordings have it unless they are asked for more
 
-  /// `withSamples`: keeps the latest trial's rows as a recording has them. Throws as compileScene does. Keeps the reference.
-  BlockRun(const experiment::CompiledExperiment& experiment, bool withSamples);
+  /// `withSamples`: keeps the latest trial's rows as a recording has them. `experiments` are the block's scenes, and
+  /// outlive this. Throws as compileScene does.
+  BlockRun(std::span<const experiment::CompiledExperiment> experiments, bool withSamples);
 
   /// Begins a block, as a new BlockRun with this hand would. Throws FaultError for a hand that is not virtual or that needs a watch.
   void begin(std::unique_ptr<haptics::HapticDevice> hand);
@@ -32,8 +34,8 @@ class BlockRun {
   void tick(trial::Command command, const trial::PlannedTrial& planned);
   void keepRow(const haptics::TickState& state);
 
-  const experiment::CompiledExperiment* experiment_;
-  dynamics::Scene scene_;  // until the first block begins; then the engine has it
+  std::span<const experiment::CompiledExperiment> experiments_;
+  std::vector<dynamics::Scene> scenes_;  // until the first block begins; then the engine has them
   std::unique_ptr<haptics::HapticDevice> hand_;
   std::optional<haptics::TickEngine> engine_;
   record::TrialTracker tracker_;

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "analysis/study/gzip.h"
 #include "base/table_text.h"
 #include "sim/experiment/experiment.h"
+#include "sim/session/block_scenes.h"
 #include "sim/session/trial_order.h"
 #include "sim/trial/task_check.h"
 
@@ -61,6 +63,18 @@ experiment::CompiledExperiment openPoint(const PointExperiment& point) {
   return experiment;
 }
 
+std::vector<experiment::CompiledExperiment> openScenes(const PointExperiment& point, const session::PlanBlock& block) {
+  std::vector<experiment::CompiledExperiment> scenes;
+  for (const session::BlockScene& scene : session::scenesOf(block, openPoint(point))) scenes.push_back(scene.experiment);
+  return scenes;
+}
+
+std::string textOf(const PointExperiment& experiment, const session::PlanBlock& block) {
+  nlohmann::ordered_json mix;
+  session::writeMix(mix, block.mix);
+  return experiment.text + mix.dump();
+}
+
 std::size_t placeOf(const std::vector<std::string>& words, const std::string& word) {
   return static_cast<std::size_t>(std::find(words.begin(), words.end(), word) - words.begin());
 }
@@ -71,19 +85,20 @@ ChunkWorker::ChunkWorker(const Design& design, PrepareSubjects prepare)
     : design_(design), prepare_(std::move(prepare)), needs_(needsOf(design)), columns_(columnsOf(design)),
       identity_(identityColumns(design)) {}
 
-ChunkWorker::Kit& ChunkWorker::kitFor(const std::string& device, const PointExperiment& experiment) {
+ChunkWorker::Kit& ChunkWorker::kitFor(const std::string& device, const PointExperiment& experiment, const session::PlanBlock& block) {
+  const std::string text = textOf(experiment, block);
   for (Kit& kit : kits_)
-    if (kit.device == device && kit.text == experiment.text) return kit;
+    if (kit.device == device && kit.text == text) return kit;
   Kit kit;
   kit.device = device;
-  kit.text = experiment.text;
+  kit.text = text;
   for (const Kit& other : kits_)
-    if (other.text == kit.text) kit.experiment = other.experiment;
-  if (!kit.experiment) kit.experiment = openPoint(experiment);
-  kit.hands = prepare_(device, *kit.experiment);
-  kit.measurer = std::make_unique<Measurer>(design_, *kit.experiment);
+    if (other.text == kit.text) kit.scenes = other.scenes;
+  if (kit.scenes.empty()) kit.scenes = openScenes(experiment, block);
+  kit.hands = prepare_(device, kit.scenes);
+  for (const experiment::CompiledExperiment& scene : kit.scenes) kit.measurers.push_back(std::make_unique<Measurer>(design_, scene));
   kits_.push_front(std::move(kit));
-  kits_.front().run = std::make_unique<BlockRun>(*kits_.front().experiment, needs_.samples);
+  kits_.front().run = std::make_unique<BlockRun>(kits_.front().scenes, needs_.samples);
   if (kits_.size() > kMostKits) kits_.pop_back();
   return kits_.front();
 }
@@ -107,27 +122,31 @@ void ChunkWorker::computeSubject(std::int64_t subject, std::vector<MeasuredTrial
     for (const int index : session::blockOrder(task_.plan, labelOfSubject(subject), day)) {
       const session::PlanBlock& block = task_.plan.blocks[static_cast<std::size_t>(index)];
       const std::uint64_t own = session::blockSeed(seed, ++number);
-      Kit& kit = kitFor(task_.device, task_.experiments[static_cast<std::size_t>(index)]);
+      Kit& kit = kitFor(task_.device, task_.experiments[static_cast<std::size_t>(index)], block);
       BlockRun& run = *kit.run;
       run.begin(kit.hands(own, day, learnt));
       if (ofPlan) {
         who[2] = who[3] = day;
         who[4] = number;
-        const std::size_t condition = placeOf(columns_[5].words, conditionOf(block));
-        if (condition == columns_[5].words.size())
-          throw FaultError(Fault{"plan.blocks", "have a condition that the plan has not", "the plan's own conditions"});
-        who[5] = static_cast<double>(condition);
         who[6] = block.practice ? 1 : 0;
       }
       who[trialColumn + 1] = static_cast<double>(seed);
       const std::size_t first = trials.size();
+      const std::vector<session::SceneName> names = session::sceneNames(block);
       for (const trial::PlannedTrial& planned : session::planTrials(block, own)) {
         const record::RecordedTrial& recorded = run.runTrial(planned);
-        trials.push_back(kit.measurer->measure(run, recorded, block.practice));
+        const auto scene = static_cast<std::size_t>(planned.scene);
+        trials.push_back(kit.measurers[scene]->measure(run, recorded, block.practice, trials.size() - first));
+        if (ofPlan) {
+          const std::size_t condition = placeOf(columns_[5].words, names[scene].condition);
+          if (condition == columns_[5].words.size())
+            throw FaultError(Fault{"plan.blocks", "have a condition that the plan has not", "the plan's own conditions"});
+          who[5] = static_cast<double>(condition);
+        }
         who[trialColumn] = recorded.trial;
         identity.insert(identity.end(), who.begin(), who.end());
       }
-      kit.measurer->fitBlock(trials, first);
+      for (const auto& measurer : kit.measurers) measurer->fitBlock(trials, first);
     }
   }
 }
@@ -172,12 +191,14 @@ void checkPoint(const Design& design, std::int64_t index, const PrepareSubjects&
                 std::set<std::pair<std::string, std::string>>& seen) {
   const Point point = pointAt(design, index);
   const PointTask task = taskOf(design, point);
-  for (const PointExperiment& one : task.experiments) {
-    if (!seen.emplace(task.device, one.text).second) continue;
+  for (std::size_t i = 0; i < task.experiments.size(); ++i) {
+    const PointExperiment& one = task.experiments[i];
+    const session::PlanBlock& block = task.plan.blocks[i];
+    if (!seen.emplace(task.device, textOf(one, block)).second) continue;
     atPoint(point, [&] {
-      const experiment::CompiledExperiment experiment = openPoint(one);
+      const std::vector<experiment::CompiledExperiment> scenes = openScenes(one, block);
       std::shared_ptr<void> learnt;
-      BlockRun(experiment, false).begin(prepare(task.device, experiment)(1, 0, learnt));
+      BlockRun(scenes, false).begin(prepare(task.device, scenes)(1, 0, learnt));
     });
   }
 }

@@ -22,15 +22,15 @@ class ChunkWorker {
   std::optional<ChunkRows> compute(const PairRange& pairs, const std::function<bool(std::int64_t trials)>& goOn);
 
  private:
-  /// An experiment with everything that its subjects share.
+  /// The scenes of a block with everything that its subjects share.
   struct Kit {
     std::string device, text;
-    std::optional<experiment::CompiledExperiment> experiment;
+    std::vector<experiment::CompiledExperiment> scenes;
     SubjectHands hands;
-    std::unique_ptr<Measurer> measurer;
+    std::vector<std::unique_ptr<Measurer>> measurers;  // of each scene
     std::unique_ptr<BlockRun> run;
   };
-  Kit& kitFor(const std::string& device, const PointExperiment& experiment);
+  Kit& kitFor(const std::string& device, const PointExperiment& experiment, const session::PlanBlock& block);
   void computeSubject(std::int64_t subject, std::vector<MeasuredTrial>& trials, std::vector<double>& identity);
 
   const Design& design_;

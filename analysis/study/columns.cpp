@@ -11,7 +11,7 @@
 #include "sim/predict/prediction/criterion.h"
 #include "sim/record/export/column_dictionary.h"
 #include "sim/record/log/trial_measures.h"
-#include "sim/session/plan.h"
+#include "sim/session/block_scenes.h"
 
 namespace reachlab::study {
 namespace {
@@ -73,8 +73,8 @@ Column columnOf(const VariedKey& axis) {
 std::vector<std::string> conditionsOf(const Design& design) {
   std::vector<std::string> names;
   for (const session::PlanBlock& block : session::parsePlan(design.planText, design.plan).blocks) {
-    std::string name = conditionOf(block);
-    if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(std::move(name));
+    for (const session::SceneName& scene : session::sceneNames(block))
+      if (std::find(names.begin(), names.end(), scene.condition) == names.end()) names.push_back(scene.condition);
   }
   return names;
 }

@@ -24,10 +24,9 @@ Measurer::Measurer(const Design& design, const experiment::CompiledExperiment& e
   }
 }
 
-MeasuredTrial Measurer::measure(const BlockRun& run, const record::RecordedTrial& recorded, bool practice) {
+MeasuredTrial Measurer::measure(const BlockRun& run, const record::RecordedTrial& recorded, bool practice, std::size_t place) {
   MeasuredTrial trial;
   trial.recorded = recorded;
-  const std::size_t place = measured_++;
   if (!needs_.samples) return trial;
   const analysis::RunTrials trials(run.table(), BlockRun::kSampleEvery,
                                   {experiment_.constraint(), experiment_.experiment().task->start, experiment_.experiment().task->target},
@@ -92,7 +91,6 @@ void Measurer::fitBlock(std::vector<MeasuredTrial>& trials, std::size_t first) {
   windows_.clear();
   durations_.clear();
   windowOf_.clear();
-  measured_ = 0;
 }
 
 }  // namespace reachlab::study

@@ -11,14 +11,14 @@
 
 namespace reachlab::study {
 
-/// Measures the trials of one experiment as `analyze` measures recorded trials. Predictions and candidates are made once for all subjects.
+/// Measures the trials of one scene as `analyze` measures recorded trials. Predictions and candidates are made once for all subjects.
 /// Criteria that are not defined for the experiment leave their columns empty. One thread.
 class Measurer {
  public:
   Measurer(const Design& design, const experiment::CompiledExperiment& experiment);
 
-  /// The latest trial of the run, which was made with samples if the design needs them.
-  MeasuredTrial measure(const BlockRun& run, const record::RecordedTrial& recorded, bool practice);
+  /// The latest trial of the run, which was made with samples if the design needs them. `place`: of the trial in its block, from 0.
+  MeasuredTrial measure(const BlockRun& run, const record::RecordedTrial& recorded, bool practice, std::size_t place);
   /// The fits of one subject's block, once all its trials were measured: fills in their scores. `first` is the block's first trial.
   void fitBlock(std::vector<MeasuredTrial>& trials, std::size_t first);
 
@@ -34,7 +34,6 @@ class Measurer {
   std::vector<analysis::FitWindow> windows_;  // of the block under way
   std::vector<double> durations_;
   std::vector<std::size_t> windowOf_;  // trial of the block
-  std::size_t measured_ = 0;
 };
 
 }  // namespace reachlab::study

@@ -162,7 +162,7 @@ std::int64_t mostTrialsOfSubject(const Design& design) {
     std::int64_t trials = 0;
     for (const int day : daysOf(plan))
       for (const session::PlanBlock& block : plan.blocks)
-        if (day == 0 || block.day == 0 || block.day == day) trials += block.trials;
+        if (day == 0 || block.day == 0 || block.day == day) trials += block.trials * (block.mix.wayBack ? 2 : 1);
     return trials;
   }
   std::int64_t most = 0;

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "sim/experiment/compiled_experiment.h"
@@ -13,8 +14,9 @@ namespace reachlab::study {
 /// reads and updates it.
 using SubjectHands = std::function<std::unique_ptr<haptics::HapticDevice>(std::uint64_t seed, int day, std::shared_ptr<void>& learnt)>;
 
-/// Makes plan and gains once for all subjects of an experiment. Devices are a layer above the study, so the caller provides this function.
+/// Makes plan and gains once for all subjects of a block, whose scenes these are. Devices are a layer above the study, so the caller
+/// provides this function.
 /// `device`: "simulated:KEY=VALUE,…". Throws FaultError, RefusedError (the subject cannot plan this movement).
-using PrepareSubjects = std::function<SubjectHands(const std::string& device, const experiment::CompiledExperiment& experiment)>;
+using PrepareSubjects = std::function<SubjectHands(const std::string& device, std::span<const experiment::CompiledExperiment> scenes)>;
 
 }  // namespace reachlab::study

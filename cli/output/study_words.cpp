@@ -51,8 +51,8 @@ study::Shard shardOf(const std::string& text) {
 }
 
 study::PrepareSubjects prepareSimulated() {
-  return [](const std::string& device, const experiment::CompiledExperiment& experiment) {
-    return study::SubjectHands(subjects::prepareSubjects(experiment, device));
+  return [](const std::string& device, std::span<const experiment::CompiledExperiment> scenes) {
+    return study::SubjectHands(subjects::prepareSubjects(scenes, device));
   };
 }
 

@@ -16,6 +16,7 @@ struct DeviceRequest {
   std::string name, argument;  // argument: the text behind the colon, empty without a colon
   const experiment::CompiledExperiment& experiment;
   std::uint64_t seed = 0;
+  std::shared_ptr<void>* learnt = nullptr;  // by the same virtual person in other scenes (MakeSubject); null: nothing
   /// The name in messages: "device phantom:Left".
   std::string words() const { return "device " + name + (argument.empty() ? "" : ":" + argument); }
 };

@@ -15,8 +15,9 @@ DeviceDriver simulatedDriver() {
           false,
           alwaysThere,
           [](const DeviceRequest& r) {
-            std::shared_ptr<void> learnt;
-            return subjects::prepareSubjects(r.experiment, r.argument.empty() ? "simulated" : "simulated:" + r.argument)(r.seed, 0, learnt);
+            std::shared_ptr<void> nothing;
+            return subjects::prepareSubjects(r.experiment, r.argument.empty() ? "simulated" : "simulated:" + r.argument)(
+                r.seed, 0, r.learnt != nullptr ? *r.learnt : nothing);
           },
           true};
 }

@@ -20,8 +20,8 @@ class SeveralHands final : public haptics::HapticDevice {
     for (const auto& device : devices_) info.virtualHand = info.virtualHand && device->info().virtualHand;
     return info;
   }
-  void prepareTrial(int index) override {
-    for (const auto& device : devices_) device->prepareTrial(index);
+  void prepareTrial(int index, int scene = 0) override {
+    for (const auto& device : devices_) device->prepareTrial(index, scene);
   }
   void cue(haptics::Cue cue) noexcept override {
     for (const auto& device : devices_) device->cue(cue);

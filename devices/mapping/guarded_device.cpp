@@ -66,7 +66,7 @@ class GuardedDevice final : public haptics::HapticDevice {
     device_->write(force.x * rows_[0] + force.y * rows_[1] + force.z * rows_[2]);  // the transpose
   }
 
-  void prepareTrial(int index) override { device_->prepareTrial(index); }
+  void prepareTrial(int index, int scene = 0) override { device_->prepareTrial(index, scene); }
   void cue(haptics::Cue cue) noexcept override { device_->cue(cue); }
   void see(std::span<const dynamics::MassState> masses) noexcept override { device_->see(masses); }
   haptics::DeviceHealth health() const noexcept override { return device_->health(); }

@@ -292,4 +292,12 @@ std::vector<std::string> warningsBeforeBlock(const CompiledExperiment& experimen
   return warnings;
 }
 
+std::vector<std::string> warningsBeforeBlock(std::span<const CompiledExperiment> scenes, haptics::HapticDevice& device) {
+  std::vector<std::string> warnings;
+  for (const CompiledExperiment& scene : scenes)
+    for (std::string& sentence : warningsBeforeBlock(scene, device))
+      if (std::find(warnings.begin(), warnings.end(), sentence) == warnings.end()) warnings.push_back(std::move(sentence));
+  return warnings;
+}
+
 }  // namespace reachlab::devices

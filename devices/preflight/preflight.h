@@ -1,5 +1,6 @@
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -51,5 +52,7 @@ std::vector<PreflightLine> checkBeforeBlock(const experiment::CompiledExperiment
 std::string describe(const PreflightLine& line);
 /// The messages before a run, as sentences: the warnings of those hands that feel a force. Empty without a task.
 std::vector<std::string> warningsBeforeBlock(const experiment::CompiledExperiment& experiment, haptics::HapticDevice& device);
+/// The same of all scenes of a block, each sentence once.
+std::vector<std::string> warningsBeforeBlock(std::span<const experiment::CompiledExperiment> scenes, haptics::HapticDevice& device);
 
 }  // namespace reachlab::devices

@@ -33,7 +33,7 @@ class VirtualDevice final : public haptics::HapticDevice {
   VirtualDevice(const DeviceModel& model, const Options& options, std::unique_ptr<haptics::HapticDevice> hand);
 
   haptics::DeviceInfo info() const override;
-  void prepareTrial(int index) override { hand_->prepareTrial(index); }
+  void prepareTrial(int index, int scene = 0) override { hand_->prepareTrial(index, scene); }
   void cue(haptics::Cue cue) noexcept override;
   haptics::DeviceSample read() noexcept override;
   void write(const Vec3& force) noexcept override;

@@ -73,8 +73,8 @@ class HapticDevice {
   virtual ~HapticDevice() = default;
   virtual DeviceInfo info() const = 0;
 
-  /// Trial index from 0. The motion depends on (seed, index) alone unless the device says otherwise.
-  virtual void prepareTrial(int /*index*/) {}
+  /// Trial index from 0, and the scene of the trial. The motion depends on (seed, index, scene) alone unless the device says otherwise.
+  virtual void prepareTrial(int /*index*/, int /*scene*/ = 0) {}
   virtual void cue(Cue) noexcept {}
   virtual DeviceSample read() noexcept = 0;
   virtual void write(const Vec3& force) noexcept = 0;

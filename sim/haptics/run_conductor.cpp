@@ -13,8 +13,8 @@ namespace {
 
 constexpr auto kLook = std::chrono::milliseconds(2);  // how often a waiting caller looks at the newest state
 
-std::unique_ptr<TickEngine> makeEngine(const experiment::CompiledExperiment& experiment, HapticDevice& device) {
-  return std::make_unique<TickEngine>(experiment, engineOptions(device));
+std::unique_ptr<TickEngine> makeEngine(std::span<const experiment::CompiledExperiment> scenes, HapticDevice& device) {
+  return std::make_unique<TickEngine>(scenes, engineOptions(device));
 }
 
 }  // namespace
@@ -26,7 +26,11 @@ RunConductor::RunConductor(std::unique_ptr<TickEngine> engine, std::unique_ptr<H
 
 RunConductor::RunConductor(const experiment::CompiledExperiment& experiment, std::unique_ptr<HapticDevice> device,
                            std::vector<trial::PlannedTrial> trials, const LoopOptions& options)
-    : RunConductor(makeEngine(experiment, *device), std::move(device), std::move(trials), options) {}
+    : RunConductor(std::span(&experiment, 1), std::move(device), std::move(trials), options) {}
+
+RunConductor::RunConductor(std::span<const experiment::CompiledExperiment> scenes, std::unique_ptr<HapticDevice> device,
+                           std::vector<trial::PlannedTrial> trials, const LoopOptions& options)
+    : RunConductor(makeEngine(scenes, *device), std::move(device), std::move(trials), options) {}
 
 RunConductor::~RunConductor() {
   if (loop_) loop_->stop();
@@ -47,7 +51,7 @@ void RunConductor::start(RunSink* sink) {
 bool RunConductor::putUpNext() {
   if (underWay_ || next_ == trials_.size()) return false;
   const trial::PlannedTrial& planned = trials_[next_];
-  device_->prepareTrial(planned.index);
+  device_->prepareTrial(planned.index, planned.scene);
   if (sink_ != nullptr) sink_->announce(trial_ + 1, planned);
   if (!loop_->tryCommand(trial::Command::NextTrial, planned)) return false;
   ++trial_;

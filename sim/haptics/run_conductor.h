@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,9 @@ struct ConductedTrial {
 ///   run.finish();
 class RunConductor {
  public:
-  /// Compiles the scene. Throws FaultError (no task, faults of the device's arguments), RefusedError (the scene cannot be computed).
+  /// Compiles every scene. Throws FaultError (no task, faults of the device's arguments), RefusedError (a scene cannot be computed).
+  RunConductor(std::span<const experiment::CompiledExperiment> scenes, std::unique_ptr<HapticDevice> device,
+               std::vector<trial::PlannedTrial> trials, const LoopOptions& options = {});
   RunConductor(const experiment::CompiledExperiment& experiment, std::unique_ptr<HapticDevice> device,
                std::vector<trial::PlannedTrial> trials, const LoopOptions& options = {});
   /// The same of an engine that was made elsewhere, for this device.
@@ -53,6 +56,8 @@ class RunConductor {
   std::size_t trialsLeft() const { return trials_.size() - next_; }
   const trial::PlannedTrial* nextPlanned() const { return next_ < trials_.size() ? &trials_[next_] : nullptr; }
   bool underWay() const { return underWay_; }
+  /// The trial under way, else the next trial. Null if there is neither.
+  const trial::PlannedTrial* currentTrial() const { return underWay_ ? &trials_[next_ - 1] : nextPlanned(); }
 
   /// Looks at the newest state, and returns the trial under way once it has ended and is safe on the disk. Waits for the disk but not for
   /// the trial. A trial whose device does not call or answer any more is ended as lost. May throw ResourceError from the sink, and if a

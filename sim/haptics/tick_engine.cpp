@@ -12,6 +12,7 @@
 #include "sim/dynamics/shared_plant.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/same_record.h"
 
 namespace reachlab::haptics {
 namespace {
@@ -29,6 +30,15 @@ void requireHands(const experiment::Experiment& experiment, std::size_t devices)
         "device",
         fmt::format("is {} device{} where the experiment has {} hand{}", devices, devices == 1 ? "" : "s", hands, hands == 1 ? "" : "s"),
         "a device for each of the experiment's hands"});
+}
+
+std::vector<dynamics::Scene> compileAll(std::span<const experiment::CompiledExperiment> experiments) {
+  std::vector<dynamics::Scene> scenes;
+  for (const experiment::CompiledExperiment& one : experiments) {
+    (void)experiment::requiredTask(one.experiment());
+    scenes.push_back(dynamics::compileScene(one));
+  }
+  return scenes;
 }
 
 ForceLimits limitsFor(const experiment::Experiment& experiment, const HandOptions& options) {
@@ -61,39 +71,71 @@ TickEngine::TickEngine(const experiment::CompiledExperiment& experiment, const E
     : TickEngine(experiment.experiment(), (experiment::requiredTask(experiment.experiment()), dynamics::compileScene(experiment)),
                  options) {}
 
+TickEngine::TickEngine(std::span<const experiment::CompiledExperiment> scenes, const EngineOptions& options)
+    : TickEngine(scenes, compileAll(scenes), options) {}
+
+TickEngine::TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options) {
+  stages_.emplace_back(experiment, std::move(scene));
+  begin(experiment, options);
+}
+
+TickEngine::TickEngine(std::span<const experiment::CompiledExperiment> experiments, std::vector<dynamics::Scene> scenes,
+                       const EngineOptions& options) {
+  const experiment::Experiment& first = experiments.front().experiment();
+  for (std::size_t i = 0; i < experiments.size(); ++i) {
+    if (const auto fault = experiment::differenceInRecord(first, experiments[i].experiment())) throw FaultError(*fault);
+    stages_.emplace_back(experiments[i].experiment(), std::move(scenes.at(i)));
+  }
+  begin(first, options);
+}
+
+TickEngine::Stage::Stage(const experiment::Experiment& experiment, dynamics::Scene compiled)
+    : scene(std::move(compiled)), ends(dynamic_cast<const dynamics::EndMasses*>(scene.plant.get())),
+      needsVelocity(scene.plant->needsHandVelocity()), start(experiment::requiredTask(experiment).start),
+      settings(trial::makeProtocolSettings(experiment, *scene.constraint)),
+      fpInBody(experiment.object.kind == experiment::ObjectKind::Body ? experiment.object.fpOffset : Vec3{}) {
+  settings.judgesHand = experiment.object.kind == experiment::ObjectKind::None;
+  if (!experiment.environment.empty()) field.emplace(experiment.environment, experiment.arm, settings.start, settings.target);
+  if (experiment.cursor) cursor.emplace(*experiment.cursor, experiment.task->plane, settings.start, settings.target);
+}
+
 TickEngine::Hand::Hand(const experiment::Experiment& experiment, const HandOptions& options)
     : virtualHand(options.virtualHand), estimator(experiment.velocityEstimator), path(4), safety(limitsFor(experiment, options)),
-      guards(options.guards), fpInBody(experiment.object.kind == experiment::ObjectKind::Body ? experiment.object.fpOffset : Vec3{}) {}
+      guards(options.guards) {}
 
-TickEngine::TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options)
-    : scene_(std::move(scene)), ends_(dynamic_cast<const dynamics::EndMasses*>(scene_.plant.get())),
-      needsVelocity_(scene_.plant->needsHandVelocity()), start_(experiment::requiredTask(experiment).start),
-      settings_(trial::makeProtocolSettings(experiment, *scene_.constraint)) {
-  if (scene_.shared != nullptr || options.hands.size() != 1) requireHands(experiment, options.hands.size());
-  settings_.judgesHand = experiment.object.kind == experiment::ObjectKind::None;
-  if (!experiment.environment.empty()) field_.emplace(experiment.environment, experiment.arm, settings_.start, settings_.target);
-  if (experiment.cursor) cursor_.emplace(*experiment.cursor, experiment.task->plane, settings_.start, settings_.target);
-  state_.hasEnvironment = field_ || cursor_;
-  state_.massCount = scene_.plant->massCount();
+void TickEngine::begin(const experiment::Experiment& experiment, const EngineOptions& options) {
+  now_ = &stages_.front();
+  if (now_->scene.shared != nullptr || options.hands.size() != 1) requireHands(experiment, options.hands.size());
+  state_.massCount = now_->scene.plant->massCount();
   state_.handCount = static_cast<std::int32_t>(options.hands.size());
   bool allVirtual = true;
   for (const HandOptions& hand : options.hands) {
     state_.hands[hands_.size()].rendersForce = hand.rendersForce;
-    hands_.emplace_back(experiment, hand).lastSeen = settings_.start;
+    hands_.emplace_back(experiment, hand).lastSeen = now_->settings.start;
     allVirtual = allVirtual && hand.virtualHand;
   }
-  if (allVirtual) settings_.startTimeoutTicks = settings_.timeoutTicks + settings_.restTicks;
-  queueTrial();
+  for (const Stage& stage : stages_) state_.hasEnvironment = state_.hasEnvironment || stage.field || stage.cursor;
+  for (Stage& stage : stages_)
+    if (allVirtual) stage.settings.startTimeoutTicks = stage.settings.timeoutTicks + stage.settings.restTicks;
+  queueTrial(0);
 }
 
-void TickEngine::queueTrial() noexcept {
-  dynamics::Plant& plant = *scene_.plant;
-  plant.placeAtRest(start_);
-  plant.observe({settings_.start, {}, true}, state_.masses);
+std::vector<dynamics::Scene> TickEngine::takeScenes() && {
+  std::vector<dynamics::Scene> scenes;
+  for (Stage& stage : stages_) scenes.push_back(std::move(stage.scene));
+  return scenes;
+}
+
+// Every scene is compiled already, so that changing to it is one pointer.
+void TickEngine::queueTrial(int scene) noexcept {
+  now_ = &stages_[static_cast<std::size_t>(std::clamp(scene, 0, static_cast<int>(stages_.size()) - 1))];
+  dynamics::Plant& plant = *now_->scene.plant;
+  plant.placeAtRest(now_->start);
+  plant.observe({now_->settings.start, {}, true}, state_.masses);
   for (int i = 0; i < state_.massCount; ++i) state_.masses[i].a = {};
   state_.body = plant.body();
   forceStatus_ = dynamics::StepStatus::Ok;
-  if (field_) field_->reset();
+  if (now_->field) now_->field->reset();
   state_.environment.channelBroken = false;
   for (Hand& hand : hands_) {
     hand.fpOffset = {};
@@ -138,7 +180,7 @@ void TickEngine::takeHand(Hand& hand, const DeviceSample& device, std::uint32_t 
 // The plant itself takes the first hand.
 void TickEngine::tellSharedHands() noexcept {
   for (std::size_t i = 1; i < hands_.size(); ++i)
-    scene_.shared->setHand(static_cast<int>(i), hands_[i].path.segment(), state_.hands[i].hip);
+    now_->scene.shared->setHand(static_cast<int>(i), hands_[i].path.segment(), state_.hands[i].hip);
 }
 
 bool TickEngine::allValid() const noexcept {
@@ -152,20 +194,20 @@ dynamics::StepStatus TickEngine::stepObject() noexcept {
   for (std::size_t i = 0; i < hands_.size(); ++i) continuous = hands_[i].path.push(state_.hands[i].hip) && continuous;
   tellSharedHands();
   if (!allValid()) return dynamics::StepStatus::HandLost;
-  if (!continuous) scene_.plant->restart();
-  return scene_.plant->step(hands_.front().path.segment(needsVelocity_), kTickSeconds);
+  if (!continuous) now_->scene.plant->restart();
+  return now_->scene.plant->step(hands_.front().path.segment(now_->needsVelocity), kTickSeconds);
 }
 
 void TickEngine::observeMasses() noexcept {
   const std::span<const dynamics::MassState> masses{state_.masses.data(), static_cast<std::size_t>(state_.massCount)};
   const auto isDue = [&](std::uint32_t every) { return every != 0 && state_.tick % every == 0; };
   const bool looked = isDue(lookedAtEvery_), many = state_.massCount >= kManyMasses;
-  if (ends_ != nullptr && (!looked || (many && !isDue(massesEvery_))) && ends_->observeEnds(state_.masses) &&
-      !trial::needsEveryMass(settings_, protocol_, state_.tick, masses)) {
+  if (now_->ends != nullptr && (!looked || (many && !isDue(massesEvery_))) && now_->ends->observeEnds(state_.masses) &&
+      !trial::needsEveryMass(now_->settings, protocol_, state_.tick, masses)) {
     sawAll_ = false;
     return;
   }
-  scene_.plant->observe(state_.hands[0].hip, state_.masses);
+  now_->scene.plant->observe(state_.hands[0].hip, state_.masses);
   sawAll_ = looked;
 }
 
@@ -174,16 +216,16 @@ void TickEngine::placeFixedPoints() noexcept {
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     Hand& hand = hands_[i];
     dynamics::HandSample& hip = state_.hands[i].hip;
-    const Vec3 fixedPoint = settings_.judgesHand       ? hip.position  // there is no object to hold
-                            : scene_.shared != nullptr ? scene_.shared->fixedPoint(static_cast<int>(i))
-                                                       : state_.masses[0].r + hand.fpInBody;
+    const Vec3 fixedPoint = now_->settings.judgesHand       ? hip.position  // there is no object to hold
+                            : now_->scene.shared != nullptr ? now_->scene.shared->fixedPoint(static_cast<int>(i))
+                                                            : state_.masses[0].r + now_->fpInBody;
     hand.fpOffset = hip.position - fixedPoint;
     hip.position = hand.lastSeen = fixedPoint;
     hand.path.reset();
     hand.path.push(hip);
   }
   tellSharedHands();
-  scene_.plant->restart();
+  now_->scene.plant->restart();
 }
 
 trial::ProtocolInput TickEngine::protocolInput(const TickInput& input, dynamics::StepStatus status) noexcept {
@@ -204,9 +246,9 @@ trial::ProtocolInput TickEngine::protocolInput(const TickInput& input, dynamics:
   seen.hips = {hips_.data(), hands_.size()};
   seen.status = status;
   seen.masses = {state_.masses.data(), static_cast<std::size_t>(state_.massCount)};
-  if (cursor_ && cursor_->isJudged()) {
+  if (now_->cursor && now_->cursor->isJudged()) {
     judged_ = state_.masses[0];
-    judged_.r = (*cursor_)(judged_.r);
+    judged_.r = (*now_->cursor)(judged_.r);
     seen.masses = {&judged_, 1};
   }
   seen.missedTicks = input.missedTicks;
@@ -222,7 +264,7 @@ void TickEngine::step(const TickInput& input) noexcept {
 
   const trial::Phase before = protocol_.phase;
   if (input.command == trial::Command::NextTrial && (before == trial::Phase::Idle || before == trial::Phase::Done)) {
-    queueTrial();
+    queueTrial(input.planned.scene);
     cue_ = Cue::Place;
   }
   for (std::size_t i = 0; i < hands_.size(); ++i) takeHand(hands_[i], input.devices[i], input.missedTicks, state_.hands[i].hip);
@@ -231,22 +273,22 @@ void TickEngine::step(const TickInput& input) noexcept {
     status = stepObject();
     observeMasses();
     if (status == dynamics::StepStatus::Ok) status = forceStatus_;
-  } else if (settings_.judgesHand) {
+  } else if (now_->settings.judgesHand) {
     observeMasses();
   }
 
   const bool wasGone = protocol_.gone;
-  trial::advance(settings_, protocolInput(input, status), protocol_);
+  trial::advance(now_->settings, protocolInput(input, status), protocol_);
   if (!sawAll_ && !trial::isEngaged(protocol_.phase)) {  // as it ended, so it is shown and recorded from now on
-    scene_.plant->observe(state_.hands[0].hip, state_.masses);
+    now_->scene.plant->observe(state_.hands[0].hip, state_.masses);
     sawAll_ = true;
   }
   if (before == trial::Phase::Waiting && protocol_.phase == trial::Phase::Armed) {
     placeFixedPoints();
-    scene_.plant->observe(state_.hands[0].hip, state_.masses);
+    now_->scene.plant->observe(state_.hands[0].hip, state_.masses);
   }
   if (protocol_.gone && (!wasGone || before == trial::Phase::Waiting)) cue_ = Cue::Go;
-  if (cursor_) state_.masses[0].r = (*cursor_)(state_.masses[0].r);  // observed in this tick: the point that the subject sees
+  if (now_->cursor) state_.masses[0].r = (*now_->cursor)(state_.masses[0].r);  // observed in this tick: the point that the subject sees
 
   state_.status = status;
   state_.phase = protocol_.phase;
@@ -279,15 +321,15 @@ DeviceState TickEngine::deviceState(const Hand& hand, const DeviceSample& device
 }
 
 void TickEngine::exertCoupling(bool acts) noexcept {
-  const dynamics::Plant& plant = *scene_.plant;
+  const dynamics::Plant& plant = *now_->scene.plant;
   state_.hands[0].couplingForce = acts ? plant.couplingForce(state_.hands[0].hip) : Vec3{};
   if (!acts) state_.energy = 0;
   else if (sawAll_) state_.energy = plant.energy(state_.hands[0].hip);
-  if (scene_.shared == nullptr) return;
+  if (now_->scene.shared == nullptr) return;
   for (std::size_t i = 0; i < hands_.size(); ++i) {
     const int number = static_cast<int>(i);
-    if (i > 0) state_.hands[i].couplingForce = acts ? scene_.shared->couplingForceOf(number) : Vec3{};
-    state_.hands[i].work = scene_.shared->work(number);
+    if (i > 0) state_.hands[i].couplingForce = acts ? now_->scene.shared->couplingForceOf(number) : Vec3{};
+    state_.hands[i].work = now_->scene.shared->work(number);
   }
 }
 
@@ -295,9 +337,9 @@ void TickEngine::exertCoupling(bool acts) noexcept {
 void TickEngine::exertEnvironment(bool acts) noexcept {
   const dynamics::HandSample& hip = state_.hands[0].hip;
   EnvironmentState& out = state_.environment;
-  out.force = field_ && acts ? field_->step({true, state_.phase == trial::Phase::Moving, hip.position, hip.velocity}) : Vec3{};
-  out.channelBroken = field_ && field_->channelBroken();
-  if (cursor_) out.cursor = (*cursor_)(hip.position);
+  out.force = now_->field && acts ? now_->field->step({true, state_.phase == trial::Phase::Moving, hip.position, hip.velocity}) : Vec3{};
+  out.channelBroken = now_->field && now_->field->channelBroken();
+  out.cursor = now_->cursor ? (*now_->cursor)(hip.position) : hip.position;
 }
 
 // `out.feedbackForce` becomes what the device is given.
@@ -335,7 +377,7 @@ void TickEngine::limit(const TickInput& input) noexcept {
   if (!engaged) return;
   if (clamped) ++state_.faults.clampedTicks;
   ++state_.faults.steps[static_cast<std::size_t>(state_.status)];
-  state_.body = scene_.plant->body();
+  state_.body = now_->scene.plant->body();
 }
 
 }  // namespace reachlab::haptics

@@ -2,6 +2,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -63,7 +64,12 @@ class TickEngine {
   TickEngine(const experiment::Experiment& experiment, const EngineOptions& options);
   /// The same, with the constraint that is compiled already.
   TickEngine(const experiment::CompiledExperiment& experiment, const EngineOptions& options);
+  /// The same with several scenes. Each trial is done in the scene of its number (PlannedTrial::scene). Throws FaultError where the scenes
+  /// cannot share one record (experiment/same_record.h).
+  TickEngine(std::span<const experiment::CompiledExperiment> scenes, const EngineOptions& options);
   TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options);
+  TickEngine(std::span<const experiment::CompiledExperiment> experiments, std::vector<dynamics::Scene> scenes,
+             const EngineOptions& options);
 
   /// Two stages of a tick (tick_order.h). `step` estimates the hands, steps the object and judges the trial. `limit` then limits the
   /// forces. Haptic thread: neither allocates, locks, waits nor throws.
@@ -85,16 +91,30 @@ class TickEngine {
   /// False after a tick in which the energy and the inner masses may not have been observed.
   bool sawAllMasses() const noexcept { return sawAll_; }
 
-  /// The scene, for another engine of the same experiment: as good as compiled anew, since an engine begins by putting its object at rest.
-  /// This engine is then of no use any more.
-  dynamics::Scene takeScene() && { return std::move(scene_); }
+  /// The scenes, for another engine of the same experiments: as good as compiled anew, since an engine begins by putting its object at
+  /// rest. This engine is then of no use any more.
+  std::vector<dynamics::Scene> takeScenes() &&;
 
-  const dynamics::MethodChoice& choice() const { return scene_.choice; }
-  const constraints::Constraint& constraint() const { return *scene_.constraint; }
-  const trial::ProtocolSettings& protocol() const { return settings_; }
-  std::string stopReason() const { return scene_.plant->stopReason(); }
+  const dynamics::MethodChoice& choice(std::size_t scene = 0) const { return stages_.at(scene).scene.choice; }
+  const constraints::Constraint& constraint() const { return *now_->scene.constraint; }
+  /// Of the trial that was queued last.
+  const trial::ProtocolSettings& protocol() const { return now_->settings; }
+  std::string stopReason() const { return now_->scene.plant->stopReason(); }
 
  private:
+  /// A scene with its task, ready for a trial.
+  struct Stage {
+    Stage(const experiment::Experiment& experiment, dynamics::Scene compiled);
+
+    dynamics::Scene scene;
+    const dynamics::EndMasses* ends;  // the plant, if it offers them
+    bool needsVelocity;               // the plant, of the hand
+    std::vector<double> start;        // constraint parameters
+    trial::ProtocolSettings settings;
+    std::optional<environment::ForceField> field;  // of the only hand
+    std::optional<environment::CursorLaw> cursor;  // of the only hand
+    Vec3 fpInBody;  // [m] from `fixedPoint` to the FP when the object is placed
+  };
   /// The state of one hand: its estimate, where it holds the object, and the limits of its device.
   struct Hand {
     Hand(const experiment::Experiment& experiment, const HandOptions& options);
@@ -105,7 +125,6 @@ class TickEngine {
     ForceSafety safety;
     GuardSettings guards;
     PassivityObserver observer;
-    Vec3 fpInBody;           // [m] from `fixedPoint` to the FP when the object is placed
     Vec3 fpOffset;           // [m] HIP minus FP at arming, fixed in world axes
     Vec3 anchor;             // [m] the hand after a gap: seen minus true, at the gap
     int anchorTicks = 0;     // left of the blend
@@ -117,7 +136,8 @@ class TickEngine {
 
   void takeHand(Hand& hand, const DeviceSample& device, std::uint32_t missedTicks, dynamics::HandSample& hip) noexcept;
   void tellSharedHands() noexcept;
-  void queueTrial() noexcept;
+  void begin(const experiment::Experiment& experiment, const EngineOptions& options);
+  void queueTrial(int scene) noexcept;
   dynamics::StepStatus stepObject() noexcept;
   void observeMasses() noexcept;
   void placeFixedPoints() noexcept;
@@ -129,16 +149,11 @@ class TickEngine {
   Vec3 guardForce(Hand& hand, HandState& out, bool engaged) noexcept;
   DeviceState deviceState(const Hand& hand, const DeviceSample& device, bool fault) const noexcept;
 
-  dynamics::Scene scene_;
-  const dynamics::EndMasses* ends_;  // the plant, if it offers them
-  bool needsVelocity_;               // the plant, of the hand
+  std::vector<Stage> stages_;  // of every scene, the first at index 0
+  Stage* now_ = nullptr;       // of the trial that was queued last
   std::uint32_t massesEvery_ = 1, lookedAtEvery_ = 1;
   bool sawAll_ = true;
-  std::vector<double> start_;  // constraint parameters
-  trial::ProtocolSettings settings_;
-  std::optional<environment::ForceField> field_;   // of the only hand
-  std::optional<environment::CursorLaw> cursor_;   // of the only hand
-  dynamics::MassState judged_;                     // the cursor, where it is judged in place of the hand
+  dynamics::MassState judged_;                      // the cursor, where it is judged in place of the hand
   std::vector<Hand> hands_;                         // the first hand at index 0
   std::array<Vec3, experiment::kMaxHands> hips_{};  // [m] raw
   trial::ProtocolState protocol_;

@@ -110,7 +110,7 @@ void FeedbackHand::learnFromTrace() {
   traceSteps_.store(0, std::memory_order_relaxed);
 }
 
-void FeedbackHand::prepareTrial(int index) {
+void FeedbackHand::prepareTrial(int index, int /*scene*/) {
   learnFromTrace();
   if (std::exchange(firstIsThere_, false) && index == 0) {
     prepared_ = playing_;

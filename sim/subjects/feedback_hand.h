@@ -41,7 +41,7 @@ class FeedbackHand final : public haptics::HapticDevice {
   FeedbackHand(std::shared_ptr<const FeedbackTask> task, std::shared_ptr<SubjectState> state, std::uint64_t seed);
 
   haptics::DeviceInfo info() const override;
-  void prepareTrial(int index) override;
+  void prepareTrial(int index, int scene = 0) override;
   void cue(haptics::Cue cue) noexcept override;
   haptics::DeviceSample read() noexcept override;
   void write(const Vec3& force) noexcept override;

@@ -96,7 +96,7 @@ class ImpedanceHand final : public haptics::HapticDevice, public haptics::BlindH
     return info;
   }
 
-  void prepareTrial(int index) override {
+  void prepareTrial(int index, int /*scene*/ = 0) override {
     if (std::exchange(firstIsThere_, false) && index == 0) {
       prepared_ = playing_;
       return;

@@ -5,6 +5,7 @@
 #include "base/device_options.h"
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
+#include "sim/subjects/hands_in_scenes.h"
 
 namespace reachlab::subjects {
 
@@ -30,6 +31,17 @@ MakeSubject prepareSubjects(const experiment::CompiledExperiment& experiment, co
   if (kind == "impedance") return prepareImpedanceSubjects(experiment, options);
   requireNothingPushes(experiment.experiment());
   return prepareSubjects(experiment, parseSubject(options));
+}
+
+MakeSubject prepareSubjects(std::span<const experiment::CompiledExperiment> scenes, const std::string& device) {
+  if (scenes.size() == 1) return prepareSubjects(scenes.front(), device);
+  std::vector<MakeSubject> ofScenes;
+  for (const experiment::CompiledExperiment& scene : scenes) ofScenes.push_back(prepareSubjects(scene, device));
+  return [ofScenes](std::uint64_t seed, int day, std::shared_ptr<void>& learnt) {
+    std::vector<std::unique_ptr<haptics::HapticDevice>> hands;
+    for (const MakeSubject& make : ofScenes) hands.push_back(make(seed, day, learnt));
+    return joinScenes(std::move(hands));
+  };
 }
 
 }  // namespace reachlab::subjects

@@ -373,7 +373,7 @@ class Tapped final : public haptics::HapticDevice {
     info.rendersForce = guarded_;
     return info;
   }
-  void prepareTrial(int index) override { device_->prepareTrial(index); }
+  void prepareTrial(int index, int scene = 0) override { device_->prepareTrial(index, scene); }
   void cue(haptics::Cue cue) noexcept override { device_->cue(cue); }
   haptics::DeviceSample read() noexcept override { return device_->read(); }
   void write(const Vec3& force) noexcept override {

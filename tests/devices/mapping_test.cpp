@@ -35,7 +35,7 @@ class Recorded final : public haptics::HapticDevice {
   }
   haptics::DeviceSample read() noexcept override { return sample; }
   void write(const Vec3& force) noexcept override { told = force; }
-  void prepareTrial(int index) override { calls += "prepare " + std::to_string(index) + "; "; }
+  void prepareTrial(int index, int /*scene*/ = 0) override { calls += "prepare " + std::to_string(index) + "; "; }
   void cue(haptics::Cue cue) noexcept override { calls += cue == haptics::Cue::Go ? "go; " : "place; "; }
   void see(std::span<const dynamics::MassState> masses) noexcept override { calls += "see " + std::to_string(masses.size()) + "; "; }
   haptics::DeviceHealth health() const noexcept override { return haptics::DeviceHealth::Warm; }

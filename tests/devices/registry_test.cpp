@@ -194,7 +194,7 @@ struct Named final : haptics::HapticDevice {
     return sample;
   }
   void write(const Vec3& f) noexcept override { force = f; }
-  void prepareTrial(int index) override { prepared = index; }
+  void prepareTrial(int index, int /*scene*/ = 0) override { prepared = index; }
   void cue(haptics::Cue) noexcept override { ++cues; }
   void see(std::span<const dynamics::MassState> masses) noexcept override { seen = masses.size(); }
   haptics::DeviceHealth health() const noexcept override { return state; }

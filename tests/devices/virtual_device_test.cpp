@@ -132,7 +132,7 @@ class MovingHand final : public haptics::HapticDevice {
   }
   void write(const Vec3&) noexcept override {}
   void cue(haptics::Cue) noexcept override { ++cues; }
-  void prepareTrial(int index) override { prepared = index; }
+  void prepareTrial(int index, int /*scene*/ = 0) override { prepared = index; }
   int tick = 0, cues = 0, prepared = -1;
 };
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "base/fault.h"
 #include "cli/bench/allocation_count.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
@@ -35,6 +36,65 @@ std::uint64_t allocationsOfThreeTrials(experiment::Experiment experiment) {
 TEST(HapticLoop, TickAllocatesNothingInAnyShippedExperiment) {
   for (const std::string& name : experiment::shippedExperiments())
     EXPECT_EQ(allocationsOfThreeTrials(experiment::readExperiment(name)), 0u) << name;
+}
+
+// The scene changes with each of four trials, between forces of every kind and an object without a field.
+TEST(HapticLoop, TickThatChangesTheSceneAllocatesNothing) {
+  experiment::Experiment plain = experiment::readExperiment("chain-moderate");
+  plain.task->rest = experiment::kNoStartRest;
+  experiment::Experiment field = plain;
+  field.object.viscosity = 3;
+  field.environment = {{experiment::ViscousForce{{{{0, 0, 13}, {0, 0, 0}, {-13, 0, 0}}}}},
+                       {experiment::ChannelForce{}, experiment::ForceWhen::Trial}};
+  const std::vector<experiment::CompiledExperiment> scenes{experiment::CompiledExperiment(plain), experiment::CompiledExperiment(field)};
+  auto engine = std::make_unique<TickEngine>(scenes, EngineOptions{});
+  const Vec3 start = engine->protocol().start;
+  const auto device = std::make_shared<test::ScriptedDevice>(start.x, start.x + 0.02, 400);
+  device->beside = start;
+  test::MemorySink sink(10);
+  LoopOptions options;
+  options.virtualClock = true;
+  HapticLoop loop(std::move(engine), device, &sink, options);
+  const std::uint64_t before = cli::countAllocations();
+  bool felt[2] = {false, false};
+  for (int i = 0; i < 4000; ++i) {
+    const int scene = i / 1000 % 2;
+    if (i % 1000 == 0 && i > 0) loop.tryCommand(trial::Command::Abort);
+    if (i % 1000 == (i == 0 ? 0 : 1)) loop.tryCommand(trial::Command::NextTrial, {.index = i / 1000, .scene = scene});
+    loop.advance();
+    loop.takeLatest();
+    if (i % 1000 > 1 && !(loop.engine().state().environment.force == Vec3{})) felt[scene] = true;
+  }
+  EXPECT_EQ(cli::countAllocations() - before, 0u);
+  EXPECT_EQ(loop.engine().state().trial, 4);
+  EXPECT_FALSE(felt[0]);
+  EXPECT_TRUE(felt[1]);
+}
+
+TEST(TickEngine, RefusesScenesThatCannotShareARecord) {
+  const experiment::Experiment first = experiment::readExperiment("chain-moderate");
+  const auto refusedKey = [&](const auto& change) -> std::string {
+    experiment::Experiment other = first;
+    change(other);
+    const std::vector<experiment::CompiledExperiment> scenes{experiment::CompiledExperiment(first), experiment::CompiledExperiment(other)};
+    try {
+      TickEngine engine(scenes, EngineOptions{});
+      return "";
+    } catch (const FaultError& error) {
+      return error.faults.at(0).key;
+    }
+  };
+  EXPECT_EQ(refusedKey([](experiment::Experiment& e) { e.forceLimit = 3; }), "force_limit_n");
+  EXPECT_EQ(refusedKey([](experiment::Experiment& e) { e.task->rest.seconds = 0.7; }), "task.rest_s");
+  EXPECT_EQ(refusedKey([](experiment::Experiment& e) { e.velocityEstimator.kind = "difference"; }), "velocity_estimator");
+  EXPECT_EQ(refusedKey([](experiment::Experiment& e) { e.timing.maxMissedTicks = 4; }), "timing");
+  EXPECT_EQ(refusedKey([](experiment::Experiment& e) {
+              e.object.masses.pop_back();
+              e.object.stiffness.pop_back();
+              e.object.damping.pop_back();
+            }),
+            "object.masses_kg");
+  EXPECT_EQ(refusedKey([](experiment::Experiment& e) { e.task->target = {5}; }), "");
 }
 
 TEST(HapticLoop, TickAllocatesNothingUnderAnyForceAndWithACursor) {

@@ -16,7 +16,7 @@ class SetDevice final : public HapticDevice {
     written.reserve(20'000);
   }
   DeviceInfo info() const override { return about; }
-  void prepareTrial(int index) override { prepared.push_back(index); }
+  void prepareTrial(int index, int /*scene*/ = 0) override { prepared.push_back(index); }
   void cue(Cue cue) noexcept override { cues.push_back(cue); }
   DeviceSample read() noexcept override {
     ++reads;

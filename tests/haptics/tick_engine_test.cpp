@@ -355,7 +355,7 @@ TEST(TickEngine, AnotherEngineGoesOnWithTheScene) {
     input.command = i == 1 ? trial::Command::NextTrial : trial::Command::None;
     runTick(first, input);
   }
-  TickEngine again(compiled.experiment(), std::move(first).takeScene(), {});
+  TickEngine again(compiled.experiment(), std::move(std::move(first).takeScenes().front()), {});
   for (int i = 0; i < 900; ++i) {
     input.devices[0] = at(i);
     input.command = i == 1 ? trial::Command::NextTrial : trial::Command::None;

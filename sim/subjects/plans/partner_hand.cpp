@@ -35,8 +35,8 @@ class PartnerHand final : public haptics::HapticDevice {
     info.apparentMass = spec_.handMass;
     return info;
   }
-  void prepareTrial(int index) override {
-    if (leader_) leader_->prepareTrial(index);
+  void prepareTrial(int index, int scene = 0) override {
+    if (leader_) leader_->prepareTrial(index, scene);
   }
   void cue(haptics::Cue cue) noexcept override {
     if (leader_) leader_->cue(cue);

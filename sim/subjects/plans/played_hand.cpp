@@ -11,7 +11,7 @@ PlayedHand::PlayedHand(haptics::DeviceInfo info, PlanReach plan) : info_(std::mo
   if (!prepared_.velocity.empty()) playing_.velocity.assign(1, {});
 }
 
-void PlayedHand::prepareTrial(int index) {
+void PlayedHand::prepareTrial(int index, int /*scene*/) {
   if (index != 0 || !firstIsThere_) prepared_ = plan_(index);
   firstIsThere_ = false;
 }

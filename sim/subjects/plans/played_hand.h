@@ -25,7 +25,7 @@ class PlayedHand final : public haptics::HapticDevice, public haptics::BlindHand
   PlayedHand(haptics::DeviceInfo info, PlanReach plan);
 
   haptics::DeviceInfo info() const override { return info_; }
-  void prepareTrial(int index) override;
+  void prepareTrial(int index, int scene = 0) override;
   void cue(haptics::Cue cue) noexcept override;
   haptics::DeviceSample read() noexcept override;
   void write(const Vec3&) noexcept override {}
