@@ -33,7 +33,7 @@ void printRun(const session::RecordedRun& run) {
 
 // Which hand is farthest from where it has to be.
 void printWait(const session::RecordedRun& run) {
-  const experiment::CompiledExperiment& experiment = run.experiment();
+  const experiment::CompiledExperiment& experiment = run.experimentNow();
   const trial::ProtocolSettings place = trial::makeProtocolSettings(experiment.experiment(), experiment.constraint());
   const haptics::TickState& state = run.latest();
   const auto awayOf = [&](const haptics::HandState& hand) { return norm(hand.device.position - place.start); };
@@ -57,10 +57,10 @@ void printNoStart(const session::RecordedRun& run) {
 }
 
 // Before anybody feels it: what this experiment will meet on this device.
-std::unique_ptr<haptics::HapticDevice> makeCheckedDevice(const std::string& spec, const experiment::CompiledExperiment& experiment,
-                                                         std::uint64_t seed) {
-  auto device = devices::makeDevice(spec, experiment, seed);
-  for (const std::string& sentence : devices::warningsBeforeBlock(experiment, *device)) fmt::print(stderr, "warning: {}\n", sentence);
+std::unique_ptr<haptics::HapticDevice> makeCheckedDevice(const std::string& spec, std::span<const experiment::CompiledExperiment> scenes,
+                                                         std::uint64_t seed, std::shared_ptr<void>& learnt) {
+  auto device = devices::makeDevice(spec, scenes, seed, &learnt);
+  for (const std::string& sentence : devices::warningsBeforeBlock(scenes, *device)) fmt::print(stderr, "warning: {}\n", sentence);
   return device;
 }
 
@@ -68,7 +68,11 @@ std::unique_ptr<haptics::HapticDevice> makeCheckedDevice(const std::string& spec
 
 int runSession(const session::SessionRequest& request) {
   const std::unique_ptr<record::InstrumentLink> instruments = devices::openInstruments(request.instruments);
-  session::RecordedSession session(session::readProgramme(request.what), request, makeCheckedDevice, nullptr, instruments.get());
+  std::shared_ptr<void> learnt;  // by a virtual person, from block to block
+  const auto makeDevice = [&learnt](const std::string& spec, std::span<const experiment::CompiledExperiment> scenes, std::uint64_t seed) {
+    return makeCheckedDevice(spec, scenes, seed, learnt);
+  };
+  session::RecordedSession session(session::readProgramme(request.what), request, makeDevice, nullptr, instruments.get());
   printNotice(session.notice());
   if (session.blocksLeft() == 0) fmt::print(stderr, "nothing is left to do: every trial of this session is recorded\n");
   std::fflush(stdout);
@@ -95,10 +99,10 @@ int runSession(const session::SessionRequest& request) {
   };
   words.ended = [&](const session::RecordedRun& run, const haptics::ConductedTrial& trial) {
     warn();
-    fmt::print("{}\n", trialLine(run.numberOf(trial), trial.result));
+    fmt::print("{}\n", trialLine(run.numberOf(trial), trial.result, record::sceneOf(run.configuration(), trial.planned)));
     std::fflush(stdout);
     if (trial.result.reason == trial::Reason::NoStart) printNoStart(run);
-    table.add(run.configuration().condition + (trial.planned.catchTrial ? " (catch)" : ""), trial.result);
+    table.add(record::conditionOf(run.configuration(), trial.planned) + (trial.planned.catchTrial ? " (catch)" : ""), trial.result);
   };
   words.logClosed = [&](const session::RecordedRun& run) {
     warn();

@@ -78,13 +78,16 @@ std::string trialsTable(const record::RunLog& log) {
   };
   static constexpr Shown kShown[] = {
       {"movement_time_s", 3}, {"task_reaction_time_s", 3}, {"peak_hand_speed_m_per_s", 3}, {"peak_force_n", 2}, {"clamped_ticks", 0}};
+  const record::RunConfiguration& c = log.configuration();
   std::vector<std::vector<std::string>> rows{{"trial", "outcome", "reason", "mass", "by", ""}};
+  if (c.scenes) rows.front().insert(rows.front().begin() + 1, {"kind", "target"});
   for (const Shown& shown : kShown) rows.front().emplace_back(shown.measure);
   for (const record::RecordedTrial& t : log.trials()) {
     const bool success = t.result.outcome == trial::Outcome::Success;
     rows.push_back({std::to_string(t.trial), std::string(trial::nameOf(t.result.outcome)),
                     success ? "" : std::string(trial::nameOf(t.result.reason)), t.result.mass > 0 ? std::to_string(t.result.mass) : "",
                     t.result.by != 0 ? rounded(t.result.by, 4) : "", t.result.by != 0 ? record::unitOf(t.result.reason) : ""});
+    if (const record::RunScene* scene = record::sceneOf(c, t.planned)) rows.back().insert(rows.back().begin() + 1, {scene->kind, scene->target});
     for (const Shown& shown : kShown) rows.back().push_back(rounded(record::tickMeasure(shown.measure).of(t), shown.digits));
   }
   return alignedTable(rows);
@@ -92,7 +95,11 @@ std::string trialsTable(const record::RunLog& log) {
 
 Json trialJson(const record::RunLog& log, const record::RecordedTrial& t) {
   const record::TrialTimes times = record::timesOf(t, log.firstSampleTick());
+  const record::RunScene* scene = record::sceneOf(log.configuration(), t.planned);
   Json json{{"trial", t.trial},
+            {"condition", record::conditionOf(log.configuration(), t.planned)},
+            {"kind", scene != nullptr ? Json(scene->kind) : Json()},
+            {"target", scene != nullptr ? Json(scene->target) : Json()},
             {"outcome", trial::nameOf(t.result.outcome)},
             {"reason", trial::nameOf(t.result.reason)},
             {"by_unit", record::unitOf(t.result.reason)},
@@ -155,7 +162,7 @@ void showTrial(const record::RunLog& log, const record::RecordedTrial& trial, bo
     fmt::print("{}\n", json.dump(2));
     return;
   }
-  fmt::print("{}\n", trialLine(trial.trial, trial.result));
+  fmt::print("{}\n", trialLine(trial.trial, trial.result, record::sceneOf(log.configuration(), trial.planned)));
   std::vector<std::vector<std::string>> rows{
       {timeColumn, "hand_speed_m_per_s", "first_mass_speed_m_per_s", "last_mass_speed_m_per_s", "coupling_force_n"}};
   for (std::size_t i = 0; i < profile.time.size(); ++i)

@@ -31,6 +31,7 @@ struct StationRequest {
 /// One station from its first word to its last; every trial is armed as soon as it can be.
 int conduct(const StationRequest& request) {
   const session::BlockToRun block = session::planSession(request.session).blocks.at(0);
+  session::requireOneScene(block);
   network::StationRun station(request.setup, block.experiment);
   session::RecordedRunOptions options;
   options.place = request.session.place;
@@ -69,6 +70,7 @@ int conduct(const StationRequest& request) {
 /// Until the conductor's last word.
 int watchStations(const StationRequest& request) {
   const session::BlockToRun block = session::planSession(request.session).blocks.at(0);
+  session::requireOneScene(block);
   network::Observer observer(request.setup, block.experiment);
   const StopRequest stop;
   const auto every = std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(request.every));

@@ -83,15 +83,19 @@ struct ValidateRequest {
   bool json = false;
 };
 
-// Every experiment of the file against the device, before anybody holds it.
+// Every scene of the file against the device, before anybody holds it.
 void checkOnDevice(const ValidateRequest& r, const session::Programme& programme) {
-  for (const experiment::CompiledExperiment& block : programme.experiments) {
-    const auto device = devices::makeDevice(r.device, block, 0);
-    const auto lines = devices::checkBeforeBlock(block, *device);
+  std::vector<session::BlockScene> scenes;
+  for (const std::vector<session::BlockScene>& block : programme.scenes) scenes.insert(scenes.end(), block.begin(), block.end());
+  for (const session::BlockScene& scene : scenes) {
+    const auto device = devices::makeDevice(r.device, scene.experiment, 0);
+    const auto lines = devices::checkBeforeBlock(scene.experiment, *device);
     std::string names;
     for (const haptics::HapticDevice* hand : device->hands()) names += (names.empty() ? "" : " + ") + hand->info().name;
     if (r.json) fmt::print("{}", preflightJson(lines));
-    else fmt::print("{} on {}:\n{}", block.experiment().name, names, preflightText(lines));
+    else
+      fmt::print("{}{} on {}:\n{}", scene.experiment.experiment().name, scene.target.empty() ? "" : ", " + scene.condition, names,
+                 preflightText(lines));
   }
 }
 

@@ -35,8 +35,11 @@ std::string SuccessTable::text() const {
   return text;
 }
 
-std::string trialLine(int trial, const trial::TrialResult& result) {
-  std::string line = fmt::format("trial={} outcome={}", trial, trial::nameOf(result.outcome));
+std::string trialLine(int trial, const trial::TrialResult& result, const record::RunScene* scene) {
+  std::string line = fmt::format("trial={}", trial);
+  if (scene != nullptr && !scene->kind.empty()) line += " kind=" + scene->kind;
+  if (scene != nullptr && !scene->target.empty()) line += " target=" + scene->target;
+  line += fmt::format(" outcome={}", trial::nameOf(result.outcome));
   if (result.outcome != trial::Outcome::Success) line += fmt::format(" reason={}", trial::nameOf(result.reason));
   if (result.mass > 0) line += fmt::format(" mass={}", result.mass);
   // For a person; the log and the exports have every digit.

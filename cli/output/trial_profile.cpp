@@ -67,7 +67,7 @@ figure::Figure drawTrial(const record::RunLog& log, const record::RecordedTrial&
     speed.series.push_back(
         line(fmt::format("mass {}", masses), profile.time, profile.lastSpeed, figure::palette::kVermilion, figure::kNormal));
   force.series = {line("", profile.time, profile.force, figure::palette::kBlack, figure::kNormal)};
-  const experiment::Experiment experiment = record::recordedValues(log.configuration());
+  const experiment::Experiment experiment = record::recordedValues(log.configuration(), trial.planned);
   if (profile.sinceOnset && experiment.task) {
     const experiment::Task& task = *experiment.task;
     speed.rules = {mark(0, "onset"), mark(task.duration - task.tolerance.time, "T − ΔT"),

@@ -132,8 +132,7 @@ Replay replayRun(const RunLog& log) { return replayRun(log, {}); }
 
 Replay replayRun(const RunLog& log, const ReplayHooks& hooks) {
   const RunConfiguration& c = log.configuration();
-  const experiment::CompiledExperiment compiled = recordedExperiment(c);
-  const experiment::Experiment& experiment = compiled.experiment();
+  const std::vector<experiment::CompiledExperiment> scenes = recordedScenes(c);
   haptics::EngineOptions options{{}};
   for (const HandDevice& hand : devicesOf(c))
     options.hands.push_back({.deviceMaxForce = hand.maxForce,
@@ -142,9 +141,9 @@ Replay replayRun(const RunLog& log, const ReplayHooks& hooks) {
                              .continuousForce = hand.continuousForce,
                              .thermalSeconds = hand.thermalSeconds,
                              .guards = hand.guards});
-  const auto made = hooks.makeEngine ? hooks.makeEngine(compiled, options) : std::make_unique<haptics::TickEngine>(compiled, options);
+  const auto made = hooks.makeEngine ? hooks.makeEngine(scenes.front(), options) : std::make_unique<haptics::TickEngine>(scenes, options);
   haptics::TickEngine& engine = *made;
-  experiment::Experiment recorded = experiment;
+  experiment::Experiment recorded = channelsOfAll(scenes);
   if (hooks.makeEngine) recorded.hands.clear();  // a station's own hand alone
   const ChannelTable scene = makeChannelTable(recorded, engine.constraint().parameterCount());
   if (c.table.massCount != scene.massCount || c.table.parameterCount != scene.parameterCount || c.table.body != scene.body ||

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <map>
@@ -17,7 +18,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kMagic = "REACHIDX";
-constexpr std::uint32_t kVersion = 1;
+constexpr std::uint32_t kVersion = 2;
 
 std::uint32_t checksum(std::string_view text) {
   return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
@@ -32,6 +33,9 @@ void encode(const IndexedRun& run, ByteWriter& out) {
   out.put(run.changedNs);
   for (const int number : {run.run, run.block, run.day}) out.put(static_cast<std::int32_t>(number));
   out.put(static_cast<std::uint8_t>((run.practice ? 1 : 0) | (run.healthy ? 2 : 0)));
+  out.put(static_cast<std::uint32_t>(run.scenes.size()));
+  for (const IndexedScene& scene : run.scenes)
+    for (const std::string* text : {&scene.kind, &scene.target, &scene.condition}) out.putText(*text);
   out.put(static_cast<std::uint32_t>(run.trials.size()));
   ByteWriter one;
   for (const RecordedTrial& trial : run.trials) {
@@ -40,6 +44,7 @@ void encode(const IndexedRun& run, ByteWriter& out) {
     out.put(static_cast<std::uint32_t>(one.size()));
     out.putBytes(one.bytes().data(), one.size());
     out.put(static_cast<std::uint8_t>(trial.complete));
+    out.put(static_cast<std::int32_t>(trial.planned.scene));
   }
 }
 
@@ -52,16 +57,24 @@ bool decode(ByteReader& in, std::span<const std::uint8_t> all, IndexedRun& run) 
   const auto flags = in.get<std::uint8_t>();
   run.practice = (flags & 1) != 0;
   run.healthy = (flags & 2) != 0;
+  const auto scenes = in.get<std::uint32_t>();
+  if (!in.ok() || scenes > in.left()) return false;
+  for (std::uint32_t i = 0; i < scenes; ++i) {
+    IndexedScene& scene = run.scenes.emplace_back();
+    for (std::string* text : {&scene.kind, &scene.target, &scene.condition}) *text = in.getText();
+  }
   const auto count = in.get<std::uint32_t>();
   if (!in.ok() || count > in.left()) return false;
   run.trials.reserve(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto size = in.get<std::uint32_t>();
-    if (!in.ok() || size + 1 > in.left()) return false;
+    if (!in.ok() || size + 5 > in.left()) return false;
     TrialLink link;
     run.trials.push_back(decodeTrial(all.subspan(all.size() - in.left(), size), link));
     for (std::uint32_t k = 0; k < size; ++k) (void)in.get<std::uint8_t>();
     run.trials.back().complete = in.get<std::uint8_t>() != 0;
+    const int scene = run.trials.back().planned.scene = in.get<std::int32_t>();
+    if (scene < 0 || scene >= std::max(1, static_cast<int>(scenes))) return false;
   }
   return in.ok();
 }
@@ -140,6 +153,8 @@ IndexedRun readRun(const std::string& path, const FileStamp& stamp) {
   run.practice = c.practice;
   run.healthy = log.healthy();
   run.trials = log.trials();
+  if (c.scenes)
+    for (const RunScene& scene : *c.scenes) run.scenes.push_back({scene.kind, scene.target, scene.condition});
   return run;
 }
 

@@ -8,6 +8,11 @@
 
 namespace reachlab::record {
 
+/// The names of a scene of a run (RunScene).
+struct IndexedScene {
+  std::string kind, target, condition;
+};
+
 /// A recorded run as a list of trials needs it.
 struct IndexedRun {
   std::string path;            // of its log
@@ -16,7 +21,12 @@ struct IndexedRun {
   std::string subject, session, condition, experiment, device, startedUtc;
   int run = 0, block = 0, day = 0;
   bool practice = false, healthy = true;
+  std::vector<IndexedScene> scenes;  // empty: the run has only one
   std::vector<RecordedTrial> trials;
+  const IndexedScene* sceneOf(const RecordedTrial& trial) const {
+    return scenes.empty() ? nullptr : &scenes.at(static_cast<std::size_t>(trial.planned.scene));
+  }
+  const std::string& conditionOf(const RecordedTrial& trial) const { return scenes.empty() ? condition : sceneOf(trial)->condition; }
 };
 
 /// The trials of a dataset, a session or a single log, without their samples.

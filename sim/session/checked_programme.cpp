@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <utility>
@@ -14,7 +15,8 @@ namespace reachlab::session {
 
 Programme checkedProgramme(const std::string& file) {
   const std::string text = readTextFile(file);
-  Programme programme{parsePlan(text, file), {}};
+  Programme programme{parsePlan(text, file), {}, {}};
+  const JsonNode root = parseJson(text, file);
   std::vector<Fault> elsewhere, here;
   using What = std::pair<std::string, std::vector<experiment::Patch>>;
   std::map<What, std::optional<experiment::CompiledExperiment>> opened;  // nullopt: its faults are told already
@@ -33,7 +35,16 @@ Programme checkedProgramme(const std::string& file) {
         else here.push_back({fmt::format("blocks[{}].experiment", i), toText(fault)});
       }
     }
-    if (known->second) programme.experiments.push_back(*known->second);
+    if (!known->second) continue;
+    programme.experiments.push_back(*known->second);
+    try {
+      programme.scenes.push_back(scenesOf(block, *known->second));
+    } catch (const FaultError& error) {
+      for (Fault fault : error.faults) {
+        fault.key = keyInPlan(root, i, fault.key);
+        if (std::find(here.begin(), here.end(), fault) == here.end()) here.push_back(std::move(fault));
+      }
+    }
   }
   std::vector<Fault> found = atTheirPlaces(std::move(here), text, file);
   found.insert(found.end(), elsewhere.begin(), elsewhere.end());

@@ -37,6 +37,7 @@ void readSettings(ObjectReader& reader, PlanBlock& block) {
   reader.boolean("repeat_aborted", block.repeatAborted);
   reader.number("rest_s", anyNumber(), block.restSeconds);
   readForeperiod(reader, block);
+  readMix(reader, block.mix);
 }
 
 std::string besidePlan(const std::string& planFile, const std::string& experiment) {
@@ -78,19 +79,20 @@ void checkBlock(const std::string& key, const PlanBlock& block, std::vector<Faul
   checkNumber(key + ".rest_s", block.restSeconds, {0, kMaxPause, true, "0 to 86400 s"}, faults);
   checkNumber(key + ".catch_share", block.catchShare, {0, 0.5, true, "a share from 0 to 0.5"}, faults);
   if (block.day != 0) checkNumber(key + ".day", block.day, wholeNumber(1, kMaxDay), faults);
+  const std::vector<Fault> ofMix = problems(block.mix, block.trials, key);
+  faults.insert(faults.end(), ofMix.begin(), ofMix.end());
+  if (block.mix.wayBack && block.catchShare > 0)
+    faults.push_back({key + ".return", "is reach, and a catch trial has no way back", "free, or a catch_share of 0"});
   if (!(block.foreperiodMin >= 0 && block.foreperiodMin <= block.foreperiodMax && block.foreperiodMax <= 60))
     faults.push_back({key + ".foreperiod_s", "is no range", "[from, to] in s, 0 <= from <= to <= 60"});
 }
 
-/// What the file gives for the plan as a whole is told once, where it stands.
+// What the file gives for the plan as a whole is told once, where it stands.
 void addProblems(const JsonNode& root, const Plan& plan, FaultList& faults) {
   std::vector<Fault> told;
   for (Fault fault : problems(plan)) {
-    const std::size_t dot = fault.key.find("].");
-    const std::string setting = dot == std::string::npos ? "" : fault.key.substr(dot + 2);
-    const std::size_t index = setting.empty() ? 0 : static_cast<std::size_t>(std::stoul(fault.key.substr(fault.key.find('[') + 1)));
-    if (!setting.empty() && root.find(setting) != nullptr && root.find("blocks")->items.at(index).find(setting) == nullptr)
-      fault.key = setting;
+    if (const std::size_t dot = fault.key.find("]."); dot != std::string::npos)
+      fault.key = keyInPlan(root, static_cast<std::size_t>(std::stoul(fault.key.substr(fault.key.find('[') + 1))), fault.key.substr(dot + 2));
     if (std::find(told.begin(), told.end(), fault) != told.end()) continue;
     told.push_back(fault);
     faults.addOfValue(root, std::move(fault));
@@ -98,6 +100,12 @@ void addProblems(const JsonNode& root, const Plan& plan, FaultList& faults) {
 }
 
 }  // namespace
+
+std::string keyInPlan(const JsonNode& root, std::size_t block, const std::string& setting) {
+  const std::string own = setting.substr(0, setting.find_first_of(".["));  // "mix" of "mix[0].count"
+  const bool ofPlan = root.find(own) != nullptr && root.find("blocks")->items.at(block).find(own) == nullptr;
+  return ofPlan ? setting : fmt::format("blocks[{}].{}", block, setting);
+}
 
 std::string conditionOf(const PlanBlock& block) {
   return block.condition.empty() ? std::filesystem::path(block.experiment).stem().string() : block.condition;
@@ -184,6 +192,7 @@ std::string toJson(const Plan& plan) {
     put("repeat_aborted", b.repeatAborted, plain.repeatAborted);
     put("rest_s", b.restSeconds, plain.restSeconds);
     put("instructions", b.instructions, plain.instructions);
+    writeMix(block, b.mix);
     blocks.push_back(std::move(block));
   }
   Json root{{"schema_version", 1}, {"name", plan.name}, {"order_seed", plan.orderSeed}};

@@ -7,6 +7,7 @@
 #include "base/fault.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/patch.h"
+#include "sim/session/mix/trial_mix.h"
 
 namespace reachlab::session {
 
@@ -14,7 +15,7 @@ namespace reachlab::session {
 struct PlanBlock {
   std::string experiment;                  // file (beside the plan) or shipped name
   std::vector<experiment::Patch> changes;  // to that file. The condition then has a name
-  int trials = 1;
+  int trials = 1;                          // without ways back
   bool practice = false;                        // recorded too, left out of statistics
   double pauseSeconds = 0;                      // [s] between trials
   std::string condition;                        // empty: the experiment's name
@@ -24,6 +25,7 @@ struct PlanBlock {
   bool repeatAborted = false;                   // an aborted trial is repeated once at the end of the block
   double restSeconds = 0;                       // [s] of rest, at least, between the block before and this one
   std::string instructions;                     // to be read before the block begins
+  TrialMix mix;                                 // kinds and targets of the trials
 };
 
 /// The rule by which the order of a day's blocks differs between subjects. `Permute`: blocks other than practice take the subject's row of
@@ -54,6 +56,8 @@ Plan parsePlan(const std::string& text, const std::string& file);
 Plan readPlan(const std::string& file);
 /// The plan as a file that reads back equal. Experiments keep the names that the blocks use.
 std::string toJson(const Plan& plan);
+/// The key of a block's setting in a plan's file: that of the block, or of the plan where only the plan gives it.
+std::string keyInPlan(const JsonNode& root, std::size_t block, const std::string& setting);
 /// Every fault of a plan as a value, each under its key.
 std::vector<Fault> problems(const Plan& plan);
 

@@ -12,13 +12,14 @@ Programme programmeOf(const experiment::CompiledExperiment& experiment) {
   Programme programme;
   programme.plan.blocks.emplace_back().experiment = experiment.experiment().name;
   programme.experiments.push_back(experiment);
+  programme.scenes.push_back(scenesOf(programme.plan.blocks.front(), experiment));
   return programme;
 }
 
 namespace {
 
 Programme programmeOfText(const std::string& text, const std::string& file) {
-  Programme programme{parsePlan(text, file), {}};
+  Programme programme{parsePlan(text, file), {}, {}};
   using What = std::pair<std::string, std::vector<experiment::Patch>>;
   std::map<What, experiment::CompiledExperiment> opened;  // many blocks do one experiment
   for (const PlanBlock& block : programme.plan.blocks) {
@@ -26,6 +27,7 @@ Programme programmeOfText(const std::string& text, const std::string& file) {
     auto known = opened.find(what);
     if (known == opened.end()) known = opened.emplace(what, openExperimentOf(block)).first;
     programme.experiments.push_back(known->second);
+    programme.scenes.push_back(scenesOf(block, known->second));
   }
   return programme;
 }

@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/session/block_scenes.h"
 #include "sim/session/plan.h"
 
 namespace reachlab::session {
@@ -12,6 +13,7 @@ namespace reachlab::session {
 struct Programme {
   Plan plan;                                                // a single experiment has one block and no text
   std::vector<experiment::CompiledExperiment> experiments;  // one for each of plan.blocks
+  std::vector<std::vector<BlockScene>> scenes;              // of each of plan.blocks, one or more
   bool isPlan() const { return !plan.text.empty(); }
 };
 

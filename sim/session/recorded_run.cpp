@@ -85,10 +85,11 @@ RecordedRun::RecordedRun(BlockToRun block, std::unique_ptr<haptics::HapticDevice
     throw FaultError(Fault{"fast", "there are instruments, which are on the real clock", "either of them"});
   const haptics::LoopOptions loop{.virtualClock = options.virtualClock, .clock = options.clock};
   if (options.makeEngine) {
+    requireOneScene(block_);
     auto engine = options.makeEngine(block_.experiment, haptics::engineOptions(*device));
     conductor_ = std::make_unique<haptics::RunConductor>(std::move(engine), std::move(device), block_.trials, loop);
   } else {
-    conductor_ = std::make_unique<haptics::RunConductor>(block_.experiment, std::move(device), block_.trials, loop);
+    conductor_ = std::make_unique<haptics::RunConductor>(block_.scenes, std::move(device), block_.trials, loop);
   }
   choice_ = conductor_->engine().choice();
   inDataset([this] { openLog(); });
@@ -113,12 +114,17 @@ void RecordedRun::completeConfiguration() {
   if (options_.instruments != nullptr) c.instruments = options_.instruments->names();
   c.method = choice_.method;
   c.methodReason = choice_.reason;
+  for (std::size_t i = 0; c.scenes && i < c.scenes->size(); ++i) {
+    const dynamics::MethodChoice& choice = conductor_->engine().choice(i);
+    c.scenes->at(i).method = choice.method;
+    c.scenes->at(i).methodReason = choice.reason;
+  }
   c.softwareVersion = "reachlab " REACHLAB_VERSION;
   c.buildDescription = std::string("g++ " __VERSION__ ", for ") + processorLevel();
   c.computer = computerName();
   c.startedUtc = utcText(std::chrono::system_clock::now());
   c.clock = options_.virtualClock ? "virtual" : "monotonic";
-  experiment::Experiment recorded = block_.experiment.experiment();
+  experiment::Experiment recorded = record::channelsOfAll(block_.scenes);
   if (c.otherHands.empty()) recorded.hands.clear();  // a station records its own hand alone
   c.table = record::makeChannelTable(recorded, block_.experiment.constraint().parameterCount(), device.rendersForce);
   c.table.channels.insert(c.table.channels.end(), options_.furtherChannels.begin(), options_.furtherChannels.end());

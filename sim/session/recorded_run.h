@@ -94,6 +94,15 @@ class RecordedRun {
   const dynamics::MethodChoice& choice() const { return choice_; }
   const record::RunConfiguration& configuration() const { return block_.configuration; }
   const experiment::CompiledExperiment& experiment() const { return block_.experiment; }
+  /// The experiment of a trial, by its kind and target.
+  const experiment::CompiledExperiment& experimentOf(const trial::PlannedTrial& trial) const {
+    return block_.scenes.at(static_cast<std::size_t>(trial.scene));
+  }
+  /// That of the trial under way, else of the next trial, else of the block.
+  const experiment::CompiledExperiment& experimentNow() const {
+    const trial::PlannedTrial* trial = conductor_->currentTrial();
+    return trial != nullptr ? experimentOf(*trial) : block_.experiment;
+  }
   const std::string& logPath() const { return block_.logPath; }
   const std::string& instructions() const { return block_.instructions; }
   /// The last trial that is safe on the disk, with its times by the clock.

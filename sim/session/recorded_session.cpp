@@ -77,7 +77,7 @@ bool RecordedSession::openNext() {
   if (watcher_ != nullptr) options.watchers.push_back(watcher_);
   options.instruments = instruments_;
   if (prepare_) prepare_(options);
-  run_ = std::make_unique<RecordedRun>(block, makeDevice_(request_.device, block.experiment, block.configuration.seed), options);
+  run_ = std::make_unique<RecordedRun>(block, makeDevice_(request_.device, block.scenes, block.configuration.seed), options);
   blocks_.pop_front();
   return true;
 }

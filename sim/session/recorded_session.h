@@ -2,6 +2,7 @@
 #include <deque>
 #include <functional>
 #include <memory>
+#include <span>
 #include <utility>
 
 #include "sim/session/pacing.h"
@@ -9,9 +10,9 @@
 
 namespace reachlab::session {
 
-/// Makes the requested device for one block, from its experiment and its seed. Throws as devices' makeDevice does.
+/// Makes the requested device for one block, from its scenes and its seed. Throws as devices' makeDevice does.
 using DeviceMaker = std::function<std::unique_ptr<haptics::HapticDevice>(
-    const std::string& device, const experiment::CompiledExperiment& experiment, std::uint64_t seed)>;
+    const std::string& device, std::span<const experiment::CompiledExperiment> scenes, std::uint64_t seed)>;
 
 /// A session while it is recorded. Its blocks are in order, with one run each, and one run is open at a time. The command line uses
 /// `conduct`, and a window opens run after run. The controlling thread owns it.

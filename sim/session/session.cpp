@@ -31,6 +31,14 @@ bool isOf(const record::RunConfiguration& c, const experiment::Experiment& exper
   return c.experimentText == experiment.text && (c.definitionText.empty() || c.definitionText == experiment::definitionTextOf(experiment));
 }
 
+// The plan's text is the same, and so are the scenes, unless another program has made them.
+bool hasScenes(const record::RunConfiguration& c, const std::vector<BlockScene>& scenes) {
+  if (!c.scenes) return scenes.size() == 1;
+  return std::equal(c.scenes->begin(), c.scenes->end(), scenes.begin(), scenes.end(), [](const record::RunScene& a, const BlockScene& b) {
+    return a.condition == b.condition && a.experimentText == b.experiment.experiment().text;
+  });
+}
+
 const RecordedBlock* findRecordedBlock(const std::vector<RecordedBlock>& blocks, const Plan& plan, int number,
                                   const experiment::Experiment& experiment) {
   const RecordedBlock* found = nullptr;
@@ -69,7 +77,7 @@ void checkSameWishes(const SessionRequest& request, const RecordedBlock& block) 
 }
 
 record::RunConfiguration freshConfiguration(const SessionRequest& request, const Plan& plan, const PlanBlock& block,
-                                            const experiment::Experiment& experiment) {
+                                            const experiment::Experiment& experiment, const std::vector<BlockScene>& scenes) {
   record::RunConfiguration c;
   c.subject = request.place.subject;
   c.session = request.place.session;
@@ -86,16 +94,27 @@ record::RunConfiguration freshConfiguration(const SessionRequest& request, const
   c.planName = plan.text.empty() ? "" : plan.name;
   c.planText = plan.text;
   c.orderSeed = plan.orderSeed;
+  if (block.mix.isPlain()) return c;
+  c.scenes.emplace();
+  for (const BlockScene& scene : scenes)
+    c.scenes->push_back({scene.kind, scene.target, scene.condition, scene.experiment.experiment().text, {}, {}});
   return c;
 }
 
+std::vector<experiment::CompiledExperiment> experimentsOf(const std::vector<BlockScene>& scenes) {
+  std::vector<experiment::CompiledExperiment> experiments;
+  for (const BlockScene& scene : scenes) experiments.push_back(scene.experiment);
+  return experiments;
+}
+
 // What a log will hold of a block, as far as it is known without a device, goes through the rules of its reader.
-void addUnreadable(record::RunConfiguration c, const experiment::CompiledExperiment& experiment, std::vector<Fault>& faults) {
+void addUnreadable(record::RunConfiguration c, const experiment::CompiledExperiment& experiment, const std::vector<BlockScene>& scenes,
+                   std::vector<Fault>& faults) {
   const std::string& name = experiment.experiment().name;
   if (const auto fault = record::labelFault(c.task, "task"))
     return faults.push_back({"name", fmt::format("\"{}\" has {} letters and digits", name, c.task.size()),
                              fault->allowed + ", of which the names of its recordings are made"});
-  c.table = record::makeChannelTable(experiment.experiment(), experiment.constraint().parameterCount());
+  c.table = record::makeChannelTable(record::channelsOfAll(experimentsOf(scenes)), experiment.constraint().parameterCount());
   c.otherHands.resize(static_cast<std::size_t>(c.table.hands - 1));
   try {
     (void)record::readableText(c, name);
@@ -135,9 +154,9 @@ void checkRecordable(const Programme& programme) {
   std::vector<Fault> faults;
   for (std::size_t k = 0; k < programme.experiments.size(); ++k) {
     const PlanBlock& block = programme.plan.blocks.at(k);
-    record::RunConfiguration c = freshConfiguration({}, programme.plan, block, programme.experiments[k].experiment());
+    record::RunConfiguration c = freshConfiguration({}, programme.plan, block, programme.experiments[k].experiment(), programme.scenes.at(k));
     c.trials = planTrials(block, 0);
-    addUnreadable(std::move(c), programme.experiments[k], faults);
+    addUnreadable(std::move(c), programme.experiments[k], programme.scenes.at(k), faults);
   }
   if (!faults.empty()) throw FaultError(std::move(faults));
 }
@@ -203,7 +222,8 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
   if (resumed != nullptr) checkSameWishes(request, *resumed);
   for (std::size_t k = 0; k < order.size() && request.resume; ++k) {
     const experiment::Experiment& experiment = programme.experiments[static_cast<std::size_t>(order[k])].experiment();
-    if (recorded[k] != nullptr && !isOf(recorded[k]->configuration, experiment))
+    const std::vector<BlockScene>& scenes = programme.scenes.at(static_cast<std::size_t>(order[k]));
+    if (recorded[k] != nullptr && (!isOf(recorded[k]->configuration, experiment) || !hasScenes(recorded[k]->configuration, scenes)))
       refuseToResume(experiment.name, recorded[k]->configuration.run);
   }
   chooseSeed(request, resumed, session);
@@ -211,15 +231,19 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
   int run = chooseRun(request.place, request.run);
   for (std::size_t k = 0; k < order.size(); ++k) {
     const PlanBlock& planned = plan.blocks[static_cast<std::size_t>(order[k])];
+    const std::vector<BlockScene>& scenes = programme.scenes.at(static_cast<std::size_t>(order[k]));
     const RecordedBlock* before = request.resume ? recorded[k] : nullptr;
-    BlockToRun block{
-        .experiment = programme.experiments[static_cast<std::size_t>(order[k])], .configuration = {}, .logPath = {}, .trials = {}};
+    BlockToRun block{.experiment = programme.experiments[static_cast<std::size_t>(order[k])],
+                     .scenes = experimentsOf(scenes),
+                     .configuration = {},
+                     .logPath = {},
+                     .trials = {}};
     block.restSeconds = planned.restSeconds;
     block.instructions = planned.instructions;
     if (before != nullptr) {
       block.configuration = before->configuration;
     } else {
-      block.configuration = freshConfiguration(request, plan, planned, block.experiment.experiment());
+      block.configuration = freshConfiguration(request, plan, planned, block.experiment.experiment(), scenes);
       block.configuration.block = static_cast<int>(k) + 1;
       block.configuration.sessionSeed = session.seed;
       block.configuration.seed = blockSeed(session.seed, block.configuration.block);
@@ -237,13 +261,18 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
     block.configuration.sampleEveryTicks = request.everyTick ? 1 : 10;
     block.configuration.samplingHz = request.everyTick ? 1000 : 100;
     block.logPath = logPath(request.place, block.configuration.task, run);
-    addUnreadable(block.configuration, block.experiment, faults);
+    addUnreadable(block.configuration, block.experiment, scenes, faults);
     session.blocks.push_back(std::move(block));
   }
   if (!faults.empty()) throw FaultError(std::move(faults));
   session.notice.unfinished = !request.resume && std::any_of(recorded.begin(), recorded.end(),
                                                              [](const RecordedBlock* b) { return b != nullptr && !b->complete(); });
   return session;
+}
+
+void requireOneScene(const BlockToRun& block) {
+  if (block.scenes.size() > 1)
+    throw FaultError(Fault{"experiment", "has kinds of trials or targets, and stations share one scene", "a block without kinds and targets"});
 }
 
 void takeFreeRun(BlockToRun& block, const SessionPlace& place, bool askedFor) {

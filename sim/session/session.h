@@ -40,6 +40,7 @@ struct SessionNotice {
 /// One run to be recorded. Its configuration lacks only the values that the scene, the device and the clock add.
 struct BlockToRun {
   experiment::CompiledExperiment experiment;
+  std::vector<experiment::CompiledExperiment> scenes;  // of PlannedTrial::scene; a block without kinds and targets has `experiment` alone
   record::RunConfiguration configuration;
   std::string logPath;
   std::vector<trial::PlannedTrial> trials;  // still to be done, in order, and numbered from configuration.firstTrial
@@ -62,6 +63,9 @@ SessionToRun planSession(const SessionRequest& request);
 /// The requested day of the plan: `request.day`, else the session's label when that is a number. 0 where the plan has no days. Throws
 /// FaultError.
 int sessionDay(const SessionRequest& request, const Plan& plan);
+
+/// Throws FaultError where the block has several scenes, which stations cannot share.
+void requireOneScene(const BlockToRun& block);
 
 /// Gives the block the next free run number where another program has taken its number since it was planned. A number that was `askedFor`
 /// is refused then (FaultError). Keep holdDataset until the log is created.

@@ -6,6 +6,7 @@
 
 #include "base/math/seeded.h"
 #include "base/ticks.h"
+#include "sim/session/mix/mix_order.h"
 
 namespace reachlab::session {
 namespace {
@@ -13,11 +14,27 @@ namespace {
 constexpr std::uint64_t kForeperiodStream = 0x666f7265,
                         kCatchStream = 0x63617463;  // so that the two draws have nothing to do with each other
 
+// Scenes are numbered as scenesOf numbers them.
+std::vector<trial::PlannedTrial> inTheirScenes(const PlanBlock& block, std::uint64_t seed) {
+  if (block.mix.isPlain()) return std::vector<trial::PlannedTrial>(static_cast<std::size_t>(block.trials));
+  std::vector<trial::PlannedTrial> trials;
+  for (const MixedTrial& one : orderTrials(block.mix, block.trials, seed)) {
+    const int place = one.kind * block.mix.targetCount() + one.target;
+    if (!block.mix.wayBack) {
+      trials.push_back({.scene = place});
+      continue;
+    }
+    trials.push_back({.scene = 2 * place});
+    trials.push_back({.scene = 2 * place + 1});
+  }
+  return trials;
+}
+
 }  // namespace
 
 std::vector<trial::PlannedTrial> planTrials(const PlanBlock& block, std::uint64_t seed) {
-  const auto count = static_cast<std::size_t>(block.trials);
-  std::vector<trial::PlannedTrial> trials(count);
+  std::vector<trial::PlannedTrial> trials = inTheirScenes(block, seed);
+  const std::size_t count = trials.size();
   const double lo = block.foreperiodMin, hi = block.foreperiodMax;
   for (std::size_t i = 0; i < count; ++i) {
     trials[i].index = static_cast<int>(i);

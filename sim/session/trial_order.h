@@ -7,7 +7,7 @@
 
 namespace reachlab::session {
 
-/// The trials of a block, in order. Foreperiods and the places of the catch trials are drawn from the seed. Trial i's foreperiod depends on
+/// The trials of a block, in order, each with its scene (block_scenes.h). Kinds and targets, foreperiods and the places of the catch trials are drawn from the seed. Trial i's foreperiod depends on
 /// (seed, i) alone, so that a resumed block has the same foreperiods.
 std::vector<trial::PlannedTrial> planTrials(const PlanBlock& block, std::uint64_t seed);
 

@@ -37,6 +37,12 @@ FORCED = {kind: {**POINT, "environment": [{"kind": kind, **keys}]} for kind, key
 AT_ONCE = {**POINT, "environment": [{**FORCED["pulse"]["environment"][0], "at": {}}]}
 VIEWED = {**POINT, "look": {"cameras": [{"name": "above", "position_m": [0, 0.5, 0.1], "focus_m": [0, 0, 0]}]}}
 PLAN = {"schema_version": 1, "trials": 2, "blocks": [{"experiment": "chain-moderate"}]}
+KINDS = {"kinds": {"plain": {}, "heavy": {"object.masses_kg[*]": 2}}, "mix": [{"kind": "plain", "count": 7}, {"kind": "heavy", "count": 1}],
+         "targets": {"ring": {"count": 8}}}
+MIXED = {**PLAN, "trials": 8, **KINDS, "blocks": [{"experiment": "free-point", **KINDS}]}
+OF_KINDS = [level + key for level in ("", "blocks[].") for key in (
+    "kinds", "mix", "mix[].kind", "mix[].count", "targets", "targets.ring", "targets.ring.count", "targets.ring.radius_m", "targets.ring.first_deg",
+    "order", "not_first", "not_twice", "return")]
 CURVE = {"schema_version": 1, "name": "x", "kind": "curve", "curve": ["a_m*cos(phi)", "a_m*sin(phi)*cos(phi)", "0"],
          "shape": {"a_m": {"default": 0.1, "min": 0.01, "max": 1}}, "domain": [0, "2*pi"], "start": [0], "target": ["pi"]}
 SURFACE = {**CURVE, "kind": "surface", "surface": ["a_m*u", "a_m*v", "a_m*u*v"], "domain": [[0, 6], [-1, 1]], "start": [0, 0], "target": [1, 1]}
@@ -66,6 +72,7 @@ NEIGHBOURS = {
     **{(f"cursor.{key}", None): BARE for key in ("rotation_deg", "gain", "clamp_deg", "delay_s", "show", "judge")},
     ("surface", None): SURFACE, ("domain", "[[0, \"2*pi\"], [-1, 1]]"): SURFACE, ("periodic", "[true, false]"): SURFACE,
     ("plan", None): PLANNED_STUDY,
+    **{(path, None): MIXED for path in OF_KINDS},
     ("blocks[].change", None): {**PLAN, "blocks": [{"experiment": "chain-moderate", "condition": "soft"}]},
 }
 
@@ -137,7 +144,8 @@ class SchemaTest(unittest.TestCase):
         for name, schema in self.schemas.items():
             for group in groups(schema):
                 place = (group.path + "." if group.path else "") + "zz"
-                base = {"object": [BODY], "hands[]": [HELD], "look.cameras[]": [VIEWED], "cursor": [BARE], "environment[]": FORCED.values(),
+                of_kinds = name == "plan" and any(path.startswith(group.path) for path in OF_KINDS) and group.path not in ("", "blocks[]")
+                base = [MIXED] if of_kinds else {"object": [BODY], "hands[]": [HELD], "look.cameras[]": [VIEWED], "cursor": [BARE], "environment[]": FORCED.values(),
                         "environment[].at": [AT_ONCE]}.get(group.path, [BASES[name]]) if name == "experiment" else [BASES[name]]
                 known = set()
                 for tree in (put(of, place, 1) for of in base):

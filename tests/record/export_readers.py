@@ -41,7 +41,7 @@ def read_csv(path):
         return list(csv.DictReader(file))
 
 
-TEXTS = {"subject", "session", "phase", "condition", "outcome", "reason", "by_unit", "experiment", "seed", "device", "sex", "handedness", "notes"}
+TEXTS = {"subject", "session", "phase", "condition", "kind", "target", "outcome", "reason", "by_unit", "experiment", "seed", "device", "sex", "handedness", "notes"}
 
 
 def same_trials(expected, column, what):

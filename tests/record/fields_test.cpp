@@ -61,6 +61,7 @@ TEST(Fields, EveryMemberOfAConfigurationStandsInTheList) {
   EXPECT_EQ(countFields(ChannelTable{}), countMembers<ChannelTable>());
   EXPECT_EQ(countFields(Channel{}), countMembers<Channel>());
   EXPECT_EQ(countFields(trial::PlannedTrial{}), countMembers<trial::PlannedTrial>());
+  EXPECT_EQ(countFields(RunScene{}), countMembers<RunScene>());
   EXPECT_EQ(countFields(haptics::GuardSettings{}), countMembers<haptics::GuardSettings>());
   EXPECT_EQ(countFields(experiment::StartRest{}), countMembers<experiment::StartRest>());
   EXPECT_EQ(countFields(experiment::TimingLimits{}), countMembers<experiment::TimingLimits>());
@@ -79,6 +80,7 @@ void change(haptics::GuardSettings& x) { x.wallCentre.y += 0.5; }
 void change(experiment::StartRest& x) { x.seconds += 0.5; }
 void change(ChannelTable& x) { x.channels.front().description += "x"; }
 void change(std::vector<trial::PlannedTrial>& x) { x.push_back({5, 100, true}); }
+void change(std::optional<std::vector<RunScene>>& x) { x.emplace().push_back({"field", "3", "field 3", "{}", "rk4", ""}); }
 void change(std::vector<HandDevice>& x) { x.emplace_back().name = "simulated"; }
 
 // Each field in turn is changed, goes through the text, and is the only one that differs.
@@ -106,6 +108,19 @@ TEST(Fields, OfAConfigurationComeBackFromItsTextEachByItself) {
     EXPECT_EQ(differingKeys(original, read), expected);
   });
   EXPECT_GT(number, 40u);
+}
+
+// A log of one scene stays as it was.
+TEST(Fields, ANumberThatIsLeftOutAtZeroIsReadAsZero) {
+  RunConfiguration c = madeConfiguration();
+  c.trials = {{0, 100, false}, {1, 100, false, 1}};
+  c.scenes.emplace(2);
+  const json written = json::parse(toJson(c));
+  EXPECT_FALSE(written["trials"][0].contains("scene"));
+  EXPECT_EQ(written["trials"][1]["scene"], 1);
+  const RunConfiguration read = configurationFromJson(toJson(c), "a log");
+  EXPECT_EQ(read.trials[0].scene, 0);
+  EXPECT_EQ(read.trials[1].scene, 1);
 }
 
 // What a later version means by the same keys is not known.

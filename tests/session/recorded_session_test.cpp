@@ -34,8 +34,8 @@ class Conducted : public Recorded {
                 std::to_string(seconds) + " } ] }");
   }
   DeviceMaker maker(bool good = true) {
-    return [this, good](const std::string& device, const experiment::CompiledExperiment& experiment, std::uint64_t seed) {
-      made_.emplace_back(device + " " + experiment.experiment().name, seed);
+    return [this, good](const std::string& device, std::span<const experiment::CompiledExperiment> scenes, std::uint64_t seed) {
+      made_.emplace_back(device + " " + scenes.front().experiment().name, seed);
       return good ? goodHand() : stillHand();
     };
   }
@@ -136,7 +136,7 @@ class LostHand final : public haptics::HapticDevice {
 };
 
 TEST_F(Conducted, ALostDeviceEndsTheRunWithTheTrialItWasLostIn) {
-  RecordedSession session(easy_, request_, [](const std::string&, const experiment::CompiledExperiment&, std::uint64_t) {
+  RecordedSession session(easy_, request_, [](const std::string&, std::span<const experiment::CompiledExperiment>, std::uint64_t) {
     return std::unique_ptr<haptics::HapticDevice>(std::make_unique<LostHand>());
   });
   EXPECT_THROW(conduct(session, kNeverStop, words()), ResourceError);
@@ -146,7 +146,7 @@ TEST_F(Conducted, ALostDeviceEndsTheRunWithTheTrialItWasLostIn) {
 
 TEST_F(Conducted, ABlockWhoseDeviceCannotBeHadIsStillLeft) {
   RecordedSession session(easy_, request_,
-                          [](const std::string&, const experiment::CompiledExperiment&,
+                          [](const std::string&, std::span<const experiment::CompiledExperiment>,
                              std::uint64_t) -> std::unique_ptr<haptics::HapticDevice> { throw ResourceError("not plugged in"); });
   EXPECT_THROW(session.openNext(), ResourceError);
   EXPECT_EQ(session.blocksLeft(), 1u);

@@ -128,6 +128,15 @@ ChannelTable makeChannelTable(const experiment::Experiment& experiment, int para
   return table;
 }
 
+experiment::Experiment channelsOfAll(std::span<const experiment::CompiledExperiment> scenes) {
+  experiment::Experiment all = scenes.front().experiment();
+  for (const experiment::CompiledExperiment& scene : scenes) {
+    if (all.environment.empty()) all.environment = scene.experiment().environment;
+    if (!all.cursor) all.cursor = scene.experiment().cursor;
+  }
+  return all;
+}
+
 std::size_t rowWidth(const ChannelTable& t) {
   const std::size_t hands = t.hands > 1 ? 1 + static_cast<std::size_t>(t.hands - 1) * kHandColumns : 0;
   return kTrialColumn + 3 + static_cast<std::size_t>(t.massCount) * static_cast<std::size_t>(9 + 2 * t.parameterCount) + (t.body ? 7 : 0) +

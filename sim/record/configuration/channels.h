@@ -1,8 +1,10 @@
 #pragma once
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment_fwd.h"
 #include "sim/experiment/object.h"
 #include "sim/haptics/tick_state.h"
@@ -41,6 +43,8 @@ struct ChannelTable {
 /// `parameterCount` is Constraint::parameterCount() of the scene's constraint.
 ChannelTable makeChannelTable(const experiment::Experiment& experiment, int parameterCount, bool portEnergy = false);
 
+/// The first scene of a run, with the environment and the cursor of a scene that has them: the table of this experiment serves every scene.
+experiment::Experiment channelsOfAll(std::span<const experiment::CompiledExperiment> scenes);
 /// Numbers in a row of such a table.
 std::size_t rowWidth(const ChannelTable& table);
 

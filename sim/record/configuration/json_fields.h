@@ -17,6 +17,7 @@ namespace reachlab::record {
 struct Field {
   const char* key;
   double least = 0, most = 0;  // bounds of a number, most elements of a list
+  bool zeroIfMissing = false;  // a number that is 0 is left out
 };
 
 template <class T>
@@ -37,6 +38,7 @@ void readInside(const std::string& key, const nlohmann::json& object, T& member)
 }
 template <class T>
 void readMember(const nlohmann::json& j, const Field& f, T& member) {
+  if (f.zeroIfMissing && !j.contains(f.key)) return;
   if constexpr (std::is_same_v<T, std::string>) {
     member = textOf(j, f.key);
   } else if constexpr (std::is_same_v<T, bool>) {
@@ -60,15 +62,16 @@ inline void readMember(const nlohmann::json& j, const Field& f, Vec3& member) {
   member = {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
 }
 template <class T>
-void readMember(const nlohmann::json& j, const Field& f, std::optional<T>& member) {
-  if (j.contains(f.key)) readMember(j, f, member.emplace());
-}
-template <class T>
 void readMember(const nlohmann::json& j, const Field& f, std::vector<T>& member) {
   for (const nlohmann::json& element : listOf(j, f.key, static_cast<std::size_t>(f.most))) {
     const std::string key = std::string(f.key) + "[" + std::to_string(member.size()) + "]";
     readInside(key, element, member.emplace_back());
   }
+}
+
+template <class T>
+void readMember(const nlohmann::json& j, const Field& f, std::optional<T>& member) {
+  if (j.contains(f.key)) readMember(j, f, member.emplace());
 }
 
 template <class T>
@@ -99,6 +102,8 @@ nlohmann::json writeFields(const T& value) {
     if constexpr (requires { member.has_value(); }) {
       if (member) object[field.key] = fieldsDetail::memberToJson(*member);
     } else {
+      if constexpr (std::is_arithmetic_v<M>)
+        if (field.zeroIfMissing && member == M{}) return;
       object[field.key] = fieldsDetail::memberToJson(member);
     }
   });

@@ -82,16 +82,34 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
   }
 }
 
-experiment::Experiment recordedValues(const RunConfiguration& c) {
-  return experiment::readUnchecked(c.experimentText, c.experimentName, c.definitionText);
-}
+namespace {
 
-experiment::CompiledExperiment recordedExperiment(const RunConfiguration& c) {
-  const auto written = experiment::openExperimentText(c.experimentText, c.experimentName, c.definitionText);
+experiment::CompiledExperiment recordedText(const RunConfiguration& c, const std::string& text) {
+  const auto written = experiment::openExperimentText(text, c.experimentName, c.definitionText);
   experiment::Experiment experiment = written.experiment();
   experiment.timing = c.timing;  // what held then, which the text may leave to a default
   if (experiment.task) experiment.task->rest = c.rest;
   return {experiment, written};
+}
+
+}  // namespace
+
+experiment::Experiment recordedValues(const RunConfiguration& c) {
+  return experiment::readUnchecked(c.experimentText, c.experimentName, c.definitionText);
+}
+
+experiment::Experiment recordedValues(const RunConfiguration& c, const trial::PlannedTrial& planned) {
+  const RunScene* scene = sceneOf(c, planned);
+  return scene != nullptr ? experiment::readUnchecked(scene->experimentText, c.experimentName, c.definitionText) : recordedValues(c);
+}
+
+experiment::CompiledExperiment recordedExperiment(const RunConfiguration& c) { return recordedText(c, c.experimentText); }
+
+std::vector<experiment::CompiledExperiment> recordedScenes(const RunConfiguration& c) {
+  if (!c.scenes) return {recordedExperiment(c)};
+  std::vector<experiment::CompiledExperiment> scenes;
+  for (const RunScene& scene : *c.scenes) scenes.push_back(recordedText(c, scene.experimentText));
+  return scenes;
 }
 
 void checkConfiguration(const RunConfiguration& c) {
@@ -107,6 +125,13 @@ void checkConfiguration(const RunConfiguration& c) {
   if (static_cast<int>(c.otherHands.size()) + 1 != c.table.hands)
     faults.push_back(
         {"other_hands", fmt::format("has {} hands", c.otherHands.size()), fmt::format("{}, as the table has", c.table.hands - 1)});
+  const std::size_t scenes = c.scenes ? c.scenes->size() : 1;
+  if (scenes == 0) faults.push_back({"scenes", "is empty", "one scene or more"});
+  for (const trial::PlannedTrial& planned : c.trials)
+    if (static_cast<std::size_t>(planned.scene) >= scenes) {
+      faults.push_back({"trials", fmt::format("has the scene {} among {} scenes", planned.scene, scenes), "a scene of the run"});
+      break;
+    }
   if (!faults.empty()) throw FaultError(std::move(faults));
 }
 

@@ -32,6 +32,15 @@ struct HandDevice {
   std::string mapping;  // DeviceInfo::mapping
 };
 
+/// A kind of trial to one target, of a block that has several (docs/reference/plan.md).
+struct RunScene {
+  std::string kind;            // empty: the block has no kinds
+  std::string target;          // "3"; "3-back" on the way back from it; empty: the block has no targets
+  std::string condition;       // of its trials in every table
+  std::string experimentText;  // what holds in its trials
+  std::string method, methodReason;
+};
+
 /// The first record of a log: everything that is needed to understand the run and to compute it again. A plain value. Its fields are read,
 /// written and compared by one list, in run_fields.h.
 struct RunConfiguration {
@@ -52,6 +61,7 @@ struct RunConfiguration {
   std::uint64_t sessionSeed = 0;               // that the blocks' seeds come from
   std::uint64_t orderSeed = 0;                 // of the plan
   std::vector<trial::PlannedTrial> trials;
+  std::optional<std::vector<RunScene>> scenes;  // PlannedTrial::scene is one of them; nullopt: all trials are done in `experimentText`
   std::string device;  // as asked for: "simulated:noise=0"; several hands' as "A + B"
   std::string deviceName, deviceVersion;
   double deviceMaxForce = 0;                                      // [N]
@@ -76,8 +86,17 @@ struct RunConfiguration {
   ChannelTable table;
 };
 
-/// The condition of its trials: that of the plan, else the experiment's name.
+/// The condition of the run as a whole: that of the plan, else the experiment's name.
 inline const std::string& conditionOf(const RunConfiguration& c) { return c.condition.empty() ? c.experimentName : c.condition; }
+/// The scene of a trial. Null where the run has only one scene.
+inline const RunScene* sceneOf(const RunConfiguration& c, const trial::PlannedTrial& planned) {
+  return c.scenes ? &c.scenes->at(static_cast<std::size_t>(planned.scene)) : nullptr;
+}
+/// The condition of a trial: its kind and target, where the run has several, else that of the run.
+inline const std::string& conditionOf(const RunConfiguration& c, const trial::PlannedTrial& planned) {
+  const RunScene* scene = sceneOf(c, planned);
+  return scene != nullptr ? scene->condition : conditionOf(c);
+}
 
 HandDevice deviceOf(const haptics::DeviceInfo& info);
 /// The devices of all hands, the first hand's at index 0.
@@ -92,9 +111,13 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
 /// The experiment that was recorded, with the constraint as it was then: neither the catalogue nor the user's folder is asked.
 /// Throws FaultError when its text cannot be understood.
 experiment::CompiledExperiment recordedExperiment(const RunConfiguration& configuration);
+/// The same of every scene, in their order. A run of one scene has one.
+std::vector<experiment::CompiledExperiment> recordedScenes(const RunConfiguration& configuration);
 /// The same for a reader that only describes the experiment: its constraint is not compiled. Throws FaultError when its text cannot be
 /// understood.
 experiment::Experiment recordedValues(const RunConfiguration& configuration);
+/// The same of a trial's scene.
+experiment::Experiment recordedValues(const RunConfiguration& configuration, const trial::PlannedTrial& planned);
 
 /// The names of channels behind those of the scene (FurtherColumns) begin so.
 inline constexpr std::string_view kFurtherName = "station";

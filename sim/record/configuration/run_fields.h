@@ -14,7 +14,7 @@ namespace reachlab::record {
 template <class T, class Of>
 concept MaybeConst = std::same_as<std::remove_const_t<T>, Of>;
 
-inline constexpr double kMaxTrials = 1e7, kMaxForeperiod = 1e9, kMaxChannels = 1e4, kMaxNewtons = 1e6;
+inline constexpr double kMaxTrials = 1e7, kMaxForeperiod = 1e9, kMaxChannels = 1e4, kMaxNewtons = 1e6, kMaxScenes = 1e5;
 inline constexpr double kAny = std::numeric_limits<double>::max();  // a request has no bound
 
 template <MaybeConst<Channel> T, class Visit>
@@ -45,6 +45,7 @@ void visitFields(T& t, const Visit& visit) {
   visit(Field{"index", 0, kMaxTrials}, t.index);
   visit(Field{"foreperiod_ms", 0, kMaxForeperiod}, t.foreperiodTicks);
   visit(Field{"catch"}, t.catchTrial);
+  visit(Field{.key = "scene", .most = kMaxScenes, .zeroIfMissing = true}, t.scene);
 }
 
 template <MaybeConst<Participant> T, class Visit>
@@ -89,6 +90,16 @@ void visitFields(T& h, const Visit& visit) {
   visit(Field{"mapping"}, h.mapping);
 }
 
+template <MaybeConst<RunScene> T, class Visit>
+void visitFields(T& s, const Visit& visit) {
+  visit(Field{"kind"}, s.kind);
+  visit(Field{"target"}, s.target);
+  visit(Field{"condition"}, s.condition);
+  visit(Field{"experiment_text"}, s.experimentText);
+  visit(Field{"method"}, s.method);
+  visit(Field{"method_reason"}, s.methodReason);
+}
+
 template <MaybeConst<RunConfiguration> T, class Visit>
 void visitFields(T& c, const Visit& visit) {
   visit(Field{"subject"}, c.subject);
@@ -112,6 +123,7 @@ void visitFields(T& c, const Visit& visit) {
   visit(Field{"session_seed"}, c.sessionSeed);
   visit(Field{"order_seed"}, c.orderSeed);
   visit(Field{.key = "trials", .most = kMaxTrials}, c.trials);
+  visit(Field{.key = "scenes", .most = kMaxScenes}, c.scenes);
   visit(Field{"device"}, c.device);
   visit(Field{"device_name"}, c.deviceName);
   visit(Field{"device_version"}, c.deviceVersion);

@@ -25,6 +25,9 @@ std::string experimentPath(const RunConfiguration& configuration);
 std::string experimentJson(const RunConfiguration& configuration);
 /// Reads it back. Throws FaultError naming `origin`.
 experiment::CompiledExperiment experimentFromJson(const std::string& text, const std::string& origin);
+/// The same for the scenes of the run, in the order of `configuration`, by kind and target. A run of one scene has one experiment.
+std::vector<experiment::CompiledExperiment> experimentsFromJson(const std::string& text, const std::string& origin,
+                                                                const RunConfiguration& configuration);
 /// TaskDescription of motion.json: the experiment's name, and sentences about object and task.
 std::string describeTask(const RunConfiguration& configuration);
 /// The experiment's name in such a description; empty where it is missing.

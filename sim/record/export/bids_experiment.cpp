@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -52,6 +53,11 @@ std::string experimentJson(const RunConfiguration& c) {
   const Json known = Json::parse(experiment ? experiment::toJson(*experiment) : c.experimentText, nullptr, false, true);
   j["experiment"] = known.is_discarded() ? Json() : known;
   j["definition"] = c.definitionText.empty() ? Json() : Json::parse(c.definitionText, nullptr, true, true);
+  for (const RunScene& scene : c.scenes.value_or(std::vector<RunScene>())) {
+    const Json text = Json::parse(scene.experimentText, nullptr, false, true);
+    j["scenes"].push_back({{"kind", orNull(scene.kind)}, {"target", orNull(scene.target)}, {"condition", scene.condition}, {"method", orNull(scene.method)},
+                           {"experiment", text.is_discarded() ? Json() : text}});
+  }
   Json& run = j["run"] = Json::object();
   run["subject"] = c.subject, run["session"] = c.session, run["run"] = c.run, run["block"] = c.block, run["practice"] = c.practice;
   run["condition"] = orNull(c.condition);
@@ -65,15 +71,46 @@ std::string experimentJson(const RunConfiguration& c) {
   return j.dump(2) + "\n";
 }
 
-experiment::CompiledExperiment experimentFromJson(const std::string& text, const std::string& origin) {
+namespace {
+
+/// Calls `work` with the parsed file.
+template <class Work>
+auto ofDataset(const std::string& text, const std::string& origin, const Work& work) {
   try {
     const Json j = Json::parse(text);
-    return experiment::openExperimentText(j.at("experiment").dump(2), origin,
-                                          j.at("definition").is_null() ? "" : j.at("definition").dump(2));
+    return work(j);
   } catch (const nlohmann::json::exception&) {
     throw FaultError(Fault{
         .what = "is no experiment of a dataset", .allowed = "what reach export writes into code/experiments", .place = FilePlace{origin}});
   }
+}
+
+experiment::CompiledExperiment opened(const Json& experiment, const Json& file, const std::string& origin) {
+  return experiment::openExperimentText(experiment.dump(2), origin, file.at("definition").is_null() ? "" : file.at("definition").dump(2));
+}
+
+}  // namespace
+
+experiment::CompiledExperiment experimentFromJson(const std::string& text, const std::string& origin) {
+  return ofDataset(text, origin, [&](const Json& j) { return opened(j.at("experiment"), j, origin); });
+}
+
+std::vector<experiment::CompiledExperiment> experimentsFromJson(const std::string& text, const std::string& origin,
+                                                                const RunConfiguration& c) {
+  if (!c.scenes) return {experimentFromJson(text, origin)};
+  return ofDataset(text, origin, [&](const Json& j) {
+    std::vector<experiment::CompiledExperiment> experiments;
+    for (const RunScene& scene : *c.scenes) {
+      const Json& all = j.at("scenes");
+      const auto found = std::find_if(all.begin(), all.end(), [&](const Json& one) {
+        return one.at("kind") == orNull(scene.kind) && one.at("target") == orNull(scene.target);
+      });
+      if (found == all.end())
+        throw FaultError(Fault{.what = fmt::format("has no scene for the condition {} of events.tsv", scene.condition), .place = FilePlace{origin}});
+      experiments.push_back(opened(found->at("experiment"), j, origin));
+    }
+    return experiments;
+  });
 }
 
 }  // namespace reachlab::record

@@ -135,13 +135,13 @@ void eventsTsv(const RunLog& run, const TakePiece& take) {
   TableText table('\t', "n/a");
   table.row({"onset",     "duration",   "trial_type",   "trial",         "block",         "phase", "condition",       "outcome",
              "reason",    "mass",       "by",           "movement_time", "reaction_time", "go",    "foreperiod",      "peak_hand_speed",
-             "hand_path", "peak_force", "missed_ticks", "armed",         "mean_force",    "day",   "dropped_samples", "elapsed_s", "channel_broken"});
+             "hand_path", "peak_force", "missed_ticks", "armed",         "mean_force",    "day",   "dropped_samples", "elapsed_s", "channel_broken", "kind", "target"});
   const std::uint64_t first = run.firstSampleTick();
   for (const RecordedTrial& trial : run.trials()) {
     const TrialTimes times = timesOf(trial, first);
     const double onset = std::isfinite(times.onset) ? times.onset : times.start;
     table.number(onset).number(std::max(0.0, times.end - onset)).cell(trial.planned.catchTrial ? "catch" : "reach");
-    table.whole(trial.trial).whole(c.block).cell(c.practice ? "practice" : "recorded").cell(c.condition);
+    table.whole(trial.trial).whole(c.block).cell(c.practice ? "practice" : "recorded").cell(conditionOf(c, trial.planned));
     table.cell(trial::nameOf(trial.result.outcome))
         .cell(trial::nameOf(trial.result.reason))
         .whole(trial.result.mass)
@@ -153,6 +153,8 @@ void eventsTsv(const RunLog& run, const TakePiece& take) {
     table.number(trial.peakHandSpeed).number(trial.handPathLength).number(trial.peakForce);
     table.whole(static_cast<long long>(trial.missedTicks)).number(times.armed).number(trial.meanForce).whole(c.day);
     table.whole(static_cast<long long>(trial.droppedTicks)).number(trial.elapsed).whole(trial.channelBroken);
+    const RunScene* scene = sceneOf(c, trial.planned);
+    table.cell(scene != nullptr ? scene->kind : "").cell(scene != nullptr ? scene->target : "");
     table.endRow();
     take(table.takeText());
   }
@@ -170,7 +172,7 @@ std::string eventsJson(const RunLog& run) {
   j["block"] = described("Block of the session's plan, from 1");
   j["phase"] = described("Whether the block counts");
   j["phase"]["Levels"] = {{"practice", "Familiarisation"}, {"recorded", "Counted in the analysis"}};
-  j["condition"] = described("Condition of the plan, else the experiment's name");
+  j["condition"] = described("Kind and target of the trial where its block has several, else condition of the plan, else the experiment's name");
   j["outcome"] = described("How the trial ended");
   j["outcome"]["Levels"] = {
       {"success", "Every mass within all tolerances"},
@@ -194,6 +196,8 @@ std::string eventsJson(const RunLog& run) {
   j["dropped_samples"] = described("Ticks of 1 ms that were simulated but not recorded, because the disk was too slow");
   j["elapsed_s"] = described("From the go signal to the end of the trial by the computer's clock", "s");
   j["channel_broken"] = described("1: the hand left the walls of a channel, which let go; 0: it did not");
+  j["kind"] = described("Kind of the trial in the session's plan; n/a: the block has no kinds");
+  j["target"] = described("Target of the trial in the session's plan, from 1, such as 3, and 3-back on the way back from it; n/a: the block has one scene");
   j["StimulusPresentation"] = {{"SoftwareName", "reachlab"}, {"SoftwareVersion", orUnknown(c.softwareVersion)}};
   return j.dump(2) + "\n";
 }

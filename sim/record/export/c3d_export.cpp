@@ -82,7 +82,9 @@ C3dFile c3dOf(const RunLog& run, const RecordedTrial& trial) {
                 {"SESSION", c.session},
                 {"RUN", fmt::format("{}", c.run)},
                 {"TRIAL", fmt::format("{}", trial.trial)},
-                {"CONDITION", c.condition},
+                {"CONDITION", conditionOf(c, trial.planned)},
+                {"KIND", sceneOf(c, trial.planned) != nullptr ? sceneOf(c, trial.planned)->kind : ""},
+                {"TARGET", sceneOf(c, trial.planned) != nullptr ? sceneOf(c, trial.planned)->target : ""},
                 {"OUTCOME", std::string(trial::nameOf(trial.result.outcome))},
                 {"REASON", std::string(trial::nameOf(trial.result.reason))},
                 {"SOFTWARE", c.softwareVersion}};

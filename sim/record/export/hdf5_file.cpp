@@ -110,6 +110,7 @@ void addRun(hid_t file, const RunLog& run) {
   addTable(file, "events", eventTable(run));
   // As data sets: an attribute holds 64 kB at most.
   addTexts(file, "experiment_json", {c.experimentText});
+  if (c.scenes) addTable(file, "scenes", sceneTable(c));
   const Handle samples(H5Gcreate2(file, "samples", H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose);
   eachSampleColumn(run, [&](std::size_t channel, std::span<const double> values) {
     addNumbers(samples, c.table.channels[channel].column, values, &c.table.channels[channel]);

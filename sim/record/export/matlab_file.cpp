@@ -105,6 +105,7 @@ std::vector<Written> writeRun(mat_t* file, const RunLog& run) {
   whole("clock", text("clock", clockStatement(run)));
   whole("software", text("software", c.softwareVersion));
   whole("experiment_json", text("experiment_json", c.experimentText));
+  if (c.scenes) whole("scenes", tableOf("scenes", sceneTable(c)));
   whole("units", textsOf("units", c.table, [](const Channel& channel) { return channel.units == "n/a" ? "" : channel.units; }));
   whole("descriptions", textsOf("descriptions", c.table, [](const Channel& channel) { return channel.description; }));
   whole("trials", tableOf("trials", trialTable(run)));

@@ -11,9 +11,18 @@ namespace reachlab::record {
 
 ColumnTable trialTable(const RunLog& run) {
   ColumnTable table(trialColumnNames());
-  const experiment::Task task = taskOf(run.configuration());
+  TasksOfRun tasks(run.configuration());
   const std::uint64_t first = run.firstSampleTick();
-  for (const RecordedTrial& trial : run.trials()) addTrial(table, run.configuration(), task, trial, first);
+  for (const RecordedTrial& trial : run.trials()) addTrial(table, run.configuration(), tasks.of(trial.planned), trial, first);
+  return table;
+}
+
+ColumnTable sceneTable(const RunConfiguration& configuration) {
+  ColumnTable table({"kind", "target", "condition", "method", "experiment_json"});
+  for (const RunScene& scene : configuration.scenes.value_or(std::vector<RunScene>())) {
+    table.cell(scene.kind).cell(scene.target).cell(scene.condition).cell(scene.method).cell(scene.experimentText);
+    table.endRow();
+  }
   return table;
 }
 

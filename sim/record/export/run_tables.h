@@ -11,6 +11,8 @@ namespace reachlab::record {
 
 /// One row per trial, the columns of trials.csv.
 ColumnTable trialTable(const RunLog& run);
+/// One row per kind of trial and target: kind, target, condition, method, experiment_json. Empty where the run has one scene.
+ColumnTable sceneTable(const RunConfiguration& configuration);
 /// One row per event: time_s since the run began, event, trial (0: outside a trial), value and text as docs/recording.md lists them.
 ColumnTable eventTable(const RunLog& run);
 

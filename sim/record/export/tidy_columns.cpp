@@ -16,6 +16,7 @@ struct Row {
   const experiment::Task& task;
   const RecordedTrial& trial;
   TrialTimes times;
+  const RunScene* scene;  // null: the run has only one
 };
 
 struct TrialColumn {
@@ -41,7 +42,12 @@ const std::vector<TrialColumn>& trialColumns() {
       {"phase",
        "Whether the block counts: practice or recorded. In the samples files a column of this name is the trial's own phase, a number",
        [](const Row& r) { return textOf(r.run.practice ? "practice" : "recorded"); }},
-      {"condition", "Condition of the plan, else the experiment's name", [](const Row& r) { return r.run.condition; }},
+      {"condition", "Condition: kind and target of the trial where its block has several, else condition of the plan, else the experiment's name",
+       [](const Row& r) { return conditionOf(r.run, r.trial.planned); }},
+      {"kind", "Kind of the trial in the plan; empty where its block has no kinds",
+       [](const Row& r) { return r.scene != nullptr ? r.scene->kind : std::string(); }},
+      {"target", "Target of the trial in the plan, from 1, such as 3, and 3-back on the way back from it; empty where its block has one scene",
+       [](const Row& r) { return r.scene != nullptr ? r.scene->target : std::string(); }},
       {"outcome", "How the trial ended: success, failure, aborted or interrupted",
        [](const Row& r) { return textOf(trial::nameOf(r.trial.result.outcome)); }},
       {"reason", "Which tolerance was missed, or what stopped the trial; empty for a success",
@@ -95,7 +101,7 @@ const std::vector<TrialColumn>& trialColumns() {
 
 std::vector<TrialCell> trialCells(const RunConfiguration& run, const experiment::Task& task, const RecordedTrial& trial,
                                   std::uint64_t firstSampleTick) {
-  const Row row{run, task, trial, timesOf(trial, firstSampleTick)};
+  const Row row{run, task, trial, timesOf(trial, firstSampleTick), sceneOf(run, trial.planned)};
   std::vector<TrialCell> cells;
   for (const TrialColumn& column : trialColumns()) cells.push_back(column.of(row));
   return cells;

@@ -14,13 +14,13 @@
 
 namespace reachlab::record {
 
-experiment::Task taskOf(const RunConfiguration& configuration) {
+experiment::Task taskOf(const RunConfiguration& configuration, const trial::PlannedTrial& planned) {
   constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
   experiment::Task unknown;
   unknown.duration = kUnknown;
   unknown.tolerance = {kUnknown, kUnknown, kUnknown};
   try {
-    return recordedValues(configuration).task.value_or(unknown);
+    return recordedValues(configuration, planned).task.value_or(unknown);
   } catch (const std::runtime_error&) {
     return unknown;
   }
@@ -61,10 +61,10 @@ void trialsCsv(const std::vector<RunLog>& runs, const TakePiece& take) {
   TableText table(',', "");
   table.row(trialColumnNames());
   for (const RunLog& run : runs) {
-    const experiment::Task task = taskOf(run.configuration());
+    TasksOfRun tasks(run.configuration());
     const std::uint64_t first = run.firstSampleTick();
     for (const RecordedTrial& trial : run.trials()) {
-      addTrial(table, run.configuration(), task, trial, first);
+      addTrial(table, run.configuration(), tasks.of(trial.planned), trial, first);
       take(table.takeText());
     }
   }

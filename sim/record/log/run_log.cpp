@@ -101,11 +101,23 @@ RunLog RunLog::open(const std::string& path, LogReader& reader, LogCheck check) 
   log.fileBytes_ = reader.fileSize();
   log.configuration_ = configurationFromJson(textOf(record), path);
   const std::uint64_t first = reader.goodEnd();
-  if (check == LogCheck::Trials && log.readChain(reader)) return log;
-  log.trials_.clear();
-  reader.seek(first, 1);
-  log.scan(reader);
+  if (check != LogCheck::Trials || !log.readChain(reader)) {
+    log.trials_.clear();
+    reader.seek(first, 1);
+    log.scan(reader);
+  }
+  for (RecordedTrial& trial : log.trials_) log.placeInScene(trial.planned);
   return log;
+}
+
+// The planned order says which scene a trial is done in.
+void RunLog::placeInScene(trial::PlannedTrial& planned) const {
+  if (!configuration_.scenes) return;
+  const auto index = static_cast<std::size_t>(planned.index);
+  if (planned.index < 0 || index >= configuration_.trials.size())
+    throw FaultError(Fault{"trial.index", fmt::format("is {}, which was not planned", planned.index),
+                           fmt::format("0 to {}", static_cast<int>(configuration_.trials.size()) - 1)});
+  planned.scene = configuration_.trials[index].scene;
 }
 
 // From the last trial record back to the first. False when a link is broken: then only reading everything tells what is good.
@@ -261,7 +273,7 @@ std::vector<RecordedEvent> RunLog::events() const {
 std::vector<TrialSetup> RunLog::setups() const {
   std::vector<TrialSetup> setups;
   visit(0, [&](const RecordView& record) {
-    if (record.type == RecordType::TrialSetup) setups.push_back(decodeSetup(record.payload));
+    if (record.type == RecordType::TrialSetup) placeInScene(setups.emplace_back(decodeSetup(record.payload)).planned);
     return true;
   });
   return setups;

@@ -130,6 +130,7 @@ class RunLog {
   static RunLog open(const std::string& path, LogReader& reader, LogCheck check);
   bool readChain(LogReader& reader);
   void scan(LogReader& reader);
+  void placeInScene(trial::PlannedTrial& planned) const;
   template <typename Visit>
   void visit(std::uint64_t firstTick, Visit&& visit) const;
 

@@ -1,0 +1,157 @@
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <sstream>
+
+#include "base/fault.h"
+#include "sim/experiment/experiment.h"
+#include "sim/record/export/bids.h"
+#include "sim/record/export/tidy_csv.h"
+#include "sim/record/log/append_file.h"
+#include "sim/record/recover.h"
+#include "sim/record/replay.h"
+#include "sim/record/trial_index.h"
+#include "tests/session/kinds_block.h"
+
+// A block of several kinds of trials from the plan to log, replay, tables and analysis.
+namespace reachlab::session {
+namespace {
+
+using test::Kinds;
+
+TEST_F(Kinds, TheFirstRecordListsThemAndEachTrialIsDoneInItsOwn) {
+  ASSERT_TRUE(record());
+  const record::RunLog log = logs().at(0);
+  const record::RunConfiguration& c = log.configuration();
+  ASSERT_TRUE(c.scenes);
+  ASSERT_EQ(c.scenes->size(), 3u);
+  EXPECT_EQ(c.scenes->at(1).kind, "thick");
+  EXPECT_EQ(c.scenes->at(1).condition, "thick");
+  EXPECT_FALSE(c.scenes->at(1).method.empty());
+  const std::vector<std::string> kinds = kindsOf(log);
+  ASSERT_EQ(kinds.size(), 12u);
+  std::map<std::string, double> peak;
+  for (const record::RecordedTrial& trial : log.trials()) {
+    const std::string& kind = record::sceneOf(c, trial.planned)->kind;
+    const auto [known, fresh] = peak.emplace(kind, trial.peakForce);
+    EXPECT_EQ(known->second, trial.peakForce) << "the scripted hand makes the same force in all trials of a kind: " << kind;
+  }
+  // The thick object is moved by more force: m a and 8 N s/m times up to 0.5 m/s more.
+  EXPECT_GT(peak["thick"], peak["thin"] + 2);
+  EXPECT_NE(peak["soft"], peak["thin"]);
+  for (std::size_t cycle = 0; cycle < 2; ++cycle) {
+    const auto begin = kinds.begin() + static_cast<std::ptrdiff_t>(6 * cycle);
+    EXPECT_EQ(std::count(begin, begin + 6, "thin"), 3);
+    EXPECT_EQ(std::count(begin, begin + 6, "thick"), 2);
+  }
+}
+
+TEST_F(Kinds, AReplayChangesScenesAsTheRunDidAndGivesEveryBit) {
+  ASSERT_TRUE(record());
+  const record::Replay replay = record::replayRun(logs().at(0));
+  EXPECT_GT(replay.rows, 200u);
+  EXPECT_EQ(replay.rowsThatDiffer, 0u) << replay.firstDifference;
+  EXPECT_EQ(replay.trialsThatDiffer, 0u);
+}
+
+// The fault that the test above would find: scenes in another order.
+TEST_F(Kinds, AReplayInAnotherSceneDiffers) {
+  ASSERT_TRUE(record());
+  const record::RunLog log = logs().at(0);
+  record::RunConfiguration other = log.configuration();
+  std::swap(other.scenes->at(0).experimentText, other.scenes->at(1).experimentText);
+  const std::string path = folder_ / "other_log.reach";
+  {
+    record::LogReader reader(log.path());
+    record::LogWriter writer = record::LogWriter::create(path);
+    record::RecordView view;
+    while (reader.next(view)) {
+      const std::string text = record::toJson(other);
+      const std::span<const std::uint8_t> configuration(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+      writer.append(view.type, view.type == record::RecordType::Configuration ? configuration : view.payload);
+    }
+  }
+  EXPECT_GT(record::replayRun(record::RunLog::open(path)).rowsThatDiffer, 100u);
+}
+
+TEST_F(Kinds, AResumedBlockGoesOnInTheOrderThatItHad) {
+  ASSERT_TRUE(record());
+  const std::vector<std::string> whole = kindsOf(logs().at(0));
+  std::filesystem::remove_all(request_.place.data);
+  EXPECT_FALSE(record(5));
+  request_.resume = true;
+  EXPECT_FALSE(record(3));
+  ASSERT_TRUE(record());
+  std::vector<std::string> parts;
+  for (const record::RunLog& log : logs())
+    for (const std::string& kind : kindsOf(log)) parts.push_back(kind);
+  EXPECT_EQ(parts, whole);
+  EXPECT_EQ(logs().size(), 3u);
+}
+
+TEST_F(Kinds, ALogThatBrokeOffIsRecoveredWithItsScenesAndResumed) {
+  ASSERT_TRUE(record());
+  const std::vector<std::string> whole = kindsOf(logs().at(0));
+  const std::string path = logs().at(0).path();
+  std::filesystem::resize_file(path, std::filesystem::file_size(path) * 2 / 3);
+  const record::Recovery recovered = record::recoverLog(path);
+  EXPECT_TRUE(recovered.mended);
+  const record::RunLog log = record::RunLog::open(path);
+  ASSERT_FALSE(log.trials().empty());
+  const std::vector<std::string> kept = kindsOf(log);
+  EXPECT_TRUE(std::equal(kept.begin(), kept.end(), whole.begin()));
+  EXPECT_EQ(record::replayRun(log).rowsThatDiffer, 0u);
+  request_.resume = true;
+  ASSERT_TRUE(record());
+  const std::vector<std::string> rest = kindsOf(logs().at(1));
+  EXPECT_EQ(rest, std::vector<std::string>(whole.end() - static_cast<std::ptrdiff_t>(rest.size()), whole.end()));
+}
+
+TEST_F(Kinds, AConfigurationOfScenesThatAreNotThereIsRefused) {
+  ASSERT_TRUE(record());
+  record::RunConfiguration c = logs().at(0).configuration();
+  EXPECT_NO_THROW(record::configurationFromJson(record::toJson(c), "a.log"));
+  c.trials[3].scene = 3;
+  EXPECT_THROW(record::configurationFromJson(record::toJson(c), "a.log"), FaultError);
+  c.trials[3].scene = 0;
+  c.scenes->clear();
+  EXPECT_THROW(record::configurationFromJson(record::toJson(c), "a.log"), FaultError);
+}
+
+TEST_F(Kinds, EveryTableNamesKindTargetAndCondition) {
+  ASSERT_TRUE(record());
+  const std::vector<record::RunLog> runs = logs();
+  const std::vector<std::string> kinds = kindsOf(runs[0]);
+  std::string csv, events;
+  record::trialsCsv(runs, [&](std::string_view piece) { csv += piece; });
+  record::eventsTsv(runs[0], [&](std::string_view piece) { events += piece; });
+  const auto columnOf = [](const std::string& text, char separator, const std::string& name) {
+    std::vector<std::string> cells;
+    std::size_t column = std::string::npos;
+    std::istringstream lines(text);
+    for (std::string line; std::getline(lines, line);) {
+      std::istringstream fields(line + separator);
+      std::vector<std::string> row;
+      for (std::string field; std::getline(fields, field, separator);) row.push_back(field);
+      if (column == std::string::npos) column = static_cast<std::size_t>(std::find(row.begin(), row.end(), name) - row.begin());
+      else cells.push_back(row.at(column));
+    }
+    return cells;
+  };
+  for (const char* name : {"kind", "condition"}) {
+    EXPECT_EQ(columnOf(csv, ',', name), kinds) << name;
+    EXPECT_EQ(columnOf(events, '\t', name), kinds) << name;
+  }
+  EXPECT_EQ(columnOf(csv, ',', "target"), std::vector<std::string>(12, "1"));
+  EXPECT_NE(record::eventsJson(runs[0]).find("\"kind\""), std::string::npos);
+  const record::TrialIndex index = record::openTrialIndex(request_.place.data, folder_ / "index");
+  const record::TrialIndex again = record::openTrialIndex(request_.place.data, folder_ / "index");
+  EXPECT_EQ(again.read, 0u);
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    EXPECT_EQ(index.runs[0].conditionOf(index.runs[0].trials[i]), kinds[i]);
+    EXPECT_EQ(again.runs[0].sceneOf(again.runs[0].trials[i])->kind, kinds[i]);
+  }
+}
+
+}  // namespace
+}  // namespace reachlab::session
