@@ -109,6 +109,22 @@ trial::Reason reasonFrom(const std::string& text) {
   return trial::Reason::None;
 }
 
+// Tables from before there were kinds have no such columns.
+int sceneIn(const TsvTable& events, const std::vector<std::string>& row, record::RunConfiguration& c) {
+  const auto cell = [&](const char* name) {
+    const auto found = std::find(events.columns.begin(), events.columns.end(), name);
+    const std::string text = found == events.columns.end() ? "" : row.at(static_cast<std::size_t>(found - events.columns.begin()));
+    return text == "n/a" ? std::string() : text;
+  };
+  const std::string kind = cell("kind"), target = cell("target");
+  if (kind.empty() && target.empty()) return 0;
+  std::vector<record::RunScene>& scenes = c.scenes ? *c.scenes : c.scenes.emplace();
+  const auto known = std::find_if(scenes.begin(), scenes.end(), [&](const auto& scene) { return scene.kind == kind && scene.target == target; });
+  if (known != scenes.end()) return static_cast<int>(known - scenes.begin());
+  scenes.push_back({kind, target, cell("condition"), {}, {}, {}});
+  return static_cast<int>(scenes.size()) - 1;
+}
+
 RunSource readRun(const fs::path& motion) {
   const std::string name = motion.filename().string();
   const auto sibling = [&](const std::string& ending) {
@@ -177,6 +193,7 @@ RunSource readRun(const fs::path& motion) {
     c.block = countOf(row.at(column("block")));
     c.practice = row.at(column("phase")) == "practice";
     c.condition = row.at(column("condition"));
+    trial.planned.scene = sceneIn(events, row, c);
     run.trials.push_back(trial);
   }
   run.rowsOf = [rows](std::uint64_t first, std::uint64_t last) {

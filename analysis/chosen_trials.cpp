@@ -10,19 +10,17 @@ namespace reachlab::analysis {
 AnalysisInput readChosen(std::span<const ChosenTrials> chosen, const std::function<bool()>& goOn) {
   AnalysisInput input;
   DatasetIndex index;
-  std::map<std::pair<std::string, std::string>, experiment::CompiledExperiment> parsed;
+  ScenesOfRuns parsed;
   for (const ChosenTrials& some : chosen) {
     if (goOn && !goOn()) break;
     const record::RunLog log = record::RunLog::open(some.log, record::LogCheck::Trials);
     const record::RunConfiguration& c = log.configuration();
-    auto known = parsed.find({c.experimentText, c.definitionText});
-    if (known == parsed.end()) known = parsed.emplace(std::pair{c.experimentText, c.definitionText}, record::recordedExperiment(c)).first;
     RunSource run{c, {}, [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, record::readMarks(log)};
     for (const int number : some.trials) {
       const auto trial = std::find_if(log.trials().begin(), log.trials().end(), [&](const auto& t) { return t.trial == number; });
       if (trial != log.trials().end()) run.trials.push_back(*trial);
     }
-    addRun(run, known->second, index,
+    addRun(run, parsed.of(c), index,
            {[&](TrialData&& trial, std::size_t condition) {
               input.trials.push_back(std::move(trial));
               input.conditionOf.push_back(condition);

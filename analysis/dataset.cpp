@@ -97,28 +97,51 @@ void noteMixedDevices(DatasetIndex& dataset) {
 
 namespace {
 
-std::optional<experiment::SquareMatrix<3>> trainedField(const experiment::Experiment& experiment, const std::string& subject,
+// That of one of the run's scenes, else that of a run before.
+std::optional<experiment::SquareMatrix<3>> trainedField(std::span<const experiment::CompiledExperiment> scenes, const std::string& subject,
                                                         DatasetIndex& index) {
-  if (const auto field = viscousFieldOf(experiment)) index.trained[subject] = *field;
+  for (const experiment::CompiledExperiment& scene : scenes)
+    if (const auto field = viscousFieldOf(scene.experiment())) index.trained[subject] = *field;
   const auto known = index.trained.find(subject);
   return known == index.trained.end() ? std::nullopt : std::optional(known->second);
 }
 
 }  // namespace
 
-void addRun(const RunSource& run, const experiment::CompiledExperiment& compiled, DatasetIndex& index, const TrialSink& sink) {
-  const experiment::Experiment& experiment = compiled.experiment();
+const std::vector<experiment::CompiledExperiment>& ScenesOfRuns::of(const record::RunConfiguration& c) {
+  std::string key = c.definitionText + '\0' + c.experimentText;
+  for (const record::RunScene& scene : c.scenes.value_or(std::vector<record::RunScene>())) key += '\0' + scene.experimentText;
+  const auto known = known_.find(key);
+  return known != known_.end() ? known->second : known_.emplace(std::move(key), record::recordedScenes(c)).first->second;
+}
+
+void addRun(const RunSource& run, std::span<const experiment::CompiledExperiment> scenes, DatasetIndex& index, const TrialSink& sink) {
   const record::RunConfiguration& c = run.configuration;
   index.runs.push_back(provenanceOf(c, run.trials.size()));
-  if (!experiment.task) {
+  struct Stage {
+    std::size_t condition;
+    RunTrials trials;
+  };
+  if (!scenes.front().experiment().task) {
     index.notes.push_back(fmt::format("{}: the experiment has no task; its trials are left out", c.experimentName));
     return;
   }
-  const std::size_t condition = conditionIndex(index, index.runs.back().condition, compiled);
-  const RunTrials trials(c.table, c.sampleEveryTicks, {compiled.constraint(), experiment.task->start, experiment.task->target},
-                         sceneOf(experiment, trainedField(experiment, c.subject, index)));
+  const auto trained = trainedField(scenes, c.subject, index);
+  std::map<int, Stage> stages;  // by scene
+  const auto stageOf = [&](const trial::PlannedTrial& planned) -> Stage& {
+    if (const auto known = stages.find(planned.scene); known != stages.end()) return known->second;
+    const experiment::CompiledExperiment& compiled = scenes[static_cast<std::size_t>(planned.scene)];
+    const experiment::Experiment& experiment = compiled.experiment();
+    Stage stage{conditionIndex(index, record::conditionOf(c, planned), compiled),
+                RunTrials(c.table, c.sampleEveryTicks, {compiled.constraint(), experiment.task->start, experiment.task->target},
+                          sceneOf(experiment, trained))};
+    return stages.emplace(planned.scene, std::move(stage)).first->second;
+  };
+  if (!c.scenes) stageOf({});  // a run without trials has a condition, too
   for (const record::RecordedTrial& recorded : run.trials) {
-    TrialData trial = trials.read(recorded, run.rowsOf);
+    const Stage& stage = stageOf(recorded.planned);
+    const std::size_t condition = stage.condition;
+    TrialData trial = stage.trials.read(recorded, run.rowsOf);
     trial.key = {c.subject, c.session, index.conditions[condition].name, c.day, c.run, c.block, recorded.trial};
     trial.practice = c.practice;
     if (const record::TrialMark* mark = run.marks.find(recorded.trial)) {
@@ -138,8 +161,8 @@ class WholeRun {
   WholeRun(DatasetIndex& index, const TrialSink& sink)
       : index_(index), sink_(sink), conditions_(index.conditions.size()), runs_(index.runs.size()), notes_(index.notes.size()) {}
 
-  void add(const RunSource& run, const experiment::CompiledExperiment& experiment) {
-    addRun(run, experiment, index_,
+  void add(const RunSource& run, std::span<const experiment::CompiledExperiment> scenes) {
+    addRun(run, scenes, index_,
            {[this](TrialData&& trial, std::size_t condition) {
               ++trials_;
               handing_ = true;
@@ -165,7 +188,7 @@ class WholeRun {
 };
 
 void readLogs(const std::vector<std::string>& logs, DatasetIndex& dataset, const TrialSink& sink, const DatasetProgress& progress) {
-  std::map<std::pair<std::string, std::string>, experiment::CompiledExperiment> parsed;
+  ScenesOfRuns parsed;
   EqualRuns equalRuns;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     if (progress) progress(i, logs.size(), logs[i]);
@@ -178,8 +201,7 @@ void readLogs(const std::vector<std::string>& logs, DatasetIndex& dataset, const
     try {
       const record::RunLog log = record::RunLog::open(logs[i]);
       const record::RunConfiguration& c = log.configuration();
-      auto known = parsed.find({c.experimentText, c.definitionText});
-      if (known == parsed.end()) known = parsed.emplace(std::pair{c.experimentText, c.definitionText}, record::recordedExperiment(c)).first;
+      const std::vector<experiment::CompiledExperiment>& scenes = parsed.of(c);
       if (const std::string twin = equalRuns.twinOf(logs[i], c, log.trials()); !twin.empty()) {
         dataset.notes.push_back(fmt::format(
             "{}: left out: it is {} recorded again (same experiment, seed and movements); two equal runs count once", logs[i], twin));
@@ -190,7 +212,7 @@ void readLogs(const std::vector<std::string>& logs, DatasetIndex& dataset, const
             fmt::format("{}: {} of {} trials repeat an earlier one exactly (a hand without noise, or a reach replayed again); they count",
                         logs[i], repeats, log.trials().size()));
       const record::RunMarks marks = record::readMarks(log);
-      whole.add({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, marks}, known->second);
+      whole.add({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, marks}, scenes);
       dataset.runs.back().file = logs[i];
       dataset.runs.back().healthy = log.healthy();
       if (!log.healthy()) dataset.notes.push_back(logs[i] + ": not closed in order or damaged; read to its last good record");
@@ -216,9 +238,10 @@ void readExported(const std::string& folder, DatasetIndex& dataset, const TrialS
     std::error_code error;
     const bool hasOwn = experimentFile.empty() && std::filesystem::exists(own, error);
     if (!hasOwn) foreign = true;
+    const std::size_t scenes = run.configuration.scenes ? run.configuration.scenes->size() : 1;
     addRun(run,
-           hasOwn ? record::experimentFromJson(record::readWholeFile(own), own)
-                  : experiment::openExperiment(experimentFile.empty() ? run.configuration.experimentName : experimentFile),
+           hasOwn ? record::experimentsFromJson(record::readWholeFile(own), own, run.configuration)
+                  : std::vector(scenes, experiment::openExperiment(experimentFile.empty() ? run.configuration.experimentName : experimentFile)),
            dataset, sink);
     dataset.runs.back().file = runs[i];
   }

@@ -54,8 +54,17 @@ struct RunSource {
   std::function<record::SampleRows(std::uint64_t first, std::uint64_t last)> rowsOf;
   record::RunMarks marks;  // what was said of the trials afterwards
 };
-/// Passes the run's trials to `sink`. The day of a run without a day is 0.
-void addRun(const RunSource& run, const experiment::CompiledExperiment& experiment, DatasetIndex& index, const TrialSink& sink);
+/// The compiled scenes of runs. Runs of the same texts share them.
+class ScenesOfRuns {
+ public:
+  /// Valid as long as this. Throws as record::recordedScenes does.
+  const std::vector<experiment::CompiledExperiment>& of(const record::RunConfiguration& configuration);
+
+ private:
+  std::map<std::string, std::vector<experiment::CompiledExperiment>> known_;
+};
+/// Passes the run's trials to `sink`. The day of a run without a day is 0. `scenes` are the experiments of the configuration's scenes.
+void addRun(const RunSource& run, std::span<const experiment::CompiledExperiment> scenes, DatasetIndex& index, const TrialSink& sink);
 
 /// The motion files of a dataset without logs, in order. Each file is a run.
 std::vector<std::string> findBidsRuns(const std::string& folder);
