@@ -28,7 +28,8 @@ void MainWindow::openExperiment(const QString& what) {
   try {
     screens_->lookIn(QFileInfo(what).path());
     const session::Programme opened = session::readProgramme(what.toStdString());
-    for (const experiment::CompiledExperiment& experiment : opened.experiments) (void)dynamics::compileScene(experiment);
+    for (const std::vector<session::BlockScene>& block : opened.scenes)
+      for (const session::BlockScene& scene : block) (void)dynamics::compileScene(scene.experiment);
     edits_.open(opened, QStringLiteral("open %1").arg(what));
     edits_.stack().setClean();
     file_ = QFileInfo::exists(what) ? what : QString();

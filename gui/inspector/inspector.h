@@ -82,7 +82,7 @@ class InspectorPage : public QWidget {
   std::size_t condition() const;
   std::optional<std::size_t> lineOf(int row) const;
   const record::RunLog& logOf(const std::string& path);
-  const experiment::CompiledExperiment& experimentOf(const record::RunLog& log);
+  const experiment::CompiledExperiment& experimentOf(const record::RunLog& log, const record::RecordedTrial& trial);
 
   QString path_;
   std::shared_ptr<const Inspection> inspection_;

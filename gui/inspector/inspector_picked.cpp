@@ -31,12 +31,14 @@ const record::RunLog& InspectorPage::logOf(const std::string& path) {
   return logs_.emplace(path, record::RunLog::open(path, record::LogCheck::Trials)).first->second;
 }
 
-const experiment::CompiledExperiment& InspectorPage::experimentOf(const record::RunLog& log) {
+const experiment::CompiledExperiment& InspectorPage::experimentOf(const record::RunLog& log, const record::RecordedTrial& trial) {
   const record::RunConfiguration& c = log.configuration();
-  const std::string key = c.experimentText + '\0' + c.definitionText;
+  const record::RunScene* scene = record::sceneOf(c, trial.planned);
+  const std::string& text = scene != nullptr ? scene->experimentText : c.experimentText;
+  const std::string key = text + '\0' + c.definitionText;
   const auto known = experiments_.find(key);
   if (known != experiments_.end()) return known->second;
-  return experiments_.emplace(key, experiment::openExperimentText(c.experimentText, log.path(), c.definitionText)).first->second;
+  return experiments_.emplace(key, experiment::openExperimentText(text, log.path(), c.definitionText)).first->second;
 }
 
 void InspectorPage::showPicked() {
@@ -48,6 +50,7 @@ void InspectorPage::showPicked() {
     return;
   }
   try {
+    const auto conditionAt = [this](int at) { return table_->run(at).conditionOf(table_->trial(at)); };
     const auto trackOf = [&](std::size_t i) {
       const int row = inspectedRows_[i];
       return ReplayView::Track{TrialReplay(logOf(table_->run(row).path), table_->trial(row)), zeroOf(*inspection_, i)};
@@ -55,9 +58,9 @@ void InspectorPage::showPicked() {
     const record::RunLog& log = logOf(table_->run(picked_).path);
     std::vector<ReplayView::Track> ghosts;
     for (std::size_t i = 0; i < inspectedRows_.size() && static_cast<int>(ghosts.size()) < kMostGhosts; ++i)
-      if (i != *line && inspectedRows_[i] >= 0 && table_->run(inspectedRows_[i]).condition == table_->run(picked_).condition)
+      if (i != *line && inspectedRows_[i] >= 0 && conditionAt(inspectedRows_[i]) == conditionAt(picked_))
         ghosts.push_back(trackOf(i));
-    replay_->show(experimentOf(log), QFileInfo(QString::fromStdString(log.path())).path(), trackOf(*line), std::move(ghosts));
+    replay_->show(experimentOf(log, table_->trial(picked_)), QFileInfo(QString::fromStdString(log.path())).path(), trackOf(*line), std::move(ghosts));
     const record::IndexedRun& run = table_->run(picked_);
     const analysis::Movement& move = inspection_->signals[*line].movement;
     const double first = inspection_->input.trials[*line].first;

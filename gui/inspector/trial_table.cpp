@@ -112,7 +112,7 @@ QString TrialTable::text(int row, int column) const {
   switch (column) {
     case kSubject: return from(r.subject);
     case kSession: return from(r.session);
-    case kCondition: return from(r.condition) + (r.practice ? tr(" (practice)") : QString());
+    case kCondition: return from(r.conditionOf(t)) + (r.practice ? tr(" (practice)") : QString());
     case kRun: return QString::number(r.run);
     case kTrial: return QString::number(t.trial);
     case kOutcome: return outcomeWords(t.result);
@@ -237,7 +237,7 @@ std::string toCsv(const TrialTable& table, const std::vector<int>& rows) {
       const double value = table.data(table.index(row, column), Qt::UserRole).toDouble();
       return value < 1e299 ? value : std::nan("");
     };
-    out.cell(r.subject).cell(r.session).cell(r.condition).whole(r.practice).whole(r.run).whole(r.block).whole(t.trial);
+    out.cell(r.subject).cell(r.session).cell(r.conditionOf(t)).whole(r.practice).whole(r.run).whole(r.block).whole(t.trial);
     out.cell(trial::nameOf(t.result.outcome)).cell(trial::nameOf(t.result.reason));
     for (const int column : {TrialTable::kTime, TrialTable::kPeak, TrialTable::kPaper, TrialTable::kFitted}) out.number(key(column));
     out.whole(mark.flagged).cell(mark.excluded).cell(mark.note).endRow();

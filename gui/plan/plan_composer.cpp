@@ -21,6 +21,7 @@
 
 #include "base/error.h"
 #include "base/fault.h"
+#include "gui/plan/mix_editor.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/fault_words.h"
 #include "gui/widgets/unit_spin_box.h"
@@ -39,6 +40,8 @@ QString kindOf(const session::PlanBlock& block) {
   if (block.practice) kinds << PlanComposer::tr("practice");
   if (block.restSeconds > 0) kinds << PlanComposer::tr("rest %1 s before").arg(block.restSeconds);
   if (!block.instructions.empty()) kinds << PlanComposer::tr("instructions");
+  if (!block.mix.kinds.empty()) kinds << PlanComposer::tr("%1 kinds").arg(session::kindsInUse(block.mix).size());
+  if (block.mix.targetCount() > 1) kinds << PlanComposer::tr("%1 targets").arg(block.mix.targetCount());
   return kinds.join(QStringLiteral(", "));
 }
 
@@ -72,6 +75,8 @@ PlanComposer::PlanComposer(QWidget* parent) : QDialog(parent) {
   middle->addWidget(makeList(), 3);
   middle->addWidget(makeBlock(), 2);
   layout->addLayout(middle, 1);
+  mix_ = new MixEditor;
+  layout->addWidget(mix_);
   preview_ = new QLabel;
   preview_->setObjectName(QStringLiteral("planPreview"));
   preview_->setTextFormat(Qt::RichText);
@@ -94,7 +99,7 @@ PlanComposer::PlanComposer(QWidget* parent) : QDialog(parent) {
   });
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   wire();
-  resize(1120, 720);
+  resize(1120, 900);
   setPlan({}, {});
 }
 
@@ -241,6 +246,7 @@ void PlanComposer::wire() {
   connect(experiment_, &QComboBox::editTextChanged, this, &PlanComposer::take);
   connect(condition_, &QLineEdit::textEdited, this, &PlanComposer::take);
   connect(instructions_, &QPlainTextEdit::textChanged, this, &PlanComposer::take);
+  connect(mix_, &MixEditor::changed, this, &PlanComposer::take);
   connect(name_, &QLineEdit::textEdited, this, &PlanComposer::takeWhole);
   connect(permute_, &QCheckBox::toggled, this, &PlanComposer::takeWhole);
   connect(orderSeed_, qOverload<int>(&QSpinBox::valueChanged), this, &PlanComposer::takeWhole);
@@ -284,6 +290,7 @@ void PlanComposer::showList(int select) {
 void PlanComposer::showBlock() {
   const int at = row();
   block_->setEnabled(at >= 0);
+  mix_->setEnabled(at >= 0);
   for (QPushButton* button : {copy_, remove_}) button->setEnabled(at >= 0);
   up_->setEnabled(at > 0);
   down_->setEnabled(at >= 0 && at + 1 < static_cast<int>(plan_.blocks.size()));
@@ -302,6 +309,7 @@ void PlanComposer::showBlock() {
   foreperiodMax_->show(block.foreperiodMax);
   catchShare_->show(block.catchShare);
   instructions_->setPlainText(from(block.instructions));
+  mix_->show(block.mix);
   showing_ = false;
 }
 
@@ -321,6 +329,7 @@ void PlanComposer::take() {
   block.foreperiodMax = foreperiodMax_->value();
   block.catchShare = catchShare_->value();
   block.instructions = instructions_->toPlainText().toStdString();
+  block.mix = mix_->mix();
   const QString texts[] = {QFileInfo(from(block.experiment)).completeBaseName(), from(conditionOf(block)), QString::number(block.trials),
                            block.day == 0 ? tr("every") : QString::number(block.day), kindOf(block)};
   for (int column = 1; column < kColumns; ++column) list_->item(at, column)->setText(texts[column - 1]);
@@ -338,6 +347,7 @@ void PlanComposer::takeWhole() {
 QStringList PlanComposer::faults() const {
   QStringList lines;
   if (plan_.name.empty()) lines << tr("The plan has no name. Enter a name.");
+  for (const QString& fault : mix_->faults()) lines << tr("block %1: %2").arg(row() + 1).arg(fault);
   for (const Fault& fault : session::problems(plan_)) {
     const std::size_t open = fault.key.find('['), close = fault.key.find("].");
     if (open == std::string::npos || close == std::string::npos) {

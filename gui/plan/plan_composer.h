@@ -19,6 +19,8 @@ class UnitSpinBox;
 
 namespace reachlab::gui::plan {
 
+class MixEditor;
+
 /// Composes a session plan: blocks in their order, practice, breaks, instructions and counterbalancing. The resulting trials of subjects
 /// are shown below. A plan is a file, which is saved before it is used.
 class PlanComposer : public QDialog {
@@ -62,6 +64,7 @@ class PlanComposer : public QDialog {
   QCheckBox *practice_, *repeatAborted_, *permute_;
   widgets::UnitSpinBox *pause_, *foreperiodMin_, *foreperiodMax_, *catchShare_, *rest_;
   QPlainTextEdit* instructions_;
+  MixEditor* mix_;
   QLabel* preview_;
   widgets::FaultLabel* faultLabel_;
 };

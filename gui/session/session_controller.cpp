@@ -25,7 +25,9 @@ namespace {
 experiment::CompiledExperiment firstExperiment(const session::Programme& programme, const session::SessionRequest& request) {
   if (!programme.isPlan()) return programme.experiments.front();
   const session::SessionToRun session = session::planSession(request, programme);
-  return session.blocks.empty() ? programme.experiments.front() : session.blocks.front().experiment;
+  if (session.blocks.empty()) return programme.experiments.front();
+  const session::BlockToRun& first = session.blocks.front();
+  return first.scenes.at(static_cast<std::size_t>(first.trials.front().scene));
 }
 
 // Another subject, session, day or folder is another session.
@@ -104,14 +106,15 @@ std::vector<Fault> SessionController::tryEdit(const experiment::Experiment& expe
 }
 
 std::unique_ptr<haptics::HapticDevice> SessionController::makeDeviceHere(const std::string& spec,
-                                                                         const experiment::CompiledExperiment& experiment,
+                                                                         std::span<const experiment::CompiledExperiment> scenes,
                                                                          std::uint64_t seed) {
   mouse_ = nullptr;
   if (spec != "mouse") {
-    auto device = devices::makeDevice(spec, experiment, station_ ? station_->seedHere(seed) : seed);
-    for (const std::string& sentence : devices::warningsBeforeBlock(experiment, *device)) onOpening_ << QString::fromStdString(sentence);
+    auto device = devices::makeDevice(spec, scenes, station_ ? station_->seedHere(seed) : seed, &learnt_);
+    for (const std::string& sentence : devices::warningsBeforeBlock(scenes, *device)) onOpening_ << QString::fromStdString(sentence);
     return device;
   }
+  const experiment::CompiledExperiment& experiment = scenes.front();
   auto mouse = std::make_unique<devices::MouseDevice>(trial::makeProtocolSettings(experiment.experiment(), experiment.constraint()).start);
   mouse_ = mouse.get();
   return mouse;
@@ -127,12 +130,13 @@ void SessionController::planRuns(const session::SessionRequest& request) {
   for (const std::string& file : mappings) onOpening_ << tr("The mapping of the hand is read from %1.").arg(QString::fromStdString(file));
   if (!instruments_) instruments_ = devices::openInstruments(request.instruments);
   auto planned = std::make_unique<session::RecordedSession>(
-      programme_, asked, [this](const auto& spec, const auto& experiment, auto seed) { return makeDeviceHere(spec, experiment, seed); },
+      programme_, asked, [this](const auto& spec, auto scenes, auto seed) { return makeDeviceHere(spec, scenes, seed); },
       &trace_, instruments_.get());
   if (planned->blocksLeft() == 0)
     throw FaultError(Fault{{}, "nothing is left to do: every trial of this session is recorded", "another subject or session"});
   recorded_ = std::move(planned);
   asked_ = request;
+  learnt_.reset();
   resume_ = false;
   if (const QString words = wordsOf(recorded_->notice()); !words.isEmpty()) onOpening_ << words;
 }
@@ -160,7 +164,7 @@ void SessionController::openRun(const session::SessionRequest& request) {
 void SessionController::tellOpened() {
   if (run() == nullptr) return;
   if (isPlan()) {
-    shown_ = run()->experiment();
+    shown_ = run()->experimentNow();
     Q_EMIT experimentChanged();
   }
   Q_EMIT runOpened();
@@ -220,8 +224,17 @@ bool SessionController::next(const session::SessionRequest& request) {
     }
     if (run() == nullptr || !run()->putUpNext()) return false;
   }
+  showScene();
   Q_EMIT trialBegun();
   return true;
+}
+
+// A trial of another kind, or to another target.
+void SessionController::showScene() {
+  const experiment::CompiledExperiment& now = run()->experimentNow();
+  if (!isPlan() || &now.experiment() == &shown_.experiment()) return;
+  shown_ = now;
+  Q_EMIT experimentChanged();
 }
 
 void SessionController::abort() {

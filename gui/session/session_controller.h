@@ -124,8 +124,9 @@ class SessionController : public QObject {
   void tellStation(const network::StationNews& news);
   void observe();
   void tellOpened();
+  void showScene();
   void showBlock(const session::SessionRequest& request);
-  std::unique_ptr<haptics::HapticDevice> makeDeviceHere(const std::string& spec, const experiment::CompiledExperiment& experiment,
+  std::unique_ptr<haptics::HapticDevice> makeDeviceHere(const std::string& spec, std::span<const experiment::CompiledExperiment> scenes,
                                                         std::uint64_t seed);
   void fail(const std::exception& fault);
   std::optional<std::string> putInOrder();
@@ -145,6 +146,7 @@ class SessionController : public QObject {
   bool numberUsed_ = false;                // the run number that was asked for holds for one run
   session::SessionRequest asked_;          // what `recorded_` was planned for
   devices::MouseDevice* mouse_ = nullptr;  // inside the run that is open
+  std::shared_ptr<void> learnt_;           // by a virtual person, from block to block of the session
   plot::TraceSink trace_;                  // outlives the runs
   std::unique_ptr<record::InstrumentLink> instruments_;  // so do these
   std::string backupOf_;                                 // the dataset that this is of
