@@ -15,10 +15,18 @@ struct Told {
 class TellingHand final : public haptics::HapticDevice {
  public:
   TellingHand(double x, Told& told) : x_(x), told_(told) {}
-  haptics::DeviceInfo info() const override { return {.name = "telling", .virtualHand = true}; }
+  haptics::DeviceInfo info() const override {
+    haptics::DeviceInfo info;
+    info.virtualHand = true;
+    return info;
+  }
   void prepareTrial(int index, int /*scene*/ = 0) override { told_.prepared += std::to_string(index) + " "; }
   void cue(haptics::Cue cue) noexcept override { told_.cued += cue == haptics::Cue::Place ? 'P' : 'G'; }
-  haptics::DeviceSample read() noexcept override { return {.position = {x_, 0, 0}}; }
+  haptics::DeviceSample read() noexcept override {
+    haptics::DeviceSample sample;
+    sample.position.x = x_;
+    return sample;
+  }
   void write(const Vec3&) noexcept override { ++told_.written; }
 
  private:
