@@ -100,7 +100,7 @@ struct PersonResult {
   bool fitted = false;                     // kFewestTrials or more
   PersonFit fit;
   std::vector<double> rest;            // [m/s m/s] sum w^2 v^2 of each trial
-  std::optional<std::size_t> follows;  // this person's own conclusion in this condition
+  Conclusion conclusion;     // about this person in this condition
 };
 
 struct ConditionResult {
@@ -170,5 +170,9 @@ Analysis analyzeTrials(AnalysisInput input, const AnalysisOptions& options, cons
 /// The conclusion of one condition from people's fits. Recovery judges simulated studies by the same function.
 Conclusion concludeCondition(const std::vector<PersonResult>& people, std::size_t condition, const CandidateSet& candidates);
 PersonScores scoresOf(const PersonResult& person);
+/// The scores of the candidates in `common`, in that order. Each of them must be in `set`.
+ConditionScores scoresOf(const PersonResult& person, const CandidateSet& set, const std::vector<std::vector<predict::Criterion>>& common);
+/// With a hand of unlimited mass criterion (5) becomes (1): the hand's jerk is all that is left of the change of force.
+std::vector<HeavyLimit> heavyLimits(const std::vector<std::vector<predict::Criterion>>& candidates);
 
 }  // namespace reachlab::analysis

@@ -81,8 +81,9 @@ void fitsTable(const Analysis& analysis, const TableWriter& write) {
     std::string others;
     for (const std::string& name : f.equivalent) others += (others.empty() ? "" : ";") + name;
     table.cell(others).number(f.epsilon).number(f.r2).number(f.score).number(f.ceiling).number(f.duration).cell(f.timeLaw);
-    table.number(f.plan.value_or(kNotMeasured)).number(f.handMass.value_or(kNotMeasured));
-    table.count(f.trials).whole(f.decided);
+    table.number(f.plan.value_or(kNotMeasured)).number(f.handMass.value_or(kNotMeasured)).bounds(f.massInterval);
+    table.cell(f.massInterval ? f.massAtEdge ? "1" : "0" : "").number(f.misfit);
+    table.count(f.trials).whole(f.decided).cell(f.reason);
     table.endRow();
   }
   table.flush();
@@ -93,9 +94,13 @@ void addConclusion(Sheet& table, const std::string& condition, const Conclusion&
   for (std::size_t k = 0; k < c.score.size(); ++k) {
     table.cell(condition).cell(c.overSubjects ? "subjects" : "trials").cell(nameOfCandidate(candidates[k])).number(c.score[k]);
     const bool best = k == *c.best;
-    table.number(best ? 0 : c.against[k].mean).number(best ? kNotMeasured : c.against[k].p);
+    table.number(best ? 0 : c.against[k].mean);
+    table.bounds(best ? std::nullopt : std::optional(intervalOf(c.against[k]))).number(best ? kNotMeasured : c.against[k].p);
+    table.number(best ? kNotMeasured : computeBayesFactor(c.against[k]));
     table.number(c.posterior.empty() ? kNotMeasured : c.posterior[k]).cell(best ? "yes" : "no").whole(c.follows && *c.follows == k);
     table.cell(c.decided() ? "" : nameOf(c.reason)).number(c.level);
+    table.whole(std::find(c.atEdge.begin(), c.atEdge.end(), k) != c.atEdge.end());
+    table.number(best ? c.misfit.mean : kNotMeasured).number(best ? c.misfit.p : kNotMeasured);
     table.count(c.subjects);
     table.count(c.trials);
     table.endRow();

@@ -52,9 +52,8 @@ void fitPeople(Analysis& analysis, std::size_t condition, const FittingProgress&
       person.fit = fitPerson(windows, durations, result.candidates, analysis.options.keepScatter);
       person.fitted = true;
       for (const FitWindow& w : windows) person.rest.push_back(restCost(w));
-      PersonScores scores = scoresOf(person);
       const std::size_t candidates = result.candidates.candidates.size();
-      person.follows = concludePerson(scores, candidates, candidates - 1).follows;
+      person.conclusion = concludePerson(scoresOf(person), candidates, candidates - 1, heavyLimits(namesOf(result.candidates)));
     }
     analysis.people.push_back(std::move(person));
     if (progress) progress(offset + end, analysis.trials.size());
@@ -91,22 +90,11 @@ void concludeTogether(Analysis& analysis) {
     person.subject = subject;
     for (const PersonResult& own : analysis.people) {
       if (own.subject != subject || !own.fitted || std::find(judged.begin(), judged.end(), own.condition) == judged.end()) continue;
-      const auto& candidates = analysis.results[own.condition].candidates.candidates;
-      const PersonScores here = scoresOf(own);
-      ConditionScores scores = here.conditions.front();
-      scores.score.clear();
-      scores.r2.clear();
-      for (const auto& criteria : analysis.common)
-        for (std::size_t k = 0; k < candidates.size(); ++k)
-          if (candidates[k].criteria == criteria) {
-            scores.score.push_back(here.conditions.front().score[k]);
-            scores.r2.push_back(here.conditions.front().r2[k]);
-          }
-      person.conditions.push_back(std::move(scores));
+      person.conditions.push_back(scoresOf(own, analysis.results[own.condition].candidates, analysis.common));
     }
     people.push_back(std::move(person));
   }
-  analysis.overall = concludePeople(people, analysis.common.size(), analysis.common.size() - 1);
+  analysis.overall = concludePeople(people, analysis.common.size(), analysis.common.size() - 1, heavyLimits(analysis.common));
 }
 
 PersonScores scoresOf(const PersonResult& person) {
@@ -117,17 +105,39 @@ PersonScores scoresOf(const PersonResult& person) {
   scores.condition = person.condition;
   scores.effectiveSamples = person.fit.own.effectiveSamples;
   scores.ceiling = person.fit.own.ceiling;
-  for (const CandidateFit& fit : person.fit.candidates) scores.score.push_back(fit.score), scores.r2.push_back(fit.r2);
+  scores.own = person.fit.own.score;
+  for (const CandidateFit& fit : person.fit.candidates)
+    scores.score.push_back(fit.score), scores.r2.push_back(fit.r2), scores.beyond.push_back(fit.beyond);
   out.conditions.push_back(std::move(scores));
   return out;
+}
+
+ConditionScores scoresOf(const PersonResult& person, const CandidateSet& set, const std::vector<std::vector<predict::Criterion>>& common) {
+  const ConditionScores all = scoresOf(person).conditions.front();
+  ConditionScores out = all;
+  out.score.clear(), out.r2.clear(), out.beyond.clear();
+  for (const auto& criteria : common)
+    for (std::size_t k = 0; k < set.candidates.size(); ++k)
+      if (set.candidates[k].criteria == criteria)
+        out.score.push_back(all.score[k]), out.r2.push_back(all.r2[k]), out.beyond.push_back(all.beyond[k]);
+  return out;
+}
+
+std::vector<HeavyLimit> heavyLimits(const std::vector<std::vector<predict::Criterion>>& candidates) {
+  const auto placeOf = [&](predict::Criterion criterion) {
+    const auto has = [&](const auto& criteria) { return std::find(criteria.begin(), criteria.end(), criterion) != criteria.end(); };
+    return static_cast<std::size_t>(std::find_if(candidates.begin(), candidates.end(), has) - candidates.begin());
+  };
+  const HeavyLimit limit{placeOf(predict::Criterion::MinHandForceChange), placeOf(predict::Criterion::MinHandJerk)};
+  if (std::max(limit.candidate, limit.becomes) == candidates.size()) return {};
+  return {limit};
 }
 
 Conclusion concludeCondition(const std::vector<PersonResult>& people, std::size_t condition, const CandidateSet& set) {
   std::vector<PersonScores> scores;
   for (const PersonResult& person : people)
     if (person.condition == condition) scores.push_back(scoresOf(person));
-  const std::size_t candidates = set.candidates.size();
-  return concludePeople(scores, candidates, candidates - 1);
+  return concludePeople(scores, set.candidates.size(), set.candidates.size() - 1, heavyLimits(namesOf(set)));
 }
 
 }  // namespace reachlab::analysis

@@ -4,6 +4,8 @@
 #include <atomic>
 #include <cmath>
 #include <mutex>
+#include <numbers>
+#include <optional>
 #include <thread>
 
 #include "analysis/tables.h"
@@ -13,6 +15,8 @@
 
 namespace reachlab::analysis {
 namespace {
+
+constexpr std::string_view kOtherMasses = "other-hand-masses", kOwnWarp = "own-warp", kMeanOfTwo = "mean-of-two";
 
 /// Draws that are the same on every machine.
 class Draws {
@@ -25,12 +29,35 @@ class Draws {
   std::uint64_t state_, count_ = 0;
 };
 
-/// A person's trials as they would look if they followed `shape`: each recorded trial's own onset, duration and amplitude, and the scatter of
-/// another one drawn at random, turned over or not.
-std::vector<FitWindow> simulatePerson(const Analysis& analysis, const PersonResult& person, const ProfileFamily& family,
-                                      const ShapeChoice& choice, const CandidateFit& asFitted, Draws& draws) {
-  std::vector<FitWindow> windows;
+/// How a person moves: one plan, or the mean of two.
+struct Mover {
+  std::size_t first = 0, second = 0;  // indices into Analysis::common, equal for one plan
+  bool otherMass = false;             // with a mass of the hand drawn from the range
+  bool ownWarp = false;               // along a warp of time
+  double warp = 0, waves = 1;         // s becomes s + warp sin(pi waves s) / waves
+};
+
+/// The velocity of the hand [m/s] at the instants of `window` when a trial that was fitted so is moved by `family`.
+void addPlanned(FitWindow& window, const ProfileFamily& family, const ShapeChoice& choice, const MovementFit& fit, const Mover& mover,
+                double share) {
   Profile profile;
+  if (!fit.found || !family.at(choice.law == TimeLaw::OnePlan ? choice.plan : fit.duration, profile)) return;
+  for (std::size_t k = 0; k < window.velocity.size(); ++k) {
+    double s = (window.begin + static_cast<double>(k) / window.rate - fit.onset) / fit.duration, rate = 1;
+    if (mover.warp != 0 && s > 0 && s < 1) {
+      const double angle = std::numbers::pi * mover.waves * s;
+      rate = 1 + mover.warp * std::numbers::pi * std::cos(angle);
+      s += mover.warp * std::sin(angle) / mover.waves;
+    }
+    window.velocity[k] += share * fit.amplitude * rate * profile.at(s);
+  }
+}
+
+/// A person's trials as they would look if they were moved so: each recorded trial's own onset, duration and amplitude, and the scatter of
+/// another trial drawn at random, turned over or not. `planned(window, place)` adds the velocity of a trial.
+template <typename Planned>
+std::vector<FitWindow> simulatePerson(const Analysis& analysis, const PersonResult& person, Planned&& planned, Draws& draws) {
+  std::vector<FitWindow> windows;
   const PersonTemplate& own = person.fit.own;
   std::size_t place = 0;
   for (std::size_t i = person.firstTrial; place < person.trials; ++i) {
@@ -39,16 +66,14 @@ std::vector<FitWindow> simulatePerson(const Analysis& analysis, const PersonResu
     FitWindow window;
     window.rate = trial.windowRate;
     window.begin = trial.windowBegin;
-    window.velocity.resize(trial.window.size);
+    window.velocity.assign(trial.window.size, 0.0);
     window.weight.assign(window.velocity.size(), 1.0);
-    const MovementFit& fit = asFitted.trials[place];
     const MovementFit& laid = own.place[place];
     const std::vector<float>& apart = own.apart[draws.below(own.apart.size())];
     const double sign = draws.fraction() < 0.5 ? -1 : 1;
-    const bool possible = fit.found && family.at(choice.law == TimeLaw::OnePlan ? choice.plan : fit.duration, profile);
+    planned(window, place);
     for (std::size_t k = 0; k < window.velocity.size(); ++k) {
       const double t = window.begin + static_cast<double>(k) / window.rate;
-      if (possible) window.velocity[k] = fit.amplitude * profile.at((t - fit.onset) / fit.duration);
       const double x = ((t - laid.onset) / laid.duration - own.mean.first) / own.mean.step;
       if (!(x >= 0) || x + 1 >= static_cast<double>(apart.size())) continue;
       const auto cell = static_cast<std::size_t>(x);
@@ -82,16 +107,27 @@ TruthRecovery recover(const Analysis& analysis, int studies, std::uint64_t seed,
     while (all[k].criteria != analysis.common[truth]) ++k;
     return k;
   };
-  const auto nameOne = [&](std::size_t truth, int number) {
+  const auto judge = [&](Mover mover, Draws& draws) {
     std::vector<PersonScores> scores;
     std::map<std::string, std::size_t> index;
-    Draws draws(seededBits(seededBits(seed, truth), static_cast<std::uint64_t>(number)));
     for (const PersonResult* person : people) {
       const CandidateSet& set = analysis.results[person->condition].candidates;
-      const std::size_t k = candidateOf(person->condition, truth);
-      const CandidateFit& fit = person->fit.candidates[k];
-      std::vector<FitWindow> windows =
-          simulatePerson(analysis, *person, *set.candidates[k].families[fit.choice.family], fit.choice, fit, draws);
+      if (mover.ownWarp)
+        mover.warp = (0.02 + 0.08 * draws.fraction()) * (draws.fraction() < 0.5 ? -1 : 1), mover.waves = draws.fraction() < 0.5 ? 1 : 2;
+      const auto planOf = [&](std::size_t truth) {
+        const Candidate& candidate = set.candidates[candidateOf(person->condition, truth)];
+        const CandidateFit& fit = person->fit.candidates[candidateOf(person->condition, truth)];
+        if (!mover.otherMass || !candidate.familyOf) return std::pair(&fit, fit.family);
+        const double mass = candidate.masses.front() + draws.fraction() * (candidate.masses.back() - candidate.masses.front());
+        return std::pair(&fit, candidate.familyOf(mass));
+      };
+      const auto first = planOf(mover.first), second = mover.second == mover.first ? first : planOf(mover.second);
+      std::vector<FitWindow> windows = simulatePerson(
+          analysis, *person,
+          [&](FitWindow& window, std::size_t place) {
+            for (const auto& [fit, family] : {first, second}) addPlanned(window, *family, fit->choice, fit->trials[place], mover, 0.5);
+          },
+          draws);
       std::vector<double> durations;
       for (const MovementFit& laid : person->fit.own.place) durations.push_back(laid.duration);
       PersonResult simulated;
@@ -99,32 +135,57 @@ TruthRecovery recover(const Analysis& analysis, int studies, std::uint64_t seed,
       simulated.condition = person->condition;
       simulated.fitted = true;
       simulated.fit = fitPerson(windows, durations, set);
-      const PersonScores own = scoresOf(simulated);
-      ConditionScores condition = own.conditions.front();
-      ConditionScores shared = condition;
-      shared.score.clear();
-      shared.r2.clear();
-      for (std::size_t c = 0; c < truths; ++c) {
-        const std::size_t at = candidateOf(person->condition, c);
-        shared.score.push_back(condition.score[at]);
-        shared.r2.push_back(condition.r2[at]);
-      }
       const auto [place, fresh] = index.try_emplace(person->subject, scores.size());
       if (fresh) scores.push_back({person->subject, {}});
-      scores[place->second].conditions.push_back(std::move(shared));
+      scores[place->second].conditions.push_back(scoresOf(simulated, set, analysis.common));
     }
-    return concludePeople(scores, truths, truths - 1).follows.value_or(truths);
+    return concludePeople(scores, truths, truths - 1, heavyLimits(analysis.common)).follows.value_or(truths);
   };
+  const auto nameOne = [&](std::size_t truth, int number) {
+    Draws draws(seededBits(seededBits(seed, truth), static_cast<std::uint64_t>(number)));
+    return judge({truth, truth}, draws);
+  };
+  std::vector<std::size_t> withMass, named;  // candidates
+  for (std::size_t t = 0; t < truths; ++t) {
+    if (analysis.common[t].empty()) continue;
+    named.push_back(t);
+    if (std::all_of(people.begin(), people.end(), [&](const PersonResult* p) {
+          return static_cast<bool>(analysis.results[p->condition].candidates.candidates[candidateOf(p->condition, t)].familyOf);
+        }))
+      withMass.push_back(t);
+  }
+  const auto judgeOther = [&](std::size_t kind, int number) -> std::optional<bool> {  // was the name right? nullopt: undecided
+    Draws draws(seededBits(seededBits(seed, truths + kind), static_cast<std::uint64_t>(number)));
+    Mover mover;
+    mover.otherMass = out.others[kind].name == kOtherMasses, mover.ownWarp = out.others[kind].name == kOwnWarp;
+    const std::vector<std::size_t>& from = mover.otherMass ? withMass : named;
+    const std::size_t drawn = draws.below(from.size());
+    mover.first = mover.second = from[drawn];
+    const bool mean = out.others[kind].name == kMeanOfTwo;
+    if (mean) mover.second = from[(drawn + 1 + draws.below(from.size() - 1)) % from.size()];
+    const std::size_t follows = judge(mover, draws);
+    if (follows == truths) return std::nullopt;
+    return !mean && follows == mover.first;
+  };
+  if (!withMass.empty()) out.others.push_back({kOtherMasses});
+  if (!named.empty()) out.others.push_back({kOwnWarp});
+  if (named.size() > 1) out.others.push_back({kMeanOfTwo});
 
-  const std::size_t jobs = truths * static_cast<std::size_t>(studies);
+  const std::size_t inside = truths * static_cast<std::size_t>(studies);
+  const std::size_t jobs = inside + out.others.size() * static_cast<std::size_t>(studies);
   std::atomic<std::size_t> next{0};
   std::size_t done = 0;
   std::mutex mutex;
   const auto work = [&] {
     for (std::size_t job; (job = next++) < jobs;) {
-      const std::size_t truth = job % truths, named = nameOne(truth, static_cast<int>(job / truths));
+      std::size_t truth = job % truths, follows = truths;
+      std::optional<bool> right;
+      if (job < inside) follows = nameOne(truth, static_cast<int>(job / truths));
+      else truth = (job - inside) % out.others.size(), right = judgeOther(truth, static_cast<int>((job - inside) / out.others.size()));
       const std::lock_guard lock(mutex);
-      ++out.counts[truth][named];
+      if (job < inside) ++out.counts[truth][follows];
+      else if (!right) ++out.others[truth].undecided;
+      else ++(*right ? out.others[truth].right : out.others[truth].wrong);
       ++done;
       if (progress) progress(done, jobs);
     }
@@ -147,6 +208,9 @@ std::string recoveryTable(const TruthRecovery& recovery) {
           .cell(n < recovery.candidates.size() ? nameOfCandidate(recovery.candidates[n]) : "undecided");
       table.whole(static_cast<long long>(recovery.counts[t][n])).endRow();
     }
+  for (const OtherTruth& other : recovery.others)
+    for (const auto& [named, count] : {std::pair("right", other.right), {"wrong", other.wrong}, {"undecided", other.undecided}})
+      table.cell(other.name).cell(named).whole(static_cast<long long>(count)).endRow();
   return table.text();
 }
 

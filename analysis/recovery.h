@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/analysis.h"
@@ -9,12 +10,21 @@ namespace reachlab::analysis {
 
 /// How often this very design names the truth. Simulated people follow a candidate. Their number, trials, durations and scatter are those
 /// of the recorded people, and the same code judges both.
+/// Studies whose people move otherwise than the fits assume.
+struct OtherTruth {
+  std::string_view name;
+  std::size_t right = 0, wrong = 0, undecided = 0;  // studies
+};
+
 struct TruthRecovery {
   std::size_t trials = 0;  // recorded ones whose count, durations and scatter were taken
   int studies = 0;         // simulated for each truth
   std::uint64_t seed = 1;
   std::vector<std::vector<predict::Criterion>> candidates;  // truths, in this order; the reference is the last
   std::vector<std::vector<std::size_t>> counts;             // [truth][named], the last column undecided
+  /// "other-hand-masses": a candidate with a mass drawn from the range. "own-warp": a candidate, moved along a warp of time of 2 to 10 % of each
+  /// person. "mean-of-two": the mean of two candidates, for which every name is wrong.
+  std::vector<OtherTruth> others;
 };
 
 using RecoveryProgress = std::function<void(std::size_t done, std::size_t of)>;
@@ -24,7 +34,7 @@ using RecoveryProgress = std::function<void(std::size_t done, std::size_t of)>;
 TruthRecovery recover(const Analysis& analysis, int studies, std::uint64_t seed, unsigned threads = 0,
                       const RecoveryProgress& progress = {});
 
-/// recovery.csv: truth, named, count.
+/// recovery.csv: truth, named, count. Other truths are named right, wrong or undecided.
 std::string recoveryTable(const TruthRecovery& recovery);
 
 }  // namespace reachlab::analysis

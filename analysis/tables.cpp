@@ -31,9 +31,12 @@ std::vector<FitRow> fitRows(const Analysis& analysis) {
       row.duration = fit.duration;
       row.timeLaw = candidates[k].reference() ? "" : nameOf(fit.choice.law);
       if (fit.choice.law == TimeLaw::OnePlan) row.plan = fit.choice.plan;
-      if (!candidates[k].masses.empty()) row.handMass = candidates[k].masses[fit.choice.family];
+      if (!candidates[k].masses.empty()) row.handMass = fit.choice.mass;
+      if (fit.mass) row.massInterval = fit.mass->interval, row.massAtEdge = fit.mass->atEdge;
+      row.misfit = fit.meanScore - person.fit.own.ceilingScore;
       row.trials = person.trials;
-      row.decided = person.follows && *person.follows == k;
+      row.decided = person.conclusion.follows == k;
+      row.reason = nameOf(person.conclusion.reason);
       rows.push_back(std::move(row));
     }
   }

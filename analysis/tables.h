@@ -25,9 +25,13 @@ struct FitRow {
   double duration = 0;         // [s]
   std::optional<double> plan;  // [s]
   std::string timeLaw;
-  std::optional<double> handMass;  // [kg]
+  std::optional<double> handMass;      // [kg]
+  std::optional<Bounds> massInterval;  // [kg] 95 %, empty if the mass was given or changes nothing
+  bool massAtEdge = false;             // of the range of masses
+  double misfit = 0;                   // score less that of the person's own mean
   std::size_t trials = 0;
   bool decided = false;
+  std::string reason;  // why this person is not decided for any candidate, or empty
 };
 std::vector<FitRow> fitRows(const Analysis& analysis);
 

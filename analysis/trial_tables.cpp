@@ -1,3 +1,6 @@
+#include <map>
+#include <tuple>
+
 #include "analysis/sheet.h"
 
 #include <algorithm>
@@ -63,6 +66,18 @@ void profilesTable(const Analysis& analysis, const TableWriter& write) {
   table.flush();
 }
 
+void exclusionsTable(const Analysis& analysis, const TableWriter& write) {
+  Sheet table(write, "exclusions.csv");
+  std::map<std::tuple<std::size_t, std::string, std::string>, std::size_t> counts;
+  for (const AnalyzedTrial& t : analysis.trials) ++counts[{t.condition, t.key.subject, t.used() ? "used" : t.exclusion}];
+  for (const auto& [which, count] : counts) {
+    const auto& [condition, subject, rule] = which;
+    table.cell(analysis.conditions[condition].name).cell(subject).cell(rule).count(count);
+    table.endRow();
+  }
+  table.flush();
+}
+
 void fitTrialsTable(const Analysis& analysis, const TableWriter& write) {
   Sheet table(write, "fit_trials.csv");
   for (const PersonResult& person : analysis.people) {
@@ -80,6 +95,7 @@ void fitTrialsTable(const Analysis& analysis, const TableWriter& write) {
         table.number(at.found ? at.onset : kNotMeasured).number(at.found ? at.duration : kNotMeasured);
         table.number(at.found ? at.amplitude : kNotMeasured).number(fit.epsilon[place]);
         table.number(at.found ? 1 - at.cost / person.rest[place] : kNotMeasured).number(fit.score[place]);
+        table.number(person.fit.own.score[place]);
         table.endRow();
       }
       ++place;
@@ -93,6 +109,7 @@ void fitTrialsTable(const Analysis& analysis, const TableWriter& write) {
 void writeTrialTables(const Analysis& analysis, const TableWriter& write) {
   trialsTable(analysis, write);
   profilesTable(analysis, write);
+  exclusionsTable(analysis, write);
   fitTrialsTable(analysis, write);
 }
 

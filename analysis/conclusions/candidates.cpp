@@ -13,8 +13,9 @@
 namespace reachlab::analysis {
 namespace {
 
-constexpr double kSame = 1e-6;          // of the peak
-constexpr std::size_t kCompared = 401;  // instants
+constexpr double kSame = 1e-6;                       // of the peak
+constexpr std::size_t kCompared = 401;               // instants
+constexpr std::array kHeavier{1.5, 2.5, 5.0, 12.0};  // times the largest mass: outside the range
 
 bool dependsOnHandMass(predict::Criterion criterion) {
   return criterion == predict::Criterion::MinHandForce || criterion == predict::Criterion::MinHandForceChange ||
@@ -102,6 +103,18 @@ std::unique_ptr<ProfileFamily> costlyFamily(const Predictor& predictor, const Re
   return familyAt(1);
 }
 
+/// The masses between which, and outside which, the mass of the hand is fitted.
+void addMasses(Candidate& candidate, const std::vector<double>& masses,
+               const std::function<std::shared_ptr<const ProfileFamily>(double)>& familyOf) {
+  candidate.masses = masses;
+  if (masses.size() < 2) return;
+  candidate.familyOf = familyOf;
+  const auto add = [&](std::vector<MassFamily>& to, double mass) { to.push_back({mass, familyOf(mass)}); };
+  for (std::size_t i = 0; i + 1 < masses.size(); ++i) add(candidate.between, (masses[i] + masses[i + 1]) / 2);
+  if (masses.front() > 0) add(candidate.beyond, 0), add(candidate.beyond, masses.front() / 2);
+  for (const double factor : kHeavier) add(candidate.beyond, factor * masses.back());
+}
+
 struct Draft {
   predict::Criterion criterion{};
   std::vector<double> masses;
@@ -110,11 +123,19 @@ struct Draft {
 
 }  // namespace
 
+std::vector<std::vector<predict::Criterion>> namesOf(const CandidateSet& set) {
+  std::vector<std::vector<predict::Criterion>> names;
+  for (const Candidate& c : set.candidates) names.push_back(c.criteria);
+  return names;
+}
+
 CandidateSet makeCandidates(const experiment::CompiledExperiment& compiled, const CandidateOptions& options) {
   const experiment::Experiment& experiment = compiled.experiment();
   CandidateSet out;
   out.massGiven = options.handMass.has_value() || experiment.handMass > 0;
   out.masses = out.massGiven ? std::vector<double>{options.handMass.value_or(experiment.handMass)} : options.handMasses;
+  std::sort(out.masses.begin(), out.masses.end());
+  out.masses.erase(std::unique(out.masses.begin(), out.masses.end()), out.masses.end());
   std::vector<Draft> drafts;
   double fastest = 0;
   for (const predict::Criterion criterion : wanted(options)) {
@@ -155,17 +176,18 @@ CandidateSet makeCandidates(const experiment::CompiledExperiment& compiled, cons
     }
     Candidate candidate;
     candidate.criteria = {draft.criterion};
-    if (dependsOnHandMass(draft.criterion)) candidate.masses = draft.masses;
-    for (const double mass : draft.masses) {
-      const Predictor predictor = predictorOf(compiled, draft.criterion, mass, options.handDamping);
-      candidate.families.push_back(draft.criterion == predict::Criterion::MinTorqueChange
-                                       ? costlyFamily(predictor, filter, grid, T)
-                                       : std::make_unique<ProfileFamily>(samplerOf(predictor), filter, grid));
-    }
+    const auto familyOf = [compiled, filter, grid, T, criterion = draft.criterion,
+                           damping = options.handDamping](double mass) -> std::shared_ptr<const ProfileFamily> {
+      const Predictor predictor = predictorOf(compiled, criterion, mass, damping);
+      if (criterion == predict::Criterion::MinTorqueChange) return costlyFamily(predictor, filter, grid, T);
+      return std::make_shared<ProfileFamily>(samplerOf(predictor), filter, grid);
+    };
+    for (const double mass : draft.masses) candidate.families.push_back(familyOf(mass));
+    if (dependsOnHandMass(draft.criterion)) addMasses(candidate, draft.masses, familyOf);
     out.candidates.push_back(std::move(candidate));
   }
   Candidate reference;
-  reference.families.push_back(std::make_unique<ProfileFamily>(referenceProfile, filter, grid));
+  reference.families.push_back(std::make_shared<ProfileFamily>(referenceProfile, filter, grid));
   out.candidates.push_back(std::move(reference));
   return out;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -10,21 +11,30 @@
 
 namespace reachlab::analysis {
 
-/// A criterion that a person's movements may follow, or several criteria that predict the same hand, with every hand mass tried.
+/// The hand velocities for one mass of the hand [kg].
+struct MassFamily {
+  double mass = 0;
+  std::shared_ptr<const ProfileFamily> family;
+};
+
+/// A criterion that a person's movements may follow, or several criteria that predict the same hand.
 struct Candidate {
-  std::vector<predict::Criterion> criteria;  // named together; the first is the one that is predicted. Empty: the reference
-  std::vector<double> masses;                // [kg] one a family; empty where the hand's mass changes nothing
-  std::vector<std::unique_ptr<ProfileFamily>> families;
+  std::vector<predict::Criterion> criteria;                    // named together, the first is predicted. Empty: the reference
+  std::vector<double> masses;                                  // [kg] of `families`, increasing. Empty if the hand's mass changes nothing
+  std::vector<std::shared_ptr<const ProfileFamily>> families;  // the search for a mass starts from these
+  std::vector<MassFamily> between;                             // half-way between neighbours of `masses`
+  std::vector<MassFamily> beyond;                              // outside the range of `masses`
+  std::function<std::shared_ptr<const ProfileFamily>(double mass)> familyOf;  // empty if no mass is searched
   bool reference() const { return criteria.empty(); }
 };
 
-/// Hand masses [kg] that are tried where nothing gives the mass: up to a whole arm with the handle of a heavy device. With 2 kg as the
-/// largest, a hand of 3 or 4 kg that follows criterion (4) was taken for one that follows (5).
-inline constexpr std::array kHandMasses{0.0, 0.5, 1.0, 2.0, 3.0, 4.0, 6.0, 8.0};
+/// The hand's mass is searched between the first and the last of these [kg] unless it is given. 8 kg is a whole arm with the handle of a
+/// heavy device.
+inline constexpr std::array kHandMasses{0.0, 1.0, 2.0, 4.0, 8.0};
 
 struct CandidateOptions {
   std::vector<predict::Criterion> criteria;                                // empty: all
-  std::vector<double> handMasses{kHandMasses.begin(), kHandMasses.end()};  // [kg] tried where nothing gives it
+  std::vector<double> handMasses{kHandMasses.begin(), kHandMasses.end()};  // [kg] where the search begins
   std::optional<double> handMass;                                          // [kg] given
   double handDamping = 0;                                                  // [N s/m]
   double cutoff = 10;                                                      // [Hz] of the recording's filter
@@ -37,9 +47,10 @@ struct CandidateOptions {
 struct CandidateSet {
   std::vector<Candidate> candidates;
   std::vector<std::string> refusals;
-  std::vector<double> masses;  // [kg] that were tried for (4) to (6); one: it was given
+  std::vector<double> masses;  // [kg] where the search for (4) to (6) begins, increasing. One: the mass was given
   bool massGiven = false;
 };
+std::vector<std::vector<predict::Criterion>> namesOf(const CandidateSet& set);
 CandidateSet makeCandidates(const experiment::CompiledExperiment& experiment, const CandidateOptions& options);
 
 }  // namespace reachlab::analysis

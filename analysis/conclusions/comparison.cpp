@@ -6,10 +6,13 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <numbers>
 #include <numeric>
 
 namespace reachlab::analysis {
 namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 TTest testOf(double mean, double variance, double count) {
   TTest out;
@@ -87,11 +90,31 @@ TTest combineTTests(std::span<const TTest> conditions) {
   return testOf(out.mean, out.error * out.error * count, count);
 }
 
+double computeTQuantile(double level, double freedom) { return boost::math::quantile(boost::math::students_t(freedom), 0.5 + level / 2); }
+
+Bounds intervalOf(const TTest& test, double level) {
+  if (!(test.error > 0) || !(test.freedom > 0)) return {-kInfinity, kInfinity};
+  const double half = computeTQuantile(level, test.freedom) * test.error;
+  return {test.mean - half, test.mean + half};
+}
+
+double computeBayesFactor(const TTest& test) {
+  if (!(test.error > 0) || !(test.freedom > 0)) return 1;
+  const double n = test.freedom + 1, square = test.t * test.t / test.freedom, power = -(test.freedom + 1) / 2;
+  // Over the variance g of the effect, in equal steps of ln g. The prior of g falls like exp(-1 / 2g) below 1 and like g^(-3/2) above.
+  constexpr double kFirst = -6, kLast = 40, kStep = 1.0 / 64, kScaleSquared = 0.5;
+  double sum = 0;
+  for (double x = kFirst; x <= kLast; x += kStep) {
+    const double g = std::exp(x), spread = 1 + n * g * kScaleSquared;
+    sum += std::exp(-0.5 * std::log(spread) + power * (std::log1p(square / spread) - std::log1p(square)) - 1 / (2 * g) - x / 2);
+  }
+  return sum * kStep / std::sqrt(2 * std::numbers::pi);
+}
+
 Bounds computeMeanInterval(std::span<const double> values, double level) {
-  constexpr double kInfinity = std::numeric_limits<double>::infinity();
   const TTest test = computeTTest(values);
   if (values.size() < 2) return {-kInfinity, kInfinity};
-  const double quantile = boost::math::quantile(boost::math::students_t(test.freedom), 0.5 + level / 2);
+  const double quantile = computeTQuantile(level, test.freedom);
   return {test.mean - quantile * test.error, test.mean + quantile * test.error};
 }
 

@@ -35,6 +35,17 @@ struct PeopleMean {
 };
 PeopleMean computePeopleMean(std::span<const double> values, std::span<const double> variance, double level = 0.95);
 
+/// Student's t below which the middle `level` of the distribution lies on both sides. `freedom` > 0.
+double computeTQuantile(double level, double freedom);
+
+/// The interval of a mean that was tested: mean -+ t * standard error at `level`. Not finite if there is no scatter to judge by.
+Bounds intervalOf(const TTest& test, double level = 0.95);
+
+/// The evidence that the mean of a test is not 0 over the evidence that it is: the JZS Bayes factor of Rouder et al. 2009 (Psychon. Bull. Rev.
+/// 16:225) for freedom + 1 values, with the scale sqrt(1/2) of the effect. By quadrature, so that the same test gives the same bits. 1 if there is
+/// no scatter to judge by.
+double computeBayesFactor(const TTest& test);
+
 /// mean -+ t * standard error at `level`. Infinite for fewer than two values.
 Bounds computeMeanInterval(std::span<const double> values, double level = 0.95);
 

@@ -65,7 +65,57 @@ bool isToldFromAll(const Conclusion& c) {
   return true;
 }
 bool referenceStands(const Conclusion& c, std::size_t reference) { return c.referenceFirst || !c.told(reference); }
-bool describesPoorly(const Conclusion& c) { return c.r2 < c.ceiling - kPoor; }
+bool describesPoorly(const Conclusion& c) {
+  const bool misfits = c.misfit.p < kMisfitLevel && c.misfit.mean >= kLeastMisfit;
+  return misfits || 1 - c.r2 > kMostUnexplained * (1 - c.ceiling);
+}
+
+/// One person with the scores of candidates at the edge of the range of masses replaced by those outside it.
+PersonScores outsideTheRange(const PersonScores& person) {
+  PersonScores out = person;
+  for (ConditionScores& condition : out.conditions)
+    for (std::size_t k = 0; k < condition.beyond.size(); ++k)
+      if (!condition.beyond[k].empty() && meanOf(condition.beyond[k]) < meanOf(condition.score[k]))
+        condition.score[k] = condition.beyond[k];
+  return out;
+}
+bool isAtEdge(const PersonScores& person, std::size_t candidate) {
+  return std::any_of(person.conditions.begin(), person.conditions.end(),
+                     [&](const ConditionScores& c) { return candidate < c.beyond.size() && !c.beyond[candidate].empty(); });
+}
+/// A candidate at the edge blocks a decision if it is the best, or if a mass outside the range is not told from the best. `compare(k, best)`
+/// tests the scores outside the range.
+template <typename Compare>
+void findMassesAtEdge(Conclusion& out, const std::vector<PersonScores>& people, const std::vector<HeavyLimit>& limits, Compare&& compare) {
+  for (std::size_t k = 0; k < out.score.size(); ++k) {
+    if (std::none_of(people.begin(), people.end(), [&](const PersonScores& p) { return isAtEdge(p, k); })) continue;
+    // The best is what this candidate becomes for a hand without a limit of mass: heavier hands come near it, and are not nearer.
+    if (std::any_of(limits.begin(), limits.end(), [&](const HeavyLimit& l) { return l.candidate == k && l.becomes == *out.best; }))
+      continue;
+    const TTest test = k == *out.best ? TTest{} : compare(k, *out.best);
+    if (k == *out.best || !(test.p < out.level && test.mean >= kLeastDifference)) out.atEdge.push_back(k);
+  }
+}
+
+double meanDifference(const ConditionScores& c, std::size_t best, std::vector<double>& difference) {
+  difference = c.score[best];
+  for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= c.own[i];
+  return meanOf(difference);
+}
+TTest misfitInPerson(const PersonScores& person, std::size_t best) {
+  std::vector<TTest> tests;
+  std::vector<double> difference;
+  for (const ConditionScores& c : person.conditions)
+    if (!c.own.empty()) meanDifference(c, best, difference), tests.push_back(computeSerialTTest(difference));
+  return tests.empty() ? TTest{} : combineTTests(tests);
+}
+double meanMisfit(const PersonScores& person, std::size_t best) {
+  double sum = 0;
+  std::vector<double> difference;
+  for (const ConditionScores& c : person.conditions)
+    if (!c.own.empty()) sum += meanDifference(c, best, difference) / static_cast<double>(person.conditions.size());
+  return sum;
+}
 
 }  // namespace
 
@@ -83,13 +133,15 @@ std::string_view nameOf(Obstacle reason) {
     case Obstacle::Reference: return "reference";
     case Obstacle::NotToldApart: return "not_told_apart";
     case Obstacle::SubjectsDiffer: return "subjects_differ";
+    case Obstacle::MassAtEdge: return "mass_at_edge";
     case Obstacle::Poor: return "poor";
     case Obstacle::NothingToCompare: return "nothing_to_compare";
   }
   return "";
 }
 
-Conclusion concludePerson(const PersonScores& person, std::size_t candidates, std::size_t reference) {
+Conclusion concludePerson(const PersonScores& person, std::size_t candidates, std::size_t reference,
+                          const std::vector<HeavyLimit>& limits) {
   Conclusion out;
   out.subjects = 1;
   out.trials = person.trials();
@@ -100,21 +152,26 @@ Conclusion concludePerson(const PersonScores& person, std::size_t candidates, st
     out.r2 += c.r2[*out.best] / static_cast<double>(person.conditions.size());
     out.ceiling += c.ceiling / static_cast<double>(person.conditions.size());
   }
+  out.misfit = misfitInPerson(person, *out.best);
+  const PersonScores outside = outsideTheRange(person);
+  findMassesAtEdge(out, {person}, limits, [&](std::size_t a, std::size_t b) { return compareInPerson(outside, a, b); });
   if (candidates < 3) out.reason = Obstacle::NothingToCompare;
   else if (referenceStands(out, reference)) out.reason = Obstacle::Reference;
   else if (!isToldFromAll(out)) out.reason = Obstacle::NotToldApart;
+  else if (!out.atEdge.empty()) out.reason = Obstacle::MassAtEdge;
   else if (describesPoorly(out)) out.reason = Obstacle::Poor;
   else out.reason = Obstacle::None, out.follows = out.best;
   out.each = {out.follows};
   return out;
 }
 
-Conclusion concludePeople(const std::vector<PersonScores>& everyone, std::size_t candidates, std::size_t reference) {
+Conclusion concludePeople(const std::vector<PersonScores>& everyone, std::size_t candidates, std::size_t reference,
+                          const std::vector<HeavyLimit>& limits) {
   std::vector<PersonScores> people;
   for (const PersonScores& person : everyone)
     if (!person.conditions.empty()) people.push_back(person);
   if (people.size() < 2) {
-    Conclusion out = concludePerson(people.empty() ? PersonScores{} : people.front(), candidates, reference);
+    Conclusion out = concludePerson(people.empty() ? PersonScores{} : people.front(), candidates, reference, limits);
     out.subjects = people.size();
     return out;
   }
@@ -133,7 +190,7 @@ Conclusion concludePeople(const std::vector<PersonScores>& everyone, std::size_t
         for (const double y : condition.score[c]) log[c] -= condition.effectiveSamples / 2 * y;
     evidence.push_back(std::move(log));
     out.trials += person.trials();
-    out.each.push_back(concludePerson(person, candidates, reference).follows);
+    out.each.push_back(concludePerson(person, candidates, reference, limits).follows);
   }
   const auto differences = [&](std::size_t a, std::size_t b) {
     std::vector<double> d;
@@ -149,6 +206,18 @@ Conclusion concludePeople(const std::vector<PersonScores>& everyone, std::size_t
       out.r2 += share * c.r2[*out.best];
       out.ceiling += share * c.ceiling;
     }
+  std::vector<double> misfits;
+  for (const PersonScores& person : people)
+    if (std::none_of(person.conditions.begin(), person.conditions.end(), [](const ConditionScores& c) { return c.own.empty(); }))
+      misfits.push_back(meanMisfit(person, *out.best));
+  out.misfit = computeTTest(misfits);
+  std::vector<std::vector<double>> outside;
+  for (const PersonScores& person : people) outside.push_back(scoresOf(outsideTheRange(person), candidates));
+  findMassesAtEdge(out, people, limits, [&](std::size_t a, std::size_t b) {
+    std::vector<double> d;
+    for (const auto& row : outside) d.push_back(row[a] - row[b]);
+    return computeTTest(d);
+  });
   bool differ = false;  // people who are decided for another than the best, or for different ones
   for (const auto& each : out.each)
     for (const auto& other : out.each) differ = differ || (each && other && *each != *other);
@@ -160,6 +229,7 @@ Conclusion concludePeople(const std::vector<PersonScores>& everyone, std::size_t
   else if (referenceStands(out, reference)) out.reason = Obstacle::Reference;
   else if (!isToldFromAll(out)) out.reason = Obstacle::NotToldApart;
   else if (!frequent) out.reason = Obstacle::SubjectsDiffer;
+  else if (!out.atEdge.empty()) out.reason = Obstacle::MassAtEdge;
   else if (describesPoorly(out)) out.reason = Obstacle::Poor;
   else out.reason = Obstacle::None, out.follows = out.best;
   return out;

@@ -13,6 +13,10 @@ namespace reachlab::analysis {
 struct ConditionScores {
   std::size_t condition = 0;
   std::vector<std::vector<double>> score;
+  // The same with hand masses outside the range [candidate][trial], empty for a candidate whose mass is not at the edge of the range. The
+  // whole vector may be empty.
+  std::vector<std::vector<double>> beyond;
+  std::vector<double> own;       // ln S of each trial for the mean of the person's other trials. Empty: the lack of fit is not tested
   double effectiveSamples = 10;  // of a trial
   std::vector<double> r2;        // one a candidate
   double ceiling = 1;            // R^2 of the person's own mean
@@ -23,15 +27,25 @@ struct PersonScores {
   std::size_t trials() const;
 };
 
-enum class Obstacle { None, TooFewTrials, TooFewSubjects, Reference, NotToldApart, SubjectsDiffer, Poor, NothingToCompare };
-/// "", "too_few_trials", "too_few_subjects", "reference", "not_told_apart", "subjects_differ", "poor", "nothing_to_compare".
+/// Two candidates by index: for a hand of unlimited mass the first becomes the second.
+struct HeavyLimit {
+  std::size_t candidate = 0, becomes = 0;
+};
+
+enum class Obstacle { None, TooFewTrials, TooFewSubjects, Reference, NotToldApart, SubjectsDiffer, MassAtEdge, Poor, NothingToCompare };
+/// "", "too_few_trials", "too_few_subjects", "reference", "not_told_apart", "subjects_differ", "mass_at_edge", "poor",
+/// "nothing_to_compare".
 std::string_view nameOf(Obstacle reason);
 
 /// Of ln S: a candidate whose squared errors are less than 10 % above the closest candidate's is not told from it, whatever p says.
 /// Trials of one hand tell such neighbours apart significantly, and now and then the wrong way round (docs/analysis.md, "Does it find the
 /// truth?").
 inline constexpr double kLeastDifference = 0.1;
-inline constexpr double kTrialsLevel = 0.01, kSubjectsLevel = 0.05, kMinExceedance = 0.85, kPoor = 0.1;
+inline constexpr double kTrialsLevel = 0.01, kSubjectsLevel = 0.05, kMinExceedance = 0.85;
+/// Of ln S: a candidate whose squared errors are this much above those of the person's own mean does not describe the movements.
+inline constexpr double kLeastMisfit = 0.05, kMisfitLevel = 0.05;
+/// Of (1 - R^2) / (1 - ceiling): with more unexplained squares than this, a candidate does not describe all trials, whatever its mean score.
+inline constexpr double kMostUnexplained = 1.2;
 inline constexpr std::size_t kFewestSubjects = 5, kFewestForSignFlip = 6;
 
 struct Conclusion {
@@ -51,7 +65,10 @@ struct Conclusion {
   std::vector<TTest> against;       // of each candidate: score - best's score
   // pairs with p above the level after Holm's correction, or too small a difference
   std::vector<std::pair<std::size_t, std::size_t>> notToldApart;
-  double r2 = 0, ceiling = 0;                    // of the best candidate; of people's own means
+  double r2 = 0, ceiling = 0;  // of the best candidate; of people's own means
+  TTest misfit;                // best's score - that of the person's own mean: the lack of fit. p = 1 if it was not tested
+  // Candidates with a hand mass at the edge of the range that might be nearer with a mass outside it.
+  std::vector<std::size_t> atEdge;
   std::vector<std::optional<std::size_t>> each;  // what each person was decided for; parallel to the people given
   bool decided() const { return follows.has_value(); }
   /// The closest candidate is told from `candidate`: p below the level, and a score that is lower by kLeastDifference or more.
@@ -61,11 +78,13 @@ struct Conclusion {
 /// The conclusion about one person in any number of conditions. A candidate is named if it is told from every other candidate and from the
 /// reference at p < 0.01 (an intersection-union test). `reference` is the index of the candidate that ignores the object, and `candidates`
 /// counts it. The conclusion says nothing about other people.
-Conclusion concludePerson(const PersonScores& person, std::size_t candidates, std::size_t reference);
+Conclusion concludePerson(const PersonScores& person, std::size_t candidates, std::size_t reference,
+                          const std::vector<HeavyLimit>& limits = {});
 
 /// The conclusion about several people, with one number per person. A single person is judged by concludePerson. A candidate is named if
 /// all of this holds: there are five people or more, it is told from every rival at p < 0.05 (paired t over people), its protected
 /// exceedance probability is 0.85 or more, and no person is decided for a rival. People without conditions are left out.
-Conclusion concludePeople(const std::vector<PersonScores>& people, std::size_t candidates, std::size_t reference);
+Conclusion concludePeople(const std::vector<PersonScores>& people, std::size_t candidates, std::size_t reference,
+                          const std::vector<HeavyLimit>& limits = {});
 
 }  // namespace reachlab::analysis

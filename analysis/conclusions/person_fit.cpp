@@ -2,217 +2,159 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
+#include <limits>
 #include <numeric>
-#include <set>
+
+#include "analysis/conclusions/comparison.h"
 
 namespace reachlab::analysis {
 namespace {
 
-constexpr double kMinCost = 1e-12;      // of the cost of not moving: below, a fit is exact
-constexpr double kPlanStep = 0.018;     // of ln P
-constexpr int kPlansAside = 3;          // steps to either side of a centre: 5 %
-constexpr double kPlanNearTime = 0.07;  // P lies within that of the median fitted T
-constexpr int kMaxSteps = 45;           // P between 0.44 and 2.25 times its first value
+constexpr double kSameMass = 0.01;  // [kg], above 1 kg a share of the mass
+constexpr int kMassRounds = 6;
 
-double medianOf(std::vector<double> values) {
-  const std::size_t n = values.size();
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(n / 2), values.end());
-  const double upper = values[n / 2];
-  if (n % 2 == 1) return upper;
-  return (upper + *std::max_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(n / 2))) / 2;
-}
-
-/// All trials fitted with one shape law.
-struct Fits {
-  std::vector<MovementFit> trials;
-  std::vector<double> score;
-  double plan = 0;  // [s]
+/// The fits with one mass of the hand, or with the only shape of a candidate that knows no mass.
+struct MassFits {
+  double mass = 0;
+  std::shared_ptr<const ProfileFamily> family;
+  FamilyFits fits;
 };
-
-double scoreOf(const MovementFit& fit, double rest) { return std::log(std::max(fit.found ? fit.cost : rest, kMinCost * rest)); }
-
-struct FamilyFits {
-  Fits anew;
-  std::map<int, Fits> plans;  // by step of ln P
-  Fits between;               // at the plan where the parabola through the costs of the best step and its neighbours is least; may be none
-};
-
-class Fitter {
- public:
-  Fitter(std::span<const FitWindow> windows, std::span<const double> rest) : windows_(windows), rest_(rest) {
-    for (const FitWindow& w : windows) moments_.push_back(momentsOf(w));
-  }
-
-  FamilyFits fit(const ProfileFamily& family, double taskDuration) {
-    FamilyFits out;
-    Profile scratch;
-    Profile first;
-    if (!family.at(taskDuration, first)) return out;
-    const ProfileMoments shape = momentsOf(first);
-    for (std::size_t i = 0; i < windows_.size(); ++i) {
-      MovementFit best;
-      for (const double factor : {1.0, 0.85, 1.18}) {
-        const MovementFit fit = fitMovement(windows_[i], family, startFrom(moments_[i], shape, factor), scratch, kRoughFit);
-        if (fit.found && (!best.found || fit.cost < best.cost)) best = fit;
-      }
-      if (best.found) best = fitMovement(windows_[i], family, best, scratch);
-      out.anew.trials.push_back(best);
-      out.anew.score.push_back(scoreOf(best, rest_[i]));
-    }
-    std::vector<double> durations;
-    for (const MovementFit& f : out.anew.trials)
-      if (f.found) durations.push_back(f.duration);
-    if (durations.empty()) return out;
-    const double centre = medianOf(durations);
-    const auto at = [&](int step) -> const Fits& {
-      const auto known = out.plans.find(step);
-      if (known != out.plans.end()) return known->second;
-      // What was fitted with the nearest plan is the best start.
-      const auto after = out.plans.lower_bound(step);
-      auto nearest = after;
-      if (after != out.plans.begin() && (after == out.plans.end() || step - std::prev(after)->first < after->first - step))
-        nearest = std::prev(after);
-      const bool none = nearest == out.plans.end() || nearest->second.trials.empty();
-      const std::vector<MovementFit>& starts = none ? out.anew.trials : nearest->second.trials;
-      return out.plans.emplace(step, held(family, centre * std::exp(kPlanStep * step), starts, scratch)).first->second;
-    };
-    // The consistent plan: the one whose fitted durations have it for their median.
-    int consistent = 0;
-    for (int round = 0; round < 6; ++round) {
-      const Fits& fits = at(consistent);
-      if (fits.trials.empty()) break;
-      const int next =
-          std::clamp(static_cast<int>(std::lround(std::log(medianDuration(fits) / centre) / kPlanStep)), -kMaxSteps, kMaxSteps);
-      if (next == consistent) break;
-      consistent = next;
-    }
-    for (int k = 0; k <= kPlansAside; ++k)
-      for (const int step : {k, -k, consistent + k, consistent - k}) at(step);
-    std::erase_if(out.plans, [](const auto& entry) { return entry.second.trials.empty(); });
-    if (const double plan = leastCost(out.plans, centre); plan > 0) out.between = held(family, plan, out.anew.trials, scratch);
-    return out;
-  }
-
-  /// Costs are parabolas in ln P, scores are their logarithms: without scatter the score has a cusp that its own parabola misses.
-  static double leastCost(const std::map<int, Fits>& plans, double centre) {
-    const auto sum = [](const Fits& f) { return std::accumulate(f.score.begin(), f.score.end(), 0.0); };
-    const auto best =
-        std::min_element(plans.begin(), plans.end(), [&](const auto& a, const auto& b) { return sum(a.second) < sum(b.second); });
-    if (best == plans.end()) return 0;
-    const auto before = plans.find(best->first - 1), after = plans.find(best->first + 1);
-    if (before == plans.end() || after == plans.end()) return 0;
-    double a = 0, c = 0;
-    for (std::size_t i = 0; i < best->second.score.size(); ++i) {
-      a += std::exp(std::min(60.0, before->second.score[i] - best->second.score[i]));
-      c += std::exp(std::min(60.0, after->second.score[i] - best->second.score[i]));
-    }
-    const double b = static_cast<double>(best->second.score.size()), curvature = a - 2 * b + c;
-    if (!(curvature > 0)) return 0;
-    return centre * std::exp(kPlanStep * (best->first + std::clamp(0.5 * (a - c) / curvature, -0.5, 0.5)));
-  }
-
-  static double medianDuration(const Fits& fits) {
-    std::vector<double> durations;
-    for (const MovementFit& f : fits.trials) durations.push_back(f.duration);
-    return medianOf(std::move(durations));
-  }
-
- private:
-  Fits held(const ProfileFamily& family, double plan, const std::vector<MovementFit>& starts, Profile& profile) const {
-    Fits fits;
-    fits.plan = plan;
-    if (!family.at(plan, profile)) return fits;
-    const ProfileMoments shape = momentsOf(profile);
-    const ProfilePieces pieces(profile);
-    for (std::size_t i = 0; i < windows_.size(); ++i) {
-      const MovementFit start = starts[i].found ? starts[i] : startFrom(moments_[i], shape);
-      fits.trials.push_back(fitMovement(windows_[i], pieces, start));
-      fits.score.push_back(scoreOf(fits.trials.back(), rest_[i]));
-    }
-    return fits;
-  }
-
-  std::span<const FitWindow> windows_;
-  std::span<const double> rest_;
-  std::vector<ProfileMoments> moments_;
-};
+using Masses = std::vector<MassFits>;
 
 /// A choice and the scores that all trials have with it.
 struct Judged {
   ShapeChoice choice;
-  std::vector<double> score;
-  double sum = 0;  // over the trials that chose
-  bool any = false;
+  JudgedShape shape;
 };
 
-double sumOver(const std::vector<double>& score, const std::vector<std::size_t>& trials) {
+Judged choose(const Masses& masses, const std::vector<std::size_t>& by) {
+  Judged best;
+  for (std::size_t f = 0; f < masses.size(); ++f) {
+    JudgedShape shape = chooseShape(masses[f].fits, by);
+    if (shape.any && (!best.shape.any || shape.sum < best.shape.sum))
+      best.choice = {shape.law, shape.plan, f, masses[f].mass}, best.shape = std::move(shape);
+  }
+  return best;
+}
+
+/// ln S of each trial, with the shape that the other four folds choose.
+std::vector<double> heldOutScores(const Masses& masses, std::span<const double> rest, std::vector<ShapeChoice>* choices = nullptr) {
+  const std::size_t n = rest.size();
+  std::vector<double> score(n);
+  for (int fold = 0; fold < kFolds; ++fold) {
+    std::vector<std::size_t> others;
+    for (std::size_t i = 0; i < n; ++i)
+      if (static_cast<int>(i % kFolds) != fold) others.push_back(i);
+    const Judged judged = choose(masses, others);
+    if (choices) choices->push_back(judged.choice);
+    for (std::size_t i = 0; i < n; ++i)
+      if (static_cast<int>(i % kFolds) == fold) score[i] = judged.shape.any ? judged.shape.score[i] : std::log(rest[i]);
+  }
+  return score;
+}
+
+/// One mass with the scores of all trials, in the order of the masses.
+struct MassScore {
+  double mass = 0;
+  std::vector<double> score;
   double sum = 0;
-  for (const std::size_t i : trials) sum += score[i];
-  return sum;
+};
+
+std::vector<MassScore> scoresByMass(const Masses& masses, const std::vector<std::size_t>& everyTrial) {
+  std::vector<MassScore> out;
+  for (const MassFits& m : masses)
+    if (JudgedShape shape = chooseShape(m.fits, everyTrial); shape.any) out.push_back({m.mass, std::move(shape.score), shape.sum});
+  std::sort(out.begin(), out.end(), [](const MassScore& a, const MassScore& b) { return a.mass < b.mass; });
+  return out;
 }
 
-/// The best plan of one family, refined by the parabola through its neighbours in ln P.
-Judged bestPlan(const FamilyFits& fits, std::size_t family, const std::vector<std::size_t>& by) {
-  Judged best;
-  const auto farness = [&](const Fits& f) {
-    std::vector<double> durations;
-    for (const std::size_t i : by) durations.push_back(f.trials[i].duration);
-    return std::abs(f.plan / medianOf(std::move(durations)) - 1);
+std::size_t bestOf(const std::vector<MassScore>& scores) {
+  const auto less = [](const MassScore& a, const MassScore& b) { return a.sum < b.sum; };
+  return static_cast<std::size_t>(std::min_element(scores.begin(), scores.end(), less) - scores.begin());
+}
+
+/// The next mass to try near the best: the least of the parabola through the costs of the best mass and its neighbours. If the parabola has
+/// none, or puts it at a mass that was tried, the middle of the wider gap beside the best. nullopt: the gaps are narrow enough.
+std::optional<double> nextMass(const std::vector<MassScore>& scores) {
+  const std::size_t best = bestOf(scores), n = scores.size();
+  const double here = scores[best].mass, same = kSameMass * std::max(1.0, here);
+  const double below = best > 0 ? here - scores[best - 1].mass : 0, above = best + 1 < n ? scores[best + 1].mass - here : 0;
+  if (std::max(below, above) <= 2 * same) return std::nullopt;
+  const double middle = below > above ? here - below / 2 : here + above / 2;
+  if (n < 3) return middle;
+  const std::size_t centre = std::clamp<std::size_t>(best, 1, n - 2);
+  double mass[3], cost[3] = {};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const MassScore& at = scores[centre + k - 1];
+    mass[k] = at.mass;
+    for (std::size_t i = 0; i < at.score.size(); ++i) cost[k] += std::exp(std::min(60.0, at.score[i] - scores[best].score[i]));
+  }
+  const double rise = (cost[2] - cost[1]) / (mass[2] - mass[1]), fall = (cost[1] - cost[0]) / (mass[1] - mass[0]);
+  const double curvature = (rise - fall) / (mass[2] - mass[0]);
+  if (!(curvature > 0)) return middle;
+  const double least = std::clamp((mass[0] + mass[1]) / 2 - fall / (2 * curvature), here - below, here + above);
+  for (const MassScore& at : scores)
+    if (std::abs(at.mass - least) <= same) return middle;
+  return least;
+}
+
+/// The interval of the masses whose scores are not above the best by more than chance. The mean difference of the scores grows with the square
+/// of the distance, and its error with the distance. So t reaches half of Student's quantile at the end of the interval.
+Bounds intervalOf(const std::vector<MassScore>& scores) {
+  const std::size_t best = bestOf(scores), n = scores.size();
+  std::vector<double> excess(n, -1);  // t less half the quantile, in parts of it: above 0 outside the interval. At the best mass t is 0
+  for (std::size_t k = 0; k < n; ++k) {
+    if (k == best) continue;
+    std::vector<double> difference(scores[k].score);
+    for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= scores[best].score[i];
+    const TTest test = computeSerialTTest(difference);
+    excess[k] = test.error > 0 && test.freedom > 0 ? test.t / (computeTQuantile(0.95, test.freedom) / 2) - 1 : test.mean > 0 ? 1 : -1;
+  }
+  const auto crossing = [&](std::size_t in, std::size_t out) {
+    return scores[in].mass + (scores[out].mass - scores[in].mass) * excess[in] / (excess[in] - excess[out]);
   };
-  const std::pair<const int, Fits>* place = nullptr;
-  const std::pair<const int, Fits>* nearest = nullptr;
-  double least = 0, nearness = 0;
-  for (const auto& entry : fits.plans) {
-    const double far = farness(entry.second);
-    if (nearest == nullptr || far < nearness) nearest = &entry, nearness = far;
-    if (far > kPlanNearTime) continue;
-    const double sum = sumOver(entry.second.score, by);
-    if (place == nullptr || sum < least) place = &entry, least = sum;
-  }
-  if (place == nullptr) place = nearest;
-  if (place == nullptr) return best;
-  best.any = true;
-  best.choice = {TimeLaw::OnePlan, place->second.plan, family};
-  best.score = place->second.score;
-  best.sum = sumOver(best.score, by);
-  if (!fits.between.trials.empty() && farness(fits.between) <= kPlanNearTime && sumOver(fits.between.score, by) < best.sum) {
-    best.choice.plan = fits.between.plan;
-    best.score = fits.between.score;
-    best.sum = sumOver(best.score, by);
-  }
-  const auto before = fits.plans.find(place->first - 1), after = fits.plans.find(place->first + 1);
-  if (before == fits.plans.end() || after == fits.plans.end()) return best;
-  const double b = sumOver(place->second.score, by);
-  const double a = sumOver(before->second.score, by), c = sumOver(after->second.score, by);
-  const double curvature = a - 2 * b + c;
-  if (!(curvature > 0)) return best;
-  const double x = std::clamp(0.5 * (a - c) / curvature, -0.5, 0.5);
-  if (b - (a - c) * (a - c) / (8 * curvature) >= best.sum) return best;
-  best.score = place->second.score;
-  for (std::size_t i = 0; i < best.score.size(); ++i)
-    best.score[i] += x * (after->second.score[i] - before->second.score[i]) / 2 +
-                     x * x * (before->second.score[i] - 2 * place->second.score[i] + after->second.score[i]) / 2;
-  best.choice.plan = place->second.plan * std::exp(kPlanStep * x);
-  best.sum = sumOver(best.score, by);
-  return best;
+  std::size_t low = 0, high = n - 1;
+  while (excess[low] > 0) ++low;
+  while (excess[high] > 0) --high;
+  return {low > 0 ? crossing(low, low - 1) : scores[low].mass, high + 1 < n ? crossing(high, high + 1) : scores[high].mass};
 }
 
-Judged choose(const std::vector<FamilyFits>& families, const std::vector<std::size_t>& by) {
-  Judged best;
-  for (std::size_t f = 0; f < families.size(); ++f) {
-    if (families[f].anew.score.empty()) continue;
-    const double sum = sumOver(families[f].anew.score, by);
-    if (!best.any || sum < best.sum) best = {{TimeLaw::Anew, 0, f}, families[f].anew.score, sum, true};
-    Judged plan = bestPlan(families[f], f, by);
-    if (plan.any && plan.sum < best.sum) best = std::move(plan);
+/// Fits the mass between the masses of the candidate and adds the fits that it needs: half-way between those masses, then nearer and nearer to the
+/// least cost, then at the ends of the interval.
+MassFit fitMass(const Candidate& candidate, const ShapeFitter& fitter, const std::vector<std::size_t>& everyTrial, Masses& masses) {
+  const auto add = [&](double mass, const std::shared_ptr<const ProfileFamily>& family) {
+    const auto distance = [&](const MassFits& m) {
+      return m.fits.anew.trials.empty() ? std::numeric_limits<double>::infinity() : std::abs(m.mass - mass);
+    };
+    const auto nearest =
+        std::min_element(masses.begin(), masses.end(), [&](const MassFits& a, const MassFits& b) { return distance(a) < distance(b); });
+    FamilyFits fits = fitter.fitNear(*family, nearest->fits);
+    masses.push_back({mass, family, std::move(fits)});
+  };
+  const auto addAt = [&](double mass) { add(mass, candidate.familyOf(mass)); };
+  // The costs may have several valleys, since a plan for another duration can stand for another mass.
+  for (const MassFamily& m : candidate.between) add(m.mass, m.family);
+  const std::vector<MassScore> coarse = scoresByMass(masses, everyTrial);
+  const std::size_t best = bestOf(coarse);
+  if (best > 0) addAt((coarse[best - 1].mass + coarse[best].mass) / 2);
+  if (best + 1 < coarse.size()) addAt((coarse[best].mass + coarse[best + 1].mass) / 2);
+  for (int round = 0; round < kMassRounds; ++round) {
+    const std::optional<double> next = nextMass(scoresByMass(masses, everyTrial));
+    if (!next) break;
+    addAt(*next);
   }
-  return best;
+  const Bounds rough = intervalOf(scoresByMass(masses, everyTrial));
+  for (const double end : {rough.low, rough.high})
+    if (std::none_of(masses.begin(), masses.end(), [&](const MassFits& m) { return std::abs(m.mass - end) <= kSameMass; })) addAt(end);
+  const std::vector<MassScore> scores = scoresByMass(masses, everyTrial);
+  MassFit out;
+  out.mass = scores[bestOf(scores)].mass;
+  out.interval = intervalOf(scores);
+  out.atEdge = out.mass >= candidate.masses.back() || (out.mass <= candidate.masses.front() && candidate.masses.front() > 0);
+  return out;
 }
 
 }  // namespace
-
-std::string_view nameOf(TimeLaw law) { return law == TimeLaw::Anew ? "anew" : "one-plan"; }
 
 double computeFittedEpsilon(const FitWindow& window, const Profile& profile, const MovementFit& fit) {
   double sum = 0;
@@ -229,41 +171,41 @@ PersonFit fitPerson(std::span<FitWindow> windows, std::span<const double> durati
   std::size_t samples = 0;
   for (const FitWindow& w : windows) rest.push_back(restCost(w)), wholeRest += rest.back(), samples += w.velocity.size();
   const double typical = medianOf({durations.begin(), durations.end()});
-  Fitter fitter(windows, rest);
+  const ShapeFitter fitter(windows, rest);
   std::vector<std::size_t> everyTrial(n);
   std::iota(everyTrial.begin(), everyTrial.end(), std::size_t{0});
 
   for (const Candidate& candidate : set.candidates) {
     CandidateFit fit;
-    std::vector<FamilyFits> families;
-    for (const auto& family : candidate.families) {
-      families.push_back(fitter.fit(*family, typical));
-      if (candidate.reference()) families.back().plans.clear(), families.back().between = {};  // it has no plan to choose
-    }
-    fit.score.resize(n);
-    for (int fold = 0; fold < kFolds; ++fold) {
-      std::vector<std::size_t> others;
-      for (std::size_t i = 0; i < n; ++i)
-        if (static_cast<int>(i % kFolds) != fold) others.push_back(i);
-      const Judged judged = choose(families, others);
-      fit.foldChoice.push_back(judged.choice);
-      for (std::size_t i = 0; i < n; ++i)
-        if (static_cast<int>(i % kFolds) == fold) fit.score[i] = judged.any ? judged.score[i] : std::log(rest[i]);
-    }
-    const Judged all = choose(families, everyTrial);
-    fit.choice = all.choice;
-    double cost = 0, squares = 0, time = 0;
-    Profile profile;
-    const ProfileFamily& family = *candidate.families[all.choice.family];
-    const bool held = all.any && all.choice.law == TimeLaw::OnePlan && family.at(all.choice.plan, profile);
-    const ProfilePieces pieces(profile);
-    for (std::size_t i = 0; i < n; ++i) {
-      MovementFit best;
-      if (all.any) {
-        const MovementFit& start = families[all.choice.family].anew.trials[i];
-        best = held ? fitMovement(windows[i], pieces, start) : start;
-        if (!held && best.found) family.at(best.duration, profile);
+    Masses masses;
+    for (std::size_t f = 0; f < candidate.families.size(); ++f)
+      masses.push_back({candidate.masses.empty() ? 0 : candidate.masses[f], candidate.families[f],
+                        fitter.fit(*candidate.families[f], typical, !candidate.reference())});  // the reference has no plan to choose
+    if (candidate.familyOf && choose(masses, everyTrial).shape.any) {
+      fit.mass = fitMass(candidate, fitter, everyTrial, masses);
+      if (fit.mass->atEdge) {
+        Masses beyond;
+        for (const MassFamily& m : candidate.beyond) beyond.push_back({m.mass, m.family, fitter.fit(*m.family, typical)});
+        fit.beyond = heldOutScores(beyond, rest);
       }
+    }
+    fit.score = heldOutScores(masses, rest, &fit.foldChoice);
+    const Judged all = choose(masses, everyTrial);
+    fit.choice = all.choice;
+    fit.family = masses[all.choice.family].family;
+    Profile profile;
+    if (all.shape.any)
+      fit.trials =
+          all.choice.law == TimeLaw::OnePlan
+              ? fitter.fitPlan(*fit.family, all.choice.plan, masses[all.choice.family].fits.anew.trials, ShapeFitter::Starts::Several)
+                    .trials
+              : masses[all.choice.family].fits.anew.trials;
+    fit.trials.resize(n);
+    if (all.choice.law == TimeLaw::OnePlan) fit.family->at(all.choice.plan, profile);
+    double cost = 0, squares = 0, time = 0;
+    for (std::size_t i = 0; i < n; ++i) {
+      const MovementFit& best = fit.trials[i];
+      if (all.choice.law == TimeLaw::Anew && best.found) fit.family->at(best.duration, profile);
       const double epsilon = best.found ? computeFittedEpsilon(windows[i], profile, best)
                                         : std::sqrt(rest[i] / static_cast<double>(windows[i].velocity.size()));
       fit.mean.resize(out.own.mean.value.size());
@@ -272,7 +214,6 @@ PersonFit fitPerson(std::span<FitWindow> windows, std::span<const double> durati
         const double t = place.onset + place.duration * (out.own.mean.first + out.own.mean.step * static_cast<double>(k));
         fit.mean[k] += best.amplitude / place.amplitude * profile.at((t - best.onset) / best.duration) / static_cast<double>(n);
       }
-      fit.trials.push_back(best);
       fit.epsilon.push_back(epsilon);
       cost += best.found ? best.cost : rest[i];
       squares += epsilon * epsilon * static_cast<double>(windows[i].velocity.size());

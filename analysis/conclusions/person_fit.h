@@ -1,30 +1,39 @@
 #pragma once
+#include <memory>
 #include <optional>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "analysis/conclusions/candidates.h"
 #include "analysis/conclusions/person_template.h"
+#include "analysis/conclusions/shape_fits.h"
+#include "analysis/measures/statistics.h"
 
 namespace reachlab::analysis {
-
-/// How a person's plan follows the time that a trial takes: planned anew for it, or one plan that is run faster or slower.
-enum class TimeLaw { Anew, OnePlan };
-std::string_view nameOf(TimeLaw law);  // "anew", "one-plan"
 
 /// The shape that a candidate is given for all of a person's trials in a condition.
 struct ShapeChoice {
   TimeLaw law = TimeLaw::Anew;
   double plan = 0;         // [s] P, for OnePlan
-  std::size_t family = 0;  // index into Candidate::families
+  std::size_t family = 0;  // index into Candidate::families, or larger for a mass that is not among Candidate::masses
+  double mass = 0;         // [kg] of that family, where the candidate depends on it
+};
+
+/// The mass of the hand that fits best.
+struct MassFit {
+  double mass = 0;      // [kg]
+  Bounds interval;      // [kg] 95 %, cut at the range of masses
+  bool atEdge = false;  // the mass is an end of the range, so that a mass outside may fit better. 0 kg is no such end
 };
 
 /// One candidate against one person's trials in one condition.
 struct CandidateFit {
-  std::vector<double> score;            // ln S of each trial, its shape chosen by the other four folds
-  std::vector<ShapeChoice> foldChoice;  // by all trials but those of fold 0 … 4
-  ShapeChoice choice;                   // by all trials; the fits below are with it
+  std::vector<double> score;                    // ln S of each trial, its shape chosen by the other four folds
+  std::vector<double> beyond;                   // the same with hand masses outside the range. Empty unless the mass is at its edge
+  std::vector<ShapeChoice> foldChoice;          // by all trials but those of fold 0 … 4
+  ShapeChoice choice;                           // by all trials; the fits below are with it
+  std::shared_ptr<const ProfileFamily> family;  // of `choice`
+  std::optional<MassFit> mass;                  // by all trials, empty if no mass was searched
   std::vector<MovementFit> trials;
   std::vector<double> epsilon;  // [m/s] of each trial: sqrt(sum r^2 / N), unweighted
   double meanScore = 0;

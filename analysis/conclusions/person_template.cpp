@@ -14,6 +14,7 @@ constexpr double kStep = 1.0 / 200, kFirst = -0.6, kLast = 1.6;  // of s
 constexpr double kSmoothing = 0.06;                              // of s: width over which the variance is averaged
 constexpr double kMinScatter = 0.1;                              // of the largest
 constexpr int kRounds = 3;
+constexpr double kLeastSpread = 1e-6;  // variance of ln T below which the shape cannot change with it
 
 std::size_t gridSize() { return static_cast<std::size_t>(std::lround((kLast - kFirst) / kStep)) + 1; }
 
@@ -42,8 +43,53 @@ Profile profileOf(const Mean& mean) {
   return out;
 }
 
-double meanOf(std::span<const double> values) {
+/// A line over x at every phase, by least squares.
+class Lines {
+ public:
+  Lines() : sums_(gridSize()) {}
+  /// Adds a trial, or takes it out again with `sign` -1.
+  void add(const std::vector<double>& laid, double amplitude, double x, double sign) {
+    for (std::size_t k = 0; k < laid.size(); ++k) {
+      if (!std::isfinite(laid[k])) continue;
+      const double v = laid[k] / amplitude;
+      Sums& s = sums_[k];
+      s.n += sign, s.x += sign * x, s.xx += sign * x * x, s.v += sign * v, s.xv += sign * x * v;
+    }
+  }
+  Profile at(double x) const {
+    Profile out;
+    out.first = kFirst;
+    out.step = kStep;
+    for (const Sums& s : sums_) {
+      if (!(s.n > 0.5)) {
+        out.value.push_back(0);
+        continue;
+      }
+      const double spread = s.xx - s.x * s.x / s.n;
+      const double slope = s.n > 2.5 && spread > kLeastSpread * s.n ? (s.xv - s.x * s.v / s.n) / spread : 0;
+      out.value.push_back(s.v / s.n + slope * (x - s.x / s.n));
+    }
+    return out;
+  }
+
+ private:
+  struct Sums {
+    double n = 0, x = 0, xx = 0, v = 0, xv = 0;
+  };
+  std::vector<Sums> sums_;
+};
+
+double averageOf(std::span<const double> values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+/// ln T of each trial less the mean.
+std::vector<double> centredLogDurations(const std::vector<MovementFit>& places) {
+  std::vector<double> x;
+  for (const MovementFit& p : places) x.push_back(std::log(p.duration));
+  const double mean = averageOf(x);
+  for (double& value : x) value -= mean;
+  return x;
 }
 
 /// Keeps what s means: amplitudes of mean 1, durations of the trials' own mean, centres that do not wander.
@@ -137,7 +183,7 @@ double effectiveSamplesOf(std::span<const FitWindow> windows, const Profile& mea
 PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double> durations, bool keepApart) {
   PersonTemplate out;
   const std::size_t n = windows.size();
-  const double meanDuration = meanOf(durations);
+  const double meanDuration = averageOf(durations);
   out.place.resize(n);
   double widths = 0;
   for (const FitWindow& w : windows) widths += momentsOf(w).width;
@@ -187,17 +233,27 @@ PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double
   for (std::size_t i = 0; i < n; ++i) weigh(windows[i], out.place[i], out.scatter);
 
   double left = 0, whole = 0;
-  for (std::size_t i = 0; i < n; ++i) {  // the mean without the trial itself
+  const std::vector<double> x = centredLogDurations(out.place);
+  Lines lines;
+  for (std::size_t i = 0; i < n; ++i) layOver(windows[i], out.place[i], laid), lines.add(laid, out.place[i].amplitude, x[i], 1);
+  std::vector<double> ofMean, ofLine;
+  for (std::size_t i = 0; i < n; ++i) {  // without the trial itself
     Mean others = mean;
     layOver(windows[i], out.place[i], laid);
     for (std::size_t k = 0; k < laid.size(); ++k)
       if (std::isfinite(laid[k])) others.sum[k] -= laid[k] / out.place[i].amplitude, --others.count[k];
-    const MovementFit fit = fitMovement(windows[i], profileOf(others), out.place[i]);
     const double rest = restCost(windows[i]);
+    const auto scoreOf = [&](const MovementFit& fit) { return std::log(std::max(fit.cost, 1e-9 * rest)); };
+    const MovementFit fit = fitMovement(windows[i], profileOf(others), out.place[i]);
     left += fit.cost;
     whole += rest;
-    out.ceilingScore += std::log(std::max(fit.cost, 1e-9 * rest)) / static_cast<double>(n);
+    ofMean.push_back(scoreOf(fit));
+    lines.add(laid, out.place[i].amplitude, x[i], -1);
+    ofLine.push_back(scoreOf(fitMovement(windows[i], lines.at(x[i]), out.place[i])));
+    lines.add(laid, out.place[i].amplitude, x[i], 1);
   }
+  out.score = averageOf(ofLine) < averageOf(ofMean) ? ofLine : ofMean;
+  out.ceilingScore = averageOf(out.score);
   out.ceiling = whole > 0 ? 1 - left / whole : 0;
   out.effectiveSamples = effectiveSamplesOf(windows, out.mean, out.place);
   return out;

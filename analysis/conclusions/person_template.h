@@ -15,8 +15,11 @@ struct PersonTemplate {
   std::vector<MovementFit> place;         // of each trial on `mean`; amplitudes have mean 1, durations the trials' own
   std::vector<std::vector<float>> apart;  // [m/s] each trial's residual on the grid of `mean`, 0 where it has no samples
   double ceiling = 0;                     // R^2 of the mean of the other trials, over all trials
-  double ceilingScore = 0;                // its mean score, ln S
-  double effectiveSamples = 1;            // of a trial: samples / sum of squared autocorrelations of the residuals
+  /// ln S of each trial for the mean of the other trials, or for the line through the other trials over ln T at every phase. The line lets the
+  /// shape change with the duration. The description with the lower mean score is used for all trials.
+  std::vector<double> score;
+  double ceilingScore = 0;      // mean of `score`
+  double effectiveSamples = 1;  // of a trial: samples / sum of squared autocorrelations of the residuals
 };
 
 /// Three rounds of aligning and averaging, started from the moments of v^2. The square of w(s) = 1 / max(sigma(s), 0.1 max sigma) is then

@@ -20,7 +20,9 @@ using Names = std::vector<std::vector<predict::Criterion>>;
 /// One person's score of every candidate.
 struct PersonRow {
   std::string subject;
-  std::vector<double> score;
+  std::vector<double> score;     // less that of the reference
+  std::vector<Bounds> interval;  // 95 %, over the person's trials
+  std::vector<bool> atEdge;      // the hand's mass is at the edge of the range
   double ceiling = 0;
 };
 
@@ -33,13 +35,21 @@ Panel scorePanel(const Analysis& analysis, const std::string& title, const Names
   const std::size_t shown = names.size() - 1;  // the reference is the line at 0
   addCandidates(panel.x, std::span(names).first(shown));
   double ceiling = 0;
-  for (const PersonRow& row : rows) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const PersonRow& row = rows[i];
+    // Beside one another, so that intervals do not hide one another.
+    const double aside = rows.size() > 1 ? 0.5 * (static_cast<double>(i) / static_cast<double>(rows.size() - 1) - 0.5) : 0;
     Series s = subjectSeries(analysis, row.subject);
     if (!legend) s.label.clear();
-    for (std::size_t k = 0; k < shown; ++k) s.x.push_back(static_cast<double>(k + 1)), s.y.push_back(row.score[k] - row.score.back());
-    s.width = 0.8;
+    for (std::size_t k = 0; k < shown; ++k) {
+      s.x.push_back(static_cast<double>(k + 1) + aside), s.y.push_back(row.score[k]);
+      s.errorLow.push_back(row.interval[k].low), s.errorHigh.push_back(row.interval[k].high);
+    }
+    for (std::size_t k = 0; k < shown; ++k)
+      if (row.atEdge[k]) panel.words.push_back({s.x[k], s.y[k], "mass at edge", palette::kVermilion});
+    s.width = 0;  // criteria have no order that a line could follow
     panel.series.push_back(std::move(s));
-    ceiling += (row.ceiling - row.score.back()) / static_cast<double>(rows.size());
+    ceiling += row.ceiling / static_cast<double>(rows.size());
   }
   panel.rules.push_back({0, false, "reference", palette::kBlack, figure::Dash::Dashed});
   panel.rules.push_back({ceiling, false, "own mean", palette::kGrey, figure::Dash::Dotted});
@@ -55,9 +65,9 @@ NamedFigure scoreFigure(const Analysis& analysis) {
   out.name = "scores";
   out.caption =
       "How far each criterion is from the movements: a subject's score (mean of ln S, lower is nearer) less that of a minimum jerk that "
-      "ignores the object. A line joins one subject. Dashed: that reference. Dotted: what the mean of a subject's own other trials "
+      "ignores the object, with its 95 % interval over the subject's trials. Dashed: that reference. Dotted: what the mean of a subject's own other trials "
       "reaches, "
-      "below which nothing can be expected.";
+      "below which nothing can be expected. Mass at edge: the hand's mass that fits best is an end of its range.";
   Names all = analysis.common;
   std::vector<PersonRow> overall;
   bool legend = true;
@@ -66,8 +76,18 @@ NamedFigure scoreFigure(const Analysis& analysis) {
     std::vector<PersonRow> rows;
     for (const PersonResult& person : analysis.people) {
       if (person.condition != c || !person.fitted) continue;
-      PersonRow row{person.subject, {}, person.fit.own.ceilingScore};
-      for (const CandidateFit& fit : person.fit.candidates) row.score.push_back(fit.meanScore);
+      const CandidateFit& reference = person.fit.candidates.back();
+      PersonRow row;
+      row.subject = person.subject;
+      row.ceiling = person.fit.own.ceilingScore - reference.meanScore;
+      for (const CandidateFit& fit : person.fit.candidates) {
+        std::vector<double> difference(fit.score);
+        for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= reference.score[i];
+        row.score.push_back(fit.meanScore - reference.meanScore);
+        const Bounds interval = intervalOf(computeSerialTTest(difference));
+        row.interval.push_back(interval.finite() ? interval : Bounds{row.score.back(), row.score.back()});
+        row.atEdge.push_back(fit.mass && fit.mass->atEdge);
+      }
       rows.push_back(std::move(row));
     }
     if (rows.empty()) continue;

@@ -18,7 +18,7 @@ struct NamedFigure {
 
 // The conclusions. In conclusion_figures.cpp.
 
-/// Scores of subjects by criterion, against the reference. Lines join a subject. There is a panel for each condition and a panel over all.
+/// Scores of subjects by criterion, against the reference. Bars are 95 % over trials. There is a panel for each condition and a panel over all.
 NamedFigure scoreFigure(const Analysis& analysis);
 /// Protected exceedance probability of each candidate. No panels with one subject.
 NamedFigure posteriorFigure(const Analysis& analysis);

@@ -77,6 +77,21 @@ std::vector<const AnalyzedTrial*> usedTrials(const Analysis& analysis, std::size
   return used;
 }
 
+/// One scale of y for all panels, so that people can be compared.
+void shareScale(std::vector<Panel>& panels) {
+  double low = 0, high = 0;
+  const auto take = [&](const std::vector<double>& values) {
+    for (const double v : values)
+      if (std::isfinite(v)) low = std::min(low, v), high = std::max(high, v);
+  };
+  for (const Panel& panel : panels) {
+    for (const Series& s : panel.series) take(s.y);
+    for (const Band& b : panel.bands) take(b.low), take(b.high);
+  }
+  if (!(high > low)) return;
+  for (Panel& panel : panels) panel.y.from = low - 0.05 * (high - low), panel.y.to = high + 0.05 * (high - low);
+}
+
 }  // namespace
 
 NamedFigure paperFigure(const Analysis& analysis, std::size_t condition) {
@@ -226,6 +241,7 @@ NamedFigure peopleFigure(const Analysis& analysis, std::size_t condition) {
     residuals.push_back(std::move(rest));
   }
   if (fits.empty()) return out;
+  shareScale(fits), shareScale(residuals);
   const std::size_t columns = std::min<std::size_t>(3, fits.size());
   // A row of fits, then the row of their residuals.
   for (std::size_t first = 0; first < fits.size(); first += columns) {
@@ -239,7 +255,7 @@ NamedFigure peopleFigure(const Analysis& analysis, std::size_t condition) {
   out.figure.panelHeight = columns == 1 ? 45 : 30;
   out.caption = fmt::format(
       "{}: each subject's mean hand velocity (trials laid over one another by onset, duration and amplitude) ± SD, with the fitted "
-      "mean of the two closest criteria and of the reference; below, what they leave.",
+      "mean of the two closest criteria and of the reference; below, what they leave. All subjects have one scale.",
       analysis.conditions[condition].name);
   return out;
 }

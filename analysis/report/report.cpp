@@ -180,22 +180,26 @@ void addFits(Html& html, const Analysis& analysis, std::size_t condition) {
   if (r.handEpsilon.empty()) return;
   html.add(
       "<table><thead><tr><th>Criterion</th><th>paper’s ε (m/s)</th><th>95 % over subjects</th><th>object’s ε (m/s)</th><th>fitted ε "
-      "(m/s)</th><th>fitted T (s)</th><th>R²</th></tr></thead><tbody>");
+      "(m/s)</th><th>fitted T (s)</th><th>R²</th><th>hand mass (kg)</th></tr></thead><tbody>");
   const auto& candidates = r.candidates.candidates;
   const auto row = [&](const std::string& name, const EpsilonPlace* hand, const EpsilonPlace* object, std::optional<std::size_t> k) {
     double epsilon = 0, duration = 0, r2 = 0, people = 0;
+    std::vector<double> masses;
+    std::size_t atEdge = 0;
     for (const PersonResult& person : analysis.people) {
       if (person.condition != condition || !person.fitted || !k) continue;
       const CandidateFit& fit = person.fit.candidates[*k];
       epsilon += fit.epsilonOfAll, duration += fit.duration, r2 += fit.r2, people += 1;
+      if (fit.mass) masses.push_back(fit.mass->mass), atEdge += fit.mass->atEdge;
     }
     html.add(fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td>", escaped(name),
                          hand ? fmt::format("{:.4f}", hand->epsilon) : "–",
                          hand && hand->interval ? real(fmt::format("{:.4f} … {:.4f}", hand->interval->low, hand->interval->high)) : "–",
                          object ? fmt::format("{:.4f}", object->epsilon) : "–"));
-    html.add(people > 0
-                 ? fmt::format("<td>{:.4f}</td><td>{:.3f}</td><td>{:.4f}</td></tr>", epsilon / people, duration / people, r2 / people)
-                 : "<td>–</td><td>–</td><td>–</td></tr>");
+    html.add(people > 0 ? fmt::format("<td>{:.4f}</td><td>{:.3f}</td><td>{:.4f}</td>", epsilon / people, duration / people, r2 / people)
+                        : "<td>–</td><td>–</td><td>–</td>");
+    html.add(fmt::format("<td>{}{}</td></tr>", masses.empty() ? "–" : shortNumber(computeMeanSd(masses).mean),
+                         atEdge > 0 ? fmt::format(", {} at the edge of the range", plural(atEdge, "subject")) : ""));
   };
   for (const EpsilonPlace& place : r.handEpsilon) {
     const predict::Criterion criterion = r.signals[place.criterion].criterion;
@@ -228,6 +232,12 @@ void addRecovery(Html& html, const TruthRecovery& recovery, const std::vector<Na
   html.paragraph(
       fmt::format("Of {} studies that were simulated with a criterion for truth, {} named it, {} named another, {} stayed undecided.", all,
                   right, wrong, all - right - wrong));
+  if (recovery.others.empty()) return;
+  html.add(
+      "<table><thead><tr><th>People who move otherwise</th><th>named right</th><th>named wrong</th><th>undecided</th></tr></thead><tbody>");
+  for (const OtherTruth& o : recovery.others)
+    html.add(fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>", o.name, o.right, o.wrong, o.undecided));
+  html.add("</tbody></table>");
 }
 
 void addMeasures(Html& html, const Analysis& analysis, std::size_t condition) {
@@ -350,6 +360,7 @@ std::string makeReport(const ReportHeader& header, const Analysis& analysis, con
   html.paragraph(describeLimits(analysis));
   html.paragraph(
       "Definitions of all measures and columns: docs/analysis.md of Reachlab. Every number of a figure is in a CSV file beside this page.");
+  for (const std::string& sentence : header.plan) html.paragraph(sentence);
   html.paragraph("Command: " + header.command, "quiet");
   addProvenance(html, runs, notes);
   html.add("</body>\n</html>");

@@ -10,6 +10,7 @@ namespace reachlab::analysis {
 /// The header of a report.
 struct ReportHeader {
   std::string dataset, version, command;
+  std::vector<std::string> plan = {};  // sentences about the analysis plan and the departures from it
 };
 
 /// One self-contained HTML page. It begins with one plain sentence, a figure, and tables of the numbers. Success and learning follow, then

@@ -65,11 +65,7 @@ std::string describeCandidate(const std::vector<predict::Criterion>& criteria) {
   return joined(names) + (names.size() > 1 ? ", which predict the same" : "");
 }
 
-Names candidatesOf(const ConditionResult& result) {
-  Names names;
-  for (const Candidate& c : result.candidates.candidates) names.push_back(c.criteria);
-  return names;
-}
+Names candidatesOf(const ConditionResult& result) { return namesOf(result.candidates); }
 
 namespace {
 
@@ -100,10 +96,20 @@ std::string describeOutcome(const Conclusion& c, const Names& names) {
     }
     case Obstacle::SubjectsDiffer:
       return nothing(fmt::format("people differ. Closest over all is {}; each judged alone: {}", best, eachOf(c, names)));
-    case Obstacle::Poor:
+    case Obstacle::MassAtEdge: {
+      std::vector<std::string> which;
+      for (const std::size_t k : c.atEdge) which.push_back(describeCandidate(names[k]));
       return nothing(
-          fmt::format("{} is the closest of these, but describes the movements badly (R² {:.3f}; people's own means reach {:.3f})", best,
-                      c.r2, c.ceiling));
+          fmt::format("{} is the closest candidate, but the hand's mass of {} is at the edge of the range, and a mass outside it might "
+                      "describe the movements better. Widen the range of masses, or give the mass",
+                      best, joined(which)));
+    }
+    case Obstacle::Poor:
+      return nothing(fmt::format(
+          "{} is the closest of these, but does not fit. Its squared errors are {:.0f} % {} those of the person's other trials ({}), and it leaves "
+          "{:.2f} times the squares that their mean leaves",
+          best, 100 * std::abs(std::expm1(c.misfit.mean)), c.misfit.mean > 0 ? "above" : "below", pText(c.misfit.p),
+          (1 - c.r2) / (1 - c.ceiling)));
     case Obstacle::NothingToCompare:
       return nothing("fewer than two candidates were asked for or can be predicted here, so there is nothing to compare");
     case Obstacle::None: break;
@@ -130,11 +136,18 @@ std::string describeEvidence(const Conclusion& c, const Names& names) {
       fmt::format("Closest: {} ({}, {}). Nearest rival: {}, {} ({}).", describeCandidate(names[*c.best]), plural(c.subjects, "subject"),
                   plural(c.trials, "trial"), describeCandidate(names[*c.rival]), pText(c.p),
                   c.overSubjects ? "paired t over subjects" : "t over this person's trials, their serial correlation allowed for");
+  if (const Bounds interval = intervalOf(c.against[*c.rival]); interval.finite())
+    text += fmt::format(" Its squared errors are {:.0f} % larger {}.", 100 * std::expm1(c.against[*c.rival].mean),
+                        intervalText({100 * std::expm1(interval.low), 100 * std::expm1(interval.high)}));
+  if (!c.told(*c.rival)) text += fmt::format(" Bayes factor for a difference: {}.", shortNumber(computeBayesFactor(c.against[*c.rival])));
   if (c.signFlipP) text += fmt::format(" The same by exchange of signs: {}.", pText(*c.signFlipP));
   if (!c.posterior.empty())
     text += fmt::format(" Probability that it is the most frequent among people: {:.2f} (protected exceedance; {:.2f} is asked for).",
                         c.posterior[*c.best], kMinExceedance);
   text += fmt::format(" R² {:.3f}; the mean of a person's other trials reaches {:.3f}.", c.r2, c.ceiling);
+  if (c.misfit.mean != 0)
+    text += fmt::format(" Lack of fit: held-out squared errors are {:.0f} % {} those of that mean ({}).",
+                        100 * std::abs(std::expm1(c.misfit.mean)), c.misfit.mean > 0 ? "above" : "below", pText(c.misfit.p));
   return text;
 }
 
@@ -151,7 +164,8 @@ std::string describeTogether(const Analysis& analysis) {
 
 std::string describeChoices(const Analysis& analysis, const std::vector<std::size_t>& conditions,
                             const std::vector<predict::Criterion>& criteria) {
-  std::map<std::string, std::size_t> masses, laws;
+  std::map<std::string, std::size_t> laws;
+  std::vector<std::string> masses;
   std::vector<double> tried;
   bool given = false;
   for (const PersonResult& person : analysis.people) {
@@ -163,7 +177,9 @@ std::string describeChoices(const Analysis& analysis, const std::vector<std::siz
       if (set.candidates[k].criteria != criteria) continue;
       const ShapeChoice& choice = person.fit.candidates[k].choice;
       ++laws[choice.law == TimeLaw::Anew ? "planned anew for each duration" : "one plan run faster or slower"];
-      if (!set.candidates[k].masses.empty()) ++masses[shortNumber(set.candidates[k].masses[choice.family]) + " kg"];
+      if (const auto& mass = person.fit.candidates[k].mass)
+        masses.push_back(fmt::format("{} kg {} ({}{})", shortNumber(mass->mass), intervalText(mass->interval), person.subject,
+                                     mass->atEdge ? ", at the edge of the range" : ""));
     }
   }
   const auto listed = [](const std::map<std::string, std::size_t>& counts) {
@@ -171,14 +187,13 @@ std::string describeChoices(const Analysis& analysis, const std::vector<std::siz
     for (const auto& [what, n] : counts) parts.push_back(fmt::format("{} ({})", what, n));
     return joined(parts);
   };
-  std::vector<std::string> kilograms;
-  for (const double m : tried) kilograms.push_back(shortNumber(m));
   std::string text;
   if (!tried.empty())
-    text = given ? fmt::format("The hand's mass was given, {} kg.", joined(kilograms))
-                 : fmt::format("Hand masses tried for (4) to (6): {} kg.", joined(kilograms));
+    text = given ? fmt::format("The hand's mass was given, {} kg.", shortNumber(tried.front()))
+                 : fmt::format("The hand's mass was searched from {} to {} kg for (4) to (6).", shortNumber(tried.front()),
+                               shortNumber(tried.back()));
   if (!laws.empty()) text += " Chosen for the closest: " + listed(laws) + ".";
-  if (!masses.empty()) text += " Its hand mass: " + listed(masses) + ".";
+  if (!masses.empty()) text += " Its hand mass with the 95 % interval: " + joined(masses) + ".";
   return text;
 }
 
@@ -203,12 +218,11 @@ std::string describeMethods(const Analysis& analysis) {
                 "{} Hz in each pass, so no delay); the simulated masses were not filtered.",
                 shortNumber(o.measure.cutoff))
           : std::string("The hand's position was differentiated without a filter.");
-  std::vector<std::string> kilograms;
-  for (const double m : o.handMasses) kilograms.push_back(shortNumber(m));
+  const auto [least, largest] = std::minmax_element(o.handMasses.begin(), o.handMasses.end());
   const std::string mass =
-      o.handMass
-          ? fmt::format("The mass of the hand was given, {} kg.", shortNumber(*o.handMass))
-          : fmt::format("Where the experiment gives no mass of the hand, {} kg were tried for criteria (4) to (6).", joined(kilograms));
+      o.handMass ? fmt::format("The mass of the hand was given, {} kg.", shortNumber(*o.handMass))
+                 : fmt::format("Where the experiment gives no mass of the hand, it was fitted from {} to {} kg for criteria (4) to (6).",
+                               shortNumber(*least), shortNumber(*largest));
   return fmt::format(
       "{} Onset and offset are {}; a movement ends with its trial at the latest, that is when every mass was inside the tolerances. "
       "Each criterion of Table 1, and a minimum jerk of the hand that ignores the object, was fitted to every successful trial by least "
@@ -226,7 +240,10 @@ std::string describeMethods(const Analysis& analysis) {
       "mean over trials, over conditions the mean of their means. One person is decided for a criterion if p < {} against every other and "
       "the "
       "reference (two-sided t over trials, the number of trials reduced by their serial correlation) and their scores are {} or more above "
-      "its own: squared errors that differ by less are not told apart, however many trials there are. People are decided for one from {} "
+      "its own: squared errors that differ by less are not told apart, however many trials there are. Nobody is decided for a criterion "
+      "that fits worse than the person's other trials do, by their mean or by a line over the duration (score {} or more above theirs with p < {}, "
+      "or 1 - R² more than {} times what the ceiling leaves), or while a hand mass outside the range might be nearer. "
+      "People are decided for one from {} "
       "on if p "
       "< {} against every other and the reference (paired t over subjects), the same least difference, the protected exceedance probability of random-effects model "
       "selection is at least {}, and no subject is decided for another. Fewer than {} successful trials of a subject and condition are "
@@ -243,7 +260,7 @@ std::string describeMethods(const Analysis& analysis) {
       "corrected by "
       "Holm's method.",
       filter, rule, mass, o.handDamping > 0 ? fmt::format(" Damping of the hand: {} N s/m.", shortNumber(o.handDamping)) : "", kTrialsLevel,
-      kLeastDifference, kFewestSubjects, kSubjectsLevel, kMinExceedance, kFewestTrials,
+      kLeastDifference, kLeastMisfit, kMisfitLevel, kMostUnexplained, kFewestSubjects, kSubjectsLevel, kMinExceedance, kFewestTrials,
       o.predictFor == PredictionDuration::Task ? "the task's duration" : "the duration that was moved");
 }
 

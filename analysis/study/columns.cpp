@@ -126,7 +126,7 @@ std::vector<Column> columnsOf(const Design& design) {
       for (const std::string& criterion : criteriaOf(design)) columns.push_back({"score_" + underscored(criterion), {}});
       columns.push_back({"score_reference", {}});
       columns.push_back({"fit_effective_samples", {}});
-      columns.push_back({"fit_poorness", {}});
+      columns.push_back({"fit_own_score", {}});
     } else {
       columns.push_back({name, {}});
     }
@@ -192,7 +192,7 @@ std::string dictionaryOf(const Design& design) {
                    {"seed", "Seed of the subject's session: a recorded run of the point's experiment with it repeats the trials"},
                    {"score_*", "ln S of the candidate that the column names, held out: lower is nearer. The reference ignores the object"},
                    {"fit_effective_samples", "Independent samples in a trial of this subject and block, by its residuals' correlation"},
-                   {"fit_poorness", "R^2 of the mean of the subject's other trials less that of the subject's nearest candidate"}});
+                   {"fit_own_score", "ln S of the trial for the mean of the subject's other trials: above it by more than chance, a candidate does not fit"}});
   for (const StudyMeasure& measure : studyMeasures()) meanings.push_back({measure.name, measure.sentence});
   const std::span<const record::ColumnMeaning> trials = analysis::tableColumns("trials.csv");
   meanings.insert(meanings.end(), trials.begin(), trials.end());

@@ -71,14 +71,11 @@ void Measurer::fitBlock(std::vector<MeasuredTrial>& trials, std::size_t first) {
       haveCandidates_ = true;
     }
     const analysis::PersonFit fit = analysis::fitPerson(windows_, durations_, candidates_);
-    const auto best = std::min_element(fit.candidates.begin(), fit.candidates.end(),
-                                       [](const auto& a, const auto& b) { return a.meanScore < b.meanScore; });
-    const double poorness = fit.own.ceiling - best->r2;
     for (std::size_t i = 0; i < windowOf_.size(); ++i) {
       std::vector<double>& score = trials[first + windowOf_[i]].score;
       score.assign(criteria_.size() + 3, analysis::kNotMeasured);
       score[criteria_.size() + 1] = fit.own.effectiveSamples;
-      score[criteria_.size() + 2] = poorness;
+      score[criteria_.size() + 2] = fit.own.score[i];
       for (std::size_t k = 0; k < candidates_.candidates.size(); ++k) {
         const analysis::Candidate& candidate = candidates_.candidates[k];
         if (candidate.reference()) score[criteria_.size()] = fit.candidates[k].score[i];

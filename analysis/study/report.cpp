@@ -21,7 +21,7 @@ namespace {
 
 constexpr std::size_t kStretch = 10;  // trials a point of the learning curve, as the analysis has it
 constexpr const char* kTruth = "subject.criterion";
-constexpr std::size_t kReferenceBeside = 1, kFitColumns = 3;  // reference, effective samples, poorness behind the criteria
+constexpr std::size_t kReferenceBeside = 1, kFitColumns = 3;  // reference, effective samples, own mean behind the criteria
 
 std::size_t placeOf(const std::vector<Column>& columns, const std::string& name) {
   for (std::size_t k = 0; k < columns.size(); ++k)
@@ -37,7 +37,8 @@ std::string wordOf(const Column& column, double value) {
 struct ConditionTrials {
   std::vector<int> trial;                  // number of each used one
   std::vector<std::vector<double>> score;  // [criterion, then the reference][trial]
-  double effectiveSamples = 10, poorness = 0;
+  std::vector<double> own;                 // score of the mean of the other trials
+  double effectiveSamples = 10;
 };
 using PersonTrials = std::map<std::string, ConditionTrials>;
 
@@ -89,12 +90,13 @@ analysis::PersonScores scoresOf(const PersonTrials& person, std::size_t most, co
     scores.condition = out.conditions.size();
     scores.effectiveSamples = trials.effectiveSamples;
     scores.ceiling = 1;
-    scores.r2.assign(named.column.size(), 1 - trials.poorness);
+    scores.r2.assign(named.column.size(), 1);
     std::size_t used = 0;
     while (used < trials.trial.size() && static_cast<std::size_t>(trials.trial[used]) <= most) ++used;
     if (used < analysis::kFewestTrials) return {};
     for (const std::size_t column : named.column)
       scores.score.emplace_back(trials.score[column].begin(), trials.score[column].begin() + static_cast<std::ptrdiff_t>(used));
+    scores.own.assign(trials.own.begin(), trials.own.begin() + static_cast<std::ptrdiff_t>(used));
     out.conditions.push_back(std::move(scores));
   }
   return out;
@@ -204,7 +206,7 @@ class Reader {
       trials.score.resize(criteria_ + kReferenceBeside);
       for (std::size_t k = 0; k < criteria_ + kReferenceBeside; ++k) trials.score[k].push_back(at(rows, score + k, row));
       trials.effectiveSamples = at(rows, score + criteria_ + 1, row);
-      trials.poorness = at(rows, score + criteria_ + kFitColumns - 1, row);
+      trials.own.push_back(at(rows, score + criteria_ + kFitColumns - 1, row));
       trials.trial.push_back(static_cast<int>(at(rows, trial, row)));
       population.trials = std::max(population.trials, static_cast<std::size_t>(trials.trial.back()));
     }

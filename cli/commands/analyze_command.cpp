@@ -7,6 +7,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "cli/terminal/analysis_plan.h"
 #include "cli/terminal/at_option.h"
 #include "cli/commands/commands.h"
 #include "cli/terminal/criterion_option.h"
@@ -21,7 +22,7 @@ namespace reachlab::cli {
 namespace {
 
 struct AnalyzeOptions {
-  std::string dataset, out, experiment, onset = "percent", duration = "task", masses;
+  std::string dataset, out, plan, experiment, onset = "percent", duration = "task", masses;
   std::vector<std::string> criteria;
   double percent = 5, speed = 0.01, cutoff = 10, handMass = -1, handDamping = 0;
   int bin = 10, recovery = 0, jobs = 0;
@@ -37,7 +38,7 @@ std::vector<double> parseMasses(const std::string& text) {
     double value = -1;
     const auto [stop, error] = std::from_chars(at, end, value);
     if (error != std::errc() || !(value >= 0) || !std::isfinite(value) || (stop != end && (*stop != ',' || stop + 1 == end)))
-      throw FaultError(Fault{"--hand-masses", "is " + text, "masses in kg, 0 or more, with commas between: 0,0.5,1,2"});
+      throw FaultError(Fault{"--hand-masses", "is " + text, "masses in kg, 0 or more, with commas between: 0,1,2,4,8"});
     masses.push_back(value);
     at = stop == end ? end : stop + 1;
   }
@@ -98,6 +99,8 @@ Json jsonOf(const analysis::Conclusion& c, const Names& names, const std::vector
   for (std::size_t k = 0; k < c.posterior.size(); ++k) posterior[analysis::nameOfCandidate(names[k])] = c.posterior[k];
   auto together = Json::array();
   for (const auto& [i, j] : c.notToldApart) together.push_back({analysis::nameOfCandidate(names[i]), analysis::nameOfCandidate(names[j])});
+  auto atEdge = Json::array();
+  for (const std::size_t k : c.atEdge) atEdge.push_back(analysis::nameOfCandidate(names[k]));
   auto scores = Json::object();
   for (std::size_t k = 0; k < c.score.size(); ++k) scores[analysis::nameOfCandidate(names[k])] = c.score[k];
   const bool judged = c.best.has_value();
@@ -109,6 +112,9 @@ Json jsonOf(const analysis::Conclusion& c, const Names& names, const std::vector
           {"best", name(c.best)},
           {"p", judged ? Json(c.p) : Json(nullptr)},
           {"rival", name(c.rival)},
+          {"rival_score_above_best", c.rival ? Json(c.against[*c.rival].mean) : Json(nullptr)},
+          {"rival_score_above_best_interval", c.rival ? jsonOf(analysis::intervalOf(c.against[*c.rival])) : Json(nullptr)},
+          {"rival_bayes_factor", c.rival ? Json(analysis::computeBayesFactor(c.against[*c.rival])) : Json(nullptr)},
           {"level", c.level},
           {"least_difference", analysis::kLeastDifference},
           {"subjects", c.subjects},
@@ -119,6 +125,8 @@ Json jsonOf(const analysis::Conclusion& c, const Names& names, const std::vector
           {"reference", {{"p", judged ? Json(c.referenceP) : Json(nullptr)}, {"first", c.referenceFirst}}},
           {"r2", judged ? Json(c.r2) : Json(nullptr)},
           {"ceiling", judged ? Json(c.ceiling) : Json(nullptr)},
+          {"misfit", {{"score", judged ? Json(c.misfit.mean) : Json(nullptr)}, {"p", judged ? Json(c.misfit.p) : Json(nullptr)}}},
+          {"masses_at_edge", atEdge},
           {"scores", scores},
           {"hand_masses_kg", masses},
           {"sentence", analysis::describeConclusion(c, names)}};
@@ -139,8 +147,12 @@ Json jsonOfFits(const analysis::Analysis& analysis) {
                     {"plan_s", f.plan ? Json(*f.plan) : Json(nullptr)},
                     {"time_law", f.timeLaw},
                     {"hand_mass_kg", f.handMass ? Json(*f.handMass) : Json(nullptr)},
+                    {"hand_mass_interval_kg", f.massInterval ? jsonOf(*f.massInterval) : Json(nullptr)},
+                    {"hand_mass_at_edge", f.massAtEdge},
+                    {"misfit", f.misfit},
                     {"trials", f.trials},
-                    {"decided", f.decided}});
+                    {"decided", f.decided},
+                    {"reason", f.reason}});
   return fits;
 }
 
@@ -149,7 +161,10 @@ Json jsonOf(const analysis::TruthRecovery& r) {
   for (const auto& criteria : r.candidates) names.push_back(analysis::nameOfCandidate(criteria));
   auto named = names;
   named.push_back("undecided");
-  return {{"trials", r.trials}, {"seeds", r.studies}, {"truths", names}, {"named", named}, {"counts", r.counts}};
+  auto others = Json::array();
+  for (const analysis::OtherTruth& o : r.others)
+    others.push_back({{"truth", o.name}, {"right", o.right}, {"wrong", o.wrong}, {"undecided", o.undecided}});
+  return {{"trials", r.trials}, {"seeds", r.studies}, {"truths", names}, {"named", named}, {"counts", r.counts}, {"others", others}};
 }
 
 Json jsonOf(const analysis::Analysis& analysis, const analysis::Effect& e) {
@@ -167,8 +182,9 @@ Json jsonOf(const analysis::Analysis& analysis, const analysis::Effect& e) {
 }
 
 std::string summaryJson(const analysis::Analysis& analysis, const analysis::DatasetIndex& dataset, const analysis::AnalysisFiles& files,
-                        const std::optional<analysis::TruthRecovery>& recovery) {
+                        const std::optional<analysis::TruthRecovery>& recovery, const std::optional<AnalysisPlan>& plan) {
   Json j = Json::object();
+  if (plan) j["plan"] = {{"file", plan->file}, {"date", plan->date}, {"sha256", plan->sha256}, {"departures", plan->departures}};
   j["report"] = files.report;
   j["tables"] = files.tables;
   j["figures"] = files.figures;
@@ -223,6 +239,8 @@ void printRecovery(const analysis::TruthRecovery& recovery) {
                    k < recovery.candidates.size() ? analysis::nameOfCandidate(recovery.candidates[k]) : "undecided");
     fmt::print("\n");
   }
+  for (const analysis::OtherTruth& o : recovery.others)
+    fmt::print("  people with {}: {} named right, {} wrong, {} undecided\n", o.name, o.right, o.wrong, o.undecided);
 }
 
 void printSummary(const analysis::Analysis& analysis, const analysis::DatasetIndex& dataset, const analysis::AnalysisFiles& files,
@@ -239,6 +257,14 @@ void printSummary(const analysis::Analysis& analysis, const analysis::DatasetInd
   }
   if (recovery) printRecovery(*recovery);
   fmt::print("{} tables, {} figures and {}\n", files.tables.size(), files.figures.size(), files.report);
+}
+
+/// The plan and every departure from it, a sentence each.
+std::vector<std::string> describePlan(const AnalysisPlan& plan) {
+  std::vector<std::string> sentences{fmt::format("Analysis plan: {} of {}, SHA-256 {}.", plan.file, plan.date, plan.sha256)};
+  if (plan.departures.empty()) sentences.push_back("The analysis follows the plan.");
+  for (const std::string& departure : plan.departures) sentences.push_back("Departure from the plan: " + departure);
+  return sentences;
 }
 
 /// Every option that is not its default, so that the report can be made again.
@@ -259,11 +285,17 @@ std::string commandOf(const AnalyzeOptions& o) {
   add(o.recovery > 0, fmt::format("--recovery {}", o.recovery));
   add(o.recovery > 0 && o.seed != usual.seed, fmt::format("--seed {}", o.seed));
   add(!o.experiment.empty(), "--experiment " + o.experiment);
+  add(!o.plan.empty(), "--plan " + o.plan);
   add(o.includePractice, "--include-practice");
   return text;
 }
 
-void run(const AnalyzeOptions& o) {
+void run(CLI::App& command, const AnalyzeOptions& o) {
+  std::optional<AnalysisPlan> plan;
+  if (!o.plan.empty()) {
+    plan = atOption("--plan", [&] { return readAnalysisPlan(o.plan); });
+    applyPlan(command, *plan);  // changes o
+  }
   const analysis::AnalysisOptions options = analysisOptions(o);  // refused before hours of reading
   const bool terminal = isatty(STDERR_FILENO) != 0;
   const auto progress = [terminal](const char* what, std::size_t done, std::size_t of) {
@@ -283,13 +315,20 @@ void run(const AnalyzeOptions& o) {
                                  [&](std::size_t done, std::size_t of) { progress("simulated study", done, of); });
   std::string folder = o.dataset;
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
-  const analysis::ReportHeader header{folder, REACHLAB_VERSION, commandOf(o)};
+  if (plan) {
+    std::vector<std::string> starts;
+    for (const analysis::RunProvenance& r : dataset.runs) starts.push_back(r.startedUtc);
+    checkDate(*plan, starts);
+  }
+  const analysis::ReportHeader header{folder, REACHLAB_VERSION, commandOf(o), plan ? describePlan(*plan) : std::vector<std::string>{}};
   const std::string out = o.out.empty() ? folder + "/derivatives/reachlab" : o.out;
   const analysis::AnalysisFiles files =
       atOption("--out", [&] { return analysis::writeAnalysis(analysis, dataset, header, out, recovery); });
   if (o.out.empty()) record::describeDerivative(out, "Analysis of reaching movements", "reachlab " REACHLAB_VERSION);
-  if (o.json) fmt::print("{}", summaryJson(analysis, dataset, files, recovery));
-  else printSummary(analysis, dataset, files, recovery);
+  if (o.json) fmt::print("{}", summaryJson(analysis, dataset, files, recovery, plan));
+  else
+    for (const std::string& sentence : header.plan) fmt::print("{}\n", sentence);
+  if (!o.json) printSummary(analysis, dataset, files, recovery);
   if (!dataset.unreadable.empty())
     throw ResourceError(fmt::format("{} of {} runs could not be read and are not in these results: {}", dataset.unreadable.size(),
                                     dataset.unreadable.size() + dataset.runs.size(), fmt::join(dataset.unreadable, "; ")));
@@ -311,7 +350,8 @@ void addAnalyzeCommand(CLI::App& app, int&) {
   command->add_option("--hand-damping", o->handDamping, "Damping of the hand in the predictions [N s/m]")->check(CLI::NonNegativeNumber);
   command->add_option(
       "--hand-masses", o->masses,
-      "Masses of the hand [kg] that the fits of (4) to (6) try where none is given, with commas [default: 0,0.5,1,2,3,4,6,8]");
+      "Masses of the hand [kg], with commas. The fits of (4) to (6) search between the least and the largest of them [default: "
+      "0,1,2,4,8]");
   command
       ->add_option("--prediction-duration", o->duration,
                    "Paper's epsilon: predict for the task's T, or for the mean duration moved. The fits choose their own")
@@ -331,6 +371,9 @@ void addAnalyzeCommand(CLI::App& app, int&) {
   command->add_option("--seed", o->seed, "Seed of the recovery")->capture_default_str();
   command->add_option("--learning-bin", o->bin, "Trials a point of the learning curve")->capture_default_str();
   command->add_option("--experiment", o->experiment, "Experiment of a dataset without logs (file or shipped name)");
+  command->add_option(
+      "--plan", o->plan,
+      "Analysis plan (JSON): options that were chosen before the data. The report names the plan and every departure from it");
   command->add_flag("--include-practice", o->includePractice, "Count practice blocks too");
   command->add_flag("--json", o->json, "Summary as JSON on stdout");
   command->footer(
@@ -340,8 +383,9 @@ void addAnalyzeCommand(CLI::App& app, int&) {
       "  reach analyze data\n"
       "  reach analyze data --out results --cutoff 12 --onset-percent 3\n"
       "  reach analyze data --recovery 20\n"
+      "  reach analyze data --plan analysis-plan.json\n"
       "  reach analyze data --hand-mass 1 --criterion min-hand-jerk --criterion min-hand-force-change --json");
-  command->callback([o] { run(*o); });
+  command->callback([o, command] { run(*command, *o); });
 }
 
 }  // namespace reachlab::cli

@@ -270,6 +270,12 @@ std::vector<std::string> faultsOfBackup(const std::string& backup) {
   return faults;
 }
 
+std::string sha256Of(std::string_view text) {
+  Sha256 hash;
+  hash.add(text);
+  return hash.text();
+}
+
 std::size_t filesOfBackup(const std::string& backup) { return readList(backup).size(); }
 
 }  // namespace reachlab::session

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace reachlab::session {
@@ -24,6 +25,8 @@ BackupReport backUp(const std::string& dataset, const std::string& backup);
 /// The faults of a backup, one sentence per file: the file is missing or has other bytes. Reads every byte. Throws ResourceError when there
 /// is no list.
 std::vector<std::string> faultsOfBackup(const std::string& backup);
+/// SHA-256 of a text, in hexadecimal digits.
+std::string sha256Of(std::string_view text);
 /// Files in its list.
 std::size_t filesOfBackup(const std::string& backup);
 

@@ -232,5 +232,24 @@ TEST(ModelSelection, OfCertainPeopleHasTheRiskOfTheirCounts) {
   EXPECT_EQ(ModelSelection{}.omnibusRisk, 1);
 }
 
+// Values by numerical integration with scipy.integrate.quad of the formula in Rouder et al. 2009, with r = sqrt(1/2).
+TEST(BayesFactor, IsThatOfRouder) {
+  const auto factor = [](double t, double n) { return computeBayesFactor(TTest{t, 1, t, n - 1, 0}); };
+  EXPECT_NEAR(factor(0, 20), 0.232326294, 2e-7);
+  EXPECT_NEAR(factor(2.24, 80), 1.29848565, 1e-6);
+  EXPECT_NEAR(factor(2.03, 100), 0.790394150, 1e-6);
+  EXPECT_NEAR(factor(4, 12), 21.5739584, 2e-5);
+  EXPECT_NEAR(factor(1, 5), 0.576313649, 1e-6);
+  EXPECT_EQ(computeBayesFactor(TTest{}), 1) << "nothing to judge by";
+}
+
+TEST(MeanInterval, OfATestIsThatOfItsValues) {
+  const std::vector<double> values{0.3, 0.1, 0.4, 0.2, 0.6};
+  const Bounds one = intervalOf(computeTTest(values)), other = computeMeanInterval(values);
+  EXPECT_DOUBLE_EQ(one.low, other.low);
+  EXPECT_DOUBLE_EQ(one.high, other.high);
+  EXPECT_FALSE(intervalOf(TTest{}).finite());
+}
+
 }  // namespace
 }  // namespace reachlab::analysis

@@ -23,6 +23,21 @@ bool same(const figure::Color& a, const figure::Color& b) {
   return a.red == b.red && a.green == b.green && a.blue == b.blue && a.alpha == b.alpha;
 }
 
+// The made scores of a trial differ by the same number in every trial, so the interval is the score itself.
+TEST(ScoreFigure, HasIntervalsWithoutLinesAndMarksAMassAtTheEdge) {
+  const NamedFigure out = scoreFigure(madeStudy());
+  ASSERT_EQ(out.figure.panels.size(), 1u);
+  const Panel& panel = out.figure.panels[0];
+  ASSERT_EQ(panel.series.size(), 1u);
+  EXPECT_EQ(panel.series[0].width, 0) << "criteria have no order";
+  ASSERT_EQ(panel.series[0].errorLow.size(), 2u);
+  EXPECT_NEAR(panel.series[0].y[1], -3, 1e-12);
+  EXPECT_NEAR(panel.series[0].errorLow[1], -3, 1e-12);
+  ASSERT_EQ(panel.words.size(), 1u);
+  EXPECT_EQ(panel.words[0].text, "mass at edge");
+  EXPECT_EQ(panel.words[0].x, 2);
+}
+
 TEST(RecoveryFigure, HasTheTruthsDownwardsAndWhatWasNamedAcross) {
   TruthRecovery recovery;
   recovery.studies = 20;
@@ -51,6 +66,20 @@ TEST(RecoveryFigure, HasTheTruthsDownwardsAndWhatWasNamedAcross) {
   EXPECT_EQ(panel.y.ticks[2], (std::pair<double, std::string>{1, "ref."}));
   recovery.studies = 0;
   EXPECT_NEAR(recoveryFigure(recovery).figure.panels.at(0).bands[1].color.alpha, 0.08 + 0.72 * 3, 1e-12) << "no division by nothing";
+}
+
+TEST(PeopleFigure, HasOneScaleForAllPeople) {
+  Analysis analysis = madeStudy();
+  PersonResult other = analysis.people[0];
+  other.subject = "C";
+  for (double& v : other.fit.own.mean.value) v *= 2;
+  analysis.people.push_back(other);
+  const std::vector<Panel> panels = peopleFigure(analysis, 0).figure.panels;
+  ASSERT_EQ(panels.size(), 4u);
+  EXPECT_GT(panels[0].y.to.value(), 1.6) << "the largest mean, of the other person";
+  EXPECT_EQ(panels[0].y.to, panels[1].y.to);
+  EXPECT_EQ(panels[0].y.from, panels[1].y.from);
+  EXPECT_EQ(panels[2].y.to, panels[3].y.to);
 }
 
 TEST(Shortened, KeepsWhatFitsAndSaysThatItIsCut) {

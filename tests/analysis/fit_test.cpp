@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <random>
 
 #include "analysis/conclusions/near_predictions.h"
@@ -100,7 +101,7 @@ TEST(PersonFit, WithoutScatterPutsTheTruthFirstForEveryCriterionAndTimeLaw) {
     for (std::size_t truth = 0; truth < set.candidates.size(); ++truth)
       for (const bool onePlan : {false, true}) {
         if (onePlan && set.candidates[truth].reference()) continue;
-        const std::size_t family = set.candidates[truth].families.size() > 2 ? 2 : 0;  // 1 kg
+        const std::size_t family = set.candidates[truth].families.size() > 1 ? 1 : 0;  // 1 kg
         const PersonFit fit = fitOf(set, truth, family, onePlan, e.task->duration);
         std::size_t best = 0;
         for (std::size_t k = 1; k < fit.candidates.size(); ++k)
@@ -178,12 +179,63 @@ TEST(PersonFit, ScoresNoTrialByAChoiceItTookPartIn) {
   std::vector<double> durations;
   // Fold 0 is planned with 2 kg, the other four with none.
   for (int i = 0; i < 15; ++i) {
-    windows.push_back(recorded(*set.candidates[force].families[i % 5 == 0 ? 3 : 0], 1.3 + 0.01 * i, 0.5, 0.15));
+    windows.push_back(recorded(*set.candidates[force].families[i % 5 == 0 ? 2 : 0], 1.3 + 0.01 * i, 0.5, 0.15));
     durations.push_back(1.25 + 0.01 * i);
   }
   const PersonFit fit = fitPerson(windows, durations, set);
   EXPECT_EQ(fit.candidates[force].foldChoice[0].family, 0u);
   for (std::size_t i = 0; i < windows.size(); i += 5) EXPECT_GT(fit.candidates[force].score[i], fit.candidates[force].score[i + 1] + 3);
+}
+
+/// Trials of `family` with a slow wave of 3 % of the peak, another in each trial.
+PersonFit scatteredFit(const CandidateSet& set, const ProfileFamily& family) {
+  std::vector<FitWindow> windows;
+  std::vector<double> durations;
+  std::mt19937_64 random(3);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 20; ++i) {
+    const double T = 1.35 * std::exp(0.04 * normal(random)), size = 0.03 * normal(random), phase = 3 * normal(random);
+    windows.push_back(recorded(family, T, 0.5, 0.2 / T));
+    std::vector<double>& velocity = windows.back().velocity;
+    const double peak = *std::max_element(velocity.begin(), velocity.end());
+    for (std::size_t k = 0; k < velocity.size(); ++k) velocity[k] += peak * size * std::sin(0.06 * static_cast<double>(k) + phase);
+    durations.push_back(0.95 * T);
+  }
+  return fitPerson(windows, durations, set);
+}
+
+TEST(PersonFit, FindsAHandsMassBetweenThoseThatItStartsFrom) {
+  const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chainExperiment(1.35)),
+                                          of({Criterion::MinHandJerk, Criterion::MinHandForce, Criterion::MinHandForceChange}));
+  for (const std::size_t truth : {1, 2})
+    for (const double mass : {0.3, 1.3, 3.3, 6.6}) {
+      const PersonFit fit = scatteredFit(set, *set.candidates[truth].familyOf(mass));
+      ASSERT_TRUE(fit.candidates[truth].mass);
+      const MassFit& found = *fit.candidates[truth].mass;
+      EXPECT_LE(found.interval.low, mass) << truth;
+      EXPECT_GE(found.interval.high, mass) << truth;
+      EXPECT_LE(found.interval.low, found.mass);
+      EXPECT_GE(found.interval.high, found.mass);
+      EXPECT_EQ(found.mass, fit.candidates[truth].choice.mass);
+      EXPECT_FALSE(found.atEdge) << mass;
+      EXPECT_TRUE(fit.candidates[truth].beyond.empty());
+      EXPECT_FALSE(fit.candidates[0].mass) << "a hand's mass changes nothing for (1)";
+    }
+}
+
+TEST(PersonFit, SaysThatAMassIsAtTheEdgeAndTriesThoseBeyond) {
+  CandidateOptions options = of({Criterion::MinHandJerk, Criterion::MinHandForce});
+  options.handMasses = {2, 4, 3};
+  const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chainExperiment(1.35)), options);
+  EXPECT_EQ(set.candidates[1].masses, (std::vector<double>{2, 3, 4}));
+  const CandidateFit fit = scatteredFit(set, *set.candidates[1].familyOf(0.2)).candidates[1];
+  EXPECT_EQ(fit.mass->mass, 2);
+  EXPECT_TRUE(fit.mass->atEdge);
+  ASSERT_EQ(fit.beyond.size(), fit.score.size());
+  EXPECT_LT(std::accumulate(fit.beyond.begin(), fit.beyond.end(), 0.0), std::accumulate(fit.score.begin(), fit.score.end(), 0.0));
+  options.handMasses = {0, 1, 2};
+  const CandidateSet fromZero = makeCandidates(experiment::CompiledExperiment(chainExperiment(1.35)), options);
+  EXPECT_FALSE(scatteredFit(fromZero, *fromZero.candidates[1].familyOf(0.02)).candidates[1].mass->atEdge) << "no hand is lighter than 0 kg";
 }
 
 TEST(PersonFit, GivesEveryCandidateTheSameWindowAndWeights) {

@@ -121,14 +121,16 @@ inline Analysis madeStudy() {
   a.trials = 2;
   a.fitted = true;
   a.rest = {4, 8};
-  a.follows = 0;
+  a.conclusion.follows = 0, a.conclusion.reason = Obstacle::None;
   a.fit.own.ceiling = 0.97;
   a.fit.own.ceilingScore = -3.5;
+  a.fit.own.score = {-3.25, -3.75};
   a.fit.own.mean.first = -0.6, a.fit.own.mean.step = 0.005;
   for (int k = 0; k < 441; ++k) a.fit.own.mean.value.push_back(0.5 + 0.001 * k), a.fit.own.scatter.push_back(0.02 + 0.0001 * k);
   for (const double base : {-2.0, -4.0, -1.0}) a.fit.candidates.push_back(madeFit(base, 2, 441));
   a.fit.candidates[0].choice = {TimeLaw::OnePlan, 1.45, 0};
-  a.fit.candidates[1].choice = {TimeLaw::Anew, 0, 1};
+  a.fit.candidates[1].choice = {TimeLaw::Anew, 0, 1, 1.5};
+  a.fit.candidates[1].mass = MassFit{1.5, {1.25, 1.5}, true};
   a.fit.candidates[2].trials[1].found = false;
   analysis.people.push_back(a);
   PersonResult b;
@@ -142,6 +144,7 @@ inline Analysis madeStudy() {
   analysis.overall.overSubjects = false;
   analysis.overall.follows.reset();
   analysis.overall.reason = Obstacle::Poor;
+  analysis.overall.misfit.mean = 0.5, analysis.overall.misfit.p = 0.004;
   analysis.overall.score = {-1.5, -2.5};
   analysis.overall.against = {{1, 0.2, 5, 1, 0.04}, {}};
   analysis.overall.best = 1, analysis.overall.rival = 0;

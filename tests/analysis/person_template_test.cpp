@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "analysis/measures/movement.h"
@@ -66,6 +67,32 @@ TEST(PersonTemplate, CountsSamplesByHowAlikeNeighboursAre) {
   EXPECT_LT(effectiveWith(0), 15);
   EXPECT_GT(effectiveWith(0), 1);
   EXPECT_EQ(PersonTemplate{}.effectiveSamples, 1);
+}
+
+// The longer a trial, the later its peak. The mean of the others misses that, and the line over the duration does not.
+TEST(PersonTemplate, DescribesAShapeThatChangesWithTheDuration) {
+  std::vector<FitWindow> windows;
+  std::vector<double> durations;
+  for (int i = 0; i < 12; ++i) {
+    const double T = 0.8 * std::pow(1.04, (5 * i) % 12);
+    FitWindow window;
+    window.rate = kRate;
+    window.begin = 3;
+    for (int k = 0; k < (T + 0.6) * kRate; ++k) {
+      const double s = (k / kRate - 0.3) / T, inside = s > 0 && s < 1 ? 1 : 0;
+      window.velocity.push_back(0.2 / T *
+                                (heldMinimumJerk(s).rate - inside * 3 * std::log(T) * std::pow(std::sin(std::numbers::pi * s), 2) *
+                                                               std::sin(4 * std::numbers::pi * s)));
+    }
+    window.weight.assign(window.velocity.size(), 1.0);
+    windows.push_back(window);
+    durations.push_back(T);
+  }
+  const PersonTemplate own = makeTemplate(windows, durations);
+  double left = 0, whole = 0;
+  for (std::size_t i = 0; i < windows.size(); ++i) left += std::exp(own.score[i]), whole += restCost(windows[i]);
+  EXPECT_LT(left, 0.2 * (1 - own.ceiling) * whole);
+  EXPECT_LT(own.ceiling, 0.999) << "the mean of the others describes it badly";
 }
 
 }  // namespace

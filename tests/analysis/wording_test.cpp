@@ -57,8 +57,7 @@ TEST(Wording, OfAConclusionSaysWhomItIsAbout) {
             "most closely among the candidates: it is nearer than every other, and than a minimum jerk that ignores the object.");
   c.overSubjects = false;
   c.trials = 1;
-  expectIn(told(c),
-           {"This person's movements in these 1 trial follow", "; nothing follows about other people from one subject."});
+  expectIn(told(c), {"This person's movements in these 1 trial follow", "; nothing follows about other people from one subject."});
 }
 
 TEST(Wording, OfNoConclusionSaysWhy) {
@@ -78,10 +77,15 @@ TEST(Wording, OfNoConclusionSaysWhy) {
       "same; each judged alone: 1 for (1) min-hand-jerk and 1 for (3) min-crackle.");
   c.reason = Obstacle::Poor;
   c.best = 0;
+  c.misfit.mean = 0.5, c.misfit.p = 0.0021;
   EXPECT_EQ(
       told(c),
-      "Nothing can be concluded: (1) min-hand-jerk is the closest of these, but describes the movements badly (R² 0.951; people's own "
-      "means reach 0.988).");
+      "Nothing can be concluded: (1) min-hand-jerk is the closest of these, but does not fit. Its squared errors are 65 % above those of the "
+      "person's other trials (p = 0.0021), and it leaves 3.92 times the squares that their mean leaves.");
+  c.reason = Obstacle::MassAtEdge;
+  c.atEdge = {2};
+  expectIn(told(c), {"(1) min-hand-jerk is the closest candidate, but the hand's mass of (3) min-crackle", "at the edge of the range",
+                     "Widen the range of masses"});
   c.reason = Obstacle::NothingToCompare;
   expectIn(told(c), {"Nothing can be concluded: fewer than two candidates"});
   c.reason = Obstacle::None;
@@ -122,13 +126,16 @@ TEST(Wording, OfConditionsTogetherSaysWhichAreLeftOut) {
 TEST(Wording, OfChoicesCountsMassesAndTimeLaws) {
   Analysis analysis = madeStudy();
   EXPECT_EQ(describeChoices(analysis, {0, 1}, kNames[0]),
-            "Hand masses tried for (4) to (6): 0 and 1.5 kg. Chosen for the closest: one plan run faster or slower (1).");
+            "The hand's mass was searched from 0 to 1.5 kg for (4) to (6). Chosen for the closest: one plan run faster or slower (1).");
   analysis.people.push_back(analysis.people[0]);
+  analysis.people.back().subject = "C";
   analysis.people.back().fit.candidates[1].choice = {TimeLaw::OnePlan, 1.3, 0};
+  analysis.people.back().fit.candidates[1].mass = MassFit{0.625, {0.5, 0.75}, false};
   EXPECT_EQ(
       describeChoices(analysis, {0}, kNames[1]),
-      "Hand masses tried for (4) to (6): 0 and 1.5 kg. Chosen for the closest: one plan run faster or slower (1) and planned anew for "
-      "each duration (1). Its hand mass: 0 kg (1) and 1.5 kg (1).");
+      "The hand's mass was searched from 0 to 1.5 kg for (4) to (6). Chosen for the closest: one plan run faster or slower (1) and planned anew "
+      "for each duration (1). Its hand mass with the 95 % interval: 1.5 kg [1.25, 1.5] (A, at the edge of the range) and 0.625 kg [0.5, 0.75] "
+      "(C).");
   EXPECT_EQ(describeChoices(analysis, {1}, kNames[1]), "") << "nobody was fitted there";
   analysis.results[0].candidates.massGiven = true;
   analysis.results[0].candidates.masses = {0.8};
@@ -139,7 +146,7 @@ TEST(Wording, OfMethodsHasEveryOptionThatChangesNumbers) {
   Analysis analysis = madeStudy();
   const std::string usual = describeMethods(analysis);
   expectIn(usual, {"Butterworth, second order, 10 Hz in each pass", "crosses 5 % of the trial's own peak",
-                   "0, 0.5, 1, 2, 3, 4, 6 and 8 kg were tried for criteria (4) to (6)", "p < 0.01 against every other",
+                   "it was fitted from 0 to 8 kg for criteria (4) to (6)", "p < 0.01 against every other",
                    "their scores are 0.1 or more above", "from 5 on if p < 0.05 against every other", "is at least 0.85",
                    "Fewer than 10 successful trials", "against the prediction for the task's duration"});
   expectNotIn(usual, {"Damping of the hand"});

@@ -31,7 +31,7 @@ TEST(StudyColumns, OfFamiliesAreOneForEachCriterion) {
             (std::vector<std::string>{"point", "subject", "trial", "seed", "outcome", "reason", "epsilon_hand_min_hand_jerk_m_per_s",
                                       "epsilon_hand_min_crackle_m_per_s", "epsilon_object_min_hand_jerk_m_per_s",
                                       "epsilon_object_min_crackle_m_per_s", "score_min_hand_jerk", "score_min_crackle", "score_reference",
-                                      "fit_effective_samples", "fit_poorness"}));
+                                      "fit_effective_samples", "fit_own_score"}));
   design.criteria.clear();
   EXPECT_EQ(criteriaOf(design).size(), 7u) << "all, where none is named";
   EXPECT_EQ(columnsOf(design).size(), 6u + 14 + 7 + 3);

@@ -75,8 +75,8 @@ TEST(StudyReport, CountsSuccessByValueAndByStretch) {
 }
 
 /// People of two truths: scores of (1), (3), the reference; the truth's are lower by so much. The third row of columns: effective samples,
-/// poorness.
-StudyFolder madePower(const std::string& path, double by, int subjects, int trials, double poorness = 0.01) {
+/// scores of the person's own mean, which are `misfit` below those of the truth.
+StudyFolder madePower(const std::string& path, double by, int subjects, int trials, double misfit = -0.03) {
   StudyFolder study = folderOf(path, R"("subjects": )" + std::to_string(subjects) + R"(, "trials": )" + std::to_string(trials) +
                                          R"(, "vary": { "subject.criterion": ["min-hand-jerk", "min-crackle"] }, "measures": ["score"],
                                           "criteria": ["min-hand-jerk", "min-crackle", "min-hand-force"])");
@@ -89,7 +89,7 @@ StudyFolder madePower(const std::string& path, double by, int subjects, int tria
         const double nearer = -by + normal(random), farther = normal(random);
         const double jerk = point == 0 ? nearer : farther, crackle = point == 0 ? farther : nearer;
         rows.push_back({static_cast<double>(point), static_cast<double>(subject), static_cast<double>(trial), 1, static_cast<double>(point),
-                        kSuccess, 0, jerk, crackle, std::nan(""), 1 + normal(random), 12, poorness});
+                        kSuccess, 0, jerk, crackle, std::nan(""), 1 + normal(random), 12, nearer - misfit + 0.2 * normal(random)});
       }
   writeChunk(path, 0, study.fingerprint, chunkOf(rows));
   return study;
@@ -135,10 +135,10 @@ TEST(StudyReport, OfTruthsThatCannotBeToldIsUndecided) {
   EXPECT_EQ(report.confusion.at(0).trials, 10u) << "the last that was asked for";
 }
 
-// People whose own mean is described far better than their nearest candidate are not concluded upon.
+// Nothing is concluded from people whose own mean describes them far better than their nearest candidate.
 TEST(StudyReport, TakesPoorFitsForNoConclusion) {
   const TemporaryFolder folder;
-  const StudyReport report = makeReport(madePower(folder.path(), 2, 10, 10, 0.2), {.studies = 5, .subjects = {}, .trials = {}});
+  const StudyReport report = makeReport(madePower(folder.path(), 2, 10, 10, 0.6), {.studies = 5, .subjects = {}, .trials = {}});
   for (const PowerAt& at : report.power) EXPECT_EQ(at.right + at.wrong, 0u);
 }
 
