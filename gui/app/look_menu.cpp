@@ -111,16 +111,18 @@ void addOpacity(MainWindow& window, QMenu& menu) {
 void listColours(MainWindow& window, QMenu& menu) {
   menu.clear();
   menu.setEnabled(!window.session().isPlan());
-  for (const std::string& part : experiment::colouredParts())
-    QObject::connect(menu.addAction(swatchOf(drawnColour(window, part)), wordsOf(part) + QStringLiteral("…")), &QAction::triggered, &window,
-                     [&window, part] {
-                       SceneLook look = window.look();
-                       const QColor chosen = QColorDialog::getColor(drawnColour(window, part), &window,
-                                                                    QObject::tr("Colour of the scene: %1").arg(wordsOf(part)));
-                       if (!chosen.isValid()) return;
-                       look.colours[part] = chosen.name().toStdString();
-                       window.setLook(look);
-                     });
+  for (const std::string& part : experiment::colouredParts()) {
+    QAction* action = menu.addAction(swatchOf(drawnColour(window, part)), wordsOf(part) + QStringLiteral("…"));
+    action->setProperty("part", QString::fromStdString(part));
+    QObject::connect(action, &QAction::triggered, &window, [&window, part] {
+      SceneLook look = window.look();
+      const QColor chosen =
+          QColorDialog::getColor(drawnColour(window, part), &window, QObject::tr("Colour of the scene: %1").arg(wordsOf(part)));
+      if (!chosen.isValid()) return;
+      look.colours[part] = chosen.name().toStdString();
+      window.setLook(look);
+    });
+  }
   menu.addSeparator();
   QObject::connect(menu.addAction(QObject::tr("The theme's own")), &QAction::triggered, &window, [&window] {
     SceneLook look = window.look();

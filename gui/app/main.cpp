@@ -22,6 +22,8 @@
 #include "gui/app/display.h"
 #include "gui/app/experiment_files.h"
 #include "gui/app/main_window.h"
+#include "gui/session/remembered_session.h"
+#include "gui/docks/session_dock.h"
 #include "gui/scene/picture_sheet.h"
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/theme.h"
@@ -34,6 +36,7 @@ namespace {
 
 struct Arguments {
   reachlab::session::SessionRequest request;
+  std::vector<std::string> given;  // names of the options of `request` that were given
   std::string pictures;
   std::optional<reachlab::network::StationSetup> station;
 };
@@ -107,8 +110,24 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
           ""));
   reachlab::refuseEmptyWords(argc, argv);
   app.parse(argc, argv);
+  for (const char* name : {"--device", "--subject", "--session", "--data", "--trials"})
+    if (app.count(name) > 0) a.given.emplace_back(name);
   parseStation(app, number, observes, *station, setup, a);
   return a;
+}
+
+// What was not asked for is as at the last start. A station's partners rely on what is asked for.
+reachlab::session::SessionRequest withRemembered(const Arguments& arguments) {
+  const reachlab::session::SessionRequest& asked = arguments.request;
+  if (arguments.station) return asked;
+  reachlab::session::SessionRequest request = reachlab::gui::app::rememberedRequest(asked);
+  for (const std::string& name : arguments.given) {
+    if (name == "--device") request.device = asked.device;
+    if (name == "--subject") request.place.subject = asked.place.subject;
+    if (name == "--session") request.place.session = asked.place.session;
+    if (name == "--data") request.place.data = asked.place.data;
+  }
+  return request;
 }
 
 int run(const Arguments& arguments, int argc, char** argv) {
@@ -137,14 +156,17 @@ int run(const Arguments& arguments, int argc, char** argv) {
     std::printf("%d pictures and their contact sheets in %s\n", drawn, arguments.pictures.c_str());
     return 0;
   }
-  reachlab::session::SessionRequest request = arguments.request;
+  reachlab::session::SessionRequest request = withRemembered(arguments);
   const QString what = QString::fromStdString(request.what);
   const bool recorded = reachlab::gui::app::isRecorded(what);
   if (recorded) request.what = "chain-moderate";
   reachlab::gui::app::MainWindow window(request, arguments.station);
   window.setWindowIcon(QIcon(QString::fromStdString(reachlab::experiment::resourceFolder()) + QStringLiteral("/icons/reachlab.png")));
   if (recorded) window.inspect(what);
+  const auto trials = reachlab::gui::app::rememberedTrials();
+  if (trials && !request.trials && !arguments.station) window.sessionDock().setTrials(*trials);
   window.show();
+  if (!recorded && !request.resume && !arguments.station) window.offerResume();
   if (arguments.station) QTimer::singleShot(0, &window, &reachlab::gui::app::MainWindow::joinStations);
   return QApplication::exec();
 }

@@ -3,6 +3,7 @@
 #include <QAction>
 #include <QDesktopServices>
 #include <QFileInfo>
+#include <QGuiApplication>
 #include <QSettings>
 #include <QSignalBlocker>
 #include <QStatusBar>
@@ -17,7 +18,10 @@
 
 #include "base/system/error_report.h"
 #include "gui/app/key_focus.h"
+#include "gui/app/questions.h"
+#include "gui/session/remembered_session.h"
 #include "gui/app/screens.h"
+#include "gui/session/session_strip.h"
 #include "gui/app/window_layout.h"
 #include "gui/docks/constraint_dock.h"
 #include "gui/docks/device_dock.h"
@@ -35,7 +39,8 @@
 #include "gui/session/plan_pages.h"
 #include "gui/session/session_overlay.h"
 #include "gui/session/trial_marking.h"
-#include "gui/widgets/message_bar.h"
+#include "gui/widgets/card.h"
+#include "gui/widgets/messages.h"
 #include "gui/widgets/work_strip.h"
 #include "sim/dynamics/scene.h"
 #include "sim/experiment/experiment.h"
@@ -46,6 +51,21 @@ namespace {
 constexpr int kFrameMs = 16;          // 60 Hz
 constexpr int kSoftwareFrameMs = 33;  // 30 Hz where the processor draws
 constexpr int kStatusMs = 200;
+constexpr int kLayoutMs = 500;  // from a change of the layout until it is remembered
+
+enum class Stage { Closed, BetweenTrials, UnderWay, BlockDone, Finished, Following };
+
+// BlockDone: the plan has a next block. Following: another station conducts.
+Stage stageOf(SessionController& session) {
+  const session::RecordedRun* run = session.run();
+  return session.observes()         ? Stage::Following
+         : run == nullptr           ? Stage::Closed
+         : session.underWay()       ? Stage::UnderWay
+         : session.follows()        ? Stage::Following
+         : run->trialsLeft() > 0    ? Stage::BetweenTrials
+         : session.blocksLeft() > 0 ? Stage::BlockDone
+                                    : Stage::Finished;
+}
 
 void showTitle(MainWindow& window, const QString& name) {
   const network::StationSetup* station = window.session().station();
@@ -61,7 +81,8 @@ MainWindow::MainWindow(const session::SessionRequest& request, const std::option
     : QMainWindow(parent), session_(request, station), edits_(session_) {
   setObjectName(QStringLiteral("reachlab"));
   setAcceptDrops(true);
-  if (QFileInfo::exists(QString::fromStdString(request.what))) file_ = QString::fromStdString(request.what);
+  what_ = QString::fromStdString(request.what);
+  if (QFileInfo::exists(what_)) file_ = what_;
   words_.setLanguage(QSettings().value(QStringLiteral("subject/language"), QStringLiteral("en")).toString());
   addCentre();
   docks_ = docks::makeDocks(*this, station.has_value());
@@ -69,6 +90,9 @@ MainWindow::MainWindow(const session::SessionRequest& request, const std::option
   docks_.session->setRequest(request);
   status_ = std::make_unique<StatusLine>(*statusBar());
   actions_ = addMenus(*this);
+  view_->addAction(actions_.next);
+  strip_ = new SessionStrip(actions_.next, actions_.abort, actions_.repeat, actions_.end);
+  addToolBar(strip_);
   screens_->setSubjectsActions({actions_.next, actions_.abort, actions_.repeat, actions_.end, actions_.subjectsScreen});
   new KeyFocus(*this, *view_);
   plans_ = new PlanPages(session_, *docks_.session, *view_);
@@ -102,8 +126,6 @@ void MainWindow::addCentre() {
   auto* layout = new QVBoxLayout(middle);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
-  message_ = new MessageBar;
-  layout->addWidget(message_);
   view_ = new scene::SceneView;
   view_->setObjectName(QStringLiteral("scene"));
   pages_ = new QTabWidget;
@@ -116,6 +138,8 @@ void MainWindow::addCentre() {
   pages_->addTab(page, tr("Inspect"));
   layout->addWidget(pages_, 1);
   setCentralWidget(middle);
+  messages_ = new widgets::Messages(*middle);
+  card_ = new widgets::Card(*view_);
   connect(pages_, &QTabWidget::currentChanged, this, [this](int now) { switchLayout(now == 1 ? WindowLayout::Inspect : reachLayout_); });
   screens_ = new Screens(*view_);
   screens_->setParent(this);
@@ -126,13 +150,10 @@ void MainWindow::wireDocks() {
     connect(dock, &docks::Dock::edited, this,
             [this, dock](const experiment::Experiment& changed, const QString& what) { tryEdit(*dock, changed, what); });
   docks::SessionDock* dock = docks_.session;
-  connect(dock, &docks::SessionDock::nextRequested, this, &MainWindow::nextTrial);
-  connect(dock, &docks::SessionDock::abortRequested, this, &MainWindow::abortTrial);
-  connect(dock, &docks::SessionDock::repeatRequested, this, &MainWindow::repeatTrial);
-  connect(dock, &docks::SessionDock::endRequested, this, &MainWindow::endRun);
-  connect(dock, &docks::SessionDock::noteWritten, this, [this](const QString& text) { session_.note(text); });
-  connect(dock, &docks::SessionDock::deviceChanged, this, [this] {
+  connect(strip_, &SessionStrip::noteWritten, this, [this](const QString& text) { session_.note(text); });
+  connect(dock, &docks::SessionDock::changed, this, [this] {
     docks_.devices->setHand(QString::fromStdString(docks_.session->device()));
+    if (docks_.session->fault().isEmpty()) rememberRequest(docks_.session->request());
     showOverlay();
   });
   connect(dock, &docks::SessionDock::devicesRequested, this, [this] {
@@ -142,8 +163,8 @@ void MainWindow::wireDocks() {
   connect(docks_.devices, &docks::DeviceDock::taken, dock, &docks::SessionDock::setDevice);
   docks_.devices->setHand(QString::fromStdString(dock->device()));
   connect(docks_.trials, &docks::TrialsDock::noteRequested, this,
-          [this](int number) { docks_.session->beginNote(QStringLiteral("trial %1: ").arg(number)); });
-  wireMarking(*docks_.trials, session_, *message_);
+          [this](int number) { strip_->beginNote(QStringLiteral("trial %1: ").arg(number)); });
+  wireMarking(*docks_.trials, session_, *messages_);
   connect(plans_, &PlanPages::beginRequested, this, [this] {
     session_.beginAnew();
     beginNext();
@@ -183,17 +204,19 @@ void MainWindow::wireSession() {
   connect(&session_, &SessionController::trialBegun, this, &MainWindow::showStage);
   connect(&session_, &SessionController::trialEnded, this, &MainWindow::trialEnded);
   if (docks_.stations != nullptr) connect(&session_, &SessionController::stationTold, docks_.stations, &docks::StationsDock::tell);
-  for (const auto& sentence : {&SessionController::told, &SessionController::failed})
-    connect(&session_, sentence, this, [this](const QString& words) {
-      message_->say(words);
-      showStage();  // where nothing was armed it may be asked again
-    });
+  using Words = void (SessionController::*)(const QString&);
+  for (const auto& [words, show] : {std::pair<Words, void (MainWindow::*)(const QString&)>{&SessionController::told, &MainWindow::warn},
+                                    {&SessionController::failed, &MainWindow::say},
+                                    {&SessionController::done, &MainWindow::tell}}) {
+    connect(&session_, words, this, show);
+    connect(&session_, words, this, &MainWindow::showStage);  // where nothing was armed it may be asked again
+  }
   connect(&edits_.stack(), &QUndoStack::cleanChanged, this, [this](bool clean) { setWindowModified(!clean); });
   timer_ = new QTimer(this);
   timer_->setTimerType(Qt::PreciseTimer);
   connect(timer_, &QTimer::timeout, this, &MainWindow::oneFrame);
-  connect(&analysis_, &DatasetAnalysis::said, this, [this](const QString& words) { message_->say(words); });
-  connect(&analysis_, &DatasetAnalysis::told, this, [this](const QString& words) { message_->tell(words); });
+  connect(&analysis_, &DatasetAnalysis::said, this, &MainWindow::say);
+  connect(&analysis_, &DatasetAnalysis::told, this, &MainWindow::tell);
   connect(&analysis_, &DatasetAnalysis::reported, this, [](const QString& page) { QDesktopServices::openUrl(QUrl::fromLocalFile(page)); });
   timer_->start(view_->drawsInSoftware() ? kSoftwareFrameMs : kFrameMs);
   auto* slowTimer = new QTimer(this);
@@ -203,6 +226,20 @@ void MainWindow::wireSession() {
     showStations();
   });
   slowTimer->start(kStatusMs);
+  layoutTimer_ = new QTimer(this);
+  layoutTimer_->setSingleShot(true);
+  layoutTimer_->setInterval(kLayoutMs);
+  connect(layoutTimer_, &QTimer::timeout, this, [this] {
+    if (isVisible()) rememberLayout(*this, layout_);
+  });
+  for (docks::Dock* dock : docks_.all) {
+    connect(dock, &QDockWidget::visibilityChanged, layoutTimer_, QOverload<>::of(&QTimer::start));
+    connect(dock, &QDockWidget::topLevelChanged, layoutTimer_, QOverload<>::of(&QTimer::start));
+    connect(dock, &QDockWidget::topLevelChanged, this, [this, dock](bool floats) {  // over the scene, and over no other dock
+      if (floats && QGuiApplication::mouseButtons() == Qt::NoButton) dock->move(view_->mapToGlobal(QPoint(40, 40)));
+    });
+    connect(dock, &QDockWidget::dockLocationChanged, layoutTimer_, QOverload<>::of(&QTimer::start));
+  }
 }
 
 void MainWindow::showExperiment() {
@@ -223,23 +260,37 @@ void MainWindow::showOverlay() {
 }
 
 void MainWindow::showStage() {
-  using Stage = docks::SessionDock::Stage;
-  const session::RecordedRun* run = session_.run();
-  const Stage stage = session_.observes()         ? Stage::Following
-                      : run == nullptr            ? Stage::Closed
-                      : session_.underWay()       ? Stage::UnderWay
-                      : session_.follows()        ? Stage::Following
-                      : run->trialsLeft() > 0     ? Stage::BetweenTrials
-                      : session_.blocksLeft() > 0 ? Stage::BlockDone
-                                                  : Stage::Finished;
-  docks_.session->setStage(stage);
+  const Stage stage = stageOf(session_);
+  docks_.session->setOpen(stage != Stage::Closed);
   docks_.devices->setBusy(stage != Stage::Closed);
+  strip_->setOpen(session_.run() != nullptr);
+  actions_.next->setText(stage == Stage::Closed ? tr("&Start") : stage == Stage::BlockDone ? tr("&Next block") : tr("&Next trial"));
   // The keys do what the buttons do: a key that went astray begins no new run where one is over, or while a recording is looked at.
   actions_.next->setEnabled(stage != Stage::UnderWay && stage != Stage::Finished && stage != Stage::Following && !inspecting());
   actions_.abort->setEnabled(stage == Stage::UnderWay);
   for (QAction* action : {actions_.repeat, actions_.end})
     action->setEnabled(stage != Stage::UnderWay && stage != Stage::Closed && !inspecting());
   if (stage == Stage::Following) actions_.repeat->setEnabled(false);
+  actions_.nextSubject->setEnabled(stage == Stage::Closed && !inspecting());
+}
+
+// What a run ends with: its counts, its folder, and what can follow.
+void MainWindow::showEnd() {
+  const record::RunConfiguration& run = session_.run()->configuration();
+  const QString folder = QFileInfo(QString::fromStdString(docks_.session->request().place.data)).absoluteFilePath();
+  std::vector<widgets::Card::Choice> choices{{tr("Inspect"), QStringLiteral("endInspect"), [this, folder] {
+                                                session_.endRun();
+                                                inspect(folder);
+                                              }}};
+  choices.push_back({tr("Next subject"), QStringLiteral("endNextSubject"), [this] {
+                       session_.endRun();
+                       nextSubject();
+                     }});
+  if (!session_.isPlan()) choices.push_back({tr("Next run"), QStringLiteral("endNextRun"), [this] { session_.endRun(); }});
+  card_->offer(session_.isPlan() ? tr("The session is complete") : tr("Run %1 is complete").arg(run.run),
+               tr("%1\n\nSubject %2, session %3.\nRecorded in %4")
+                   .arg(strip_->tally(), QString::fromStdString(run.subject), QString::fromStdString(run.session), folder),
+               choices, false);  // a key that went astray ends nothing
 }
 
 void MainWindow::drawPredictions() {
@@ -251,22 +302,30 @@ void MainWindow::drawPredictions() {
 
 void MainWindow::runOpened() {
   const session::RecordedRun& run = *session_.run();
-  docks_.session->clearTally();
+  card_->close();
+  strip_->clearTally();
   docks_.signal->plot().clear();
   lastNs_ = 0;
   score_ = 0;
   succeeded_.clear();
   runFits_.cancel();
-  docks_.session->showRun(run.configuration());
+  strip_->showRun(run.configuration());
   predictions().clearErrors();
   docks_.trials->clear();
   trace_.beginRun();
   status_->runOpened(run);
+  if (session_.station() == nullptr) {
+    session::SessionRequest request = docks_.session->request();
+    request.what = what_.toStdString();
+    rememberOpenRun(run.configuration(), request);
+  }
   plans_->refresh();
   showStage();
 }
 
 void MainWindow::runClosed() {
+  forgetOpenRun();
+  card_->close();
   status_->runClosed();
   plans_->refresh();
   screens_->showRest();
@@ -284,7 +343,7 @@ void MainWindow::drainTrace() {
 void MainWindow::trialEnded() {
   drainTrace();  // to its last point
   const trial::TrialResult result = session_.lastTrial()->result;
-  docks_.session->count(result);
+  strip_->count(result);
   if (session_.run() != nullptr) docks_.trials->add(session_.run()->numberOf(*session_.lastTrial()), result);
   if (result.outcome == trial::Outcome::Success) ++score_, sounds_.play(SoundCues::Cue::Success);
   if (result.outcome == trial::Outcome::Failure) sounds_.play(SoundCues::Cue::Failure);
@@ -293,6 +352,7 @@ void MainWindow::trialEnded() {
                       result.outcome == trial::Outcome::Success);
   if (result.outcome == trial::Outcome::Success && session_.run() != nullptr) fitRun();
   showStage();
+  if (stageOf(session_) == Stage::Finished) showEnd();
 }
 
 // What `reach analyze` would fit if the run ended here: the same rows, the same code.
@@ -323,7 +383,7 @@ void MainWindow::joinStations() {
   try {
     session_.join(docks_.session->request());
   } catch (const std::exception& e) {
-    message_->say(QString::fromStdString(errorReportOf(e).sentence));
+    say(QString::fromStdString(errorReportOf(e).sentence));
   }
   showStage();
   showStations();
@@ -350,7 +410,7 @@ void MainWindow::playGo(const haptics::TickState& state) {
 plot::VelocityPlot& MainWindow::plot() { return docks_.velocity->plot(); }
 docks::ConstraintChooser& MainWindow::chooser() { return docks_.constraint->chooser(); }
 const scene::OverlayState& MainWindow::overlay() const { return screens_->overlay(); }
-QString MainWindow::message() const { return message_->sentence(); }
+QString MainWindow::message() const { return messages_->newest(); }
 
 void MainWindow::nextTrial() {
   if (session_.run() == nullptr && plans_->resumes()) session_.resume();
@@ -360,16 +420,26 @@ void MainWindow::nextTrial() {
 void MainWindow::beginNext() {
   session_.cancelPause();
   if (session_.restLeft() > 0)
-    return message_->tell(tr("The plan rests %1 s more before its next block; Ctrl+E ends this block's run and the rest.")
-                              .arg(std::ceil(session_.restLeft())));
-  if (session_.run() == nullptr && !docks_.session->fault().isEmpty()) return message_->say(docks_.session->fault());
+    return warn(tr("The plan rests %1 s more before its next block. Ctrl+E ends the run of this block and the rest.")
+                    .arg(std::ceil(session_.restLeft())));
+  if (session_.run() == nullptr && !docks_.session->fault().isEmpty()) return say(docks_.session->fault());
   try {
-    message_->say({});
-    if (!session_.next(docks_.session->request()) && session_.run() == nullptr) message_->tell(QStringLiteral("The session is complete."));
+    messages_->clear();
+    if (session_.run() == nullptr && !mayUseDevice()) return;
+    if (!session_.next(docks_.session->request()) && session_.run() == nullptr) tell(tr("The session is complete."));
   } catch (const std::exception& e) {
-    message_->say(QString::fromStdString(errorReportOf(e).sentence));
+    say(QString::fromStdString(errorReportOf(e).sentence));
   }
   showStage();
+}
+
+// A session that is resumed with another device asks, because its trials would not be comparable.
+bool MainWindow::mayUseDevice() {
+  if (!session_.resumes()) return true;
+  const QString before = QString::fromStdString(deviceSoFar(docks_.session->request().place));
+  const QString now = QString::fromStdString(docks_.session->device());
+  return before.isEmpty() || before == now || before.startsWith(now + QLatin1Char(':')) || before.startsWith(now + QLatin1Char(',')) ||
+         askAboutDevice(*this, before, now);
 }
 
 void MainWindow::abortTrial() {
@@ -378,7 +448,10 @@ void MainWindow::abortTrial() {
 }
 
 void MainWindow::repeatTrial() {
-  if (session_.repeat()) showStage(), showOverlay();
+  if (!session_.repeat()) return;
+  card_->close();
+  showStage();
+  showOverlay();
 }
 
 void MainWindow::resumeSession() {
@@ -386,7 +459,56 @@ void MainWindow::resumeSession() {
   beginNext();
 }
 
-void MainWindow::endRun() { session_.endRun(); }
+void MainWindow::endRun() {
+  if (session_.run() == nullptr || !mayEndRun(tr("End run"))) return;
+  const int run = session_.run()->configuration().run;
+  session_.endRun();
+  tell(tr("Run %1 is saved in %2.")
+           .arg(run)
+           .arg(QFileInfo(QString::fromStdString(docks_.session->request().place.data)).absoluteFilePath()));
+}
+
+void MainWindow::nextSubject() {
+  if (session_.run() == nullptr) docks_.session->nextSubject();
+}
+
+void MainWindow::offerResume() {
+  std::optional<InterruptedRun> found;
+  try {
+    found = findInterruptedRun();
+  } catch (const std::exception& e) {
+    forgetOpenRun();
+    return warn(tr("The interrupted run cannot be resumed. %1").arg(QString::fromStdString(errorReportOf(e).sentence)));
+  }
+  if (!found) return;
+  const session::SessionPlace& place = found->request.place;
+  card_->offer(tr("Resume session %1 of subject %2 at trial %3 of %4?")
+                   .arg(QString::fromStdString(place.session), QString::fromStdString(place.subject))
+                   .arg(found->trial)
+                   .arg(found->trials),
+               tr("Run %1 was interrupted. Its finished trials are safe in %2.\n\nDevice %3, seed %4. The first trial waits for Space.")
+                   .arg(found->run)
+                   .arg(QString::fromStdString(place.data), QString::fromStdString(found->request.device), found->seed),
+               {{tr("Not now"), QStringLiteral("resumeNot"), [] { forgetOpenRun(); }},
+                {tr("Resume"), QStringLiteral("resumeYes"),
+                 [this, run = *found] {
+                   what_ = file_ = QString::fromStdString(run.request.what);
+                   session::SessionRequest request = docks_.session->request();  // with the instruments and the backup of this start
+                   request.what = run.request.what;
+                   request.place = run.request.place;
+                   request.day = run.request.day;
+                   request.device = run.request.device;
+                   request.trials = run.request.trials;
+                   request.seed.reset();  // the session has one
+                   session_.resume(request);
+                   edits_.open(run.programme, tr("resume"));
+                   edits_.stack().setClean();
+                   docks_.session->setRequest(request);
+                   docks_.session->showExperiment(session_.compiled(), !session_.isPlan());
+                   showOverlay();
+                 }}},
+               true);
+}
 
 void MainWindow::resetLayout() {
   forgetLayout();
@@ -418,8 +540,8 @@ void MainWindow::showPage() {
 void MainWindow::openManual() {
   const QString page = manualPage();
   if (page.isEmpty() || !QDesktopServices::openUrl(QUrl::fromLocalFile(page)))
-    message_->say(page.isEmpty() ? QStringLiteral("The manual is not installed. Install the package reachlab-doc.")
-                                 : QStringLiteral("No program opens the manual. Open this file in a browser: %1").arg(page));
+    say(page.isEmpty() ? QStringLiteral("The manual is not installed. Install the package reachlab-doc.")
+                       : QStringLiteral("No program opens the manual. Open this file in a browser: %1").arg(page));
 }
 
 void MainWindow::analyse(const QString& dataset) { analysis_.begin(dataset); }
@@ -435,8 +557,12 @@ void MainWindow::setSubjectsLanguage(const QString& code) {
   showOverlay();
 }
 
-void MainWindow::say(const QString& sentence) { message_->say(sentence); }
-void MainWindow::tell(const QString& sentence) { message_->tell(sentence); }
+void MainWindow::say(const QString& sentence) {
+  if (sentence.isEmpty()) messages_->clear();
+  messages_->say(widgets::Grade::Error, sentence);
+}
+void MainWindow::warn(const QString& sentence) { messages_->say(widgets::Grade::Attention, sentence); }
+void MainWindow::tell(const QString& sentence) { messages_->say(widgets::Grade::Done, sentence); }
 
 void MainWindow::setSideBySide(bool on) {
   screens_->setSideBySide(on);

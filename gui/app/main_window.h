@@ -31,12 +31,16 @@ class InspectorPage;
 namespace reachlab::gui::scene {
 class SceneView;
 }
+namespace reachlab::gui::widgets {
+class Card;
+class Messages;
+}  // namespace reachlab::gui::widgets
 
 namespace reachlab::gui::app {
 
-class MessageBar;
 class PlanPages;
 class Screens;
+class SessionStrip;
 
 /// The window of `reachlab`: the scene in the middle, docks around it. It wires docks, pictures and session, and owns no logic of any.
 class MainWindow : public QMainWindow {
@@ -52,6 +56,7 @@ class MainWindow : public QMainWindow {
   plot::VelocityPlot& plot();
   docks::PredictionDock& predictions() { return *docks_.predictions; }
   docks::SessionDock& sessionDock() { return *docks_.session; }
+  SessionStrip& strip() { return *strip_; }
   docks::ConstraintChooser& chooser();    // made when first asked for
   inspector::InspectorPage& inspector();  // made when first asked for
   bool inspecting() const { return layout_ == WindowLayout::Inspect; }
@@ -61,10 +66,11 @@ class MainWindow : public QMainWindow {
   const scene::OverlayState& overlay() const;
   /// How the scene is drawn, as the experiment has it.
   experiment::SceneLook look() const { return experiment::lookOf(session_.experiment()); }
-  /// Shows a sentence at the top of the window: `say` for an error, `tell` for news of a success.
+  /// Shows a message over the scene: `say` for an error, `warn` for a remark that needs attention, `tell` for a success.
   void say(const QString& sentence);
+  void warn(const QString& sentence);
   void tell(const QString& sentence);
-  /// The sentence in the bar at the top. Empty if the bar is hidden.
+  /// The newest message. Empty if there is no message.
   QString message() const;
   /// True once the criteria have been computed for the present experiment. Never waits.
   bool predictionsReady() const { return forecast_.isReady(); }
@@ -74,7 +80,12 @@ class MainWindow : public QMainWindow {
   void abortTrial();
   void repeatTrial();
   void resumeSession();
+  /// Asks if trials are left, and tells where the run is saved.
   void endRun();
+  /// Counts the subject's label up. Does nothing while a run is open.
+  void nextSubject();
+  /// Offers to resume the run that was open when the program was killed.
+  void offerResume();
   /// At a station: the others hear of it from now on.
   void joinStations();
   /// Opens an experiment or a plan, by file or shipped name. Faults are shown.
@@ -112,6 +123,8 @@ class MainWindow : public QMainWindow {
 
  protected:
   void closeEvent(QCloseEvent* event) override;
+  void resizeEvent(QResizeEvent* event) override;
+  void moveEvent(QMoveEvent* event) override;
   /// A file that is dropped onto the window is opened.
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;
@@ -125,6 +138,8 @@ class MainWindow : public QMainWindow {
   void showExperiment();
   void showOverlay();
   void showStage();
+  void showEnd();
+  bool mayUseDevice();
   void drawPredictions();
   void runOpened();
   void runClosed();
@@ -155,16 +170,19 @@ class MainWindow : public QMainWindow {
   TrialActions actions_;
   QByteArray firstLayout_;                                                         // of the docks
   WindowLayout layout_ = WindowLayout::SetUp, reachLayout_ = WindowLayout::SetUp;  // what holds, and the one on the first page
+  QString what_;                                                                   // file or shipped name that was opened
   QString file_;                                                                   // what was opened or saved; empty: shipped or new
   DatasetAnalysis analysis_;
   std::unique_ptr<StatusLine> status_;
-  MessageBar* message_ = nullptr;
+  SessionStrip* strip_ = nullptr;
+  widgets::Messages* messages_ = nullptr;
+  widgets::Card* card_ = nullptr;
   scene::SceneView* view_ = nullptr;
   QTabWidget* pages_ = nullptr;
   inspector::InspectorPage* inspector_ = nullptr;
   Screens* screens_ = nullptr;
   PlanPages* plans_ = nullptr;
-  QTimer* timer_ = nullptr;
+  QTimer *timer_ = nullptr, *layoutTimer_ = nullptr;
 };
 
 }  // namespace reachlab::gui::app

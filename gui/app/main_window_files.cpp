@@ -15,7 +15,7 @@
 #include "gui/docks/dock.h"
 #include "gui/inspector/inspector.h"
 #include "gui/scene/scene_view.h"
-#include "gui/widgets/message_bar.h"
+#include "gui/widgets/messages.h"
 #include "sim/dynamics/scene.h"
 #include "sim/experiment/experiment.h"
 
@@ -32,11 +32,12 @@ void MainWindow::openExperiment(const QString& what) {
       for (const session::BlockScene& scene : block) (void)dynamics::compileScene(scene.experiment);
     edits_.open(opened, QStringLiteral("open %1").arg(what));
     edits_.stack().setClean();
+    what_ = what;
     file_ = QFileInfo::exists(what) ? what : QString();
     if (!file_.isEmpty()) rememberFile(file_);
-    message_->say({});
+    messages_->clear();
   } catch (const Error& e) {
-    message_->say(QString::fromUtf8(e.what()));
+    say(QString::fromUtf8(e.what()));
   }
 }
 
@@ -46,8 +47,8 @@ inspector::InspectorPage& MainWindow::inspector() {
     pages_->widget(1)->layout()->addWidget(inspector_);
     connect(inspector_, &inspector::InspectorPage::reported, this,
             [](const QString& file) { QDesktopServices::openUrl(QUrl::fromLocalFile(file)); });
-    connect(inspector_, &inspector::InspectorPage::said, this, [this](const QString& words) { message_->say(words); });
-    connect(inspector_, &inspector::InspectorPage::told, this, [this](const QString& words) { message_->tell(words); });
+    connect(inspector_, &inspector::InspectorPage::said, this, &MainWindow::say);
+    connect(inspector_, &inspector::InspectorPage::told, this, &MainWindow::tell);
   }
   return *inspector_;
 }
@@ -82,7 +83,7 @@ bool MainWindow::saveExperimentAs() {
 }
 
 bool MainWindow::saveTo(const QString& file, const experiment::Experiment& experiment) {
-  if (session_.isPlan()) return message_->say(QStringLiteral("Use Session plan… (Ctrl+P) to compose and save a plan.")), false;
+  if (session_.isPlan()) return say(QStringLiteral("Use Session plan… (Ctrl+P) to compose and save a plan.")), false;
   try {
     writeExperiment(experiment, file);
     if (experiment.name != session_.experiment().name && session_.run() == nullptr)
@@ -92,7 +93,7 @@ bool MainWindow::saveTo(const QString& file, const experiment::Experiment& exper
     edits_.stack().setClean();
     return true;
   } catch (const Error& e) {
-    message_->say(QString::fromUtf8(e.what()));
+    say(QString::fromUtf8(e.what()));
     return false;
   }
 }
@@ -108,7 +109,8 @@ void MainWindow::tryEdit(docks::Dock& dock, const experiment::Experiment& change
 bool MainWindow::mayEndRun(const QString& doing) {
   session::RecordedRun* run = session_.run();
   if (run == nullptr || (!run->underWay() && (run->trialsLeft() == 0 || run->latest().trial == 0))) return true;
-  return askToEndRun(*this, doing, run->trialCount() - run->trialsLeft() - (run->underWay() ? 1 : 0), run->trialCount());
+  return askToEndRun(*this, doing, run->trialCount() - run->trialsLeft() - (run->underWay() ? 1 : 0), run->trialCount(),
+                     QFileInfo(QString::fromStdString(docks_.session->request().place.data)).absoluteFilePath());
 }
 
 bool MainWindow::mayBeLeft() {
@@ -126,8 +128,8 @@ void MainWindow::savePicture() {
   QString file = QFileDialog::getSaveFileName(this, tr("Save picture"), QStringLiteral("scene.png"), tr("PNG (*.png)"));
   if (file.isEmpty()) return;
   if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".png");
-  if (picture.save(file)) message_->tell(tr("Written: %1").arg(file));
-  else message_->say(tr("%1 cannot be written. Choose another folder, or free disk space.").arg(file));
+  if (picture.save(file)) tell(tr("Written: %1").arg(file));
+  else say(tr("%1 cannot be written. Choose another folder, or free disk space.").arg(file));
 }
 
 void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
@@ -143,14 +145,13 @@ void MainWindow::setSubjectScreen(const experiment::SubjectScreen& screen) {
   experiment::Experiment changed = session_.experiment();
   changed.subjectScreen = screen;
   if (!mayEndRun(tr("Another picture for the subject"))) return;
-  if (const QStringList faults = edits_.tryEdit(changed, tr("subject's screen")); !faults.isEmpty())
-    message_->say(faults.join(QLatin1Char('\n')));
+  if (const QStringList faults = edits_.tryEdit(changed, tr("subject's screen")); !faults.isEmpty()) say(faults.join(QLatin1Char('\n')));
 }
 
 void MainWindow::setLook(const experiment::SceneLook& look) {
   if (look == this->look() || !mayEndRun(tr("Another look of the scene"))) return;
   const QStringList faults = edits_.tryEdit(experiment::withLook(session_.experiment(), look), tr("look of the scene"));
-  if (!faults.isEmpty()) message_->say(faults.join(QLatin1Char('\n')));
+  if (!faults.isEmpty()) say(faults.join(QLatin1Char('\n')));
 }
 
 void MainWindow::rememberView(const QString& name) {
@@ -159,6 +160,16 @@ void MainWindow::rememberView(const QString& name) {
   std::erase_if(changed.cameras, [&](const experiment::NamedCamera& known) { return known.name == name.toStdString(); });
   changed.cameras.push_back({name.toStdString(), c.position, c.focus, c.up, c.angle, c.parallel});
   setLook(changed);
+}
+
+void MainWindow::resizeEvent(QResizeEvent* event) {
+  QMainWindow::resizeEvent(event);
+  if (layoutTimer_ != nullptr) layoutTimer_->start();
+}
+
+void MainWindow::moveEvent(QMoveEvent* event) {
+  QMainWindow::moveEvent(event);
+  if (layoutTimer_ != nullptr) layoutTimer_->start();
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

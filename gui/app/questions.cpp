@@ -5,18 +5,35 @@
 
 namespace reachlab::gui::app {
 
-bool askToEndRun(QWidget& window, const QString& doing, std::size_t trialsDone, std::size_t trialsPlanned) {
-  QMessageBox box(QMessageBox::Question, QStringLiteral("A run is open"),
-                  QStringLiteral("%1 of %2 trials are done. %3 ends the run. The recorded trials are kept.")
-                      .arg(trialsDone)
-                      .arg(trialsPlanned)
-                      .arg(doing),
-                  QMessageBox::NoButton, &window);
-  box.setObjectName(QStringLiteral("askToEndRun"));
-  const auto* end = box.addButton(QStringLiteral("End the run"), QMessageBox::AcceptRole);
-  box.setDefaultButton(box.addButton(QStringLiteral("Continue it"), QMessageBox::RejectRole));
+namespace {
+
+// The choice that loses nothing is the usual one.
+bool ask(QWidget& window, const char* name, const QString& title, const QString& text, const QString& yes, const QString& no) {
+  QMessageBox box(QMessageBox::Question, title, text, QMessageBox::NoButton, &window);
+  box.setObjectName(QLatin1String(name));
+  const auto* agreed = box.addButton(yes, QMessageBox::AcceptRole);
+  box.setDefaultButton(box.addButton(no, QMessageBox::RejectRole));
   box.exec();
-  return box.clickedButton() == end;
+  return box.clickedButton() == agreed;
+}
+
+}  // namespace
+
+bool askToEndRun(QWidget& window, const QString& doing, std::size_t trialsDone, std::size_t trialsPlanned, const QString& folder) {
+  return ask(window, "askToEndRun", QStringLiteral("A run is open"),
+             QStringLiteral("%1 of %2 trials are done. %3 ends the run. The finished trials stay in %4, and Trial, Resume the session "
+                            "continues with the others.")
+                 .arg(trialsDone)
+                 .arg(trialsPlanned)
+                 .arg(doing, folder),
+             QStringLiteral("End the run"), QStringLiteral("Continue it"));
+}
+
+bool askAboutDevice(QWidget& window, const QString& before, const QString& now) {
+  return ask(window, "askAboutDevice", QStringLiteral("Another device"),
+             QStringLiteral("This session was recorded with the device %1. You resume it with %2, and its trials may not be comparable.")
+                 .arg(before, now),
+             QStringLiteral("Use %1").arg(now), QStringLiteral("Cancel"));
 }
 
 Unsaved askAboutUnsaved(QWidget& window, const QString& experiment) {

@@ -119,6 +119,7 @@ void Screens::openSubject(const QString& screen) {
   subject_->view().setPlan(subjectsPlan(main_.plan(), experiment_->experiment().subjectScreen));
   subject_->view().setOverlay(subjectsOverlay_);
   subject_->addActions(actions_);
+  subject_->view().setFocus();  // Space begins a trial where the scene has the keys
   subject_->showFull(screen);
   showPatch(nullptr);
   mirrorTimer_->start();

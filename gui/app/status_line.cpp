@@ -10,7 +10,14 @@ namespace reachlab::gui::app {
 
 StatusLine::StatusLine(QStatusBar& bar)
     : rate_(new QLabel), ticks_(new QLabel), trial_(new QLabel), method_(new QLabel), recording_(new QLabel) {
+  ticks_->setObjectName(QStringLiteral("ticks"));
+  ticks_->setToolTip(
+      QStringLiteral("Servo cycles of 1 ms in this run.\nlate: cycles that began later than their time, but were computed.\n"
+                     "missed: cycles that were left out, because the computer was busy.\n"
+                     "clamped: cycles in which the force was limited to the maximum of the device.\n"
+                     "not recorded: cycles that the disk was too slow for."));
   recording_->setObjectName(QStringLiteral("recording"));
+  recording_->setToolTip(QStringLiteral("The log of the run that is open or was open last"));
   recording_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   trial_->setObjectName(QStringLiteral("trialTime"));
   trial_->setToolTip(QStringLiteral(

@@ -41,14 +41,30 @@ void say(MainWindow& window, const QString& title, const QString& text) {
   box->show();
 }
 
+QString keyRow(const QString& keys, const QString& words) {
+  return QStringLiteral("<tr><td><b>%1</b></td><td>%2</td></tr>").arg(keys.toHtmlEscaped(), words.toHtmlEscaped());
+}
+
+// A row for each action with keys, menu by menu.
+void listKeys(const QList<QAction*>& actions, QStringList& rows) {
+  for (const QAction* action : actions) {
+    if (action->menu() != nullptr) listKeys(action->menu()->actions(), rows);
+    if (!action->shortcut().isEmpty()) rows << keyRow(action->shortcut().toString(QKeySequence::NativeText), action->iconText());
+  }
+}
+
 void sayKeys(MainWindow& window) {
-  say(window, QStringLiteral("Keys and mouse"),
-      QStringLiteral("<table cellpadding=3><tr><td><b>left drag</b></td><td>moves the hand (device mouse)</td></tr>"
-                     "<tr><td><b>right drag</b></td><td>turns</td></tr><tr><td><b>middle drag</b></td><td>shifts</td></tr>"
-                     "<tr><td><b>wheel</b></td><td>nearer, farther</td></tr><tr><td><b>Space</b></td><td>next trial</td></tr>"
-                     "<tr><td><b>Esc</b></td><td>abort the trial</td></tr><tr><td><b>Ctrl+R</b></td><td>repeat the last trial</td></tr>"
-                     "<tr><td><b>F</b></td><td>masses side by side</td></tr><tr><td><b>Ctrl+K</b></td><td>constraints</td></tr>"
-                     "<tr><td><b>F11</b></td><td>subject's screen</td></tr></table>"));
+  QStringList rows{keyRow(QStringLiteral("left drag"), QStringLiteral("moves the hand (device mouse)")),
+                   keyRow(QStringLiteral("right drag"), QStringLiteral("turns the view")),
+                   keyRow(QStringLiteral("middle drag"), QStringLiteral("shifts the view")),
+                   keyRow(QStringLiteral("wheel"), QStringLiteral("zooms")),
+                   keyRow(QStringLiteral("Tab"), QStringLiteral("goes to the next field or button"))};
+  listKeys(window.menuBar()->actions(), rows);
+  const int half = (rows.size() + 1) / 2;
+  QString columns;
+  for (const QStringList& column : {QStringList(rows.mid(0, half)), QStringList(rows.mid(half))})
+    columns += QStringLiteral("<td><table cellpadding=2>%1</table></td>").arg(column.join(QString()));
+  say(window, QStringLiteral("Keys and mouse"), QStringLiteral("<table><tr>%1</tr></table>").arg(columns));
 }
 
 void sayAbout(MainWindow& window) {
@@ -104,12 +120,20 @@ void addEditMenu(MainWindow& window) {
 
 void addTrialMenu(MainWindow& window, TrialActions& actions) {
   QMenu* menu = window.menuBar()->addMenu(QStringLiteral("&Trial"));
-  actions.next = add(window, menu, QStringLiteral("&Next"), Qt::Key_Space, &MainWindow::nextTrial);
+  actions.next = add(window, menu, QStringLiteral("&Start"), Qt::Key_Space, &MainWindow::nextTrial);
+  actions.next->setToolTip(QStringLiteral("Starts the run, then the next trial. Space works in the scene and on this button."));
+  // Space in a list or on a box is theirs: it begins a recording only in the scene, to which the window adds this action.
+  actions.next->setShortcutContext(Qt::WidgetWithChildrenShortcut);
   actions.abort = add(window, menu, QStringLiteral("&Abort"), Qt::Key_Escape, &MainWindow::abortTrial);
+  actions.abort->setToolTip(QStringLiteral("Aborts the trial. It does not count."));
   // Not a letter alone: one that went astray would repeat a trial.
   actions.repeat = add(window, menu, QStringLiteral("&Repeat"), QKeySequence(QStringLiteral("Ctrl+R")), &MainWindow::repeatTrial);
+  actions.repeat->setToolTip(QStringLiteral("Repeats the last trial at the end of the run."));
   add(window, menu, QStringLiteral("Res&ume the session"), {}, &MainWindow::resumeSession)->setObjectName(QStringLiteral("resume"));
   actions.end = add(window, menu, QStringLiteral("&End run"), QKeySequence(QStringLiteral("Ctrl+E")), &MainWindow::endRun);
+  actions.end->setToolTip(QStringLiteral("Ends the run: closes the log and writes the dataset."));
+  actions.nextSubject = add(window, menu, QStringLiteral("Next su&bject"), {}, &MainWindow::nextSubject);
+  actions.nextSubject->setObjectName(QStringLiteral("nextSubject"));
   for (QAction* action : {actions.next, actions.abort, actions.repeat, actions.end}) action->setAutoRepeat(false);
 }
 

@@ -47,6 +47,8 @@ Docks makeDocks(QMainWindow& window, bool station) {
   add(new CouplingDock(&window), Qt::RightDockWidgetArea);
   add(new TaskDock(&window), Qt::RightDockWidgetArea);
   window.resizeDocks({docks.velocity}, {270}, Qt::Vertical);
+  window.resizeDocks({docks.session, docks.constraint, docks.predictions}, {1, 190, 260},
+                     Qt::Vertical);  // the session has its least height
   window.resizeDocks({docks.session, object}, {378, 300}, Qt::Horizontal);
   return docks;
 }

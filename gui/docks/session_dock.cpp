@@ -17,7 +17,6 @@
 #include "base/error.h"
 #include "devices/driver/registry.h"
 #include "devices/hot_plug.h"
-#include "gui/scene/trial_texts.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/fault_words.h"
 #include "gui/widgets/unit_spin_box.h"
@@ -31,12 +30,10 @@ SessionDock::SessionDock(QWidget* parent) : Dock(QStringLiteral("Session"), QStr
   layout->addWidget(makeWho());
   faults()->setObjectName(QStringLiteral("sessionFaults"));
   layout->addWidget(faults());
-  addRun(*layout);
+  addPause(*layout);
   layout->addStretch();
-  setBody(body);
+  setBody(body, false);
   wire();
-  clearTally();
-  setStage(Stage::Closed);
 }
 
 QWidget* SessionDock::makeWho() {
@@ -45,11 +42,14 @@ QWidget* SessionDock::makeWho() {
   form->setContentsMargins(0, 0, 0, 0);
   subject_ = new QLineEdit;
   subject_->setObjectName(QStringLiteral("subject"));
+  subject_->setToolTip(QStringLiteral("Label of the subject in the dataset: letters and digits"));
   session_ = new QLineEdit;
   session_->setObjectName(QStringLiteral("session"));
+  session_->setToolTip(QStringLiteral("Label of this visit in the dataset: letters and digits"));
   day_ = new QSpinBox;
   day_->setRange(0, 999);
   day_->setSpecialValueText(QStringLiteral("–"));
+  day_->setToolTip(QStringLiteral("Day of the plan, if the label of the session is no number"));
   auto* ids = new QHBoxLayout;
   ids->addWidget(subject_);
   ids->addWidget(new QLabel(QStringLiteral("session")));
@@ -62,8 +62,11 @@ QWidget* SessionDock::makeWho() {
   age_->setPlaceholderText(QStringLiteral("age"));
   age_->setMaximumWidth(54);
   sex_ = new QComboBox;
+  age_->setToolTip(QStringLiteral("Age in years, for the table of participants"));
+  sex_->setToolTip(QStringLiteral("Sex, for the table of participants"));
   sex_->addItems({QStringLiteral("sex"), QStringLiteral("F"), QStringLiteral("M"), QStringLiteral("O")});
   hand_ = new QComboBox;
+  hand_->setToolTip(QStringLiteral("Handedness, for the table of participants: right, left, ambidextrous"));
   hand_->addItems({QStringLiteral("hand"), QStringLiteral("R"), QStringLiteral("L"), QStringLiteral("A")});
   auto* person = new QHBoxLayout;
   person->addWidget(age_);
@@ -73,6 +76,7 @@ QWidget* SessionDock::makeWho() {
   form->addRow(QStringLiteral("device"), makeDeviceRow());
   data_ = new QLineEdit;
   data_->setObjectName(QStringLiteral("data"));
+  data_->setToolTip(QStringLiteral("Folder of the dataset. It is created if it does not exist."));
   form->addRow(QStringLiteral("data in"), data_);
   return who_;
 }
@@ -88,6 +92,8 @@ QHBoxLayout* SessionDock::makeDeviceRow() {
   look->start(1000);
   trials_ = new QSpinBox;
   trials_->setRange(1, 100000);
+  trials_->setObjectName(QStringLiteral("trialCount"));
+  trials_->setToolTip(QStringLiteral("Trials of the next run. A plan has its own number of trials."));
   auto* hands = new QHBoxLayout;
   hands->addWidget(device_, 1);
   auto* devices = new QPushButton(QStringLiteral("…"));
@@ -104,61 +110,26 @@ QHBoxLayout* SessionDock::makeDeviceRow() {
   return hands;
 }
 
-void SessionDock::addRun(QVBoxLayout& layout) {
-  run_ = new QLabel;
-  run_->setProperty("role", "quiet");
-  run_->setWordWrap(true);
-  layout.addWidget(run_);
-
-  next_ = new QPushButton(QStringLiteral("Start  (Space)"));
-  next_->setObjectName(QStringLiteral("next"));
-  next_->setProperty("role", "go");
-  abort_ = new QPushButton(QStringLiteral("Abort  (Esc)"));
-  abort_->setObjectName(QStringLiteral("abort"));
-  repeat_ = new QPushButton(QStringLiteral("Repeat  (Ctrl+R)"));
-  repeat_->setObjectName(QStringLiteral("repeat"));
-  repeat_->setToolTip(QStringLiteral("repeats the last trial at the end of the run"));
-  end_ = new QPushButton(QStringLiteral("End run  (Ctrl+E)"));
-  end_->setObjectName(QStringLiteral("end"));
-  auto* buttons = new QGridLayout;
-  buttons->addWidget(next_, 0, 0);
-  buttons->addWidget(abort_, 0, 1);
-  buttons->addWidget(repeat_, 1, 0);
-  buttons->addWidget(end_, 1, 1);
-  layout.addLayout(buttons);
-  for (auto* button : {next_, abort_, repeat_, end_}) button->setFocusPolicy(Qt::NoFocus);
-
+void SessionDock::addPause(QVBoxLayout& layout) {
   automatic_ = new QCheckBox(QStringLiteral("start the next trial after"));
   pause_ = new widgets::UnitSpinBox(0, 600, QStringLiteral("s"));
   pause_->show(1);
+  automatic_->setToolTip(QStringLiteral("The next trial begins without a key after this pause. A plan has its own pauses."));
+  pause_->setToolTip(automatic_->toolTip());
   auto* pausing = new QHBoxLayout;
   pausing->addWidget(automatic_);
   pausing->addWidget(pause_);
   pausing->addStretch();
   layout.addLayout(pausing);
-
-  tally_ = new QLabel;
-  tally_->setObjectName(QStringLiteral("tally"));
-  tally_->setWordWrap(true);
-  layout.addWidget(tally_);
-  note_ = new QLineEdit;
-  note_->setObjectName(QStringLiteral("note"));
-  note_->setPlaceholderText(QStringLiteral("note for the record, Enter to keep it"));
-  layout.addWidget(note_);
 }
 
 void SessionDock::wire() {
-  connect(next_, &QPushButton::clicked, this, &SessionDock::nextRequested);
-  connect(abort_, &QPushButton::clicked, this, &SessionDock::abortRequested);
-  connect(repeat_, &QPushButton::clicked, this, &SessionDock::repeatRequested);
-  connect(end_, &QPushButton::clicked, this, &SessionDock::endRequested);
-  connect(device_, &QComboBox::currentTextChanged, this, &SessionDock::deviceChanged);
-  connect(note_, &QLineEdit::returnPressed, this, [this] {
-    if (note_->text().trimmed().isEmpty()) return;
-    Q_EMIT noteWritten(note_->text().trimmed());
-    note_->clear();
-  });
-  for (QLineEdit* field : {subject_, session_, age_, data_}) connect(field, &QLineEdit::textChanged, this, &SessionDock::check);
+  for (QLineEdit* field : {subject_, session_, age_, data_}) {
+    connect(field, &QLineEdit::textChanged, this, &SessionDock::check);
+    connect(field, &QLineEdit::textChanged, this, &SessionDock::changed);
+  }
+  connect(device_, &QComboBox::currentTextChanged, this, &SessionDock::changed);
+  connect(trials_, QOverload<int>::of(&QSpinBox::valueChanged), this, &SessionDock::changed);
 }
 
 // What was plugged in or out is offered or not any more; what is typed stays.
@@ -235,55 +206,25 @@ session::SessionRequest SessionDock::request() const {
 
 std::string SessionDock::device() const { return device_->currentText().trimmed().toStdString(); }
 void SessionDock::setDevice(const QString& name) { device_->setCurrentText(name); }
+void SessionDock::setTrials(int trials) { trials_->setValue(trials); }
 bool SessionDock::repeatsByItself() const { return automatic_->isChecked(); }
 double SessionDock::pauseSeconds() const { return pause_->value(); }
 
-void SessionDock::setStage(Stage stage) {
-  who_->setEnabled(stage == Stage::Closed);
-  next_->setText(stage == Stage::Closed      ? QStringLiteral("Start  (Space)")
-                 : stage == Stage::BlockDone ? QStringLiteral("Next block  (Space)")
-                                             : QStringLiteral("Next trial  (Space)"));
-  next_->setEnabled(stage != Stage::UnderWay && stage != Stage::Finished && stage != Stage::Following);
-  abort_->setEnabled(stage == Stage::UnderWay);
-  for (auto* button : {repeat_, end_}) button->setEnabled(stage != Stage::UnderWay && stage != Stage::Closed);
-  if (stage == Stage::Following) repeat_->setEnabled(false);
-  note_->setEnabled(stage != Stage::Closed);
+void SessionDock::setOpen(bool open) { who_->setEnabled(!open); }
+
+void SessionDock::nextSubject() {
+  subject_->setText(labelAfter(subject_->text().trimmed()));
+  age_->clear();
+  sex_->setCurrentIndex(0);
+  hand_->setCurrentIndex(0);
 }
 
-void SessionDock::showRun(const record::RunConfiguration& run) {
-  QString text = QStringLiteral("run %1, block %2: %3").arg(run.run).arg(run.block).arg(QString::fromStdString(run.condition));
-  if (run.practice) text += QStringLiteral(" (practice)");
-  if (run.day > 0) text += QStringLiteral(", day %1").arg(run.day);
-  run_->setText(text + QStringLiteral("; seed %1").arg(run.seed));
-}
-
-void SessionDock::clearTally() {
-  successes_ = failures_ = others_ = 0;
-  reasons_.clear();
-  tally_->setText(QStringLiteral("no trials yet"));
-}
-
-void SessionDock::count(const trial::TrialResult& result) {
-  if (result.outcome == trial::Outcome::Success) ++successes_;
-  else if (result.outcome == trial::Outcome::Failure) ++failures_;
-  else ++others_;
-  if (result.outcome != trial::Outcome::Success) ++reasons_[result.reason];
-  const int judged = successes_ + failures_;
-  QString text =
-      judged > 0
-          ? QStringLiteral("<b>%1 of %2 succeeded (%3 %)</b>").arg(successes_).arg(judged).arg(100.0 * successes_ / judged, 0, 'f', 0)
-          : QStringLiteral("<b>none judged yet</b>");
-  if (others_ > 0) text += QStringLiteral(", %1 aborted").arg(others_);
-  QStringList why;
-  for (const auto& [reason, count] : reasons_) why << QStringLiteral("%1 × %2").arg(count).arg(scene::reasonText(reason));
-  if (!why.isEmpty()) text += QStringLiteral("<br>") + why.join(QStringLiteral(", "));
-  tally_->setText(text);
-}
-
-void SessionDock::beginNote(const QString& words) {
-  note_->setText(words);
-  note_->setFocus();
-  note_->setCursorPosition(static_cast<int>(words.size()));
+QString labelAfter(const QString& label) {
+  int first = label.size();
+  while (first > 0 && label[first - 1].isDigit()) --first;
+  const QString digits = label.mid(first);
+  if (digits.isEmpty()) return label + QStringLiteral("2");
+  return label.left(first) + QString::number(digits.toULongLong() + 1).rightJustified(digits.size(), QLatin1Char('0'));
 }
 
 }  // namespace reachlab::gui::docks

@@ -1,17 +1,13 @@
 #pragma once
-#include <map>
 #include <string>
 
 #include "gui/docks/dock.h"
-#include "sim/haptics/run_conductor.h"
 #include "sim/session/session.h"
 
 class QCheckBox;
 class QComboBox;
 class QHBoxLayout;
-class QLabel;
 class QLineEdit;
-class QPushButton;
 class QSpinBox;
 class QVBoxLayout;
 
@@ -21,7 +17,7 @@ class UnitSpinBox;
 
 namespace reachlab::gui::docks {
 
-/// Subject, session, run, day, device, the buttons of trials, the tally, and notes.
+/// Subject, session, day, person, device, number of trials, and folder of the dataset. It has its full height, and does not scroll.
 class SessionDock : public Dock {
   Q_OBJECT
  public:
@@ -34,27 +30,18 @@ class SessionDock : public Dock {
   QString fault() const;
   std::string device() const;
   void setDevice(const QString& name);
+  void setTrials(int trials);
   bool repeatsByItself() const;  // next trial without a key
   double pauseSeconds() const;   // [s] before it
 
-  /// While a run is open, the fields of subject and session are fixed. BlockDone: the plan has a next block. Following: another station
-  /// conducts.
-  enum class Stage { Closed, BetweenTrials, UnderWay, BlockDone, Finished, Following };
-  void setStage(Stage stage);
-  /// Which run is open: its number, block, condition, day, seed.
-  void showRun(const record::RunConfiguration& run);
-  void clearTally();
-  void count(const trial::TrialResult& result);
-  /// Puts the cursor into the line for notes, behind these words.
-  void beginNote(const QString& words);
+  /// While a run is open, the fields of subject and session are fixed.
+  void setOpen(bool open);
+  /// Counts the subject's label up ("03" becomes "04") and empties the fields of the person.
+  void nextSubject();
 
  Q_SIGNALS:
-  void nextRequested();
-  void abortRequested();
-  void repeatRequested();
-  void endRequested();
-  void noteWritten(const QString& text);
-  void deviceChanged();
+  /// A field was changed, by the user or by the program.
+  void changed();
   /// Which devices there are is to be seen.
   void devicesRequested();
 
@@ -65,24 +52,23 @@ class SessionDock : public Dock {
  private:
   QWidget* makeWho();
   QHBoxLayout* makeDeviceRow();
-  void addRun(QVBoxLayout& layout);
+  void addPause(QVBoxLayout& layout);
   void wire();
   void check();
   void offerPlugged();
 
   session::SessionRequest request_;
-  QLineEdit *subject_, *session_, *data_, *note_, *age_;
+  QLineEdit *subject_, *session_, *data_, *age_;
   QComboBox *device_, *sex_, *hand_;
   QSpinBox *trials_, *day_;
   QCheckBox* automatic_;
   widgets::UnitSpinBox* pause_;
   QWidget* who_;
-  QLabel *run_, *tally_;
-  QPushButton *next_, *abort_, *repeat_, *end_;
-  int successes_ = 0, failures_ = 0, others_ = 0;
-  std::map<trial::Reason, int> reasons_;
   std::uint64_t plugged_ = 0;  // devices::pluggedFingerprint
   int offered_ = 0;            // entries of `device_` that are always there
 };
+
+/// The next label: "03" becomes "04", "P9" becomes "P10", and "A" becomes "A2".
+QString labelAfter(const QString& label);
 
 }  // namespace reachlab::gui::docks

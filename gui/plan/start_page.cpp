@@ -7,6 +7,7 @@
 #include <QPushButton>
 #include <QTableWidget>
 #include <QVBoxLayout>
+#include <QVariant>
 
 #include "gui/widgets/theme.h"
 
@@ -27,7 +28,7 @@ QString stateOf(const session::BlockProgress& block) {
 
 StartPage::StartPage(QWidget* parent) : QFrame(parent) {
   setObjectName(QStringLiteral("startPage"));
-  setStyleSheet(QStringLiteral("#startPage { background: #181c23; border: 1px solid #46505f; border-radius: 8px; }"));
+  setProperty("role", QStringLiteral("card"));
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(24, 18, 24, 18);
   layout->setSpacing(9);
@@ -71,7 +72,7 @@ StartPage::StartPage(QWidget* parent) : QFrame(parent) {
   anew_->setObjectName(QStringLiteral("startAnew"));
   go_ = new QPushButton;
   go_->setObjectName(QStringLiteral("startGo"));
-  go_->setProperty("role", "go");
+  go_->setProperty("role", QStringLiteral("go"));
   for (QPushButton* button : {compose, anew_, go_}) button->setFocusPolicy(Qt::NoFocus);  // Space is the trial's
   buttons->addWidget(compose);
   buttons->addStretch(1);

@@ -63,14 +63,13 @@ struct ObjectActors::Impl {
   }
   void addConstraint(const ScenePlan& from, SurfaceStyle style) {
     if (from.curve.pointCount() > 1) {
-      add(makeRail(from.curve, from.railRadius, {from.look.colours.rail, 1, 0.5}));
+      add(makeRail(from.curve, from.railRadius, {from.look.colours.rail, 1, 0.9, true}));
       // Shifted masses run beside the rail: a faint copy for each.
       for (const Vec3& shift : from.massShift)
         if (norm(shift) > 0) place(*add(makeRail(from.curve, 0.4 * from.railRadius, {from.look.colours.rail, 0.30, 0})), shift);
     }
     if (!from.surface.quads.empty()) {
-      if (style == SurfaceStyle::Glass)
-        add(makeSkin(from.surface, {from.look.colours.surface, from.look.surfaceOpacity, 0.3}))->PickableOff();
+      if (style == SurfaceStyle::Glass) makeShell(*add(makeSkin(from.surface, {from.look.colours.surface, from.look.surfaceOpacity, 0.3})));
       Actor lines =
           add(makeParameterLines(from.surface, {from.look.colours.surfaceLine, style == SurfaceStyle::Glass ? 0.40 : 0.85, 0}, 1.0));
       lines->PickableOff();
@@ -90,6 +89,7 @@ struct ObjectActors::Impl {
     if (!from.hasTask) return;
     const auto mark = [&](const Vec3& at, const widgets::Colour& colour, double radius, double opacity) {
       Actor ball = add(makeBall({colour, opacity, 0.2}));
+      if (opacity < 0.5) makeShell(*ball);
       ball->SetScale(radius);
       place(*ball, at);
     };
@@ -112,8 +112,8 @@ struct ObjectActors::Impl {
   }
   void addObject(const ScenePlan& from) {
     for (const SpringPlan& spring : from.springs)
-      springs.push_back(add(makeCoil({spring.coupling ? from.look.colours.coupling : from.look.colours.spring, 1, 0.5},
-                                     spring.coupling ? 6 : 9, spring.coupling ? 0.16 : 0.2)));
+      springs.push_back(
+          add(makeCoil({spring.coupling ? from.look.colours.coupling : from.look.colours.spring, 1, 0.5}, spring.coupling ? 6 : 9)));
     for (std::size_t i = 0; i < from.massRadius.size(); ++i) {
       const Look look{colourOf(from.massRole[i], from.look.colours), 1, 0.55};
       masses.push_back(add(from.body ? makeBox(look) : makeBall(look)));
@@ -157,6 +157,14 @@ void ObjectActors::show(const SceneFrame& frame) {
     if (plan.body) placeBody(*impl_->masses[i], drawn(i), frame.body.orientation, 2.2 * plan.massRadius[i]);
     else place(*impl_->masses[i], drawn(i));
   }
+  // Masses at one position are drawn as one: two skins at one position flicker.
+  for (std::size_t i = 1; i < count; ++i) {
+    bool hidden = impl_->model->hasMass(i);
+    for (std::size_t k = 0; k < i; ++k)
+      hidden = hidden || (isFinite(frame.masses[i]) && plan.massRadius[k] >= plan.massRadius[i] &&
+                          norm(drawn(i) - drawn(k)) < 0.12 * plan.massRadius[k]);
+    impl_->masses[i]->SetVisibility(!hidden);
+  }
   const auto own = static_cast<std::size_t>(plan.ownHand);
   const auto isShown = [&](std::size_t i) { return i < frame.hands.size() && frame.hands[i] && isFinite(*frame.hands[i]); };
   for (std::size_t i = 0; i < impl_->hands.size(); ++i) {
@@ -178,7 +186,14 @@ void ObjectActors::show(const SceneFrame& frame) {
       continue;
     }
     const Vec3 from = spring.from < 0 ? *frame.hands[hand] : drawn(static_cast<std::size_t>(spring.from));
-    if (isFinite(from) && isFinite(drawn(to))) stretch(*impl_->springs[i], from, drawn(to), (spring.coupling ? 0.011 : 0.016) * plan.unit);
+    if (!isFinite(from) || !isFinite(drawn(to))) continue;
+    // From surface to surface of the bodies at its ends.
+    const Vec3 way = drawn(to) - from;
+    const double length = norm(way), first = spring.from < 0 ? plan.handRadius : plan.massRadius[static_cast<std::size_t>(spring.from)],
+                 second = plan.body ? 0 : plan.massRadius[to], coil = (spring.coupling ? 0.010 : 0.016) * plan.unit;
+    const Vec3 unit = length > first + second ? way / length : Vec3{};
+    stretch(*impl_->springs[i], from + first * unit, length > first + second ? drawn(to) - second * unit : from, coil,
+            (spring.coupling ? 0.0016 : 0.0026) * plan.unit);
   }
 }
 

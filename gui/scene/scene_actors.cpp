@@ -8,7 +8,6 @@
 #include <vtkConeSource.h>
 #include <vtkFloatArray.h>
 #include <vtkGlyph3D.h>
-#include <vtkMatrix4x4.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -17,10 +16,13 @@
 #include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 #include <vtkSmartPointer.h>
+#include <vtkShaderProperty.h>
 #include <vtkSphereSource.h>
 #include <vtkTransform.h>
 #include <vtkTubeFilter.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -42,7 +44,8 @@ vtkSmartPointer<vtkActor> actorOf(vtkAlgorithmOutput* geometry, const Look& look
   p->SetAmbient(0.12);
   p->SetDiffuse(0.88);
   p->SetSpecular(look.shine);
-  p->SetSpecularPower(28);
+  p->SetSpecularPower(look.metal ? 60 : 28);
+  if (look.metal) p->SetDiffuse(0.55), p->SetAmbient(0.18);
   p->SetInterpolationToPhong();
   return actor;
 }
@@ -61,6 +64,15 @@ vtkSmartPointer<vtkPolyData> linesOf(const std::vector<std::vector<Vec3>>& piece
 }
 
 }  // namespace
+
+void makeShell(vtkActor& actor) {
+  actor.GetShaderProperty()->AddFragmentShaderReplacement(
+      "//VTK::Light::Impl", false,
+      "//VTK::Light::Impl\n"
+      "  float facing = abs(dot(normalVCVSOutput, normalize(vertexVC.xyz)));\n"
+      "  fragOutput0.a = min(1.0, fragOutput0.a * (0.65 + 1.9 * (1.0 - facing) * (1.0 - facing)));\n",
+      false);
+}
 
 vtkSmartPointer<vtkActor> makeBall(const Look& look) {
   vtkNew<vtkSphereSource> source;
@@ -84,26 +96,56 @@ vtkSmartPointer<vtkActor> makeBox(const Look& look) {
   return actor;
 }
 
-vtkSmartPointer<vtkActor> makeCoil(const Look& look, int turns, double wire) {
-  CurveMesh mesh;
-  mesh.pieces.emplace_back();
-  const int perTurn = 20, samples = turns * perTurn;
-  const double lead = 0.08;  // straight share at either end
-  mesh.pieces[0].push_back({0, 0, 0});
-  for (int i = 0; i <= samples; ++i) {
-    const double s = static_cast<double>(i) / samples, angle = 2 * std::numbers::pi * turns * s;
-    const double radius = std::min({1.0, s * 3 * turns, (1 - s) * 3 * turns});
-    mesh.pieces[0].push_back({lead + (1 - 2 * lead) * s, radius * std::cos(angle), radius * std::sin(angle)});
+namespace {
+
+// The wire's centre line runs from end to end in the frame of the axis: a hook, the coil, a hook. Lengths in coil radii.
+constexpr int kPerTurn = 16, kHookSamples = 12, kSides = 7;
+constexpr double kHook = 0.55;  // radius of a hook
+
+int samplesOf(int turns) { return turns * kPerTurn + 1 + 2 * kHookSamples; }
+
+// Point `i` of the wire of a coil of that length. A hook turns once about its centre on the axis, and the coil begins and ends on the axis.
+Vec3 wirePoint(int i, int turns, double length) {
+  const int last = samplesOf(turns) - 1;
+  if (i < kHookSamples || i > last - kHookSamples) {
+    const bool first = i < kHookSamples;
+    const double share = static_cast<double>(first ? i : last - i) / kHookSamples,
+                 angle = 2 * std::numbers::pi * share - std::numbers::pi / 2;
+    const double along = kHook + kHook * std::sin(angle) + kHook * share * 1.2, across = kHook * std::cos(angle);
+    return {first ? along : length - along, first ? across : -across, 0};
   }
-  mesh.pieces[0].push_back({1, 0, 0});
-  // The wire is round once the coil is stretched to about eight times its radius.
-  for (Vec3& p : mesh.pieces[0]) p.x *= 8;
-  vtkNew<vtkTubeFilter> tube;
-  tube->SetInputData(linesOf(mesh.pieces));
-  tube->SetRadius(wire);
-  tube->SetNumberOfSides(8);
-  tube->CappingOn();
-  return actorOf(tube->GetOutputPort(), look);
+  const double s = static_cast<double>(i - kHookSamples) / (turns * kPerTurn), angle = 2 * std::numbers::pi * turns * s;
+  const double radius = std::min({1.0, s * 2 * turns, (1 - s) * 2 * turns}), lead = 1.2 * kHook;
+  return {lead + (length - 2 * lead) * s, radius * std::cos(angle), radius * std::sin(angle)};
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkActor> makeCoil(const Look& look, int turns) {
+  const int samples = samplesOf(turns);
+  vtkNew<vtkPoints> points;
+  points->SetNumberOfPoints(static_cast<vtkIdType>(samples) * kSides);
+  vtkNew<vtkFloatArray> normals;
+  normals->SetNumberOfComponents(3);
+  normals->SetNumberOfTuples(points->GetNumberOfPoints());
+  normals->Fill(0);
+  vtkNew<vtkCellArray> quads;
+  for (vtkIdType i = 0; i + 1 < samples; ++i)
+    for (vtkIdType k = 0; k < kSides; ++k) {
+      const vtkIdType next = (k + 1) % kSides,
+                      corners[] = {i * kSides + k, i * kSides + next, (i + 1) * kSides + next, (i + 1) * kSides + k};
+      quads->InsertNextCell(4, corners);
+    }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(quads);
+  data->GetPointData()->SetNormals(normals);
+  vtkNew<vtkPolyDataMapper> mapper;
+  auto actor = actorOf(nullptr, look);
+  mapper->SetInputData(data);
+  mapper->ScalarVisibilityOff();
+  actor->SetMapper(mapper);
+  return actor;
 }
 
 Vec3 penEnd(const Vec3& hand, double radius) {
@@ -197,29 +239,51 @@ vtkSmartPointer<vtkActor> makeDots(const std::vector<Vec3>& places, double radiu
   return actorOf(dots->GetOutputPort(), look);
 }
 
-void stretch(vtkActor& coil, const Vec3& from, const Vec3& to, double radius) {
+void stretch(vtkActor& coil, const Vec3& from, const Vec3& to, double radius, double wire) {
   Vec3 x = to - from;
   const double length = norm(x);
-  coil.SetVisibility(length > 0.2 * radius);
-  if (length <= 0.2 * radius) return;
+  coil.SetVisibility(length > 1.5 * radius);
+  if (length <= 1.5 * radius) return;
   x = x / length;
   const Vec3 helper = std::abs(x.y) < 0.9 ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
   Vec3 z = cross(x, helper);
   z = z / norm(z);
   const Vec3 y = cross(z, x);
-  vtkMatrix4x4* m = coil.GetUserMatrix();
-  if (m == nullptr) {
-    vtkNew<vtkMatrix4x4> made;
-    coil.SetUserMatrix(made);
-    m = made;
+  auto* data = vtkPolyData::SafeDownCast(coil.GetMapper()->GetInputDataObject(0, 0));
+  auto* normals = vtkFloatArray::SafeDownCast(data->GetPointData()->GetNormals());
+  const int samples = static_cast<int>(data->GetNumberOfPoints()) / kSides, turns = (samples - 1 - 2 * kHookSamples) / kPerTurn;
+  const auto at = [&](int i) {
+    const Vec3 p = radius * wirePoint(std::clamp(i, 0, samples - 1), turns, length / radius);
+    return from + p.x * x + p.y * y + p.z * z;
+  };
+  Vec3 before = at(-1), here = at(0), side = y;
+  for (int i = 0; i < samples; ++i) {
+    const Vec3 after = at(i + 1);
+    Vec3 along = after - before;
+    along = along / std::max(norm(along), 1e-12);
+    side = side - dot(side, along) * along;  // carried along the wire, so that the tube does not twist
+    side = side / std::max(norm(side), 1e-12);
+    const Vec3 other = cross(along, side);
+    for (int k = 0; k < kSides; ++k) {
+      static const std::array<std::array<double, 2>, kSides> kRing = [] {
+        std::array<std::array<double, 2>, kSides> ring{};
+        for (std::size_t n = 0; n < kSides; ++n) {
+          const double angle = 2 * std::numbers::pi * static_cast<double>(n) / kSides;
+          ring[n] = {std::cos(angle), std::sin(angle)};
+        }
+        return ring;
+      }();
+      const auto& [c, s] = kRing[static_cast<std::size_t>(k)];
+      const Vec3 n = c * side + s * other, p = here + wire * n;
+      data->GetPoints()->SetPoint(i * kSides + k, p.x, p.y, p.z);
+      normals->SetTuple3(i * kSides + k, n.x, n.y, n.z);
+    }
+    before = here;
+    here = after;
   }
-  const double sx = length / 8;  // makeCoil's own length
-  const double rows[3][4] = {{sx * x.x, radius * y.x, radius * z.x, from.x},
-                             {sx * x.y, radius * y.y, radius * z.y, from.y},
-                             {sx * x.z, radius * y.z, radius * z.z, from.z}};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 4; ++j) m->SetElement(i, j, rows[i][j]);
-  m->Modified();
+  data->GetPoints()->Modified();
+  normals->Modified();
+  data->Modified();
 }
 
 }  // namespace reachlab::gui::scene

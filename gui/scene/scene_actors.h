@@ -16,14 +16,17 @@ struct Look {
   widgets::Colour colour;
   double opacity = 1;
   double shine = 0.35;
+  bool metal = false;  // darker between sharper lights
 };
 
 /// Ball of radius 1 at the origin: to be scaled and moved.
 vtkSmartPointer<vtkActor> makeBall(const Look& look);
 /// Box of edge 1 with a marked side, so that turning is seen.
 vtkSmartPointer<vtkActor> makeBox(const Look& look);
-/// Coil along x from 0 to 1, radius 1 across, with straight ends.
-vtkSmartPointer<vtkActor> makeCoil(const Look& look, int turns, double wire);
+/// Makes a translucent actor denser at its edges, as glass is.
+void makeShell(vtkActor& actor);
+/// A spring of round wire with a hook at either end. `stretch` gives it its shape.
+vtkSmartPointer<vtkActor> makeCoil(const Look& look, int turns);
 /// A pen with its tip at the origin and its shaft up and towards the viewer. The tip's ball has radius 1.
 vtkSmartPointer<vtkActor> makePen(const Look& look);
 /// Where the shaft of a pen of tip radius `radius` [m] ends whose tip is at `hand`. [m]
@@ -37,7 +40,7 @@ vtkSmartPointer<vtkActor> makeParameterLines(const SurfaceMesh& mesh, const Look
 /// Small balls, all one actor. [m]
 vtkSmartPointer<vtkActor> makeDots(const std::vector<Vec3>& places, double radius, const Look& look);
 
-/// Lays a coil between two points. Neither allocates nor rebuilds. [m]
-void stretch(vtkActor& coil, const Vec3& from, const Vec3& to, double radius);
+/// Lays a coil between two points. The wire keeps its thickness, whatever the length of the coil. Does not allocate. [m]
+void stretch(vtkActor& coil, const Vec3& from, const Vec3& to, double radius, double wire);
 
 }  // namespace reachlab::gui::scene

@@ -115,7 +115,7 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
   font.setPointSizeF(pointsToFit(state_.instruction, font, 19 * s, room));  // why a trial failed is to be read to its end
   painter.setFont(font);
   const widgets::Colour tone = state_.tone == OverlayState::Tone::Good  ? widgets::colours::kGreen
-                               : state_.tone == OverlayState::Tone::Bad ? widgets::Colour{1.0, 0.62, 0.55}
+                               : state_.tone == OverlayState::Tone::Bad ? widgets::colours::kBadText
                                                                         : widgets::colours::kText;
   painter.setPen(widgets::toQColor(tone));
   const QString line = painter.fontMetrics().elidedText(state_.instruction, Qt::ElideRight, static_cast<int>(room));
@@ -134,10 +134,56 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
     painter.setPen(widgets::toQColor(widgets::colours::kText));
     painter.drawText(place, kWrapped, state_.task);
   }
+  if (state_.rest) paintRest(painter, *state_.rest);
   if (!state_.rulersShown) return;
   paintScale(painter);
   paintAxes(painter);
   if (!label_.isEmpty()) paintLabel(painter);
+}
+
+// Title, time left, a bar of the blocks, and what the next block asks for.
+void SceneOverlay::paintRest(QPainter& painter, const RestState& rest) const {
+  constexpr int kWords = Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap;
+  const double s = textScale_, wide = std::min(560 * s, width() - 40.0), pad = 22 * s, inside = wide - 2 * pad;
+  const auto fontOf = [&](double points, int weight) {
+    QFont font = painter.font();
+    font.setPointSizeF(points * s);
+    font.setWeight(weight);
+    return font;
+  };
+  const QFont title = fontOf(15, QFont::DemiBold), clock = fontOf(54, QFont::Light), words = fontOf(14, QFont::Normal);
+  const auto heightOf = [&](const QFont& font, const QString& text) {
+    return text.isEmpty() ? 0.0 : QFontMetricsF(font).boundingRect(QRectF(0, 0, inside, 1000 * s), kWords, text).height() + 12 * s;
+  };
+  const QString time = rest.secondsLeft <= 0
+                           ? QString()
+                           : QStringLiteral("%1:%2").arg(rest.secondsLeft / 60).arg(rest.secondsLeft % 60, 2, 10, QLatin1Char('0'));
+  const double bar = 8 * s;
+  const double high = 2 * pad + heightOf(title, rest.title) + heightOf(clock, time) + bar + 16 * s + heightOf(words, rest.instructions);
+  const QRectF panel((width() - wide) / 2, std::max(headHeight(), (height() - high) / 2), wide, high);
+  QColor shade = widgets::toQColor(widgets::colours::kBase);
+  shade.setAlphaF(0.88);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(shade);
+  painter.drawRoundedRect(panel, 10 * s, 10 * s);
+  double y = panel.top() + pad;
+  const auto write = [&](const QFont& font, const QString& text, const widgets::Colour& colour) {
+    painter.setFont(font);
+    painter.setPen(widgets::toQColor(colour));
+    painter.drawText(QRectF(panel.left() + pad, y, inside, panel.bottom() - y), kWords, text);
+    y += heightOf(font, text);
+  };
+  write(title, rest.title, widgets::colours::kText);
+  write(clock, time, widgets::colours::kText);
+  const QRectF track(panel.left() + pad, y, inside, bar);
+  painter.setPen(Qt::NoPen);
+  painter.setBrush(widgets::toQColor(widgets::colours::kButton));
+  painter.drawRoundedRect(track, bar / 2, bar / 2);
+  painter.setBrush(widgets::toQColor(widgets::colours::kAccent));
+  if (rest.blocks > 0 && rest.blocksDone > 0)
+    painter.drawRoundedRect(QRectF(track.topLeft(), QSizeF(std::max(bar, inside * rest.blocksDone / rest.blocks), bar)), bar / 2, bar / 2);
+  y += bar + 16 * s;
+  write(words, rest.instructions, widgets::colours::kText);
 }
 
 // Below what it speaks of, at the end of a short line.

@@ -3,10 +3,19 @@
 #include <QString>
 #include <QWidget>
 #include <array>
+#include <optional>
 
 #include "sim/trial/outcome.h"
 
 namespace reachlab::gui::scene {
+
+/// The rest between two blocks, shown large in the middle of the scene.
+struct RestState {
+  QString title, instructions;
+  int secondsLeft = 0;  // 0: the next block may begin
+  int blocksDone = 0, blocks = 0;
+  bool operator==(const RestState&) const = default;
+};
 
 /// Texts and semaphore over the scene.
 struct OverlayState {
@@ -18,6 +27,7 @@ struct OverlayState {
   QString detail;           // how the last trial ended
   QString task;             // what the trials ask for; over several lines, and only before the first
   enum class Tone { Plain, Good, Bad } tone = Tone::Plain;
+  std::optional<RestState> rest;
   bool operator==(const OverlayState&) const = default;
 };
 
@@ -46,6 +56,7 @@ class SceneOverlay : public QWidget {
   void paintScale(QPainter& painter) const;
   void paintAxes(QPainter& painter) const;
   void paintLabel(QPainter& painter) const;
+  void paintRest(QPainter& painter, const RestState& rest) const;
 
   OverlayState state_;
   std::array<QPointF, 3> axes_{QPointF{1, 0}, QPointF{0, -1}, QPointF{0, 0}};

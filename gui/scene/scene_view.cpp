@@ -38,12 +38,15 @@ namespace {
 constexpr int kRestMs = 250;  // a picture that has not moved for so long rests
 // Where the processor draws and pictures of a movement come slower than this, so many times in a row, they are drawn coarser.
 constexpr int kSlowMs = 48, kSlowPictures = 6;
-constexpr double kScales[] = {1, 0.75, 0.5};
+constexpr struct {
+  double scale;
+  bool smooth;  // the edges
+} kQualities[] = {{1, true}, {0.75, true}, {0.5, true}, {0.5, false}};
 
-// Key light from the upper left, a weak fill from the right, both fixed to the viewer.
+// Key light from the upper left, a weak fill from the right, and a rim light from behind, all fixed to the viewer.
 void addLights(vtkRenderer& renderer) {
   renderer.RemoveAllLights();
-  const struct { double x, y, z, intensity; } lights[] = {{-0.6, 0.9, 1.2, 0.85}, {0.9, 0.1, 0.8, 0.32}, {0, -1, 0.4, 0.14}};
+  const struct { double x, y, z, intensity; } lights[] = {{-0.6, 0.9, 1.2, 0.85}, {0.9, 0.1, 0.8, 0.32}, {0.25, 0.8, -0.9, 0.40}};
   for (const auto& l : lights) {
     vtkNew<vtkLight> light;
     light->SetLightTypeToCameraLight();
@@ -93,7 +96,7 @@ struct SceneView::Impl {
   vtkSmartPointer<vtkCameraPass> plain = makePlainPass();
   vtkNew<vtkOpenGLFXAAPass> smooth;
   bool parallel = false;
-  int coarse = 0, slow = 0;  // which of kScales a movement is drawn at; slow pictures in a row
+  int coarse = 0, slow = 0;  // which of kQualities a movement is drawn in; slow pictures in a row
   QElapsedTimer sinceMoving;
   QPoint pressedAt, lastAt;
   Vec3 handAtPress;
@@ -106,7 +109,7 @@ struct SceneView::Impl {
   void lookFrom(const Vec3& direction) {
     std::vector<Vec3> points = plan.seen;
     for (const Vec3& hand : {plan.start, plan.target}) points.push_back(penEnd(hand, plan.handRadius));
-    camera = lookAtPointsBelow(overlay->headHeight(), points, 0.09 * plan.size, direction, width(), height(), parallel);
+    camera = lookAtPointsBelow(overlay->headHeight(), points, 0.06 * plan.size, direction, width(), height(), parallel);
   }
 
   void applyCamera() {
@@ -147,12 +150,12 @@ struct SceneView::Impl {
     const qint64 ms = sinceMoving.isValid() ? sinceMoving.restart() : (sinceMoving.start(), 0);
     if (ms > 4 * kRestMs) return;  // it was no movement before
     slow = ms > kSlowMs ? slow + 1 : 0;
-    if (slow < kSlowPictures || coarse + 1 >= static_cast<int>(std::size(kScales))) return;
+    if (slow < kSlowPictures || coarse + 1 >= static_cast<int>(std::size(kQualities))) return;
     ++coarse;
     slow = 0;
   }
 
-  // Where the processor draws, edges are smoothed once the picture rests: the eye does not see them while it moves.
+  // Where the processor draws, a movement that is too slow loses resolution first and smooth edges last.
   void render(bool moving = false) {
     drawn = false;
     if (!widget->isVisible()) return;
@@ -161,9 +164,10 @@ struct SceneView::Impl {
     if (stereo) renderer->SetPass(nullptr);
     if (software != nullptr) {
       if (rough) adapt();
-      if (!stereo && rough) renderer->SetPass(plain);
-      if (!stereo && !rough) renderer->SetPass(smooth);
-      software->setScale(rough ? kScales[coarse] : 1);
+      const auto [scale, smoothed] = kQualities[rough ? coarse : 0];
+      if (!stereo && smoothed) renderer->SetPass(smooth);
+      if (!stereo && !smoothed) renderer->SetPass(plain);
+      software->setScale(scale);
     }
     if (rough) resting->start();
     window->Render();

@@ -77,11 +77,18 @@ OverlayState overlayOf(const haptics::TickState& state, const experiment::Task& 
     case trial::Phase::Moving: o.instruction = QStringLiteral("%1 s").arg(number(state.trialTime, 2)); break;
     case trial::Phase::Done:
       o.instruction = outcomeText(state.result);
-      o.tone = state.result.outcome == trial::Outcome::Success ? OverlayState::Tone::Good : OverlayState::Tone::Bad;
       o.detail = QStringLiteral("Space: next trial");
       break;
   }
+  showWhetherItCounts(state, o);
   return o;
+}
+
+void showWhetherItCounts(const haptics::TickState& state, OverlayState& overlay) {
+  if (state.phase != trial::Phase::Done) return;
+  if (state.result.outcome == trial::Outcome::Success) overlay.tone = OverlayState::Tone::Good;
+  else if (state.result.outcome == trial::Outcome::Failure) overlay.tone = OverlayState::Tone::Bad;
+  else overlay.semaphore = trial::Semaphore::Neutral;
 }
 
 QString taskText(const experiment::Experiment& experiment, bool hiding) {

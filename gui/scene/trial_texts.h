@@ -7,6 +7,8 @@ namespace reachlab::gui::scene {
 
 /// Texts over the scene: the subject's next step, and the outcome of the last trial. Pure.
 OverlayState overlayOf(const haptics::TickState& state, const experiment::Task& task, int trialsPlanned, bool mouse);
+/// Grey unless the trial counts: a trial that ended without success or failure has no square and no tone.
+void showWhetherItCounts(const haptics::TickState& state, OverlayState& overlay);
 /// Before a run.
 OverlayState restingOverlay(const QString& experiment, bool mouse);
 /// The task of the trials in a sentence with the numbers that are judged. `hiding`: masses are at the same position, and a second line

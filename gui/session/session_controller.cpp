@@ -176,6 +176,12 @@ void SessionController::resume() {
   resume_ = true;
 }
 
+void SessionController::resume(const session::SessionRequest& request) {
+  resume();
+  asked_ = request;
+  asked_.resume = true;
+}
+
 void SessionController::beginAnew() {
   const std::scoped_lock lock(changing_);
   if (run() == nullptr) recorded_.reset();
@@ -313,7 +319,7 @@ void SessionController::poll() {
     tellStation(news);
     if (news.finished) {
       endRun();
-      Q_EMIT told(tr("The conductor has ended the run."));
+      Q_EMIT done(tr("The conductor has ended the run."));
     }
     const std::optional<haptics::ConductedTrial>& ended = news.ended;
     if (!ended) return;
@@ -335,7 +341,7 @@ void SessionController::poll() {
 void SessionController::observe() {
   const network::ObserverNews news = observer_->poll();
   for (const network::LinkEvent& event : news.ended) Q_EMIT stationTold(QString::fromStdString(network::wordsOf(event)));
-  if (news.finished) Q_EMIT told(tr("The conductor has ended the run."));
+  if (news.finished) Q_EMIT done(tr("The conductor has ended the run."));
   if (!news.problem.empty()) Q_EMIT told(QString::fromStdString(news.problem));
 }
 
@@ -376,7 +382,7 @@ void SessionController::tellBackup() {
   if (std::exchange(backupTold_, state.kind) == state.kind || state.kind == session::BackupState::Kind::Idle) return;
   const QString sentence = QString::fromStdString(state.sentence);
   if (state.kind == session::BackupState::Kind::Failed) Q_EMIT failed(sentence);
-  else Q_EMIT told(sentence);
+  else Q_EMIT done(sentence);
 }
 
 void SessionController::endOnSignal(const std::stop_token& over) {

@@ -50,6 +50,9 @@ class SessionController : public QObject {
   std::vector<Fault> tryEdit(const experiment::Experiment& experiment);
   /// The next session that is opened resumes the unfinished work of this subject's session.
   void resume();
+  /// The same for another session, before its programme is taken over.
+  void resume(const session::SessionRequest& request);
+  bool resumes() const { return resume_; }
   /// The next session that is opened begins from the first block.
   void beginAnew();
 
@@ -113,6 +116,8 @@ class SessionController : public QObject {
   void trialEnded();
   /// One sentence for the experimenter: the disk, the device, the computation. Finished trials are safe.
   void failed(const QString& sentence);
+  /// News of a success.
+  void done(const QString& sentence);
   /// Remarks that are no faults: sentences, one per line.
   void told(const QString& sentence);
   /// Messages of the other stations, such as the end of a trial or a silent station.

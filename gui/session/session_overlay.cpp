@@ -16,10 +16,32 @@ bool isBeforeTheFirstReach(const haptics::TickState& state) {
 
 bool isOver(SessionController& session) { return !session.run()->underWay() && session.run()->trialsLeft() == 0 && !session.follows(); }
 
+scene::RestState restOf(SessionController& session, const QString& title) {
+  return {title, session.instructions(), static_cast<int>(std::ceil(session.restLeft())), session.run()->configuration().block,
+          static_cast<int>(session.blockCount())};
+}
+
+// "Station 2 is missing. The window waits for it."; empty if every station sends.
+QString missingStations(SessionController& session) {
+  QStringList numbers;
+  for (const network::StationStatus& status : session.statuses())
+    if (status.station != session.station()->link.station && status.light == network::StationStatus::Light::Absent)
+      numbers << QString::number(status.station);
+  if (numbers.isEmpty()) return {};
+  return numbers.size() == 1
+             ? QStringLiteral("Station %1 is missing. The window waits for it.").arg(numbers.front())
+             : QStringLiteral("Stations %1 are missing. The window waits for them.").arg(numbers.join(QStringLiteral(", ")));
+}
+
 // Between trials it is the conductor who does something, and perhaps a line that is waited for.
 void tellStations(SessionController& session, scene::OverlayState& overlay) {
   const haptics::TickState& state = session.run()->latest();
   if (session.follows()) overlay.counter = state.trial > 0 ? QStringLiteral("Trial %1").arg(state.trial) : QString();
+  if (const QString missing = missingStations(session); !missing.isEmpty()) {
+    overlay.instruction = missing;
+    overlay.tone = scene::OverlayState::Tone::Bad;
+    return;
+  }
   if (session.run()->underWay()) return;
   const QString next = session.isArming()  ? QStringLiteral("Waiting for the other stations")
                        : session.follows() ? QStringLiteral("The conductor begins the next trial")
@@ -52,6 +74,7 @@ scene::OverlayState overlayOf(SessionController& session, bool mouse, bool masse
   scene::OverlayState overlay;
   if (run == nullptr) {
     overlay = scene::restingOverlay(QString::fromStdString(experiment.name), mouse);
+    if (session.resumes()) overlay.instruction = QStringLiteral("Press Space to resume the session");
   } else {
     overlay = scene::overlayOf(run->latest(), experiment.task.value_or(experiment::Task{}), static_cast<int>(run->trialCount()), mouse);
     if (!run->underWay() && run->latest().trial == 0) overlay.instruction = QStringLiteral("Press Space to begin");
@@ -60,15 +83,18 @@ scene::OverlayState overlayOf(SessionController& session, bool mouse, bool masse
           QStringLiteral("Block %1 of %2, ").arg(run->configuration().block).arg(session.blockCount()) + overlay.counter.toLower();
     if (session.station() != nullptr) tellStations(session, overlay);
     if (isOver(session)) {
-      overlay.detail = session.restLeft() > 0 ? QStringLiteral("The block is done. Rest for %1 s more").arg(std::ceil(session.restLeft()))
-                       : session.blocksLeft() > 0 ? QStringLiteral("The block is done. Rest, then press Space for the next block")
-                       : session.isPlan()         ? QStringLiteral("The session is complete")
-                                                  : QStringLiteral("The run is complete");
+      const bool more = session.blocksLeft() > 0;
+      if (more)
+        overlay.rest = restOf(session, session.restLeft() > 0 ? QStringLiteral("Rest before the next block")
+                                                              : QStringLiteral("The block is done. Space begins the next block."));
+      overlay.detail = more               ? QString()
+                       : session.isPlan() ? QStringLiteral("The session is complete")
+                                          : QStringLiteral("The run is complete");
     }
   }
   const bool startPage = run == nullptr && session.isPlan();  // it says what is asked, and stands there
   if (!startPage && (run == nullptr || isBeforeTheFirstReach(run->latest()))) overlay.task = scene::taskText(experiment, massesHide);
-  if (run != nullptr && (isOver(session) || isBeforeTheFirstReach(run->latest())))
+  if (run != nullptr && !overlay.rest && (isOver(session) || isBeforeTheFirstReach(run->latest())))
     if (const QString words = session.instructions(); !words.isEmpty())
       overlay.task = overlay.task.isEmpty() ? words : words + QLatin1Char('\n') + overlay.task;
   return overlay;
@@ -83,14 +109,16 @@ scene::OverlayState subjectsOverlayOf(SessionController& session, const subject:
   const haptics::TickState idle;
   const haptics::TickState& state = run == nullptr ? idle : run->latest();
   overlay.semaphore = state.semaphore;
+  scene::showWhetherItCounts(state, overlay);
   if (screen.score) overlay.counter = QString::number(score);
   if (!screen.words) return overlay;
   overlay.instruction = words.instruction(state, screen.target);
-  if (state.phase == trial::Phase::Done)
-    overlay.tone = state.result.outcome == trial::Outcome::Success ? scene::OverlayState::Tone::Good : scene::OverlayState::Tone::Bad;
+  if (run != nullptr && session.station() != nullptr && !missingStations(session).isEmpty())
+    overlay.instruction = words.instruction(haptics::TickState{}, screen.target);  // to wait
   if (run == nullptr) return overlay;
-  if (isOver(session)) overlay.detail = session.blocksLeft() > 0 ? words.rest() : words.thanks();
-  if (isOver(session) || isBeforeTheFirstReach(state)) overlay.task = session.instructions();
+  if (isOver(session) && session.blocksLeft() > 0) overlay.rest = restOf(session, words.rest());
+  else if (isOver(session)) overlay.detail = words.thanks();
+  if (!overlay.rest && (isOver(session) || isBeforeTheFirstReach(state))) overlay.task = session.instructions();
   return overlay;
 }
 

@@ -13,6 +13,7 @@ class SoundCues {
   void play(Cue cue);
   /// Whether there is anything to hear them with.
   void setMuted(bool muted) { muted_ = muted; }
+  bool muted() const { return muted_; }
   /// 0 to 1 as perceived loudness, not as amplitude. Remembered (QSettings).
   void setVolume(double volume);
   double volume() const { return volume_; }

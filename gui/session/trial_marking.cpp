@@ -6,14 +6,15 @@
 #include "base/system/error_report.h"
 #include "gui/docks/trials_dock.h"
 #include "gui/session/session_controller.h"
-#include "gui/widgets/message_bar.h"
+#include "gui/widgets/messages.h"
 
 namespace reachlab::gui::app {
 namespace {
 
-void change(docks::TrialsDock& dock, SessionController& session, MessageBar& message, int number,
+void change(docks::TrialsDock& dock, SessionController& session, widgets::Messages& message, int number,
             const std::function<void(record::TrialMark&)>& how) {
-  if (session.run() == nullptr) return message.say(QObject::tr("The run is closed. Mark its trials on the page Inspect."));
+  if (session.run() == nullptr)
+    return message.say(widgets::Grade::Attention, QObject::tr("The run is closed. Mark its trials on the page Inspect."));
   try {
     const std::string& log = session.run()->logPath();
     record::RunMarks marks = record::readMarks(log);
@@ -25,13 +26,13 @@ void change(docks::TrialsDock& dock, SessionController& session, MessageBar& mes
     record::writeMarks(log, marks);
     dock.setMark(number, mark);
   } catch (const std::exception& e) {
-    message.say(QString::fromStdString(errorReportOf(e).sentence));
+    message.say(widgets::Grade::Error, QString::fromStdString(errorReportOf(e).sentence));
   }
 }
 
 }  // namespace
 
-void wireMarking(docks::TrialsDock& dock, SessionController& session, MessageBar& message) {
+void wireMarking(docks::TrialsDock& dock, SessionController& session, widgets::Messages& message) {
   QObject::connect(&dock, &docks::TrialsDock::flagRequested, &dock, [&dock, &session, &message](int number) {
     change(dock, session, message, number, [](record::TrialMark& mark) { mark.flagged = !mark.flagged; });
   });
@@ -44,7 +45,7 @@ void wireMarking(docks::TrialsDock& dock, SessionController& session, MessageBar
     change(dock, session, message, number, [&](record::TrialMark& mark) { mark.excluded = reason.trimmed().toStdString(); });
   });
   QObject::connect(&dock, &docks::TrialsDock::takeBackRequested, &dock, [&session, &message] {
-    if (!session.takeBackRepeat()) message.say(QObject::tr("No repeat is planned."));
+    if (!session.takeBackRepeat()) message.say(widgets::Grade::Attention, QObject::tr("No repeat is planned."));
   });
 }
 

@@ -20,7 +20,7 @@ inline constexpr Colour kSpring{0.80, 0.84, 0.90}, kCoupling{0.55, 0.80, 0.98};
 inline constexpr Colour kNeutral{0.42, 0.46, 0.52}, kGreen{0.20, 0.82, 0.42}, kRed{0.94, 0.26, 0.24};
 // The semaphore's lamps: at least 3 : 1 in luminance between green and red, for deuteranopes too, and against the background.
 inline constexpr Colour kLampNeutral{0.50, 0.54, 0.60}, kLampGreen{0.30, 0.95, 0.50}, kLampRed{0.76, 0.08, 0.10};
-inline constexpr Colour kText{0.93, 0.95, 0.98}, kFaintText{0.66, 0.71, 0.78};
+inline constexpr Colour kText{0.93, 0.95, 0.98}, kFaintText{0.66, 0.71, 0.78}, kBadText{1.00, 0.62, 0.55};
 inline constexpr Colour kWindow{0.115, 0.130, 0.160}, kBase{0.075, 0.086, 0.108}, kButton{0.175, 0.198, 0.240}, kAccent{0.24, 0.60, 0.96};
 }  // namespace colours
 

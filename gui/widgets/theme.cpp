@@ -34,7 +34,7 @@ Colour themed(const Colour& colour) {
       {kRed, {0.75, 0.12, 0.10}},      {kText, {0.07, 0.09, 0.12}},        {kFaintText, {0.28, 0.32, 0.38}},
       {kWindow, {0.925, 0.935, 0.95}}, {kBase, {0.985, 0.988, 0.995}},     {kButton, {0.86, 0.88, 0.91}},
       {kAccent, {0.08, 0.38, 0.72}},   {kLampNeutral, {0.42, 0.46, 0.52}}, {kLampGreen, {0.02, 0.52, 0.20}},
-      {kTrace, {0.70, 0.08, 0.44}}};
+      {kTrace, {0.70, 0.08, 0.44}},    {kBadText, {0.62, 0.09, 0.06}}};
   for (const auto& [dark, light] : kLight)
     if (same(dark, colour)) return light;
   return colour;
@@ -81,7 +81,10 @@ void applyTheme(QApplication& application) {
   // Fusion draws an empty box darker than the dark it stands on.
   application.setStyleSheet(
       QStringLiteral(
-          "QDockWidget { titlebar-close-icon: none; font-weight: 600; }"
+          "QDockWidget { font-weight: 600; }"
+          "QDockWidget::close-button, QDockWidget::float-button { subcontrol-position: top right; subcontrol-origin: margin;"
+          " position: absolute; top: 8px; bottom: 8px; width: 14px; background: %2; border-radius: 2px; }"
+          "QDockWidget::close-button { right: 8px; } QDockWidget::float-button { right: 28px; }"
           "QDockWidget::title { background: %1; padding: 6px 9px; }"
           "QToolTip { border: 1px solid %2; padding: 4px; }"
           "QLineEdit, QAbstractSpinBox, QComboBox { padding: 2px 5px; min-height: 20px; }"
@@ -92,10 +95,14 @@ void applyTheme(QApplication& application) {
           "QPushButton { padding: 5px 14px; }"
           "QPushButton[role=\"go\"] { background: #2463a8; color: white; font-weight: 600; }"
           "QPushButton[role=\"go\"]:disabled { background: %6; color: %8; }"
+          "*:focus { outline: 2px solid %9; }"
+          "QFrame[role=\"card\"] { background: %7; border: 1px solid %2; border-radius: 8px; }"
+          "QToolBar { background: %7; border: none; }"
           "QStatusBar { background: %7; } QStatusBar QLabel { color: %4; padding: 0 6px; }"
           "QSplitter::handle { background: %1; }")
           .arg(either("#d3d8e0", "#262c37"), either("#8a94a3", "#46505f"), either("#a01810", "#ff9d8c"), either("#39424f", "#a8b5c7"),
-               either("#ffffff", "#11151c"), either("#b9c0ca", "#2d333f"), either("#e1e5eb", "#181c23"), toQColor(kNeutral).name()));
+               either("#ffffff", "#11151c"), either("#b9c0ca", "#2d333f"), either("#e1e5eb", "#181c23"), toQColor(kNeutral).name(),
+               either("#0b4f9c", "#7cc0ff")));
 }
 
 }  // namespace reachlab::gui::widgets

@@ -18,7 +18,8 @@ int main(int argc, char** argv) {
   qputenv("LANG", "de_DE.UTF-8");
   const QTemporaryDir own;
   qputenv("REACHLAB_CONSTRAINTS", own.path().toUtf8());  // nothing of the user's, and nothing left behind
-  qputenv("XDG_CONFIG_HOME", own.path().toUtf8());
+  // A test that dies leaves its settings to the test that waits for its death.
+  qputenv("XDG_CONFIG_HOME", qEnvironmentVariable("REACHLAB_TEST_CONFIG", own.path()).toUtf8());
   reachlab::gui::scene::applySurfaceFormat();
   QApplication application(argc, argv);
   QApplication::setOrganizationName(QStringLiteral("reachlab"));

@@ -22,6 +22,7 @@
 #include <set>
 
 #include "devices/mapping/mapping.h"
+#include "gui/session/session_strip.h"
 #include "gui/docks/prediction_dock.h"
 #include "gui/docks/session_dock.h"
 #include "gui/plot/velocity_plot.h"
@@ -109,7 +110,7 @@ TEST_F(Window, AReachByThePointerTurnsTheSemaphoreGreenSucceedsAndIsRecorded) {
   EXPECT_TRUE(seen.contains(trial::Semaphore::Neutral));
   EXPECT_TRUE(seen.contains(trial::Semaphore::Green));
   EXPECT_GT(window.plot().pointCount(), 20u);
-  EXPECT_TRUE(window.sessionDock().findChild<QLabel*>(QStringLiteral("tally"))->text().contains(QStringLiteral("1 of 1")));
+  EXPECT_TRUE(window.strip().tally().contains(QStringLiteral("1 of 1"))) << window.strip().tally().toStdString();
 
   // What the screen shows is what the record holds.
   const std::string log = window.session().run()->logPath();
@@ -154,6 +155,22 @@ TEST(TaskText, SaysWhatIsJudgedAndALatestTimeAloneWhereThereIsNoEarliest) {
   EXPECT_EQ(scene::overlayOf({}, *e.task, 1, true).detail.toStdString(), "reach in at most 10.00 s");
 }
 
+TEST(Overlay, IsGreyWhereATrialDoesNotCount) {
+  haptics::TickState state;
+  state.phase = trial::Phase::Done;
+  state.semaphore = trial::Semaphore::Green;
+  state.result.outcome = trial::Outcome::Success;
+  EXPECT_EQ(scene::overlayOf(state, {}, 1, true).semaphore, trial::Semaphore::Green);
+  for (const auto& [outcome, reason] :
+       {std::pair{trial::Outcome::Interrupted, trial::Reason::Timing}, {trial::Outcome::Aborted, trial::Reason::Experimenter}}) {
+    state.result.outcome = outcome;
+    state.result.reason = reason;
+    const scene::OverlayState shown = scene::overlayOf(state, {}, 1, true);
+    EXPECT_EQ(shown.semaphore, trial::Semaphore::Neutral) << trial::nameOf(reason);
+    EXPECT_EQ(shown.tone, scene::OverlayState::Tone::Plain) << trial::nameOf(reason);
+  }
+}
+
 TEST_F(Window, FieldsSpeakPlainWordsAndUnits) {
   MainWindow& window = open();
   QStringList labels;
@@ -168,8 +185,8 @@ TEST_F(Window, FieldsSpeakPlainWordsAndUnits) {
   trial::TrialResult result;
   result.outcome = trial::Outcome::Failure;
   result.reason = trial::Reason::TimeShort;
-  free.sessionDock().count(result);
-  EXPECT_TRUE(free.sessionDock().findChild<QLabel*>(QStringLiteral("tally"))->text().contains(QStringLiteral("1 × too fast")));
+  free.strip().count(result);
+  EXPECT_TRUE(free.strip().tally().contains(QStringLiteral("1 × too fast")));
 }
 
 TEST_F(Window, AWindowInTimeWithoutABeginningLeavesThePlotToTheReach) {

@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 
 #include <QAction>
+#include <QLabel>
 #include <QProcess>
+#include <QPushButton>
 #include <QTableWidget>
 #include <QTemporaryDir>
 #include <QTest>
@@ -141,8 +143,12 @@ TEST_F(RecordingWindow, APlanIsOpenedFromTheMenuAndLeftForAnExperiment) {
   doTrial();
   const scene::OverlayState between = overlayOf(session(), false, false);
   EXPECT_EQ(between.counter.toStdString(), "Block 1 of 2, trial 1 of 1");
-  EXPECT_EQ(between.detail.toStdString(), "The block is done. Rest, then press Space for the next block");
-  EXPECT_EQ(subjectsOverlayOf(session(), {}, 0).detail, QStringLiteral("Rest a little"));
+  ASSERT_TRUE(between.rest.has_value());
+  EXPECT_EQ(between.rest->title.toStdString(), "The block is done. Space begins the next block.");
+  EXPECT_EQ(between.rest->blocksDone, 1);
+  EXPECT_EQ(between.rest->blocks, 2);
+  ASSERT_TRUE(subjectsOverlayOf(session(), {}, 0).rest.has_value());
+  EXPECT_EQ(subjectsOverlayOf(session(), {}, 0).rest->title, QStringLiteral("Rest a little"));
   doTrial();
   EXPECT_EQ(overlayOf(session(), false, false).counter.toStdString(), "Block 2 of 2, trial 1 of 1");
   EXPECT_EQ(overlayOf(session(), false, false).detail, QStringLiteral("The session is complete"));
@@ -189,6 +195,7 @@ TEST_F(RecordingWindow, ThePapersPlanIsDoneBlockByBlockAndResumedAfterAKill) {
   QProcess victim;
   QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
   environment.insert(QStringLiteral("REACHLAB_TEST_DATA"), QString::fromStdString(request_.place.data));
+  environment.insert(QStringLiteral("REACHLAB_TEST_CONFIG"), qEnvironmentVariable("XDG_CONFIG_HOME"));
   victim.setProcessEnvironment(environment);
   victim.start(QCoreApplication::applicationFilePath(),
                {QStringLiteral("--gtest_filter=RecordingWindow.DISABLED_*"), QStringLiteral("--gtest_also_run_disabled_tests")});
@@ -202,9 +209,26 @@ TEST_F(RecordingWindow, ThePapersPlanIsDoneBlockByBlockAndResumedAfterAKill) {
   EXPECT_GE(before[1].trials().size(), 7u);
   EXPECT_FALSE(before[1].closed());
 
-  request_.what = "paper";
-  request_.resume = true;
+  // Another experiment and another subject are open, and the window offers the session that was cut short.
+  request_.place.subject = "99";
   open();
+  window_->offerResume();
+  EXPECT_EQ(find<QLabel>("cardTitle")->text().toStdString(), "Resume session 01 of subject 03 at trial 8 of 100?");
+  EXPECT_TRUE(find<QLabel>("cardText")->text().contains(QStringLiteral("Device simulated:noise=0, seed 1.")))
+      << find<QLabel>("cardText")->text().toStdString();
+  find<QPushButton>("resumeYes")->click();
+  EXPECT_EQ(session().run(), nullptr) << "the first trial waits for Space";
+  EXPECT_EQ(window_->sessionDock().request().place.subject, "03");
+  request_.place.subject = "03";
+  // Another device asks, and nothing begins when the answer is no.
+  window_->sessionDock().setDevice(QStringLiteral("mouse"));
+  {
+    const AnswerBox box(QStringLiteral("Cancel"));
+    window_->nextTrial();
+    EXPECT_TRUE(box.text().contains(QStringLiteral("recorded with the device simulated:noise=0"))) << box.text().toStdString();
+  }
+  EXPECT_EQ(session().run(), nullptr);
+  window_->sessionDock().setDevice(QStringLiteral("simulated:noise=0"));
   EXPECT_EQ(session().experiment().name, before[1].configuration().experimentName);
   for (int trial = 0; trial < 193; ++trial) {
     doTrial();

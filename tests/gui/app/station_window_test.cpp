@@ -48,6 +48,8 @@ TEST_F(StationWindow, TheConductorsArmsNothingWhileAStationIsMissingAndSaysSo) {
   EXPECT_TRUE(dock->sentence().contains(QStringLiteral("station 2: is not there"))) << dock->sentence().toStdString();
   EXPECT_EQ(find<QTableWidget>("stations")->rowCount(), 2);
   EXPECT_EQ(window.view().plan().hands.size(), 2u);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.overlay().instruction.startsWith(QStringLiteral("Station 2 is missing")); }, 5000))
+      << "it is the headline";
   QTest::keyClick(&window, Qt::Key_Space);
   EXPECT_TRUE(window.session().isArming());
   EXPECT_TRUE(QTest::qWaitFor([&] { return window.message().startsWith(QStringLiteral("no trial was armed: station 2")); }, 5000))
@@ -67,7 +69,7 @@ TEST_F(StationWindow, AFollowersWaitsForTheConductor) {
   QTest::keyClick(&window, Qt::Key_Space);
   QTest::qWait(100);
   EXPECT_FALSE(window.session().underWay());
-  EXPECT_EQ(window.overlay().instruction, QStringLiteral("The conductor begins the next trial"));
+  EXPECT_EQ(window.overlay().instruction, QStringLiteral("Station 1 is missing. The window waits for it."));
 }
 
 TEST_F(StationWindow, AnObserverHasNoHandAndRecordsNothing) {

@@ -23,6 +23,7 @@
 #include "gui/session/session_overlay.h"
 #include "sim/record/trial_marks.h"
 #include "sim/session/programme.h"
+#include "tests/gui/answer_box.h"
 
 namespace reachlab::gui::plan {
 namespace {
@@ -122,7 +123,11 @@ TEST_F(PlannedSession, BeginsOnItsStartPageRestsAndResumes) {
   EXPECT_FALSE(page().isVisible());
   EXPECT_TRUE(window->overlay().task.startsWith(QStringLiteral("Reach calmly."))) << "until the first reach";
   waitForTrials(1);
-  window->endRun();  // broken off after a trial
+  {
+    const reachlab::gui::AnswerBox box(QStringLiteral("End the run"));
+    window->endRun();  // broken off after a trial
+    EXPECT_TRUE(box.text().contains(QStringLiteral("1 of 2 trials are done. End run ends the run"))) << box.text().toStdString();
+  }
   ASSERT_TRUE(QTest::qWaitFor([&] { return page().isVisible(); }, 3000));
   EXPECT_TRUE(page().resumes());
   EXPECT_TRUE(next().contains(QStringLiteral("block 1, first, with trial 2 of 2"))) << next().toStdString();
@@ -132,6 +137,11 @@ TEST_F(PlannedSession, BeginsOnItsStartPageRestsAndResumes) {
   waitForTrials(1);
   // The block is done: the plan rests ten minutes.
   EXPECT_GT(window->session().restLeft(), 590);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window->overlay().rest.has_value(); }, 5000));
+  EXPECT_GT(window->overlay().rest->secondsLeft, 590) << "a countdown over the scene";
+  EXPECT_EQ(window->overlay().rest->instructions, QStringLiteral("Now fast."));
+  EXPECT_EQ(window->overlay().rest->blocksDone, 1);
+  EXPECT_EQ(window->overlay().rest->blocks, 2);
   EXPECT_EQ(window->session().instructions(), QStringLiteral("Now fast."));
   QTest::keyClick(window, Qt::Key_Space);
   EXPECT_TRUE(window->message().contains(QStringLiteral("rests"))) << window->message().toStdString();

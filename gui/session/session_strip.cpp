@@ -1,0 +1,117 @@
+#include "gui/session/session_strip.h"
+
+#include <QAction>
+#include <QHBoxLayout>
+#include <QLineEdit>
+#include <QPushButton>
+#include <QVariant>
+
+#include "gui/scene/trial_texts.h"
+#include "gui/widgets/elided_label.h"
+
+namespace reachlab::gui::app {
+namespace {
+
+QPushButton* buttonOf(QAction* action, const char* name) {
+  auto* button = new QPushButton;
+  button->setObjectName(QLatin1String(name));
+  button->setFocusPolicy(Qt::TabFocus);  // a click leaves the keys where they are
+  const auto follow = [button, action] {
+    button->setText(QStringLiteral("%1  (%2)").arg(action->iconText(), action->shortcut().toString(QKeySequence::NativeText)));
+    button->setEnabled(action->isEnabled());
+    button->setToolTip(action->toolTip());
+  };
+  follow();
+  QObject::connect(action, &QAction::changed, button, follow);
+  QObject::connect(button, &QPushButton::clicked, action, &QAction::trigger);
+  return button;
+}
+
+}  // namespace
+
+SessionStrip::SessionStrip(QAction* next, QAction* abort, QAction* repeat, QAction* end)
+    : QToolBar(tr("Session")), run_(new widgets::ElidedLabel), tally_(new widgets::ElidedLabel), note_(new QLineEdit) {
+  setObjectName(QStringLiteral("sessionStrip"));
+  setMovable(false);
+  setFloatable(false);
+  toggleViewAction()->setEnabled(false);
+  toggleViewAction()->setVisible(false);
+  auto* body = new QWidget;
+  auto* row = new QHBoxLayout(body);
+  row->setContentsMargins(8, 4, 8, 4);
+  row->setSpacing(6);
+  QPushButton* start = buttonOf(next, "next");
+  start->setProperty("role", QStringLiteral("go"));
+  start->setMinimumWidth(start->fontMetrics().horizontalAdvance(QStringLiteral("Next block  (Space)")) + 40);  // of the longest words
+  row->addWidget(start);
+  row->addWidget(buttonOf(abort, "abort"));
+  row->addWidget(buttonOf(repeat, "repeat"));
+  row->addWidget(buttonOf(end, "end"));
+  auto* lines = new QVBoxLayout;
+  lines->setSpacing(0);
+  run_->setProperty("role", "quiet");
+  tally_->setObjectName(QStringLiteral("tally"));
+  QFont bold = tally_->font();
+  bold.setWeight(QFont::DemiBold);
+  tally_->setFont(bold);
+  lines->addWidget(run_);
+  lines->addWidget(tally_);
+  row->addSpacing(8);
+  row->addLayout(lines, 3);
+  note_->setObjectName(QStringLiteral("note"));
+  note_->setPlaceholderText(tr("Note for the record (Enter)"));
+  note_->setToolTip(tr("A note that is recorded with its time. Enter keeps it."));
+  note_->setMinimumWidth(210);
+  row->addWidget(note_, 1);
+  addWidget(body);
+  connect(note_, &QLineEdit::returnPressed, this, [this] {
+    if (note_->text().trimmed().isEmpty()) return;
+    Q_EMIT noteWritten(note_->text().trimmed());
+    note_->clear();
+  });
+  clearTally();
+  setOpen(false);
+}
+
+void SessionStrip::setOpen(bool open) {
+  note_->setEnabled(open);
+  if (!open) run_->tell(tr("no run is open"));
+}
+
+void SessionStrip::showRun(const record::RunConfiguration& run) {
+  QString text = tr("Run %1, block %2: %3").arg(run.run).arg(run.block).arg(QString::fromStdString(run.condition));
+  if (run.practice) text += tr(" (practice)");
+  if (run.day > 0) text += tr(", day %1").arg(run.day);
+  run_->tell(text + tr(", seed %1").arg(run.seed));
+}
+
+void SessionStrip::clearTally() {
+  successes_ = failures_ = others_ = 0;
+  reasons_.clear();
+  tally_->tell(tr("No trials yet"));
+}
+
+void SessionStrip::count(const trial::TrialResult& result) {
+  if (result.outcome == trial::Outcome::Success) ++successes_;
+  else if (result.outcome == trial::Outcome::Failure) ++failures_;
+  else ++others_;
+  if (result.outcome != trial::Outcome::Success) ++reasons_[result.reason];
+  const int judged = successes_ + failures_;
+  QString text = judged > 0 ? tr("%1 of %2 succeeded (%3 %)").arg(successes_).arg(judged).arg(100.0 * successes_ / judged, 0, 'f', 0)
+                            : tr("No trial counts yet");
+  if (others_ > 0) text += tr(", %1 did not count").arg(others_);
+  QStringList why;
+  for (const auto& [reason, count] : reasons_) why << QStringLiteral("%1 × %2").arg(count).arg(scene::reasonText(reason));
+  if (!why.isEmpty()) text += QStringLiteral(": ") + why.join(QStringLiteral(", "));
+  tally_->tell(text);
+}
+
+QString SessionStrip::tally() const { return tally_->text(); }
+
+void SessionStrip::beginNote(const QString& words) {
+  note_->setText(words);
+  note_->setFocus();
+  note_->setCursorPosition(static_cast<int>(words.size()));
+}
+
+}  // namespace reachlab::gui::app
