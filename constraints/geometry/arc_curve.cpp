@@ -92,6 +92,7 @@ ArcCurve::ArcCurve(const Constraint& curve, double start, double target, Along a
   double slowest = INFINITY, fastest = 0, stillAt = start;
   for (int i = 0; i <= kProbes; ++i) {
     const double phi = start + way_ * i / kProbes, speed = norm(evaluate(curve_, phi).rPhi);
+    if (!std::isfinite(speed)) refuse({phi, "no finite speed (|r_phi| grows without bound, or the formula has no value there)"});
     if (!(speed >= slowest)) slowest = speed, stillAt = phi;
     fastest = std::max(fastest, speed);
   }

@@ -114,11 +114,13 @@ bool degeneratesEverywhere(const Constraint& c, const std::array<Domain, 2>& ran
   for (int i = 1; i <= kPlaces; ++i) {
     if (c.kind == ConstraintKind::Curve) {
       const CurvePoint p = evaluate(c.curve, at(0, i, 0.6180339887498949));
-      valued = valued || isFinite(p.r);
+      if (!std::isfinite(norm(p.r)) || !std::isfinite(norm(p.rPhi))) continue;
+      valued = true;
       if (norm(p.rPhi) > 1e-13 * (norm(p.r) + 1e-3)) return false;
     } else {
       const SurfacePoint p = evaluate(c.surface, at(0, i, 0.7548776662466927), at(1, i, 0.5698402909980532));
-      valued = valued || isFinite(p.r);
+      if (!std::isfinite(norm(p.r)) || !std::isfinite(norm(p.rU)) || !std::isfinite(norm(p.rV))) continue;
+      valued = true;
       const double slow = 1e-13 * (norm(p.r) + 1e-3);
       if (norm(p.rU) > slow && norm(p.rV) > slow && computeAngleSine(p) > kParallel) return false;
     }

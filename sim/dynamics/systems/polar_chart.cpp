@@ -7,12 +7,12 @@
 namespace reachlab::dynamics {
 
 std::array<double, 2> PolarChart::toLocal(double u, double v) const noexcept {
-  const double angle = fixed == 1 ? u : v, radius = side * ((fixed == 1 ? v : u) - pole);
+  const double angle = winding * (fixed == 1 ? u : v), radius = side * ((fixed == 1 ? v : u) - pole);
   return {radius * elementary::cos(angle), radius * elementary::sin(angle)};
 }
 
 std::array<double, 2> PolarChart::toBase(double xi, double eta) const noexcept {
-  const double angle = elementary::atan2(eta, xi), across = pole + side * std::hypot(xi, eta);
+  const double angle = elementary::atan2(eta, xi) / winding, across = pole + side * std::hypot(xi, eta);
   return fixed == 1 ? std::array{angle, across} : std::array{across, angle};
 }
 
@@ -33,6 +33,10 @@ void PolarChart::evaluateChart(const void* chart, const double*, double xi, doub
     std::swap(p.rU, p.rV);
     std::swap(p.rUu, p.rVv);
   }
+  const double turn = 1 / c.winding;  // from now on by the angle itself
+  p.rU *= turn;
+  p.rUv *= turn;
+  p.rUu *= turn * turn;
   const double r2 = rho * rho, s = c.side;
   const double ax = -eta / r2, ay = xi / r2, rx = xi / rho, ry = eta / rho;  // first derivatives of angle and radius
   const double axx = 2 * xi * eta / (r2 * r2), axy = (eta * eta - xi * xi) / (r2 * r2);

@@ -1,0 +1,578 @@
+#!/usr/bin/env python3
+"""Random scenes of a fixed seed, each beside an independent solution: kinks, bends, needles, steps, ripples, combs, poles, ends, jumps,
+cusps, seams, apexes and windings, in all scales of metres and of the parameters.
+
+    python3 tests/nasty/generated_scenes.py build/dev/cli/reach [--count 240] [--seed 1] [--show] > generated.tsv
+
+A mass of 1 kg is let go without a hand, on a curve with or without gravity, or on a surface without forces. The reference never uses the
+program or its equations. On a curve it is the time along the arc, dt = ds/v with v^2 = v0^2 - 2 g (y - y0). A surface is a cylinder over
+such a curve or a cone, which are unfolded, a plane in polar parameters, or a surface of revolution by Clairaut's integrals. All are sums
+of Gauss-Legendre panels in numbers of 64 bits mantissa (numpy.longdouble), graded towards every feature, and each is summed by two rules.
+
+Verdicts: right (within 1e-9 m, relative to the largest coordinate or the length of the way above 1 m), stopped or refused where the reference has to stop, needless
+(stopped or refused, although the reference goes on), WRONG (everything else). Ends with 1 if a scene is WRONG, or a stop's time or place
+is not the reference's, or more than 15 % are needless. Needs numpy and mpmath."""
+import argparse
+import csv
+import json
+import math
+import pathlib
+import random
+import subprocess
+import sys
+import tempfile
+
+import mpmath
+import numpy as np
+
+LD = np.longdouble
+PI = LD("3.14159265358979323846264338327950288")
+RIGHT, NEEDLESS = 1e-9, 0.15
+INF = math.inf
+
+
+def rule(count):
+    mpmath.mp.dps = 30
+    nodes, weights = [], []
+    for k in range(1, count + 1):
+        x = mpmath.cos(mpmath.pi * (k - mpmath.mpf("0.25")) / (count + mpmath.mpf("0.5")))
+        for _ in range(60):
+            a, b = mpmath.mpf(1), x
+            for n in range(2, count + 1):
+                a, b = b, ((2 * n - 1) * x * b - (n - 1) * a) / n
+            slope = count * (x * b - a) / (x * x - 1)
+            step = b / slope
+            x -= step
+            if abs(step) < mpmath.mpf(10) ** -28:
+                break
+        nodes.append(LD(mpmath.nstr(x, 25)))
+        weights.append(LD(mpmath.nstr(2 / ((1 - x * x) * slope ** 2), 25)))
+    return np.array(nodes), np.array(weights)
+
+
+RULES = [rule(20), rule(26)]
+
+
+class Scene:
+    """kind, three lines, start, rates, gravity along y, seconds, and the reference: a place, or the time and place of a stop."""
+
+    def __init__(self, **given):
+        self.gravity, self.place, self.stop = 0.0, None, None
+        self.__dict__.update(given)
+
+
+# --- features of a line f(p): its text, value, slope, and where panels must end or become small -------------------------------------
+
+class Feature:
+    def __init__(self, text, value, slope, cuts=(), spots=(), wave=INF, stop=None, repeats=None):
+        self.text, self.value, self.slope = text, value, slope
+        self.cuts, self.spots, self.wave, self.stop, self.repeats = list(cuts), list(spots), wave, stop, repeats
+
+
+def number(x):
+    return repr(float(x))
+
+
+def pick(r, lo, hi):
+    """A number of four digits, evenly by its logarithm."""
+    return float(f"{math.exp(r.uniform(math.log(lo), math.log(hi))):.4g}")
+
+
+def place(r, lo=-0.7, hi=0.7):
+    return float(f"{r.uniform(lo, hi):.5g}")
+
+
+def kink(r):
+    a, c = pick(r, 0.01, 0.2), place(r)
+    return Feature(f"{a}*abs(phi - {c})".replace("- -", "+ "), lambda p: LD(a) * abs(p - LD(c)), lambda p: LD(a) * np.sign(p - LD(c)), cuts=[c])
+
+
+def notch(r):
+    a, c, d = pick(r, 0.01, 0.2), place(r), pick(r, 1e-7, 0.1)
+    return Feature(f"{a}*abs(abs(phi + {c}) - {d})", lambda p: LD(a) * abs(abs(p + LD(c)) - LD(d)),
+                   lambda p: LD(a) * np.sign(abs(p + LD(c)) - LD(d)) * np.sign(p + LD(c)), cuts=[LD(-c), -LD(c) - LD(d), -LD(c) + LD(d)])
+
+
+def arcade(r):
+    a, k = pick(r, 0.005, 0.05), r.randint(1, 9)
+    return Feature(f"{a}*abs(sin({k}*phi))", lambda p: LD(a) * abs(np.sin(k * p)), lambda p: LD(a) * k * np.cos(k * p) * np.sign(np.sin(k * p)),
+                   cuts=[n * PI / k for n in range(-80 * k, 80 * k)], wave=2 * math.pi / k)
+
+
+def bend(r):
+    a, c = pick(r, 0.01, 0.2), place(r)
+    return Feature(f"{a}*(phi + {c})*abs(phi + {c})", lambda p: LD(a) * (p + LD(c)) * abs(p + LD(c)), lambda p: LD(2 * a) * abs(p + LD(c)), cuts=[-c])
+
+
+def power_bend(r):
+    a = pick(r, 0.01, 0.2)
+    return Feature(f"{a}*(phi + abs(phi))^3", lambda p: LD(a) * (p + abs(p)) ** 3, lambda p: LD(3 * a) * (p + abs(p)) ** 2 * (1 + np.sign(p)), cuts=[0])
+
+
+def gauss(r):
+    a, c, w = pick(r, 1e-5, 0.03), place(r), pick(r, 1e-7, 0.05)
+    a = min(a, 1e4 * w)
+    n = 1 / w
+    return Feature(f"{a}*exp(-({n}*(phi + {c}))^2)", lambda p: LD(a) * np.exp(-(LD(n) * (p + LD(c))) ** 2),
+                   lambda p: LD(a) * np.exp(-(LD(n) * (p + LD(c))) ** 2) * -2 * LD(n) ** 2 * (p + LD(c)), spots=[(-LD(c), w)])
+
+
+def witch(r):
+    a, c, w = pick(r, 1e-5, 0.03), place(r), pick(r, 1e-6, 0.05)
+    a = min(a, 1e3 * w)
+    n = float(f"{1 / w ** 2:.5g}")
+    return Feature(f"{a}/(1 + {n}*(phi + {c})^2)", lambda p: LD(a) / (1 + LD(n) * (p + LD(c)) ** 2),
+                   lambda p: -2 * LD(a) * LD(n) * (p + LD(c)) / (1 + LD(n) * (p + LD(c)) ** 2) ** 2, spots=[(-LD(c), w)])
+
+
+def around(c, w):
+    return [(s * LD(c) + 2 * PI * n, w) for s in (-1, 1) for n in range(-20, 21)]
+
+
+def needle_in_cosine(r):
+    a, c, w = pick(r, 1e-5, 0.01), place(r, 0.2, 1.2), pick(r, 1e-6, 0.03)
+    a = min(a, 1e3 * w)
+    n, m = float(f"{1 / w ** 2:.5g}"), math.cos(c)
+    return Feature(f"{a}/(1 + {n}*(cos(phi) - {m})^2)", lambda p: LD(a) / (1 + LD(n) * (np.cos(p) - LD(m)) ** 2),
+                   lambda p: 2 * LD(a) * LD(n) * (np.cos(p) - LD(m)) * np.sin(p) / (1 + LD(n) * (np.cos(p) - LD(m)) ** 2) ** 2,
+                   spots=around(np.arccos(LD(m)), w))
+
+
+def step(r):
+    a, c, w = pick(r, 1e-5, 0.05), place(r), pick(r, 1e-8, 0.05)
+    n = 1 / w
+    return Feature(f"{a}*tanh({n}*(phi + {c}))", lambda p: LD(a) * np.tanh(LD(n) * (p + LD(c))),
+                   lambda p: LD(a * 1.0) * LD(n) / np.cosh(np.minimum(abs(LD(n) * (p + LD(c))), LD(5000))) ** 2, spots=[(-LD(c), w)])
+
+
+def rounded(r):
+    a, c, w = pick(r, 0.01, 0.2), place(r), pick(r, 1e-8, 0.1)
+    s = float(f"{w * w:.5g}")
+    return Feature(f"{a}*sqrt((phi + {c})^2 + {s})", lambda p: LD(a) * np.sqrt((p + LD(c)) ** 2 + LD(s)),
+                   lambda p: LD(a) * (p + LD(c)) / np.sqrt((p + LD(c)) ** 2 + LD(s)), spots=[(-LD(c), w)])
+
+
+def comb(r):
+    a, k, w = pick(r, 0.002, 0.03), r.randint(2, 40), pick(r, 1e-6, 0.1)
+    s = float(f"{w * w:.5g}")
+    return Feature(f"{a}*sqrt(sin({k}*phi)^2 + {s})", lambda p: LD(a) * np.sqrt(np.sin(k * p) ** 2 + LD(s)),
+                   lambda p: LD(a) * k * np.sin(k * p) * np.cos(k * p) / np.sqrt(np.sin(k * p) ** 2 + LD(s)),
+                   spots=[(n * PI / k, w / k) for n in range(-40 * k, 40 * k)], wave=2 * math.pi / k)
+
+
+def ripple(r):
+    k = pick(r, 3, 2e5)
+    a = float(f"{r.uniform(0.02, 1) * 0.1 / k:.4g}")
+    return Feature(f"{a}*sin({k}*phi)", lambda p: LD(a) * np.sin(LD(k) * p), lambda p: LD(a) * LD(k) * np.cos(LD(k) * p), wave=2 * math.pi / k)
+
+
+def smooth(r):
+    a, k = pick(r, 0.01, 0.1), r.randint(1, 4)
+    return Feature(f"{a}*cos({k}*phi)", lambda p: LD(a) * np.cos(k * p), lambda p: -LD(a) * k * np.sin(k * p), wave=2 * math.pi / k)
+
+
+def seam(r):  # atan2 runs on across its cut
+    a, b = pick(r, 0.01, 0.1), pick(r, 0.2, 3)
+    return Feature(f"{a}*cos(atan2({b}*sin(phi), {b}*cos(phi)))", lambda p: LD(a) * np.cos(p), lambda p: -LD(a) * np.sin(p), wave=6.3)
+
+
+def sawtooth(r):  # kinks of asin
+    a = pick(r, 0.01, 0.1)
+    return Feature(f"{a}*asin(sin(phi))", lambda p: LD(a) * np.arcsin(np.sin(p)), lambda p: LD(a) * np.sign(np.cos(p)),
+                   cuts=[PI / 2 + n * PI for n in range(-40, 40)])
+
+
+def sinc(r):
+    a, k = pick(r, 0.01, 0.1), r.randint(1, 5)
+    def value(p):
+        x = np.where(abs(p) < 1e-5, LD(1), p)
+        return LD(a) * np.where(abs(p) < 1e-5, k - LD(k) ** 3 * p * p / 6, np.sin(k * x) / x)
+    def slope(p):
+        x = np.where(abs(p) < 1e-3, LD(1), p)
+        q = k * p
+        near = LD(k) ** 2 * (-q / 3 + q ** 3 / 30 - q ** 5 / 840)
+        return LD(a) * np.where(abs(p) < 1e-3, near, (k * x * np.cos(k * x) - np.sin(k * x)) / (x * x))
+    return Feature(f"{a}*sin({k}*phi)/phi", value, slope, wave=2 * math.pi / k)
+
+
+def logistic(r):
+    a, k = pick(r, 0.01, 0.1), pick(r, 1, 1e5)
+    safe = lambda p: np.clip(LD(k) * p, -5000, 5000)
+    return Feature(f"{a}/(1 + exp(-{k}*phi))", lambda p: LD(a) / (1 + np.exp(-safe(p))),
+                   lambda p: LD(a) * LD(k) / (2 * np.cosh(safe(p) / 2)) ** 2, spots=[(0, 1 / k)])
+
+
+def jump(r):
+    a, c = pick(r, 0.001, 0.1), place(r, -0.3, 0.6)
+    return Feature(f"{a}*sign(phi - {c})".replace("- -", "+ "), lambda p: LD(a) * np.sign(p - LD(c)), lambda p: 0 * p, cuts=[c], stop=c)
+
+
+def end(r):
+    a, c = pick(r, 0.01, 0.2), place(r, -0.2, 0.7)
+    return Feature(f"{a}*sqrt({c} - phi)", lambda p: LD(a) * np.sqrt(np.maximum(LD(c) - p, 0)), lambda p: -LD(a) / (2 * np.sqrt(np.maximum(LD(c) - p, LD(1e-40)))),
+                   cuts=[c], spots=[(c, 0)], stop=c)
+
+
+def pole(r):
+    a, c = pick(r, 1e-4, 0.02), place(r, 0.0, 0.9)
+    return Feature(f"{a}/({c} - phi)", lambda p: LD(a) / (LD(c) - p), lambda p: LD(a) / (LD(c) - p) ** 2, cuts=[c], spots=[(c, 0)], stop=c)
+
+
+COMMON = [kink, notch, arcade, bend, power_bend, gauss, witch, needle_in_cosine, step, rounded, comb, ripple, smooth, seam, sawtooth, sinc, logistic]
+RARE = [jump, end, pole]
+
+
+# --- the arc -------------------------------------------------------------------------------------------------------------------------
+
+def panels(lo, hi, features, p0):
+    """Bounds of panels from lo to hi (lo < hi), graded towards every feature."""
+    cuts = sorted({LD(c) for f in features for c in f.cuts if lo < c < hi})
+    spots = [(LD(c), LD(w)) for f in features for c, w in f.spots if lo - 1 < c < hi + 1]
+    wave = min([f.wave for f in features] + [1.0])
+    bounds = [LD(lo), *cuts, LD(hi)]
+    for c, w in spots:
+        d = max(w / 8, LD(1e-13))
+        while d < 1:
+            bounds += [c - d, c + d]
+            d *= LD(1.5)
+        bounds.append(c)
+    bounds = np.unique(np.clip(np.array(bounds, dtype=LD), LD(lo), LD(hi)))
+    parts = [bounds[:1]]
+    for a, b in zip(bounds[:-1], bounds[1:]):
+        n = max(1, int(math.ceil(float(b - a) / (0.2 * wave))))
+        parts.append(a + (b - a) * (np.arange(1, n + 1, dtype=LD) / n))
+    return np.concatenate(parts)
+
+
+class Arc:
+    """Time along a line from p0 in one direction: dp/dt = v / |r'|, v^2 = v0^2 - 2 g (y - y0)."""
+
+    def __init__(self, lines, p0, rate, gravity=0.0):
+        self.lines, self.p0, self.up = lines, LD(p0), 1 if rate > 0 else -1
+        self.features = [f for line in lines for f in line]
+        self.y0 = self.at(self.p0)[1]
+        self.speed0 = self.speed(self.p0) * abs(LD(rate))
+        self.gravity = LD(gravity)
+
+    def at(self, p):
+        return [sum((f.value(p) for f in line), 0 * p) for line in self.lines]
+
+    def speed(self, p):
+        return np.sqrt(sum(sum((f.slope(p) for f in line), 0 * p) ** 2 for line in self.lines))
+
+    def slowness(self, p):
+        if self.gravity == 0:
+            return self.speed(p) / self.speed0
+        square = self.speed0 ** 2 - 2 * self.gravity * (self.at(p)[1] - self.y0)
+        if np.any(square < (0.2 * self.speed0) ** 2):
+            raise ArithmeticError("turns round")
+        return self.speed(p) / np.sqrt(square)
+
+    def times(self, a, b, which):
+        x, w = RULES[which]
+        half, middle = (b - a) / 2, (a + b) / 2
+        return np.sum(self.slowness(middle[:, None] + half[:, None] * x[None, :]) * w[None, :], axis=1) * half
+
+    def solve(self, T, lo, hi):
+        """Parameter after T, and whether it was stopped before at a feature's `stop`: (p, time, stopped)."""
+        T = LD(T)
+        stops = [LD(f.stop) for f in self.features if f.stop is not None and (LD(f.stop) - self.p0) * self.up > 0]
+        end = (min(stops) if self.up > 0 else max(stops)) if stops else LD(hi if self.up > 0 else lo)
+        far = end - self.up * (LD(1e-13) if stops else 0)
+        bounds = panels(min(self.p0, far), max(self.p0, far), self.features, self.p0)
+        if self.up < 0:
+            bounds = bounds[::-1]
+        a, b = bounds[:-1], bounds[1:]
+        t, check = abs(self.times(a, b, 1)), abs(self.times(a, b, 0))
+        total = np.cumsum(t)
+        i = int(np.searchsorted(total, T))
+        # The last panels before a stop may hold an endless slope: only those that are used are held against the second rule.
+        used = slice(0, min(i + 1, len(t)))
+        if np.any(abs(t[used] - check[used]) > 1e-15 * max(total[min(i, len(total) - 1)], T)):
+            raise ArithmeticError("the panels do not resolve it")
+        if i >= len(t):
+            if stops:
+                return end, total[-1], True
+            raise ArithmeticError("the range is too short")
+        left = T - (total[i - 1] if i > 0 else 0)
+        low, high = a[i], b[i]
+        p = low + (high - low) * left / t[i]
+        for _ in range(100):
+            miss = abs(self.times(np.array([a[i]]), np.array([p]), 1)[0]) - left
+            better = p - self.up * miss / self.slowness(p)
+            if abs(better - p) <= 4e-19 * abs(p) + LD(1e-22):
+                break
+            p = min(max(better, min(a[i], b[i])), max(a[i], b[i]))
+        return p, T, False
+
+
+# --- scenes --------------------------------------------------------------------------------------------------------------------------
+
+def line_of(text, slope):
+    return Feature(text, lambda p: LD(slope) * p, lambda p: LD(slope) + 0 * p)
+
+
+def scaled(f, unit, size):
+    """The feature of p = unit phi, times size."""
+    text = f.text if unit == 1 else f.text.replace("phi", f"({number(unit)}*phi)")
+    return f"{number(size)}*({text})" if size != 1 else text
+
+
+def compose(r, rare=0.25):
+    """x, y, z as lists of features, in p."""
+    features = [r.choice(COMMON)(r) for _ in range(r.choice([1, 1, 2, 2, 3]))]
+    if r.random() < rare:
+        features.append(r.choice(RARE)(r))
+    x = [line_of("0.1*phi", 0.1)]
+    y, z = [], []
+    for f in features:
+        r.choice([y, y, z])
+        (y if f is features[0] or r.random() < 0.6 else z).append(f)
+    if r.random() < 0.15 and features[0].stop is None:
+        x.append(Feature("1e-6*tanh(1e5*(phi - 0.1))", lambda p: LD(1e-6) * np.tanh(LD(1e5) * (p - LD(0.1))),
+                         lambda p: LD(0.1) / np.cosh(np.minimum(abs(LD(1e5) * (p - LD(0.1))), LD(5000))) ** 2, spots=[(LD(0.1), 1e-5)]))
+    return [x, y, z]
+
+
+def texts(lines, unit, size, shift=0.0):
+    out = []
+    for k, line in enumerate(lines):
+        text = " + ".join(scaled(f, unit, size) for f in line) or "0"
+        out.append(f"{number(shift)} + {text}" if shift and k == 2 else text)
+    return out
+
+
+def curve_scene(r):
+    lines = compose(r)
+    unit = r.choice([1, 1, 1, 1e-3, 1e3, 1e-6, 10])
+    size = r.choice([1, 1, 1, 1e-3, 10])
+    shift = r.choice([0, 0, 0, 0, 100.0])
+    up = r.choice([1, 1, -1])
+    stopping = [f.stop for f in lines[1] + lines[2] if f.stop is not None]
+    p0 = -1.0 if up > 0 or stopping else 1.0
+    up = 1 if stopping else up
+    rate = up * pick(r, 0.5, 4)
+    T = r.choice([0.8, 1.2, 2.0])
+    gravity = r.choice([0, 0, 9.81]) if size == 1 else 0
+    arc = Arc(lines, p0, rate, gravity / size)
+    p, time, stopped = arc.solve(T, -16, 16)
+    where = [size * c for c in arc.at(p - up * LD(1e-12) if stopped else p)]
+    where[2] = where[2] + LD(shift)
+    scene = Scene(kind="curve", lines=texts(lines, unit, size, shift), at=[p0 / unit], rate=[rate / unit], gravity=-gravity, seconds=T)
+    scene.way = float(size * arc.speed0 * LD(T)) + abs(shift)
+    if stopped:
+        scene.stop, scene.place = float(time), where
+    else:
+        scene.place = where
+    return scene
+
+
+def cylinder_scene(r):
+    """r = (X(w), Y(w), h) with w and h linear in u and v: unfolded it is a plane."""
+    lines = compose(r, 0.1)
+    unit = [r.choice([1, 1, 1e3, 1e-3]) for _ in range(2)]
+    slant = r.choice([0, 0, 0.3, -0.7])
+    p0, rate, along, T = -1.0, pick(r, 0.5, 3), place(r, -0.3, 0.3), r.choice([0.8, 1.5])
+    arc = Arc([lines[0], lines[1] + lines[2]], p0, rate)
+    p, time, stopped = arc.solve(T, -12, 12)
+    x, y = arc.at(p - LD(1e-12) if stopped else p)
+    w = f"({number(unit[0])}*u + {slant}*({number(unit[1])}*v))"
+    text = [" + ".join(f.text.replace("phi", w) for f in line) or "0" for line in [lines[0], lines[1] + lines[2]]]
+    scene = Scene(kind="surface", lines=[*text, f"{number(unit[1])}*v"], at=[p0 / unit[0], 0.0],
+                  rate=[(rate - slant * along) / unit[0], along / unit[1]], seconds=T)
+    scene.place, scene.way = [x, y, LD(along) * time], 1.0
+    if stopped:
+        scene.stop = float(time)
+    return scene
+
+
+def polar_scene(r):
+    """A plane in polar parameters of any winding, by its pole or beside it."""
+    k = r.choice([1, 2, 3, 4, 5, 7, 0.5, 1.5, 2.25])
+    offset = r.choice([0, 1e-9, 1e-8, 1e-7, 1e-5, 1e-3, 0.05])
+    u0, T = place(r, -2, 2), r.choice([1.5, 2.0])
+    radius = r.choice(["v", "v", "sinh(v)", "2*v"])
+    f, d = {"v": (lambda v: v, lambda v: LD(1)), "sinh(v)": (np.sinh, np.cosh), "2*v": (lambda v: 2 * v, lambda v: LD(2))}[radius]
+    v0, rv = LD(1), LD(-1)
+    angle = LD(k) * LD(u0)
+    R, R1 = f(v0), d(v0) * rv
+    pos = np.array([R * np.cos(angle), R * np.sin(angle)]) / 10
+    turn = LD(k) * LD(offset)
+    vel = np.array([R1 * np.cos(angle) - R * np.sin(angle) * turn, R1 * np.sin(angle) + R * np.cos(angle) * turn]) / 10
+    now = pos + vel * LD(T)
+    swap = r.random() < 0.5
+    a, b = ("v", "u") if swap else ("u", "v")
+    rad = radius.replace("v", b)
+    scene = Scene(kind="surface", lines=[f"0.1*{rad}*cos({number(k)}*{a})", f"0.1*{rad}*sin({number(k)}*{a})", "0"],
+                  at=[1.0, u0] if swap else [u0, 1.0], rate=[-1.0, offset] if swap else [offset, -1.0], seconds=T)
+    scene.place, scene.way = [now[0], now[1], LD(0)], 1.0
+    return scene
+
+
+def cone_scene(r):
+    """A cone unfolded, by its apex (stopped there) or beside it."""
+    slope, k = r.choice([1.0, 0.3, 3.0, 10.0]), r.choice([1, 1, 2, 3])
+    offset, T = r.choice([0, 1e-6, 1e-5, 1e-4, 1e-3, 0.03]), r.choice([0.7, 1.6])
+    u0 = place(r, -1, 1)
+    slant = np.sqrt(1 + LD(slope) ** 2)
+    radius, fall, turn = slant / 10, -slant / 10, LD(offset) / slant * k  # in the unfolded plane: angle = k u / slant
+    pos, vel = np.array([radius, LD(0)]), np.array([fall, radius * turn])
+    scene = Scene(kind="surface", lines=[f"0.1*v*cos({k}*u)", f"0.1*v*sin({k}*u)", f"{0.1 * slope}*v"], at=[u0, 1.0], rate=[offset, -1.0], seconds=T)
+    slope_exact = LD(0.1 * slope) * 10
+    slant = np.sqrt(1 + slope_exact ** 2)
+    radius, fall, turn = slant / 10, -slant / 10, LD(offset) / slant * k
+    pos, vel = np.array([radius, LD(0)]), np.array([fall, radius * turn])
+    scene.way = 1.0
+    if offset == 0 and T > 1:
+        scene.stop, scene.place = 1.0, [LD(0)] * 3
+        return scene
+    now = pos + vel * LD(T)
+    rho, phi = np.sqrt(now[0] ** 2 + now[1] ** 2), np.arctan2(now[1], now[0])
+    angle = LD(k) * LD(u0) + phi * slant
+    v = rho / (slant / 10)
+    scene.place = [v / 10 * np.cos(angle), v / 10 * np.sin(angle), LD(0.1 * slope) * v]
+    return scene
+
+
+def revolution_scene(r):
+    """f(v) = 0.1 v, height z(v): Clairaut. From v = 1 inwards, past its smallest radius, and out again."""
+    a, n = pick(r, 0.01, 0.3), r.choice([2, 3, 4])
+    offset = r.choice([1e-6, 1e-4, 1e-2, 0.1])
+    T, u0 = r.choice([1.2, 1.7]), place(r, -1, 1)
+    A = LD(a)
+    F = lambda v: v / 10
+    S = lambda v: np.sqrt(LD("0.01") + (A * n * v ** (n - 1)) ** 2)  # ds/dv
+    vr, ur = LD(-1), LD(offset)
+    V = np.sqrt((S(LD(1)) * vr) ** 2 + (F(LD(1)) * ur) ** 2)
+    c = F(LD(1)) ** 2 * ur
+    turn = 10 * c / V  # where F = c / V
+    # v = sqrt(turn^2 + q^2), signed q from -q0 to q: dt = S dv / sqrt(V^2 - c^2/F^2) = S v dv / (V sqrt(v^2 - turn^2)) = S dq / V
+    q0 = np.sqrt(1 - turn ** 2)
+    slow = lambda q: S(np.sqrt(turn ** 2 + q * q)) / V
+    spin = lambda q: c / F(np.sqrt(turn ** 2 + q * q)) ** 2 * slow(q)
+    grid = [LD(0)]
+    d = turn / 8
+    while d < 4:
+        grid += [d, -d]
+        d *= LD(1.3)
+    grid = np.unique(np.clip(np.array(grid + [-q0, LD(4)]), -q0, LD(4)))
+    parts = [grid[:1]]
+    for lo, hi in zip(grid[:-1], grid[1:]):
+        m = max(1, int(math.ceil(float(hi - lo) / 0.1)))
+        parts.append(lo + (hi - lo) * np.arange(1, m + 1, dtype=LD) / m)
+    grid = np.concatenate(parts)
+    x, w = RULES[1]
+
+    def over(f, lo, hi):
+        half = (hi - lo) / 2
+        return np.sum(f((lo + hi)[:, None] / 2 + half[:, None] * x[None, :]) * w[None, :], axis=1) * half
+    t = np.cumsum(over(slow, grid[:-1], grid[1:]))
+    i = int(np.searchsorted(t, LD(T)))
+    if i >= len(t):
+        raise ArithmeticError("the range is too short")
+    before = t[i - 1] if i else LD(0)
+    q = grid[i]
+    for _ in range(60):
+        q -= (over(slow, np.array([grid[i]]), np.array([q]))[0] + before - LD(T)) / slow(q)
+    angle = LD(u0) + np.sum(over(spin, grid[:i], grid[1:i + 1])) + over(spin, np.array([grid[i]]), np.array([q]))[0]
+    v = np.sqrt(turn ** 2 + q * q)
+    scene = Scene(kind="surface", lines=["0.1*v*cos(u)", "0.1*v*sin(u)", f"{a}*v^{n}"], at=[u0, 1.0], rate=[offset, -1.0], seconds=T)
+    scene.place, scene.way = [F(v) * np.cos(angle), F(v) * np.sin(angle), A * v ** n], 1.0
+    return scene
+
+
+def cusp_scene(r):
+    """Cusps, folds and standstills, passed in arc length."""
+    a, n, m = pick(r, 0.02, 0.2), *r.choice([(2, 3), (2, 4), (3, 3), (3, 5), (2, 5)])
+    b, rate, T = pick(r, 0.02, 0.2), pick(r, 0.3, 1), r.choice([0.7, 1.5])
+    f = Feature(f"{a}*phi^{n}", lambda p: LD(a) * p ** n, lambda p: LD(a) * n * p ** (n - 1), cuts=[0], spots=[(0, 0)])
+    g = Feature(f"{b}*phi^{m}", lambda p: LD(b) * p ** m, lambda p: LD(b) * m * p ** (m - 1), cuts=[0], spots=[(0, 0)])
+    arc = Arc([[f], [g], []], -1.0, rate)
+    p, _, _ = arc.solve(T, -16, 16)
+    scene = Scene(kind="curve", lines=[f.text, g.text, "0"], at=[-1.0], rate=[rate], seconds=T)
+    scene.place, scene.way = [*arc.at(p)[:2], LD(0)], 1.0
+    return scene
+
+
+MAKERS = [curve_scene] * 8 + [cylinder_scene] * 5 + [polar_scene] * 2 + [cone_scene] * 2 + [revolution_scene] + [cusp_scene]
+
+
+def scenes(seed, count):
+    made, number_ = [], 0
+    while len(made) < count:
+        number_ += 1
+        r = random.Random(f"{seed}/{number_}")
+        try:
+            with np.errstate(all="ignore"):
+                scene = r.choice(MAKERS)(r)
+        except ArithmeticError:
+            continue
+        if not all(np.isfinite(c) for c in scene.place):
+            continue
+        scene.name = f"{seed}/{number_}"
+        made.append(scene)
+    return made
+
+
+# --- the program ---------------------------------------------------------------------------------------------------------------------
+
+def run(program, scene, folder):
+    """(verdict, place or None, time or None, words)"""
+    file = pathlib.Path(folder) / "scene.json"
+    file.write_text(json.dumps({"schema_version": 1, "constraint": {scene.kind: scene.lines},
+                                "object": {"kind": "point", "masses_kg": [1], "gravity_m_per_s2": [0, scene.gravity, 0]},
+                                "coupling": {"stiffness_n_per_m": 600}}))
+    ended = subprocess.run([program, "simulate", str(file), "--hand", "none", "--at=" + ",".join(map(number, scene.at)),
+                            "--rate=" + ",".join(map(number, scene.rate)), "--until", number(scene.seconds), "--every", number(scene.seconds)],
+                           capture_output=True, text=True)
+    words = ended.stderr.strip().replace("\n", " ").replace(str(file), "FILE")
+    if ended.returncode not in (0, 2, 4):
+        return "crashed", None, None, f"exit {ended.returncode}: {words}"
+    if ended.returncode:
+        return "refused", None, None, words
+    last = list(csv.DictReader(ended.stdout.splitlines()))[-1]
+    return "stopped" if words else "right", [float(last[f"mass1_{a}_m"]) for a in "xyz"], float(last["time_s"]), words
+
+
+def judge(scene, verdict, where, time, words):
+    """(verdict, detail)"""
+    slack = max(1.0, scene.way, *[abs(float(c)) for c in scene.place])
+    away = None if where is None else float(sum((LD(a) - b) ** 2 for a, b in zip(where, scene.place)) ** LD(0.5))
+    if verdict == "right":
+        if scene.stop is not None:
+            return "WRONG", f"goes on past a stop at {scene.stop}"
+        return ("right" if away <= RIGHT * slack else "WRONG"), f"{away:.1e}"
+    if verdict == "refused":
+        return ("refused" if scene.stop is not None else "needless"), words
+    if verdict == "stopped":
+        if scene.stop is None:
+            return "needless", words
+        if time < scene.stop - 5e-3:
+            return "needless", words
+        if abs(time - scene.stop) > 5e-3 or away > 1e-2 * slack:
+            return "WRONG", f"stops at {time} s, {away:.1e} m from the reference's {scene.stop} s: {words}"
+        return "stopped", words
+    return "WRONG", words
+
+
+def main():
+    options = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    options.add_argument("program")
+    options.add_argument("--count", type=int, default=240)
+    options.add_argument("--seed", type=int, default=1)
+    options.add_argument("--show", action="store_true", help="only print the scenes and their references")
+    given = options.parse_args()
+    counts, out = {}, csv.writer(sys.stdout, delimiter="\t", lineterminator="\n")
+    out.writerow(["scene", "kind", "x", "y", "z", "at", "rate", "gravity_y", "seconds", "x_m", "y_m", "z_m", "stop_s", "verdict", "detail"])
+    with tempfile.TemporaryDirectory() as folder:
+        for scene in scenes(given.seed, given.count):
+            verdict, detail = ("", "") if given.show else judge(scene, *run(given.program, scene, folder))
+            counts[verdict] = counts.get(verdict, 0) + 1
+            out.writerow([scene.name, scene.kind, *scene.lines, ",".join(map(number, scene.at)), ",".join(map(number, scene.rate)), scene.gravity,
+                          scene.seconds, *[np.format_float_positional(c, 18) for c in scene.place], scene.stop or "", verdict, detail])
+    print(", ".join(f"{n} {verdict}" for verdict, n in sorted(counts.items())), file=sys.stderr)
+    return counts.get("WRONG", 0) > 0 or counts.get("needless", 0) > NEEDLESS * given.count
+
+
+if __name__ == "__main__":
+    sys.exit(main())
