@@ -273,6 +273,10 @@ class Examiner {
     if (hasLeft && alive_[i - 1]) b.left = endOf(i - 1, b, -1);
     if (hasRight && alive_[i]) b.right = endOf(i, b, 1);
     if (!b.left.valid && !b.right.valid) return;
+    // At an end of the examined range nothing lies behind, so that only an end without a limit is a place.
+    const BranchEnd& only = b.left.valid ? b.left : b.right;
+    if (!(hasLeft && hasRight) && only.settled && only.bounded && isFinite(evaluate((hasLeft ? result_.pieces[i - 1] : result_.pieces[i]).curve, b.at)))
+      return;
     b.branching = b.branching && (!b.left.valid || b.left.exact) && (!b.right.valid || b.right.exact);
     Place place;
     place.at = b.at + 0.0 + moveToTangents(i, b);
