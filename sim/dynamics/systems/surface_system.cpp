@@ -10,9 +10,12 @@ namespace {
 constexpr double kContinuous = 1e-9;          // of a millimetre and of the surface's size: what counts as no jump
 constexpr double kRounding = 1e-12;           // of |r|, for a surface may lie far away
 constexpr double kMargin = 1e-5;              // of the argument's size
+constexpr int kWaitForFar = 3;                // the same where a pole is not near enough yet
 constexpr int kWaitAfterNothing = 16;         // looks to leave out where there was none
 constexpr double kNear = 0.3;                 // of the largest |r_u| (or |r_v|) seen: nearer, a pole is looked for
 constexpr double kEnter = 0.4, kLeave = 0.6;  // of a parameter: radius of the polar chart
+constexpr double kOnePoint = 1e-12, kSameTangent = 1e-9;  // of the largest |r_u| or |r_v|: a pole's line and its tangents
+constexpr double kFlatPole = 1e-12;           // squared sine: the tangents out of a pole span a plane
 constexpr double kBeside = 0.05;              // of a parameter, from a line at which the formula ends: r_u may grow without bound
 constexpr double kEnding = 0.02;              // of a parameter, from such a line: what stops there stops because of it
 
@@ -32,10 +35,12 @@ Settled SurfaceSystem::chooseChart(State& y) noexcept {
   const constraints::SurfacePoint p = constraints::evaluate(surface, y[0], y[1]);
   look(p);
   if (waiting > 0) --waiting;
-  const int fixed = dot(p.rU, p.rU) < kNear * kNear * largestU ? 1 : dot(p.rV, p.rV) < kNear * kNear * largestV ? 0 : -1;
-  if (fixed < 0 || waiting > 0) return Settled::Same;
-  if (!findPole(y, fixed)) {
-    waiting = kWaitAfterNothing;
+  const double byU = dot(p.rU, p.rU) / largestU, byV = dot(p.rV, p.rV) / largestV;
+  if (std::min(byU, byV) >= kNear * kNear || waiting > 0) return Settled::Same;
+  const int likely = byU < byV ? 1 : 0;
+  const Pole first = findPole(y, likely);
+  if (const Pole found = first != Pole::Found && std::max(byU, byV) < kNear * kNear ? findPole(y, 1 - likely) : first; found != Pole::Found) {
+    waiting = first == Pole::Far || found == Pole::Far ? kWaitForFar : kWaitAfterNothing;
     return Settled::Same;
   }
   const Vec3 v = y[2] * p.rU + y[3] * p.rV;
@@ -57,7 +62,7 @@ void SurfaceSystem::leavePolar(State& y) noexcept {
   inPolar = false;
 }
 
-bool SurfaceSystem::findPole(const State& y, int fixed) noexcept {
+SurfaceSystem::Pole SurfaceSystem::findPole(const State& y, int fixed) noexcept {
   const auto at = [&](double angle, double across) {
     return fixed == 1 ? constraints::evaluate(surface, angle, across) : constraints::evaluate(surface, across, angle);
   };
@@ -71,20 +76,39 @@ bool SurfaceSystem::findPole(const State& y, int fixed) noexcept {
     across -= change;
     if (std::abs(change) < 1e-16 * std::abs(across)) break;
   }
-  if (!std::isfinite(across) || std::abs(across - from) > kEnter || across == from) return false;
-  // A pole: the whole line is one point, 2 pi is a period, and opposite sides continue each other.
+  if (!std::isfinite(across) || across == from) return Pole::None;
+  if (std::abs(across - from) > kEnter) return Pole::Far;
+  // A pole: the whole line is one point, and the tangents out of it are A cos(k angle) + B sin(k angle). It winds k times in 2 pi.
   const double largest = std::sqrt(std::max(largestU, largestV)), reach = 0.1 * (from - across);
-  const constraints::SurfacePoint pole = at(angle, across), beside = at(angle, across + reach),
-                                  again = at(angle + 2 * std::numbers::pi, across + reach);
-  if (norm(again.r - beside.r) > 1e-12 * largest) return false;
-  for (int i = 0; i < 8; ++i) {
-    const constraints::SurfacePoint a = at(angle + 0.25 * std::numbers::pi * i, across),
-                                    b = at(angle + 0.25 * std::numbers::pi * i + std::numbers::pi, across);
-    const Vec3 outA = fixed == 1 ? a.rV : a.rU, outB = fixed == 1 ? b.rV : b.rU;
-    if (norm(a.r - pole.r) > 1e-12 * largest || norm(outA + outB) > 1e-9 * largest) return false;
+  const constraints::SurfacePoint pole = at(angle, across);
+  const Vec3 out = fixed == 1 ? pole.rV : pole.rU, turn = pole.rUv;
+  const double oo = dot(out, out), ot = dot(out, turn), tt = dot(turn, turn), determinant = oo * tt - ot * ot;
+  if (!(determinant > kFlatPole * oo * tt)) return Pole::None;
+  const auto phaseAt = [&](double by, double winding) {  // NaN where the tangents are not of that form
+    const constraints::SurfacePoint p = at(angle + by, across);
+    const Vec3 there = fixed == 1 ? p.rV : p.rU;
+    const double a = dot(there, out), b = dot(there, turn), c = (a * tt - b * ot) / determinant, s = (b * oo - a * ot) / determinant;
+    if (norm(p.r - pole.r) > kOnePoint * largest || norm(there - c * out - s * turn) > kSameTangent * largest) return std::nan("");
+    return std::atan2(winding * s, c);
+  };
+  constexpr double kFirst = 0.04, kLast = 8;
+  constexpr double kMost = 64;
+  const constraints::SurfacePoint aside = at(angle + kFirst, across);
+  const Vec3 there = fixed == 1 ? aside.rV : aside.rU;
+  double winding = std::acos(std::clamp((dot(there, out) * tt - dot(there, turn) * ot) / determinant, -1.0, 1.0)) / kFirst;
+  for (double by = kFirst; by < kLast; by *= 2) {
+    const double turns = std::nearbyint((winding * by - phaseAt(by, winding)) / (2 * std::numbers::pi));
+    winding = (phaseAt(by, winding) + 2 * std::numbers::pi * turns) / by;
   }
-  polar = {surface, fixed, across, from > across ? 1.0 : -1.0};
-  return true;
+  if (const double whole = std::nearbyint(winding); std::abs(winding - whole) < 1e-12 * kMost) winding = whole;
+  if (!(winding > 1 / kMost && winding < kMost)) return Pole::None;
+  for (int i = 0; i < 3; ++i) {
+    const double beside = angle + 2.1 * i / winding;
+    if (!(norm(at(beside + 2 * std::numbers::pi / winding, across + reach).r - at(beside, across + reach).r) <= kOnePoint * largest))
+      return Pole::None;
+  }
+  polar = {surface, fixed, across, from > across ? 1.0 : -1.0, winding};
+  return Pole::Found;
 }
 
 void SurfaceSystem::findBranch(std::span<const double> q, std::span<const double> qRate) noexcept {

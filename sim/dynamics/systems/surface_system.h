@@ -151,7 +151,8 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
   }
   /// The pole ahead, where the lines of parameter `fixed` = const collapse, if a pole exists. Newton on r_(other) = 0 along the line finds
   /// it. A check round the whole line confirms it.
-  bool findPole(const State& y, int fixed) noexcept;
+  enum class Pole { None, Far, Found };
+  Pole findPole(const State& y, int fixed) noexcept;
   bool wantsSubSteps(const State&) const noexcept { return careful; }
   double tightening() const noexcept { return careful ? kTightening : 1; }
   void accelerate(const State& y, const State& dy, std::span<MassState> masses) const noexcept {
