@@ -61,8 +61,8 @@ def option(left, right):
     default, bounds, choices = "", "", []
     if found := re.search(r" \[default: ([^][]*)\]", right):
         default, right = found[1], right.replace(found[0], "", 1)
-    if found := re.search(r" \[(?:one of: ([^][]*)|(\S+ to \S+|more than 0|0 or more))\]$", right):
-        choices, bounds, right = found[1].split(", ") if found[1] else [], found[2] or "", right[:found.start()]
+    if found := re.search(r" \[(?:(\S+ to \S+|more than 0|0 or more)|((?:[\w-]+, )*[\w-]+ or [\w-]+))\]$", right):
+        choices, bounds, right = re.split(", | or ", found[2]) if found[2] else [], found[1] or "", right[:found.start()]
     return Option(names.split(","), value, choices, bounds, default, required, repeats, right)
 
 

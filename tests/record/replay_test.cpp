@@ -171,7 +171,7 @@ TEST(Replay, ATableOfOtherMassesOrHandsIsRefused) {
     }
   };
   const ChannelTable& t = recorded.table;
-  const std::string words = ": table: has not the masses and hands of its experiment, so the run cannot be simulated again";
+  const std::string words = ": table: has not the masses, hands, forces and cursor of its experiment, so the run cannot be simulated again";
   EXPECT_EQ(refusalOf(t.massCount, t.parameterCount, 1, t.body), "replayed");
   EXPECT_EQ(refusalOf(t.massCount + 1, t.parameterCount, 1, t.body), words);
   EXPECT_EQ(refusalOf(t.massCount, t.parameterCount + 1, 1, t.body), words);
