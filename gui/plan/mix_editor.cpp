@@ -23,8 +23,6 @@ namespace {
 
 enum Targets { kOwn, kRing, kList };
 
-QString from(const std::string& text) { return QString::fromStdString(text); }
-
 bool holds(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
@@ -49,7 +47,8 @@ session::TrialMix readText(const char* key, const QString& text, QStringList& fa
 
 QString changesText(const session::TrialKind& kind) {
   QStringList changes;
-  for (const experiment::Patch& change : kind.changes) changes << QStringLiteral("\"%1\": %2").arg(from(change.path), from(change.value));
+  for (const experiment::Patch& change : kind.changes)
+    changes << QStringLiteral("\"%1\": %2").arg(QString::fromStdString(change.path), QString::fromStdString(change.value));
   return changes.join(QStringLiteral(", "));
 }
 
@@ -185,7 +184,7 @@ void MixEditor::showKinds() {
     for (const session::KindCount& some : cycle) count += some.kind == kind.name ? some.count : 0;
     for (int column = 0; column < kColumns; ++column) {
       auto* item = new QTableWidgetItem;
-      if (column == kName) item->setText(from(kind.name));
+      if (column == kName) item->setText(QString::fromStdString(kind.name));
       if (column == kCount) item->setText(QString::number(count));
       if (column == kChanges) item->setText(changesText(kind));
       if (column == kNotFirst || column == kNotTwice) {
@@ -239,7 +238,7 @@ void MixEditor::takeKinds() {
     for (const session::KindCount& some : before) had += some.kind == kind.name ? some.count : 0;
     bool isNumber = false;
     const int count = kinds_->item(row, kCount)->text().toInt(&isNumber);
-    if (!isNumber || count < 0) faults_ << tr("%1: the count in a cycle is no whole number from 0").arg(from(name));
+    if (!isNumber || count < 0) faults_ << tr("%1: the count in a cycle is no whole number from 0").arg(QString::fromStdString(name));
     counted = counted || (isNumber && count != had);
     if (count > 0) cycle.push_back({name, count});
     kind.name = name;
@@ -247,7 +246,8 @@ void MixEditor::takeKinds() {
     if (kinds_->item(row, kNotTwice)->checkState() == Qt::Checked) mix_.notTwice.push_back(name);
     const QString changes = kinds_->item(row, kChanges)->text().trimmed();
     if (changes == changesText(kind)) continue;
-    const session::TrialMix read = readText("kinds", QStringLiteral("{ \"%1\": { %2 } }").arg(from(name), changes), faults_);
+    const session::TrialMix read =
+        readText("kinds", QStringLiteral("{ \"%1\": { %2 } }").arg(QString::fromStdString(name), changes), faults_);
     if (!read.kinds.empty()) kind.changes = read.kinds.front().changes;
   }
   for (const auto& [old, name] : renamed)

@@ -33,8 +33,6 @@ namespace {
 
 enum Column { kPlace, kExperiment, kCondition, kTrials, kDay, kKind, kColumns };
 
-QString from(const std::string& text) { return QString::fromStdString(text); }
-
 QString kindOf(const session::PlanBlock& block) {
   QStringList kinds;
   if (block.practice) kinds << PlanComposer::tr("practice");
@@ -57,7 +55,7 @@ QString orderPreview(const session::Plan& plan, int subjects) {
       const QString label = QStringLiteral("%1").arg(s, 2, 10, QLatin1Char('0'));
       QStringList names;
       for (const int k : session::blockOrder(plan, label.toStdString(), day))
-        names << from(conditionOf(plan.blocks[static_cast<std::size_t>(k)])).toHtmlEscaped();
+        names << QString::fromStdString(conditionOf(plan.blocks[static_cast<std::size_t>(k)])).toHtmlEscaped();
       QString who = plan.counterbalance == session::Counterbalance::None ? PlanComposer::tr("every subject")
                                                                          : PlanComposer::tr("subject %1").arg(label);
       if (day != 0) who += PlanComposer::tr(", day %1").arg(day);
@@ -186,7 +184,7 @@ QWidget* PlanComposer::makeBlock() {
   experiment_->setObjectName(QStringLiteral("planExperiment"));
   experiment_->setEditable(true);
   experiment_->setToolTip(tr("a shipped experiment or a file. Files beside the plan are named without their folder"));
-  for (const std::string& name : experiment::shippedExperiments()) experiment_->addItem(from(name));
+  for (const std::string& name : experiment::shippedExperiments()) experiment_->addItem(QString::fromStdString(name));
   condition_ = new QLineEdit;
   condition_->setObjectName(QStringLiteral("planCondition"));
   condition_->setPlaceholderText(tr("the experiment's name"));
@@ -256,7 +254,7 @@ void PlanComposer::setPlan(const session::Plan& plan, const QString& file) {
   plan_ = plan;
   file_ = file;
   showing_ = true;
-  name_->setText(from(plan.name));
+  name_->setText(QString::fromStdString(plan.name));
   permute_->setChecked(plan.counterbalance == session::Counterbalance::Permute);
   orderSeed_->setValue(static_cast<int>(std::min<std::uint64_t>(plan.orderSeed, 999'999'999)));
   showing_ = false;
@@ -273,9 +271,12 @@ void PlanComposer::showList(int select) {
   list_->setRowCount(static_cast<int>(plan_.blocks.size()));
   for (int i = 0; i < list_->rowCount(); ++i) {
     const session::PlanBlock& block = plan_.blocks[static_cast<std::size_t>(i)];
-    const QString texts[] = {
-        QString::number(i + 1),        QFileInfo(from(block.experiment)).completeBaseName(),      from(conditionOf(block)),
-        QString::number(block.trials), block.day == 0 ? tr("every") : QString::number(block.day), kindOf(block)};
+    const QString texts[] = {QString::number(i + 1),
+                             QFileInfo(QString::fromStdString(block.experiment)).completeBaseName(),
+                             QString::fromStdString(conditionOf(block)),
+                             QString::number(block.trials),
+                             block.day == 0 ? tr("every") : QString::number(block.day),
+                             kindOf(block)};
     for (int column = 0; column < kColumns; ++column) {
       if (list_->item(i, column) == nullptr) list_->setItem(i, column, new QTableWidgetItem);
       list_->item(i, column)->setText(texts[column]);
@@ -297,8 +298,8 @@ void PlanComposer::showBlock() {
   if (at < 0) return;
   showing_ = true;
   const session::PlanBlock& block = plan_.blocks[static_cast<std::size_t>(at)];
-  experiment_->setEditText(from(block.experiment));
-  condition_->setText(from(block.condition));
+  experiment_->setEditText(QString::fromStdString(block.experiment));
+  condition_->setText(QString::fromStdString(block.condition));
   trials_->setValue(block.trials);
   day_->setValue(block.day);
   practice_->setChecked(block.practice);
@@ -308,7 +309,7 @@ void PlanComposer::showBlock() {
   foreperiodMin_->show(block.foreperiodMin);
   foreperiodMax_->show(block.foreperiodMax);
   catchShare_->show(block.catchShare);
-  instructions_->setPlainText(from(block.instructions));
+  instructions_->setPlainText(QString::fromStdString(block.instructions));
   mix_->show(block.mix);
   showing_ = false;
 }
@@ -330,7 +331,8 @@ void PlanComposer::take() {
   block.catchShare = catchShare_->value();
   block.instructions = instructions_->toPlainText().toStdString();
   block.mix = mix_->mix();
-  const QString texts[] = {QFileInfo(from(block.experiment)).completeBaseName(), from(conditionOf(block)), QString::number(block.trials),
+  const QString texts[] = {QFileInfo(QString::fromStdString(block.experiment)).completeBaseName(),
+                           QString::fromStdString(conditionOf(block)), QString::number(block.trials),
                            block.day == 0 ? tr("every") : QString::number(block.day), kindOf(block)};
   for (int column = 1; column < kColumns; ++column) list_->item(at, column)->setText(texts[column - 1]);
   changed();
@@ -372,7 +374,8 @@ void PlanComposer::saveTo(const QString& file) {
   session::Plan relative = plan_;  // experiments beside the plan move with it
   const QString folder = QFileInfo(file).absolutePath() + QLatin1Char('/');
   for (session::PlanBlock& block : relative.blocks)
-    if (from(block.experiment).startsWith(folder)) block.experiment = block.experiment.substr(folder.toStdString().size());
+    if (QString::fromStdString(block.experiment).startsWith(folder))
+      block.experiment = block.experiment.substr(folder.toStdString().size());
   record::writeFileAtomically(file.toStdString(), session::toJson(relative));
   file_ = file;
 }
@@ -380,7 +383,7 @@ void PlanComposer::saveTo(const QString& file) {
 bool PlanComposer::save(bool askAlways) {
   QString file = file_;
   if (askAlways || file.isEmpty()) {
-    const QString proposed = file.isEmpty() ? from(plan_.name) + QStringLiteral(".json") : file;
+    const QString proposed = file.isEmpty() ? QString::fromStdString(plan_.name) + QStringLiteral(".json") : file;
     file = QFileDialog::getSaveFileName(this, tr("Save plan"), proposed, tr("Plans (*.json)"));
     if (file.isEmpty()) return false;
     if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".json");
