@@ -234,7 +234,7 @@ TEST_F(Tables, ColumnsAreTheSameHoweverFewAreReadAtATime) {
 
 TEST_F(Tables, WhatAnUnreadableExperimentAskedForIsNotKnown) {
   configuration_.experimentText = "no experiment";
-  const experiment::Task task = taskOf(configuration_);
+  const experiment::Task task = taskOf(configuration_, {});
   for (const double unknown : {task.duration, task.tolerance.position, task.tolerance.velocity, task.tolerance.time})
     EXPECT_TRUE(std::isnan(unknown));
 }
