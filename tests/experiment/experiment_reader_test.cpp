@@ -93,7 +93,7 @@ INSTANTIATE_TEST_SUITE_P(
                     WrongText{"\"schema_version\": 1,", "", "schema_version: is missing"},
                     WrongText{"\"time_s\": 0.5", "\"time_s\": 0.5, \"time_s\": 0.6", "time_s: stands here twice"},
                     WrongText{"\"start\": [0]", "\"start\": [0, 1]", "task.start: has 2 elements; allowed: an array of 1 number"},
-                    WrongText{"\"chain\"", "\"chian\"", "object.kind: is \"chian\"; allowed: point, chain, parallel or body"},
+                    WrongText{"\"chain\"", "\"chian\"", "object.kind: is \"chian\"; allowed: point, chain, parallel, body or none"},
                     WrongText{"\"name\": \"line\"", "\"name\": \"lime\"", "x.json:3:27: constraint.name: there is no constraint 'lime'"},
                     WrongText{"\"damping_n_s_per_m\": 0 }", "\"damping_n_s_per_m\": -1 }", "coupling.damping_n_s_per_m: is -1"},
                     WrongText{"\"chain\", \"masses_kg\": [0.6, 0.6], \"stiffness_n_per_m\": [600]",

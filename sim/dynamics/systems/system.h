@@ -39,66 +39,39 @@ consteval bool agree(bool declared, std::initializer_list<bool> present) {
     if (one != declared) return false;
   return true;
 }
+// clang-format off
 template <class S>
 concept HooksAgree =
-    agree(S::kHas.ends, {requires(const S s) { { s.bounded() } -> std::same_as<bool>;
-}  // namespace systemDetail
-, requires(const S s) {
-  { s.bounces() } -> std::same_as<bool>;
-}
-, requires(const S s, const typename S::State y) {
-  { s.inside(y) } -> std::same_as<bool>;
-}
-, requires(const S s, const typename S::State beyond, typename S::State y) { s.meetEnd(beyond, y, true); }
-}  // namespace reachlab::dynamics
-) &&
+    agree(S::kHas.ends, {requires(const S s) { { s.bounded() } -> std::same_as<bool>; },
+                         requires(const S s) { { s.bounces() } -> std::same_as<bool>; },
+                         requires(const S s, const typename S::State y) { { s.inside(y) } -> std::same_as<bool>; },
+                         requires(const S s, const typename S::State beyond, typename S::State y) { s.meetEnd(beyond, y, true); }}) &&
     agree(S::kHas.branches,
-          {requires(const S s) { s.branch();
-}
-, requires(S s, const S before) { s.takeBack(before.branch()); }
-, requires(S s, const typename S::State beyond, typename S::State y, const typename S::Hand hand, double dt) {
-  { s.passEnds(beyond, y, hand, dt) } -> std::same_as<bool>;
-}
-, requires(const S s, const typename S::State y, double dt) {
-  { s.turned(y, y, dt) } -> std::same_as<bool>;
-}
-}) &&
-    agree(S::kHas.holding, {requires(const S s) { { s.anyHeld() } -> std::same_as<bool>;
-}
-, requires(S s, const typename S::State y, const typename S::Hand hand) {
-  { s.release(hand, hand, y) } -> std::same_as<bool>;
-}
-}) &&
+          {requires(const S s) { s.branch(); }, requires(S s, const S before) { s.takeBack(before.branch()); },
+           requires(S s, const typename S::State beyond, typename S::State y, const typename S::Hand hand, double dt) {
+             { s.passEnds(beyond, y, hand, dt) } -> std::same_as<bool>;
+           },
+           requires(const S s, const typename S::State y, double dt) { { s.turned(y, y, dt) } -> std::same_as<bool>; }}) &&
+    agree(S::kHas.holding, {requires(const S s) { { s.anyHeld() } -> std::same_as<bool>; },
+                            requires(S s, const typename S::State y, const typename S::Hand hand) {
+                              { s.release(hand, hand, y) } -> std::same_as<bool>;
+                            }}) &&
     agree(S::kHas.settling, {requires(S s, const typename S::State before, typename S::State y) {
             { s.settle(before, y) } -> std::same_as<Settled>;
-}
-}) &&
-    agree(S::kHas.losing, {requires(const S s, const typename S::State y) { { s.lost(y) } -> std::same_as<bool>;
-}
-}) &&
-    agree(S::kHas.parametrising, {requires(const S s, std::span<MassState> masses) { s.parametrise(masses);
-}
-}) &&
-    agree(S::kHas.care, {requires(const S s, const typename S::State y) { { s.wantsSubSteps(y) } -> std::same_as<bool>;
-}
-, requires(const S s) {
-  { s.tightening() } -> std::same_as<double>;
-}
-}) &&
-    agree(S::kHas.pieces, {requires(const S s, const typename S::State y) { { s.steepness(y) } -> std::same_as<double>;
-}
-, requires(const S s, const typename S::State y) {
-  { s.reach(y, y) } -> std::same_as<double>;
-}
-}) &&
+          }}) &&
+    agree(S::kHas.losing, {requires(const S s, const typename S::State y) { { s.lost(y) } -> std::same_as<bool>; }}) &&
+    agree(S::kHas.parametrising, {requires(const S s, std::span<MassState> masses) { s.parametrise(masses); }}) &&
+    agree(S::kHas.care, {requires(const S s, const typename S::State y) { { s.wantsSubSteps(y) } -> std::same_as<bool>; },
+                         requires(const S s) { { s.tightening() } -> std::same_as<double>; }}) &&
+    agree(S::kHas.pieces, {requires(const S s, const typename S::State y) { { s.steepness(y) } -> std::same_as<double>; },
+                           requires(const S s, const typename S::State y) { { s.reach(y, y) } -> std::same_as<double>; }}) &&
     agree(S::kHas.leadRate, {requires(const S s, const typename S::Hand hand, const typename S::State y, typename S::State dy, double speed) {
             s.rate(hand, y, dy, 0, speed);
-}
-}) &&
+          }}) &&
     agree(S::kHas.gliding, {requires(const S s, const typename S::State y, typename S::State next, double dt) {
             { s.glide(dt, y, next) } -> std::same_as<bool>;
-}
-});
+          }});
+// clang-format on
 }  // namespace systemDetail
 
 /// [m] The size of a usual position, and the unit of position in which a method states its error.
@@ -109,9 +82,9 @@ inline constexpr double kTypicalPlace = 0.1;
 ///   kSecondOrder                 y = (q, q'): the first half of dy is the second half of y
 ///   scale(i)                     the size below which an error of number i counts as absolute
 ///   handAt, handOf               the hand at a share of a step, and as a sample
+// clang-format off
 template <class S>
-concept Equations = requires(const S s, const typename S::State y, typename S::State dy, const HandSegment& hand,
-                             const HandSample& sample) {
+concept Equations = requires(const S s, const typename S::State y, typename S::State dy, const HandSegment& hand, const HandSample& sample) {
   requires std::same_as<decltype(S::kHas), const Hooks>;
   requires std::same_as<decltype(S::kStates), const int>;
   requires std::same_as<decltype(S::kSecondOrder), const bool>;
@@ -120,8 +93,8 @@ concept Equations = requires(const S s, const typename S::State y, typename S::S
   { s.handOf(sample) } -> std::same_as<typename S::Hand>;
   s.rate(s.handOf(sample), y, dy);
   { s.scale(0) } -> std::same_as<double>;
-}
-&&systemDetail::HooksAgree<S>;
+} && systemDetail::HooksAgree<S>;
+// clang-format on
 
 /// Equations of an object's masses, which a SystemPlant steps.
 ///   place, locate, accelerate    between the state and the masses' places
