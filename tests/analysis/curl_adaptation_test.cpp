@@ -11,7 +11,7 @@
 namespace reachlab::analysis {
 namespace {
 
-class Adaptation : public session::test::Recorded {
+class AdaptationPlans : public session::test::Recorded {
  protected:
   /// Mean of a measure of the trials of one block and kind, from trial `first` to `last` of them.
   using Series = std::map<std::pair<int, std::string>, std::vector<TrialMeasures>>;
@@ -53,7 +53,7 @@ class Adaptation : public session::test::Recorded {
   int blocks_ = 0;
 };
 
-TEST_F(Adaptation, ToACurlFieldLowersTheErrorFillsTheChannelAndLeavesAnAfterEffect) {
+TEST_F(AdaptationPlans, ToACurlFieldLowersTheErrorFillsTheChannelAndLeavesAnAfterEffect) {
   Series series = recordAndMeasure("curl-adaptation");
   EXPECT_EQ(blocks_, 3);
   const auto& field = series.at({2, "field"});
@@ -73,7 +73,7 @@ TEST_F(Adaptation, ToACurlFieldLowersTheErrorFillsTheChannelAndLeavesAnAfterEffe
   EXPECT_GT(end, 40);
 }
 
-TEST_F(Adaptation, ToARotationTurnsTheHandAgainstIt) {
+TEST_F(AdaptationPlans, ToARotationTurnsTheHandAgainstIt) {
   Series series = recordAndMeasure("rotation-30");
   const auto& rotated = series.at({2, "rotated"});
   ASSERT_EQ(rotated.size(), 160u);
