@@ -19,7 +19,7 @@ TEST(Display, ThatDoesNotAnswerIsNamedWithTheRemedy) {
   EXPECT_EQ(program.exitStatus(), QProcess::NormalExit);
   EXPECT_EQ(program.exitCode(), 3);
   EXPECT_EQ(program.readAllStandardError().toStdString(),
-            "reachlab: the display :4242 does not answer. Set DISPLAY to the display of your session, or use `reach run`, which needs no window\n");
+            "error: the display :4242 does not answer\nhelp: set DISPLAY to the display of your session, or use `reach run`, which needs no window\n");
 }
 
 }  // namespace

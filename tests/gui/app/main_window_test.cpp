@@ -438,7 +438,7 @@ TEST_F(Window, ADeviceThatIsChosenInItsDockIsTheHandUntilARunHasIt) {
   window.nextTrial();
   ASSERT_NE(window.session().run(), nullptr) << window.message().toStdString();
   EXPECT_FALSE(find<QPushButton>("deviceUse")->isEnabled());
-  window.endRun();
+  window.session().endRun();
   EXPECT_TRUE(find<QPushButton>("deviceUse")->isEnabled());
 }
 

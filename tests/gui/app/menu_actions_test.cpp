@@ -153,7 +153,7 @@ class MenuActions : public AtTheWindow {
             "View/Look of the scene/surfaceOpacity",
             "View/Look of the scene/Colours/*",
             "View/Look of the scene/Scene from a file…",
-            "View/Look of the scene/No scene from a file",
+            "View/Look of the scene/Remove the scene from a file",
             "View/Light theme",
             "View/Record pictures for a film…",
             "View/Subject's screen",
@@ -363,7 +363,7 @@ TEST_F(MenuActions, OfTheLookReachTheExperiment) {
   }
   EXPECT_TRUE(QString::fromStdString(window.look().sceneFile).endsWith(QStringLiteral("README.md")));
   EXPECT_TRUE(waits([&] { return window.message().contains(QStringLiteral("README.md")); })) << "which is no scene";
-  trigger("View/Look of the scene/No scene from a file");
+  trigger("View/Look of the scene/Remove the scene from a file");
   EXPECT_EQ(window.look().sceneFile, "");
 }
 

@@ -82,7 +82,7 @@ TEST_F(StationWindow, AnObserverHasNoHandAndRecordsNothing) {
   EXPECT_TRUE(window.windowTitle().contains(QStringLiteral("observing")));
   auto* dock = window.findChild<docks::StationsDock*>();
   ASSERT_NE(dock, nullptr);
-  EXPECT_TRUE(dock->sentence().startsWith(QStringLiteral("Observing"))) << dock->sentence().toStdString();
+  EXPECT_TRUE(dock->sentence().startsWith(QStringLiteral("This window only observes"))) << dock->sentence().toStdString();
   EXPECT_EQ(find<QTableWidget>("stations")->rowCount(), 2) << "both stations, and no row of its own";
   EXPECT_FALSE(QFile::exists(QString::fromStdString(request_.place.data)));
 }
