@@ -116,7 +116,7 @@ class PlannedSession : public ::testing::Test {
 TEST_F(PlannedSession, BeginsOnItsStartPageRestsAndResumes) {
   app::MainWindow* window = &open();
   EXPECT_EQ(summary(), QStringLiteral("0 of 2 blocks done"));
-  EXPECT_TRUE(next().contains(QStringLiteral("block 1, first: 2 trials"))) << next().toStdString();
+  EXPECT_TRUE(next().contains(QStringLiteral("block 1, first, with 2 trials"))) << next().toStdString();
   EXPECT_TRUE(next().contains(QStringLiteral("Reach calmly.")));
   QTest::mouseClick(find<QPushButton>(page(), "startGo"), Qt::LeftButton);
   ASSERT_NE(window->session().run(), nullptr) << window->message().toStdString();
@@ -131,7 +131,7 @@ TEST_F(PlannedSession, BeginsOnItsStartPageRestsAndResumes) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return page().isVisible(); }, 3000));
   EXPECT_TRUE(page().resumes());
   EXPECT_TRUE(next().contains(QStringLiteral("block 1, first, with trial 2 of 2"))) << next().toStdString();
-  QTest::keyClick(window, Qt::Key_Space);
+  QTest::mouseClick(find<QPushButton>(page(), "startGo"), Qt::LeftButton);
   ASSERT_NE(window->session().run(), nullptr) << window->message().toStdString();
   EXPECT_EQ(window->session().run()->configuration().firstRun, 1);
   waitForTrials(1);
@@ -143,7 +143,7 @@ TEST_F(PlannedSession, BeginsOnItsStartPageRestsAndResumes) {
   EXPECT_EQ(window->overlay().rest->blocksDone, 1);
   EXPECT_EQ(window->overlay().rest->blocks, 2);
   EXPECT_EQ(window->session().instructions(), QStringLiteral("Now fast."));
-  QTest::keyClick(window, Qt::Key_Space);
+  window->nextTrial();
   EXPECT_TRUE(window->message().contains(QStringLiteral("rests"))) << window->message().toStdString();
   EXPECT_EQ(window->session().run()->configuration().block, 1);
   window->endRun();
