@@ -4,6 +4,7 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMimeData>
+#include <QTimer>
 #include <QUrl>
 #include <QVBoxLayout>
 
@@ -13,6 +14,7 @@
 #include "gui/app/screens.h"
 #include "gui/app/window_layout.h"
 #include "gui/docks/dock.h"
+#include "gui/docks/session_dock.h"
 #include "gui/inspector/inspector.h"
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/messages.h"
