@@ -99,7 +99,7 @@ struct PersonResult {
   double duration = 0;                     // [s] mean by the onset rule
   bool fitted = false;                     // kFewestTrials or more
   PersonFit fit;
-  std::vector<double> rest;            // [m/s m/s] sum w^2 v^2 of each trial
+  std::vector<double> rest;  // [m/s m/s] sum w^2 v^2 of each trial
   Conclusion conclusion;     // about this person in this condition
 };
 

@@ -119,7 +119,8 @@ int sceneIn(const TsvTable& events, const std::vector<std::string>& row, record:
   const std::string kind = cell("kind"), target = cell("target");
   if (kind.empty() && target.empty()) return 0;
   std::vector<record::RunScene>& scenes = c.scenes ? *c.scenes : c.scenes.emplace();
-  const auto known = std::find_if(scenes.begin(), scenes.end(), [&](const auto& scene) { return scene.kind == kind && scene.target == target; });
+  const auto known =
+      std::find_if(scenes.begin(), scenes.end(), [&](const auto& scene) { return scene.kind == kind && scene.target == target; });
   if (known != scenes.end()) return static_cast<int>(known - scenes.begin());
   scenes.push_back({kind, target, cell("condition"), {}, {}, {}});
   return static_cast<int>(scenes.size()) - 1;

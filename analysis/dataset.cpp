@@ -241,7 +241,8 @@ void readExported(const std::string& folder, DatasetIndex& dataset, const TrialS
     const std::size_t scenes = run.configuration.scenes ? run.configuration.scenes->size() : 1;
     addRun(run,
            hasOwn ? record::experimentsFromJson(record::readWholeFile(own), own, run.configuration)
-                  : std::vector(scenes, experiment::openExperiment(experimentFile.empty() ? run.configuration.experimentName : experimentFile)),
+                  : std::vector(scenes,
+                                experiment::openExperiment(experimentFile.empty() ? run.configuration.experimentName : experimentFile)),
            dataset, sink);
     dataset.runs.back().file = runs[i];
   }

@@ -27,9 +27,9 @@ struct RunProvenance {
 struct DatasetIndex {
   std::vector<Condition> conditions;
   std::vector<RunProvenance> runs;
-  std::vector<std::string> notes;       // what was left out or mended, one sentence each
+  std::vector<std::string> notes;                              // what was left out or mended, one sentence each
   std::map<std::string, experiment::SquareMatrix<3>> trained;  // [N s/m] by subject: the viscous field of the latest run that had one
-  std::vector<std::string> unreadable;  // of those the runs that the disk did not give
+  std::vector<std::string> unreadable;                         // of those the runs that the disk did not give
 };
 
 /// Takes the trials run by run, so that no trial has to stay in memory.

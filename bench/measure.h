@@ -12,7 +12,7 @@ struct Row {
   double nsLow = 0, nsHigh = 0;  // quarter and three-quarter points of the rounds
   std::uint64_t steps = 0, rhsEvaluations = 0, worstTick = 0;
   std::uint64_t bits = 0;  // a hash of all states: two programs that compute the same bits have the same
-  std::string failure;  // why it did not reach the end; empty if it did
+  std::string failure;     // why it did not reach the end; empty if it did
 };
 
 struct Effort {

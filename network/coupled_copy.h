@@ -39,15 +39,15 @@ double synchronisationLimit(const CopySettings& settings, double roundTrip) noex
 
 /// The state of this copy towards one peer, after a tick.
 struct PeerLink {
-  bool heard = false;    // some sample has come in this trial
-  bool lost = false;     // silent for too long, until the next trial
-  double age = 0;        // [s] tau of the newest sample
-  double usualAge = 0;   // [s] the median of ages on arrival
-  double fade = 0;       // phi: 1 held … 0 let go
-  double roundTrip = 0;  // [s] filtered over a second
-  double frequency = 0;  // [rad/s] omega now
-  double apart = 0;      // [m] RMS over the masses: this copy at the sample's time against the peer's copy
-  double loss = -1;      // share of unused samples in the latest whole second: lost, or overtaken; -1: not known yet
+  bool heard = false;                // some sample has come in this trial
+  bool lost = false;                 // silent for too long, until the next trial
+  double age = 0;                    // [s] tau of the newest sample
+  double usualAge = 0;               // [s] the median of ages on arrival
+  double fade = 0;                   // phi: 1 held … 0 let go
+  double roundTrip = 0;              // [s] filtered over a second
+  double frequency = 0;              // [rad/s] omega now
+  double apart = 0;                  // [m] RMS over the masses: this copy at the sample's time against the peer's copy
+  double loss = -1;                  // share of unused samples in the latest whole second: lost, or overtaken; -1: not known yet
   std::uint64_t taken = 0, old = 0;  // used samples; samples that were not newer than an earlier sample (duplicates, replays, overtaken)
 };
 

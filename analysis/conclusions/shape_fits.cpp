@@ -12,7 +12,7 @@ constexpr double kPlanStep = 0.018;     // of ln P
 constexpr int kPlansAside = 3;          // steps to either side of a centre: 5 %
 constexpr double kPlanNearTime = 0.07;  // P lies within that of the median fitted T
 constexpr int kMaxSteps = 45;           // P between 0.44 and 2.25 times its first value
-constexpr int kPlanRounds = 12;             // of the search for the consistent plan
+constexpr int kPlanRounds = 12;         // of the search for the consistent plan
 // Durations from which a fit starts, times the duration by the moments of v^2. A hand with two humps has several minima.
 constexpr std::array kStarts{1.0, 0.82, 1.22};
 

@@ -29,8 +29,9 @@ const std::vector<Course>& courses() {
 NamedFigure adaptationFigure(const Analysis& analysis) {
   NamedFigure out;
   out.name = "adaptation";
-  out.caption = "Learning from trial to trial: each line is a subject, in the order of its trials. A channel shows how much of the trained "
-                "field the hand cancels, and deviations show what is left of it.";
+  out.caption =
+      "Learning from trial to trial: each line is a subject, in the order of its trials. A channel shows how much of the trained "
+      "field the hand cancels, and deviations show what is left of it.";
   const auto people = taughtTrials(analysis);
   for (const Course& course : courses()) {
     figure::Panel panel;

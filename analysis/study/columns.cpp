@@ -184,15 +184,17 @@ std::string dictionaryOf(const Design& design) {
   for (const Column& column : columnsOf(design)) header += (header.empty() ? "" : ",") + column.name;
   std::vector<record::ColumnMeaning> meanings;  // the first of a name holds
   for (const VariedKey& key : design.axes) meanings.push_back({key.path, "Varied by the study"});
-  meanings.insert(meanings.end(),
-                  {{"point", "Point of the study, from 0: one combination of what is varied"},
-                   {"subject", "Virtual subject of the point, from 1"},
-                   {"session", "Session of the plan: its day"},
-                   {"practice", "1: a practice block"},
-                   {"seed", "Seed of the subject's session: a recorded run of the point's experiment with it repeats the trials"},
-                   {"score_*", "ln S of the candidate that the column names, held out: lower is nearer. The reference ignores the object"},
-                   {"fit_effective_samples", "Independent samples in a trial of this subject and block, by its residuals' correlation"},
-                   {"fit_own_score", "ln S of the trial for the mean of the subject's other trials: above it by more than chance, a candidate does not fit"}});
+  meanings.insert(
+      meanings.end(),
+      {{"point", "Point of the study, from 0: one combination of what is varied"},
+       {"subject", "Virtual subject of the point, from 1"},
+       {"session", "Session of the plan: its day"},
+       {"practice", "1: a practice block"},
+       {"seed", "Seed of the subject's session: a recorded run of the point's experiment with it repeats the trials"},
+       {"score_*", "ln S of the candidate that the column names, held out: lower is nearer. The reference ignores the object"},
+       {"fit_effective_samples", "Independent samples in a trial of this subject and block, by its residuals' correlation"},
+       {"fit_own_score",
+        "ln S of the trial for the mean of the subject's other trials: above it by more than chance, a candidate does not fit"}});
   for (const StudyMeasure& measure : studyMeasures()) meanings.push_back({measure.name, measure.sentence});
   const std::span<const record::ColumnMeaning> trials = analysis::tableColumns("trials.csv");
   meanings.insert(meanings.end(), trials.begin(), trials.end());

@@ -25,9 +25,13 @@ std::size_t columnOf(const record::ChannelTable& table, std::string_view name) {
 RunTrials::RunTrials(const record::ChannelTable& table, std::uint64_t every, constraints::TaskPath path, const TrialScene& scene)
     : every_(std::max<std::uint64_t>(1, every)), path_(std::move(path)), scene_(scene) {
   const std::string last = table.massCount > 0 ? fmt::format("mass{}", table.massCount) : std::string("hand");
-  columns_ = {table.indexOf("hand_pos_x"), table.indexOf("coupling_force_x"), table.indexOf(last + "_pos_x"),
-              table.indexOf(last + "_vel_x"), table.massCount > 0 && table.parameterCount == 1 ? table.indexOf("mass1_q1") : 0,
-              columnOf(table, "hand_vel_x"), columnOf(table, "environment_force_x")};
+  columns_ = {table.indexOf("hand_pos_x"),
+              table.indexOf("coupling_force_x"),
+              table.indexOf(last + "_pos_x"),
+              table.indexOf(last + "_vel_x"),
+              table.massCount > 0 && table.parameterCount == 1 ? table.indexOf("mass1_q1") : 0,
+              columnOf(table, "hand_vel_x"),
+              columnOf(table, "environment_force_x")};
 }
 
 /// Rows may be missing (dropped, or a tick was late); between its neighbours a missing one is interpolated.

@@ -24,7 +24,7 @@ class RunTrials {
  private:
   struct Columns {  // their positions in the table
     std::size_t hand = 0, force = 0, object = 0, velocity = 0;
-    std::size_t parameter = 0;  // of mass 1, on curves
+    std::size_t parameter = 0;                      // of mass 1, on curves
     std::size_t handVelocity = 0, environment = 0;  // 0: the table has none
   };
   void appendEvenly(TrialData& trial, const record::SampleRows& rows) const;

@@ -133,7 +133,8 @@ void runBench(const BenchOptions& options) {
   const auto& scenes = options.scenes;
   fmt::print("level {}\n", processorLevel());
   if (std::find(scenes.begin(), scenes.end(), "constraint-eval") != scenes.end()) {
-    if (scenes.size() > 1) throw FaultError(Fault{"--scene", "constraint-eval cannot be combined with other scenes; run the other scenes by themselves"});
+    if (scenes.size() > 1)
+      throw FaultError(Fault{"--scene", "constraint-eval cannot be combined with other scenes; run the other scenes by themselves"});
     benchConstraints(options);
   } else if (options.network) {
     benchNetwork(options);

@@ -41,7 +41,8 @@ HandLaw straightReach(const experiment::Experiment& experiment, const constraint
   const Vec3 start = placeOf(c, task.start, "start"), chord = placeOf(c, task.target, "target") - start;
   const double duration = task.duration;
   if (!(norm(chord) > 1e-12))
-    throw RefusedError("--hand min-jerk: start and target are the same position, so there is no chord to follow; use min-jerk-along or hold");
+    throw RefusedError(
+        "--hand min-jerk: start and target are the same position, so there is no chord to follow; use min-jerk-along or hold");
   return {[start, chord, duration](double t) {
             const MinimumJerk law = heldMinimumJerk(t / duration);
             return dynamics::HandSample{start + law.value * chord, (law.rate / duration) * chord, true};

@@ -30,13 +30,13 @@ std::string inShort(const experiment::Experiment& e) {
   const char* kinds[] = {"point of ", "chain of ", "parallel masses: ", "body of "};
   const bool bare = e.object.kind == experiment::ObjectKind::None;
   const std::string& constraint = e.constraint.name;
-  return fmt::format("{}{}{}{}{}", bare ? "hand alone" : kinds[static_cast<int>(e.object.kind)] + describeMasses(e.object.masses),
-                     e.environment.empty() ? "" : fmt::format(", {} force{} on it", e.environment.size(), e.environment.size() == 1 ? "" : "s"),
-                     constraint == "free" ? ", free in space"
-                     : constraint.empty() ? " on a formula"
-                                          : " on " + constraint,
-                     e.hands.size() > 1 ? fmt::format(", {} hands", e.hands.size()) : "",
-                     e.task ? ", " + experiment::describePace(*e.task) : "");
+  return fmt::format(
+      "{}{}{}{}{}", bare ? "hand alone" : kinds[static_cast<int>(e.object.kind)] + describeMasses(e.object.masses),
+      e.environment.empty() ? "" : fmt::format(", {} force{} on it", e.environment.size(), e.environment.size() == 1 ? "" : "s"),
+      constraint == "free" ? ", free in space"
+      : constraint.empty() ? " on a formula"
+                           : " on " + constraint,
+      e.hands.size() > 1 ? fmt::format(", {} hands", e.hands.size()) : "", e.task ? ", " + experiment::describePace(*e.task) : "");
 }
 
 Json listExperiments() {

@@ -25,7 +25,8 @@ void addReplayCommand(CLI::App& app, int& exitCode) {
     const record::RunLog log = record::RunLog::open(*path);
     if (log.goodBytes() < log.fileBytes()) fmt::print(stderr, "{}: damaged after byte {}: replayed up to there\n", *path, log.goodBytes());
     const auto tell = [&](const record::Replay& replay) {
-      for (const record::RecordedTrial& trial : replay.trials) fmt::print("{}\n", trialLine(trial.trial, trial.result, record::sceneOf(log.configuration(), trial.planned)));
+      for (const record::RecordedTrial& trial : replay.trials)
+        fmt::print("{}\n", trialLine(trial.trial, trial.result, record::sceneOf(log.configuration(), trial.planned)));
       fmt::print("{} ticks simulated, {} rows compared, {} differ; {} trial results differ: {}\n", replay.ticks, replay.rows,
                  replay.rowsThatDiffer, replay.trialsThatDiffer, replay.identical() ? "identical" : replay.firstDifference);
       if (*check && !replay.identical()) exitCode = 1;

@@ -87,7 +87,8 @@ std::string trialsTable(const record::RunLog& log) {
     rows.push_back({std::to_string(t.trial), std::string(trial::nameOf(t.result.outcome)),
                     success ? "" : std::string(trial::nameOf(t.result.reason)), t.result.mass > 0 ? std::to_string(t.result.mass) : "",
                     t.result.by != 0 ? rounded(t.result.by, 4) : "", t.result.by != 0 ? record::unitOf(t.result.reason) : ""});
-    if (const record::RunScene* scene = record::sceneOf(c, t.planned)) rows.back().insert(rows.back().begin() + 1, {scene->kind, scene->target});
+    if (const record::RunScene* scene = record::sceneOf(c, t.planned))
+      rows.back().insert(rows.back().begin() + 1, {scene->kind, scene->target});
     for (const Shown& shown : kShown) rows.back().push_back(rounded(record::tickMeasure(shown.measure).of(t), shown.digits));
   }
   return alignedTable(rows);

@@ -13,8 +13,8 @@ namespace {
 constexpr int kFirstLengths = 8;
 constexpr int kDeepestLength = 50;         // halvings
 constexpr double kResolvedLength = 1e-13;  // the last two terms of a piece, of its first
-constexpr double kSmall = 1e-15;     // the same, of the whole length
-constexpr double kNoPart = 1e-16;    // of the whole length: a piece that is no longer halved
+constexpr double kSmall = 1e-15;           // the same, of the whole length
+constexpr double kNoPart = 1e-16;          // of the whole length: a piece that is no longer halved
 
 }  // namespace
 
@@ -37,7 +37,8 @@ void ArcLength::append(const Constraint& curve, double begin, double end, int de
   const double most = std::max(std::abs(piece.rate[n - 1]), std::abs(piece.rate[n - 2])), whole = 2 * piece.rate[0];
   if (!std::isfinite(whole) && depth == kDeepestLength)
     throw RefusedError("the curve has no value, or no end to its length, near phi = " + std::to_string(begin));
-  const bool resolved = std::isfinite(whole) && (most <= std::max(kResolvedLength * piece.rate[0], kSmall * rough_) || whole <= kNoPart * rough_);
+  const bool resolved =
+      std::isfinite(whole) && (most <= std::max(kResolvedLength * piece.rate[0], kSmall * rough_) || whole <= kNoPart * rough_);
   if (!resolved && depth < kDeepestLength) {
     const double middle = (begin + end) / 2;
     append(curve, begin, middle, depth + 1);

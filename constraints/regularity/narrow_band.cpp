@@ -13,8 +13,8 @@ namespace reachlab::constraints {
 namespace {
 
 constexpr double kAway = 8;
-constexpr double kPart = 0.05;               // of a tick's way: wider ones are seen by the method, and refusing is hard
-constexpr int kSamples = 9;  // across
+constexpr double kPart = 0.05;  // of a tick's way: wider ones are seen by the method, and refusing is hard
+constexpr int kSamples = 9;     // across
 
 }  // namespace
 

@@ -16,9 +16,9 @@
 namespace reachlab::devices {
 namespace {
 
-constexpr std::int64_t kLookEvery = 200'000;     // [ns]
-constexpr std::size_t kQueueTicks = 4096;        // that the instruments may be behind
-constexpr int kPriority = 40;                    // below the haptic thread's; without the right to it, as any thread
+constexpr std::int64_t kLookEvery = 200'000;      // [ns]
+constexpr std::size_t kQueueTicks = 4096;         // that the instruments may be behind
+constexpr int kPriority = 40;                     // below the haptic thread's; without the right to it, as any thread
 constexpr std::int64_t kLastTicks = 500'000'000;  // [ns] for the last ticks of a run
 
 class Link final : public record::InstrumentLink {

@@ -156,9 +156,10 @@ PreflightLine channelLine(const Experiment& experiment, const experiment::Coupli
                                 wall.stiffness, device.name, passive);
     return line;
   }
-  line.sentence = fmt::format("the hand feels {:.4g} N/m and {:.3g} N s/m in the channel; {} in a relaxed hand (0.3 kg, 3 N s/m) is stable up "
-                              "to {:.4g} N/m, {:.2g} times as much; {}",
-                              felt.stiffness, felt.damping, device.name, *line.limit, *line.limit / felt.stiffness, passive);
+  line.sentence = fmt::format(
+      "the hand feels {:.4g} N/m and {:.3g} N s/m in the channel; {} in a relaxed hand (0.3 kg, 3 N s/m) is stable up "
+      "to {:.4g} N/m, {:.2g} times as much; {}",
+      felt.stiffness, felt.damping, device.name, *line.limit, *line.limit / felt.stiffness, passive);
   if (line.verdict != Verdict::Warning) return line;
   loop.mass += kRelaxedHandMass;
   loop.friction += kRelaxedHandDamping;
@@ -169,9 +170,7 @@ PreflightLine channelLine(const Experiment& experiment, const experiment::Coupli
 }
 
 // Half of the antisymmetric part's norm: the coefficient of the curl in its own plane.
-double curlOf(const experiment::SquareMatrix<3>& b) {
-  return 0.5 * std::hypot(b[0][1] - b[1][0], b[0][2] - b[2][0], b[1][2] - b[2][1]);
-}
+double curlOf(const experiment::SquareMatrix<3>& b) { return 0.5 * std::hypot(b[0][1] - b[1][0], b[0][2] - b[2][0], b[1][2] - b[2][1]); }
 
 PreflightLine fieldPower(const CompiledExperiment& compiled, double curl, const haptics::DeviceInfo& device) {
   const Experiment& experiment = compiled.experiment();
@@ -197,7 +196,8 @@ void checkEnvironment(const CompiledExperiment& compiled, const experiment::Coup
   const Experiment& experiment = compiled.experiment();
   experiment::SquareMatrix<3> sum{};
   for (const experiment::HandForce& force : experiment.environment) {
-    if (const auto* wall = std::get_if<experiment::ChannelForce>(&force.law)) lines.push_back(channelLine(experiment, coupling, *wall, device));
+    if (const auto* wall = std::get_if<experiment::ChannelForce>(&force.law))
+      lines.push_back(channelLine(experiment, coupling, *wall, device));
     if (const auto* field = std::get_if<experiment::ViscousForce>(&force.law))
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) sum[i][j] += field->matrix[i][j];

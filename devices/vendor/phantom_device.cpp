@@ -15,7 +15,6 @@ namespace reachlab::devices {
 
 namespace {
 
-
 // The scheduler is one for all devices of the program: started by the first, stopped by the last. Controlling thread only.
 int schedulerUsers = 0;
 

@@ -30,8 +30,8 @@ ObjectDock::ObjectDock(QWidget* parent) : Dock(QStringLiteral("Object"), QString
   auto* form = new QFormLayout(body);
   kind_ = new QComboBox;
   kind_->setObjectName(QStringLiteral("objectKind"));
-  kind_->addItems({QStringLiteral("point"), QStringLiteral("chain"), QStringLiteral("parallel"), QStringLiteral("body"),
-                   QStringLiteral("none")});
+  kind_->addItems(
+      {QStringLiteral("point"), QStringLiteral("chain"), QStringLiteral("parallel"), QStringLiteral("body"), QStringLiteral("none")});
   masses_ = new widgets::NumberListEdit;
   masses_->setObjectName(QStringLiteral("masses"));
   stiffness_ = new widgets::NumberListEdit;
@@ -114,8 +114,14 @@ void ObjectDock::display(const experiment::CompiledExperiment& experiment, bool 
 
 void ObjectDock::setRules() {
   const bool springs = object_.kind == experiment::ObjectKind::Chain || object_.kind == experiment::ObjectKind::Parallel;
-  widgets::NumberListRule rule{
-      QStringLiteral("masses"), QStringLiteral("mass"), {}, QStringLiteral("kg"), 0, false, object_.kind == experiment::ObjectKind::None ? 0u : 1u, springs ? experiment::kMaxMasses : 1u};
+  widgets::NumberListRule rule{QStringLiteral("masses"),
+                               QStringLiteral("mass"),
+                               {},
+                               QStringLiteral("kg"),
+                               0,
+                               false,
+                               object_.kind == experiment::ObjectKind::None ? 0u : 1u,
+                               springs ? experiment::kMaxMasses : 1u};
   masses_->setRule(rule);
   rule = {QStringLiteral("springs"), QStringLiteral("spring"), {}, QStringLiteral("N/m"), 0};
   rule.fewest = rule.most = object_.stiffness.size();

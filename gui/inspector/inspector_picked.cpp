@@ -58,9 +58,9 @@ void InspectorPage::showPicked() {
     const record::RunLog& log = logOf(table_->run(picked_).path);
     std::vector<ReplayView::Track> ghosts;
     for (std::size_t i = 0; i < inspectedRows_.size() && static_cast<int>(ghosts.size()) < kMostGhosts; ++i)
-      if (i != *line && inspectedRows_[i] >= 0 && conditionAt(inspectedRows_[i]) == conditionAt(picked_))
-        ghosts.push_back(trackOf(i));
-    replay_->show(experimentOf(log, table_->trial(picked_)), QFileInfo(QString::fromStdString(log.path())).path(), trackOf(*line), std::move(ghosts));
+      if (i != *line && inspectedRows_[i] >= 0 && conditionAt(inspectedRows_[i]) == conditionAt(picked_)) ghosts.push_back(trackOf(i));
+    replay_->show(experimentOf(log, table_->trial(picked_)), QFileInfo(QString::fromStdString(log.path())).path(), trackOf(*line),
+                  std::move(ghosts));
     const record::IndexedRun& run = table_->run(picked_);
     const analysis::Movement& move = inspection_->signals[*line].movement;
     const double first = inspection_->input.trials[*line].first;

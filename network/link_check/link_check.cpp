@@ -16,7 +16,7 @@
 namespace reachlab::network {
 namespace {
 
-constexpr double kLimpEnd = 6.5;                // [s] as long as the study's hands are limp
+constexpr double kLimpEnd = 6.5;            // [s] as long as the study's hands are limp
 constexpr double kPush = 0.1;               // [m/s] of the first hand
 constexpr double kFrequencyStep = 0.5;      // [rad/s]
 constexpr double kMostFrequency = 10;       // [rad/s]: stronger synchronisation is felt as drag
@@ -146,9 +146,10 @@ LinkCheck checkLink(const experiment::Experiment& experiment, const constraints:
   const std::string over =
       fmt::format("round trip {:.1f} ms, jitter {:.1f} ms, loss {:.0f} %", 1e3 * link.roundTrip, 1e3 * link.jitter, 100 * link.loss);
   const bool ended = !check.stable && stop.stop_requested();
-  const std::string how = ended                         ? "ended before it was known"
-                          : std::isfinite(check.growth) ? fmt::format("after {:.1f} s {:.2g} times as fast as at first", kLimpEnd, check.growth)
-                                                        : "thrown out of the hands";
+  const std::string how = ended ? "ended before it was known"
+                          : std::isfinite(check.growth)
+                              ? fmt::format("after {:.1f} s {:.2g} times as fast as at first", kLimpEnd, check.growth)
+                              : "thrown out of the hands";
   check.sentence = fmt::format("simulated with limp hands over this link ({}) the object {}: {}, synchronised by up to {:.1f} rad/s", over,
                                check.stable ? "comes to rest"
                                : ended      ? "may come to rest or not"

@@ -10,7 +10,7 @@
 /// people.
 namespace reachlab::network {
 
-inline constexpr int kSubsteps = 10;    // of a hand in a tick
+inline constexpr int kSubsteps = 10;   // of a hand in a tick
 inline constexpr double kFarAway = 1;  // [m] a hand at this distance has been thrown
 
 /// A person's hand as a body about its intended position. A limp hand can be moved easily.

@@ -34,7 +34,7 @@ struct StationNews {
   std::optional<haptics::ConductedTrial> ended;  // a trial ended and is safe on the disk
   // the reason why running is in vain: nobody came, nobody arms, the endpoint has ended; repeated after another `wait`
   std::string problem;
-  bool finished = false;                         // no more trials: the conductor said so, or this station stopped
+  bool finished = false;  // no more trials: the conductor said so, or this station stopped
 };
 
 /// The trials of one station, from its first message to its last. The conductor arms trial after trial, on request and while every link is

@@ -101,8 +101,9 @@ std::string cursorOf(const Cursor& cursor) {
 
 std::string taskOf(const Task& task, bool object) {
   const std::string pace = describePace(task);
-  return fmt::format("from rest at {} to rest at {} {}{}, {} within {:.6g} m and {:.6g} m/s", placeOf(task.start),
-                     placeOf(task.target), pace.starts_with("within") ? "" : "in ", pace, object ? "every mass" : "the hand", task.tolerance.position, task.tolerance.velocity);
+  return fmt::format("from rest at {} to rest at {} {}{}, {} within {:.6g} m and {:.6g} m/s", placeOf(task.start), placeOf(task.target),
+                     pace.starts_with("within") ? "" : "in ", pace, object ? "every mass" : "the hand", task.tolerance.position,
+                     task.tolerance.velocity);
 }
 
 }  // namespace

@@ -36,8 +36,8 @@ struct Experiment {
   std::optional<Coupling> coupling;  // required, but not for parallel and none
   std::vector<Hand> hands;           // empty: one hand, by `coupling` or a parallel object's own springs
   std::optional<Task> task;
-  Environment environment;       // forces on the hand itself
-  std::optional<Cursor> cursor;  // only without an object; nullopt: the hand is seen where it is
+  Environment environment;           // forces on the hand itself
+  std::optional<Cursor> cursor;      // only without an object; nullopt: the hand is seen where it is
   std::string method = "auto";       // auto | rk4 | exact | abm | adaptive | stiff
   double handMass = 0;               // [kg] predictions only
   std::optional<double> forceLimit;  // [N] of the device; nullopt: the device's own

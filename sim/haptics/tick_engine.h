@@ -113,7 +113,7 @@ class TickEngine {
     trial::ProtocolSettings settings;
     std::optional<environment::ForceField> field;  // of the only hand
     std::optional<environment::CursorLaw> cursor;  // of the only hand
-    Vec3 fpInBody;  // [m] from `fixedPoint` to the FP when the object is placed
+    Vec3 fpInBody;                                 // [m] from `fixedPoint` to the FP when the object is placed
   };
   /// The state of one hand: its estimate, where it holds the object, and the limits of its device.
   struct Hand {

@@ -92,7 +92,8 @@ void addProblems(const JsonNode& root, const Plan& plan, FaultList& faults) {
   std::vector<Fault> told;
   for (Fault fault : problems(plan)) {
     if (const std::size_t dot = fault.key.find("]."); dot != std::string::npos)
-      fault.key = keyInPlan(root, static_cast<std::size_t>(std::stoul(fault.key.substr(fault.key.find('[') + 1))), fault.key.substr(dot + 2));
+      fault.key =
+          keyInPlan(root, static_cast<std::size_t>(std::stoul(fault.key.substr(fault.key.find('[') + 1))), fault.key.substr(dot + 2));
     if (std::find(told.begin(), told.end(), fault) != told.end()) continue;
     told.push_back(fault);
     faults.addOfValue(root, std::move(fault));

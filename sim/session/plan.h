@@ -13,9 +13,9 @@ namespace reachlab::session {
 
 /// A series of trials with the same settings, recorded as one run.
 struct PlanBlock {
-  std::string experiment;                  // file (beside the plan) or shipped name
-  std::vector<experiment::Patch> changes;  // to that file. The condition then has a name
-  int trials = 1;                          // without ways back
+  std::string experiment;                       // file (beside the plan) or shipped name
+  std::vector<experiment::Patch> changes;       // to that file. The condition then has a name
+  int trials = 1;                               // without ways back
   bool practice = false;                        // recorded too, left out of statistics
   double pauseSeconds = 0;                      // [s] between trials
   std::string condition;                        // empty: the experiment's name

@@ -56,14 +56,14 @@ std::shared_ptr<const FeedbackTask> makeFeedbackTask(const experiment::CompiledE
     cost.criterionWeight = spec.criterionWeight / (scale * scale * predict::predict(line, *spec.criterion, options)->cost);
     if (*spec.criterion == predict::Criterion::MinComAcceleration) cost.criterionWeight /= object.totalMass() * object.totalMass();
   }
-  return std::make_shared<const FeedbackTask>(FeedbackTask{
-      .way = std::move(way),
-      .object = std::move(object),
-      .cost = cost,
-      .normal = experiment::normalOf(task.plane),
-      .bare = bare,
-      .pushed = bare || !experiment.environment.empty(),
-      .cursor = experiment.cursor && experiment.cursor->show != experiment::CursorShow::Never});
+  return std::make_shared<const FeedbackTask>(
+      FeedbackTask{.way = std::move(way),
+                   .object = std::move(object),
+                   .cost = cost,
+                   .normal = experiment::normalOf(task.plane),
+                   .bare = bare,
+                   .pushed = bare || !experiment.environment.empty(),
+                   .cursor = experiment.cursor && experiment.cursor->show != experiment::CursorShow::Never});
 }
 
 FeedbackHand::FeedbackHand(std::shared_ptr<const FeedbackTask> task, std::shared_ptr<SubjectState> state, std::uint64_t seed)
@@ -101,8 +101,8 @@ void FeedbackHand::learnFromTrace() {
   trace_.steps = traceSteps_.load(std::memory_order_acquire);
   if (trace_.steps == 0) return;
   if (person.learnFast > 0 || person.learnSlow > 0) {
-    const ModelError step =
-        computeModelStep(playing_.gains, trace_, playing_.used, inField(person.arm, playing_.believed), task_->object, person.senses, task_->cost.distance);
+    const ModelError step = computeModelStep(playing_.gains, trace_, playing_.used, inField(person.arm, playing_.believed), task_->object,
+                                             person.senses, task_->cost.distance);
     learn({person.learnFast, person.keepFast, person.learnSlow, person.keepSlow}, step, state_->model);
   }
   learn(person.environment, errorsAtStep_[static_cast<std::size_t>(trace_.steps - 1)].error(), state_->environment);
@@ -131,8 +131,8 @@ void FeedbackHand::prepareTrial(int index, int /*scene*/) {
   reach.reactionTicks = static_cast<int>(std::lround(reaction / kTickSeconds));
   reach.believed = state_->environment.current();
   const ArmSpec arm = inField(person.arm, reach.believed);
-  reach.gains = computeFeedbackGains(makeArmWorld(arm, task_->object, reach.used), arm, cost, person.senses, person.motorNoise,
-                                     person.forceNoise);
+  reach.gains =
+      computeFeedbackGains(makeArmWorld(arm, task_->object, reach.used), arm, cost, person.senses, person.motorNoise, person.forceNoise);
   reach.draws.resize(static_cast<std::size_t>(reach.gains.steps) * static_cast<std::size_t>(reach.gains.senses() + 2));
   for (double& draw : reach.draws) draw = person.noise == 0 ? 0 : person.noise * draws.normal();
   reach.ready = true;
@@ -266,7 +266,8 @@ haptics::DeviceSample FeedbackHand::read() noexcept {
   }
   const ReachWay::Place place = task_->way.at(body_[0] - start);
   haptics::DeviceSample sample;
-  sample.position = (task_->cursor ? task_->way.at(0).position + aimed(place.position - task_->way.at(0).position) : place.position) + aside_;
+  sample.position =
+      (task_->cursor ? task_->way.at(0).position + aimed(place.position - task_->way.at(0).position) : place.position) + aside_;
   sample.velocity = body_[1] * aimed(place.along) + asideSpeed_;
   sample.hasVelocity = true;
   return sample;

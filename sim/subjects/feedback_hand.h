@@ -72,8 +72,8 @@ class FeedbackHand final : public haptics::HapticDevice {
   std::uint64_t seed_;
   SteppedArm arm_;
   Reach prepared_, playing_;
-  bool firstIsThere_ = false;  // `playing_` is what trial 0 would be prepared as
-  TrialTrace trace_;           // entries below traceSteps_ keep their values until the next Cue::Place
+  bool firstIsThere_ = false;                   // `playing_` is what trial 0 would be prepared as
+  TrialTrace trace_;                            // entries below traceSteps_ keep their values until the next Cue::Place
   EnvironmentTrace errors_;                     // so far
   std::vector<EnvironmentTrace> errorsAtStep_;  // kept as the entries of the trace
   std::atomic<int> traceSteps_{0};

@@ -23,9 +23,9 @@ struct FeedbackSpec {
   ModelError first;                             // theta_0
   double learnFast = 0, keepFast = 0, learnSlow = 0, keepSlow = 1;
   LearningRates environment{0.21, 0.59, 0.02, 0.992};  // of a field on the hand and of a cursor's angle
-  double noiseScale = 1;  // factor on this person's noise, senses and planSd
-  bool drawn = false;     // this person is drawn from the seed
-  double noise = 1;       // factor on every draw; 0: the mean reach
+  double noiseScale = 1;                               // factor on this person's noise, senses and planSd
+  bool drawn = false;                                  // this person is drawn from the seed
+  double noise = 1;                                    // factor on every draw; 0: the mean reach
 };
 
 /// Reads `criterion=effort|…,subject=1…5|drawn,sight=none|ends|all` and the numbers of feedbackParameters(). Throws FaultError.

@@ -15,8 +15,7 @@ namespace {
 void requireNothingPushes(const experiment::Experiment& experiment) {
   for (std::size_t i = 0; i < experiment.environment.size(); ++i)
     if (!std::holds_alternative<experiment::ChannelForce>(experiment.environment[i].law))
-      throw FaultError(Fault{"device",
-                             fmt::format("simulated: kind=plan plays its plan, and environment[{}] cannot push it aside", i),
+      throw FaultError(Fault{"device", fmt::format("simulated: kind=plan plays its plan, and environment[{}] cannot push it aside", i),
                              "kind=impedance or kind=ofc, which feel forces on the hand"});
 }
 

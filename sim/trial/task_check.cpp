@@ -53,8 +53,8 @@ namespace {
 bool pushesAway(const experiment::SquareMatrix<3>& k) {
   const auto s = [&](std::size_t i, std::size_t j) { return 0.5 * (k[i][j] + k[j][i]); };
   const auto minor = [&](std::size_t i, std::size_t j) { return s(i, i) * s(j, j) - s(i, j) * s(i, j); };
-  const double determinant = s(0, 0) * minor(1, 2) - s(0, 1) * (s(0, 1) * s(2, 2) - s(0, 2) * s(1, 2)) +
-                             s(0, 2) * (s(0, 1) * s(1, 2) - s(0, 2) * s(1, 1));
+  const double determinant =
+      s(0, 0) * minor(1, 2) - s(0, 1) * (s(0, 1) * s(2, 2) - s(0, 2) * s(1, 2)) + s(0, 2) * (s(0, 1) * s(1, 2) - s(0, 2) * s(1, 1));
   double size = 0;
   for (const auto& row : k)
     for (const double entry : row) size = std::max(size, std::abs(entry));

@@ -27,7 +27,8 @@ std::unique_ptr<Plant> makePlantOf(const bench::BenchScene& scene) {
   const constraints::Constraint constraint = constraints::makeConstraint(scene.experiment.constraint);
   if (constraint.straight) {
     const LinearSpace space = linearSpace(constraint);
-    if (model.kind == experiment::ObjectKind::Parallel || canBeModal(model)) return std::make_unique<LinearPlant<OscillatorCore, 1>>(model, space, 1e-3);
+    if (model.kind == experiment::ObjectKind::Parallel || canBeModal(model))
+      return std::make_unique<LinearPlant<OscillatorCore, 1>>(model, space, 1e-3);
     return std::make_unique<LinearPlant<DenseCore<5>, 1>>(model, space, 1e-3);
   }
   double speed = 0;  // [m] the largest |r_phi|

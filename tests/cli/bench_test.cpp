@@ -38,8 +38,8 @@ TEST(Bench, MeasuresInAProgramOfItsOwnAndKeepsItsContract) {
   const auto [ended, rows] = measured("--scene S1 --scene S6 --method auto --quick --rounds 5");
   ASSERT_EQ(rows.size(), 2u);
   for (const Json& row : rows) {
-    for (const char* key :
-         {"level", "scene", "method", "step_s", "tolerance", "state_error", "position_error_m", "ns_per_ms", "steps", "rhs_evaluations", "bits"})
+    for (const char* key : {"level", "scene", "method", "step_s", "tolerance", "state_error", "position_error_m", "ns_per_ms", "steps",
+                            "rhs_evaluations", "bits"})
       EXPECT_TRUE(row.contains(key)) << key;
     EXPECT_LT(row["state_error"].get<double>(), 1e-12);  // the exact step's rounding over 1350 ticks
     EXPECT_GT(row["ns_per_ms"].get<double>(), 0);

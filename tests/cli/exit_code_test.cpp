@@ -124,8 +124,9 @@ TEST(OptionWords, AreWhatAPersonReads) {
   EXPECT_EQ(labels.err,
             "error: --subject: \"a_b\" is not a label\nhelp: allowed: up to 60 letters and digits\n"
             "error: --session: \"c-d\" is not a label\nhelp: allowed: up to 60 letters and digits\n");
+  EXPECT_TRUE(test::reach("predict chain-slow --criterion min-hand-jerk --sweep n=1:2")
+                  .err.starts_with("error: --sweep: is n=1:2\nhelp: allowed: KEY=FROM"));
   EXPECT_TRUE(
-      test::reach("predict chain-slow --criterion min-hand-jerk --sweep n=1:2").err.starts_with("error: --sweep: is n=1:2\nhelp: allowed: KEY=FROM"));
-  EXPECT_TRUE(test::reach("predict ellipse --criterion min-hand-jerk --point behind-spring --unknowns 1").err.starts_with("error: --unknowns: "));
+      test::reach("predict ellipse --criterion min-hand-jerk --point behind-spring --unknowns 1").err.starts_with("error: --unknowns: "));
   EXPECT_TRUE(test::reach("bench --scene S99 --quick").err.starts_with("error: --scene: is S99\nhelp: allowed: S1"));
 }

@@ -36,9 +36,7 @@ TEST(CursorLaw, ARotationTurnsTheWayByItsAngleAboutTheStart) {
   }
 }
 
-TEST(CursorLaw, AGainScalesTheWay) {
-  EXPECT_NEAR(norm(lawOf(cursorOf(0, 1.5))(kHand) - (kStart + 1.5 * (kHand - kStart))), 0, 1e-16);
-}
+TEST(CursorLaw, AGainScalesTheWay) { EXPECT_NEAR(norm(lawOf(cursorOf(0, 1.5))(kHand) - (kStart + 1.5 * (kHand - kStart))), 0, 1e-16); }
 
 TEST(CursorLaw, AClampedCursorKeepsItsDirectionWhereverTheHandGoes) {
   const CursorLaw clamped = lawOf(cursorOf(0, 1, 30));

@@ -35,8 +35,7 @@ TEST(EnvironmentKeys, ReadEveryKindOfForce) {
     { "kind": "pulse", "force_n": [5, 0, 0], "at": { "distance_m": 0.02 }, "duration_s": 0.05 }])");
   ASSERT_EQ(e.environment.size(), 5u);
   EXPECT_EQ(e.environment[0], (HandForce{ViscousForce{{{{0, 0, 13}, {0, 0, 0}, {-13, 0, 0}}}}}));
-  EXPECT_EQ(e.environment[1],
-            (HandForce{ElasticForce{{{{100, 0, 0}, {0, 0, 0}, {0, 0, 50}}}, Vec3{0, 0, -0.05}}, ForceWhen::Trial}));
+  EXPECT_EQ(e.environment[1], (HandForce{ElasticForce{{{{100, 0, 0}, {0, 0, 0}, {0, 0, 50}}}, Vec3{0, 0, -0.05}}, ForceWhen::Trial}));
   EXPECT_EQ(e.environment[2], (HandForce{JointViscousForce{{{{1.66, 0.64}, {0.64, -1.54}}}}}));
   EXPECT_EQ(e.environment[3], (HandForce{ChannelForce{.stiffness = 2000}, ForceWhen::Trial})) << "a channel acts from arming";
   EXPECT_EQ(e.environment[4], (HandForce{PulseForce{{5, 0, 0}, {std::nullopt, 0.02}, 0.05}}));
@@ -69,7 +68,8 @@ TEST(EnvironmentKeys, RefuseWhatIsNoForceUnderItsKey) {
   EXPECT_NE(told(R"({ "kind": "channel", "stiffness_n_per_m": 0 })").find("stiffness_n_per_m: is 0"), std::string::npos);
   EXPECT_NE(told(R"({ "kind": "pulse", "force_n": [1, 0, 0], "at": {}, "when": "trial" })").find("when"), std::string::npos)
       << "a pulse has its instant";
-  EXPECT_NE(told(R"({ "kind": "pulse", "force_n": [1, 0, 0], "at": {} })").find("exactly one of onset_s and distance_m"), std::string::npos);
+  EXPECT_NE(told(R"({ "kind": "pulse", "force_n": [1, 0, 0], "at": {} })").find("exactly one of onset_s and distance_m"),
+            std::string::npos);
   EXPECT_NE(told(R"({ "kind": "pulse", "force_n": [1, 0, 0], "at": { "onset_s": 0 }, "duration_s": 0.01 })").find("shorter than rise"),
             std::string::npos);
 }

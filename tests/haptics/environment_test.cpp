@@ -43,7 +43,8 @@ ViscousForce curl(double b) { return {{{{0, 0, b}, {0, 0, 0}, {-b, 0, 0}}}}; }
 
 class Reach {
  public:
-  explicit Reach(const Experiment& e) : engine(e, EngineOptions{{{.deviceMaxForce = kLimit, .virtualHand = true, .rendersForce = true}}}), hand(engine.protocol().start) {}
+  explicit Reach(const Experiment& e)
+      : engine(e, EngineOptions{{{.deviceMaxForce = kLimit, .virtualHand = true, .rendersForce = true}}}), hand(engine.protocol().start) {}
 
   const TickState& tick(trial::Command command = trial::Command::None) {
     TickInput input;

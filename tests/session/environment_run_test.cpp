@@ -39,7 +39,8 @@ Vec3 at(const record::SampleRows& rows, std::size_t row, std::size_t column) {
 }
 
 TEST_F(Pushed, TheForceOfEveryRowIsTheLawOfTheHandInThatRow) {
-  const record::RunLog log = recorded(R"("environment": [{ "kind": "viscous", "matrix_n_s_per_m": [[0, 13, 0], [-13, 0, 0], [0, 0, 0]] }])");
+  const record::RunLog log =
+      recorded(R"("environment": [{ "kind": "viscous", "matrix_n_s_per_m": [[0, 13, 0], [-13, 0, 0], [0, 0, 0]] }])");
   const record::ChannelTable& table = log.configuration().table;
   EXPECT_EQ(table.massCount, 0);
   const record::SampleRows rows = log.allRows();

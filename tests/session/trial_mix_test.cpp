@@ -252,11 +252,10 @@ TEST(BlockScenes, RefuseChangesThatTheExperimentOrTheRecordDoesNotAllow) {
 TEST(BlockScenes, ACheckedPlanNamesTheLineOfAKindOfThePlanOrOfTheBlock) {
   const TemporaryFolder folder;
   const std::string file = folder / "p.json";
-  folder.write(
-      "p.json",
-      "{ \"schema_version\": 1, \"trials\": 2,\n  \"kinds\": { \"a\": {},\n    \"b\": { \"object.masses_kg\": [-1] } },\n"
-      "  \"blocks\": [ { \"experiment\": \"free-point\" }, { \"experiment\": \"free-point\" },\n"
-      "    { \"experiment\": \"free-point\", \"kinds\": { \"a\": {},\n      \"c\": { \"object.kind\": \"chain\" } } } ] }");
+  folder.write("p.json",
+               "{ \"schema_version\": 1, \"trials\": 2,\n  \"kinds\": { \"a\": {},\n    \"b\": { \"object.masses_kg\": [-1] } },\n"
+               "  \"blocks\": [ { \"experiment\": \"free-point\" }, { \"experiment\": \"free-point\" },\n"
+               "    { \"experiment\": \"free-point\", \"kinds\": { \"a\": {},\n      \"c\": { \"object.kind\": \"chain\" } } } ] }");
   try {
     checkedProgramme(file);
     FAIL();

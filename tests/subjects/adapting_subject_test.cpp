@@ -52,9 +52,9 @@ Experiment rotated(double degrees) {
 }
 
 struct Seen {
-  double deviation = 0;      // [m] to the right, where it is largest
-  double angle = 0;          // [degrees] of the hand at its largest speed, counterclockwise
-  double pressed = 0;        // share of the force that would cancel the field, as the wall returns it
+  double deviation = 0;  // [m] to the right, where it is largest
+  double angle = 0;      // [degrees] of the hand at its largest speed, counterclockwise
+  double pressed = 0;    // share of the force that would cancel the field, as the wall returns it
   trial::TrialResult result;
 };
 

@@ -7,17 +7,17 @@
 namespace reachlab::dynamics {
 namespace {
 
-constexpr double kContinuous = 1e-9;          // of a millimetre and of the surface's size: what counts as no jump
-constexpr double kRounding = 1e-12;           // of |r|, for a surface may lie far away
-constexpr double kMargin = 1e-5;              // of the argument's size
-constexpr int kWaitForFar = 3;                // the same where a pole is not near enough yet
-constexpr int kWaitAfterNothing = 16;         // looks to leave out where there was none
-constexpr double kNear = 0.3;                 // of the largest |r_u| (or |r_v|) seen: nearer, a pole is looked for
-constexpr double kEnter = 0.4, kLeave = 0.6;  // of a parameter: radius of the polar chart
+constexpr double kContinuous = 1e-9;                      // of a millimetre and of the surface's size: what counts as no jump
+constexpr double kRounding = 1e-12;                       // of |r|, for a surface may lie far away
+constexpr double kMargin = 1e-5;                          // of the argument's size
+constexpr int kWaitForFar = 3;                            // the same where a pole is not near enough yet
+constexpr int kWaitAfterNothing = 16;                     // looks to leave out where there was none
+constexpr double kNear = 0.3;                             // of the largest |r_u| (or |r_v|) seen: nearer, a pole is looked for
+constexpr double kEnter = 0.4, kLeave = 0.6;              // of a parameter: radius of the polar chart
 constexpr double kOnePoint = 1e-12, kSameTangent = 1e-9;  // of the largest |r_u| or |r_v|: a pole's line and its tangents
-constexpr double kFlatPole = 1e-12;           // squared sine: the tangents out of a pole span a plane
-constexpr double kBeside = 0.05;              // of a parameter, from a line at which the formula ends: r_u may grow without bound
-constexpr double kEnding = 0.02;              // of a parameter, from such a line: what stops there stops because of it
+constexpr double kFlatPole = 1e-12;                       // squared sine: the tangents out of a pole span a plane
+constexpr double kBeside = 0.05;  // of a parameter, from a line at which the formula ends: r_u may grow without bound
+constexpr double kEnding = 0.02;  // of a parameter, from such a line: what stops there stops because of it
 
 /// [m] by how much two limits of r may differ that are one.
 double slack(const constraints::SurfacePoint& p) noexcept {
@@ -39,7 +39,8 @@ Settled SurfaceSystem::chooseChart(State& y) noexcept {
   if (std::min(byU, byV) >= kNear * kNear || waiting > 0) return Settled::Same;
   const int likely = byU < byV ? 1 : 0;
   const Pole first = findPole(y, likely);
-  if (const Pole found = first != Pole::Found && std::max(byU, byV) < kNear * kNear ? findPole(y, 1 - likely) : first; found != Pole::Found) {
+  if (const Pole found = first != Pole::Found && std::max(byU, byV) < kNear * kNear ? findPole(y, 1 - likely) : first;
+      found != Pole::Found) {
     waiting = first == Pole::Far || found == Pole::Far ? kWaitForFar : kWaitAfterNothing;
     return Settled::Same;
   }

@@ -28,12 +28,12 @@ struct Channel {
 struct ChannelTable {
   std::vector<Channel> channels;
   int massCount = 0;
-  int parameterCount = 0;   // constraint parameters of a mass: 0, 1 or 2
-  bool body = false;        // orientation and angular velocity follow
-  bool portEnergy = false;  // of a device that renders force: the passivity observer's energy is the next column
+  int parameterCount = 0;           // constraint parameters of a mass: 0, 1 or 2
+  bool body = false;                // orientation and angular velocity follow
+  bool portEnergy = false;          // of a device that renders force: the passivity observer's energy is the next column
   std::optional<bool> environment;  // has a value where the force of the environment follows the hands
   std::optional<bool> cursor;       // has a value where the cursor follows
-  int hands = 1;            // with more than one, the first hand's work and then each other hand's own columns follow
+  int hands = 1;                    // with more than one, the first hand's work and then each other hand's own columns follow
 
   std::size_t size() const { return channels.size(); }
   /// Index of a channel; throws FaultError for an unknown name.

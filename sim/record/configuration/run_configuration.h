@@ -62,7 +62,7 @@ struct RunConfiguration {
   std::uint64_t orderSeed = 0;                 // of the plan
   std::vector<trial::PlannedTrial> trials;
   std::optional<std::vector<RunScene>> scenes;  // PlannedTrial::scene is one of them; nullopt: all trials are done in `experimentText`
-  std::string device;  // as asked for: "simulated:noise=0"; several hands' as "A + B"
+  std::string device;                           // as asked for: "simulated:noise=0"; several hands' as "A + B"
   std::string deviceName, deviceVersion;
   double deviceMaxForce = 0;                                      // [N]
   bool virtualHand = false;                                       // DeviceInfo::virtualHand

@@ -55,7 +55,10 @@ std::string experimentJson(const RunConfiguration& c) {
   j["definition"] = c.definitionText.empty() ? Json() : Json::parse(c.definitionText, nullptr, true, true);
   for (const RunScene& scene : c.scenes.value_or(std::vector<RunScene>())) {
     const Json text = Json::parse(scene.experimentText, nullptr, false, true);
-    j["scenes"].push_back({{"kind", orNull(scene.kind)}, {"target", orNull(scene.target)}, {"condition", scene.condition}, {"method", orNull(scene.method)},
+    j["scenes"].push_back({{"kind", orNull(scene.kind)},
+                           {"target", orNull(scene.target)},
+                           {"condition", scene.condition},
+                           {"method", orNull(scene.method)},
                            {"experiment", text.is_discarded() ? Json() : text}});
   }
   Json& run = j["run"] = Json::object();
@@ -106,7 +109,8 @@ std::vector<experiment::CompiledExperiment> experimentsFromJson(const std::strin
         return one.at("kind") == orNull(scene.kind) && one.at("target") == orNull(scene.target);
       });
       if (found == all.end())
-        throw FaultError(Fault{.what = fmt::format("has no scene for the condition {} of events.tsv", scene.condition), .place = FilePlace{origin}});
+        throw FaultError(
+            Fault{.what = fmt::format("has no scene for the condition {} of events.tsv", scene.condition), .place = FilePlace{origin}});
       experiments.push_back(opened(found->at("experiment"), j, origin));
     }
     return experiments;

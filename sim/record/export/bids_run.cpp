@@ -133,9 +133,11 @@ std::string channelsJson() {
 void eventsTsv(const RunLog& run, const TakePiece& take) {
   const RunConfiguration& c = run.configuration();
   TableText table('\t', "n/a");
-  table.row({"onset",     "duration",   "trial_type",   "trial",         "block",         "phase", "condition",       "outcome",
-             "reason",    "mass",       "by",           "movement_time", "reaction_time", "go",    "foreperiod",      "peak_hand_speed",
-             "hand_path", "peak_force", "missed_ticks", "armed",         "mean_force",    "day",   "dropped_samples", "elapsed_s", "channel_broken", "kind", "target"});
+  table.row(
+      {"onset",          "duration",   "trial_type",   "trial",         "block",         "phase", "condition",       "outcome",
+       "reason",         "mass",       "by",           "movement_time", "reaction_time", "go",    "foreperiod",      "peak_hand_speed",
+       "hand_path",      "peak_force", "missed_ticks", "armed",         "mean_force",    "day",   "dropped_samples", "elapsed_s",
+       "channel_broken", "kind",       "target"});
   const std::uint64_t first = run.firstSampleTick();
   for (const RecordedTrial& trial : run.trials()) {
     const TrialTimes times = timesOf(trial, first);
@@ -172,7 +174,8 @@ std::string eventsJson(const RunLog& run) {
   j["block"] = described("Block of the session's plan, from 1");
   j["phase"] = described("Whether the block counts");
   j["phase"]["Levels"] = {{"practice", "Familiarisation"}, {"recorded", "Counted in the analysis"}};
-  j["condition"] = described("Kind and target of the trial where its block has several, else condition of the plan, else the experiment's name");
+  j["condition"] =
+      described("Kind and target of the trial where its block has several, else condition of the plan, else the experiment's name");
   j["outcome"] = described("How the trial ended");
   j["outcome"]["Levels"] = {
       {"success", "Every mass within all tolerances"},
@@ -197,7 +200,8 @@ std::string eventsJson(const RunLog& run) {
   j["elapsed_s"] = described("From the go signal to the end of the trial by the computer's clock", "s");
   j["channel_broken"] = described("1: the hand left the walls of a channel, which let go; 0: it did not");
   j["kind"] = described("Kind of the trial in the session's plan; n/a: the block has no kinds");
-  j["target"] = described("Target of the trial in the session's plan, from 1, such as 3, and 3-back on the way back from it; n/a: the block has one scene");
+  j["target"] = described(
+      "Target of the trial in the session's plan, from 1, such as 3, and 3-back on the way back from it; n/a: the block has one scene");
   j["StimulusPresentation"] = {{"SoftwareName", "reachlab"}, {"SoftwareVersion", orUnknown(c.softwareVersion)}};
   return j.dump(2) + "\n";
 }
