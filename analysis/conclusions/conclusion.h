@@ -75,15 +75,15 @@ struct Conclusion {
   bool told(std::size_t candidate) const { return against[candidate].p < level && against[candidate].mean >= kLeastDifference; }
 };
 
-/// The conclusion about one person in any number of conditions. A candidate is named if it is told from every other candidate and from the
-/// reference at p < 0.01 (an intersection-union test). `reference` is the index of the candidate that ignores the object, and `candidates`
+/// The conclusion about one person in any number of conditions. A candidate is named if its scores differ from those of every other candidate
+/// and of the reference at p < 0.01 (an intersection-union test). `reference` is the index of the candidate that ignores the object, and `candidates`
 /// counts it. The conclusion says nothing about other people.
 Conclusion concludePerson(const PersonScores& person, std::size_t candidates, std::size_t reference,
                           const std::vector<HeavyLimit>& limits = {});
 
-/// The conclusion about several people, with one number per person. A single person is judged by concludePerson. A candidate is named if
-/// all of this holds: there are five people or more, it is told from every rival at p < 0.05 (paired t over people), its protected
-/// exceedance probability is 0.85 or more, and no person is decided for a rival. People without conditions are left out.
+/// The conclusion about several people, with one number per person. A single person is judged by concludePerson. At least five
+/// people are needed to name a candidate. Its scores must differ from every rival's at p < 0.05 (paired t over people), and its protected
+/// exceedance probability must be 0.85 or more. No person's own conclusion may name a rival. People without conditions are left out.
 Conclusion concludePeople(const std::vector<PersonScores>& people, std::size_t candidates, std::size_t reference,
                           const std::vector<HeavyLimit>& limits = {});
 

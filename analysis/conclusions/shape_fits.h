@@ -9,9 +9,10 @@
 
 namespace reachlab::analysis {
 
-/// How a person's plan follows the time that a trial takes: planned anew for it, or one plan that is run faster or slower.
+/// How a person plans trials of different durations. `Anew`: the person plans each trial for its duration. `OnePlan`: the person runs one plan
+/// faster or slower.
 enum class TimeLaw { Anew, OnePlan };
-std::string_view nameOf(TimeLaw law);  // "anew", "one-plan"
+std::string_view nameOf(TimeLaw law);  // "anew" or "one-plan", as in fits.csv
 
 /// All trials fitted with one shape.
 struct ShapeFits {
@@ -20,7 +21,7 @@ struct ShapeFits {
   double plan = 0;            // [s] of the one plan
 };
 
-/// All trials fitted with one family: planned anew, and with one plan of several durations.
+/// The fits of all trials with one family of profiles: with a new plan for each trial, and with one plan of each tried duration.
 struct FamilyFits {
   ShapeFits anew;
   std::map<int, ShapeFits> plans;  // by step of ln P
@@ -33,7 +34,7 @@ class ShapeFitter {
   /// `rest`: the cost of not moving, of each window. Both spans must outlive the fitter.
   ShapeFitter(std::span<const FitWindow> windows, std::span<const double> rest);
 
-  /// Empty fits if the family has no profile for `typical` [s]. Without `withPlans` only the fits that are planned anew.
+  /// The fits are empty if the family has no profile for the duration `typical` [s]. `withPlans` false leaves out the fits with one plan.
   FamilyFits fit(const ProfileFamily& family, double typical, bool withPlans = true) const;
   /// The same for a family that differs little from the family of `similar`: each trial starts from its fit there alone.
   FamilyFits fitNear(const ProfileFamily& family, const FamilyFits& similar) const;

@@ -42,7 +42,7 @@ class PhantomFrames {
 
   /// Controlling thread, before the object is scheduled. Null: the device is no clock, and the tick takes the newest sample.
   void setTick(haptics::HapticDevice::ClockTick tick, void* context) noexcept;
-  /// Controlling thread. From now on this object is told its device's errors, even those that another device's frame receives.
+  /// Controlling thread. From now on this object receives its device's errors, also from the frames of other devices.
   void enlist() noexcept;
   /// Controlling thread. Sets zero force. When it returns, no tick is under way. The wait is bounded, in case the scheduler no longer
   /// calls.

@@ -277,7 +277,7 @@ void MainWindow::showStage() {
 // What a run ends with: its counts, its folder, and what can follow.
 void MainWindow::showEnd() {
   const record::RunConfiguration& run = session_.run()->configuration();
-  const QString folder = QFileInfo(QString::fromStdString(docks_.session->request().place.data)).absoluteFilePath();
+  const QString folder = dataFolder();
   std::vector<widgets::Card::Choice> choices{{tr("Inspect"), QStringLiteral("endInspect"), [this, folder] {
                                                 session_.endRun();
                                                 inspect(folder);
@@ -459,13 +459,15 @@ void MainWindow::resumeSession() {
   beginNext();
 }
 
+QString MainWindow::dataFolder() const {
+  return QFileInfo(QString::fromStdString(docks_.session->request().place.data)).absoluteFilePath();
+}
+
 void MainWindow::endRun() {
   if (session_.run() == nullptr || !mayEndRun(tr("End run"))) return;
   const int run = session_.run()->configuration().run;
   session_.endRun();
-  tell(tr("Run %1 is saved in %2.")
-           .arg(run)
-           .arg(QFileInfo(QString::fromStdString(docks_.session->request().place.data)).absoluteFilePath()));
+  tell(tr("Run %1 is saved in %2.").arg(run).arg(dataFolder()));
 }
 
 void MainWindow::nextSubject() {

@@ -140,6 +140,7 @@ class MainWindow : public QMainWindow {
   void showStage();
   void showEnd();
   bool mayUseDevice();
+  QString dataFolder() const;  // where the session records
   void drawPredictions();
   void runOpened();
   void runClosed();

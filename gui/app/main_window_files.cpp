@@ -111,8 +111,7 @@ void MainWindow::tryEdit(docks::Dock& dock, const experiment::Experiment& change
 bool MainWindow::mayEndRun(const QString& doing) {
   session::RecordedRun* run = session_.run();
   if (run == nullptr || (!run->underWay() && (run->trialsLeft() == 0 || run->latest().trial == 0))) return true;
-  return askToEndRun(*this, doing, run->trialCount() - run->trialsLeft() - (run->underWay() ? 1 : 0), run->trialCount(),
-                     QFileInfo(QString::fromStdString(docks_.session->request().place.data)).absoluteFilePath());
+  return askToEndRun(*this, doing, run->trialCount() - run->trialsLeft() - (run->underWay() ? 1 : 0), run->trialCount(), dataFolder());
 }
 
 bool MainWindow::mayBeLeft() {

@@ -98,6 +98,20 @@ vtkSmartPointer<vtkActor> makeBox(const Look& look) {
 
 namespace {
 
+// Four-sided faces with a normal at each point.
+vtkSmartPointer<vtkActor> quadActor(vtkPoints* points, vtkCellArray* quads, vtkFloatArray* normals, const Look& look) {
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->SetPolys(quads);
+  data->GetPointData()->SetNormals(normals);
+  vtkNew<vtkPolyDataMapper> mapper;
+  auto actor = actorOf(nullptr, look);
+  mapper->SetInputData(data);
+  mapper->ScalarVisibilityOff();
+  actor->SetMapper(mapper);
+  return actor;
+}
+
 // The wire's centre line runs from end to end in the frame of the axis: a hook, the coil, a hook. Lengths in coil radii.
 constexpr int kPerTurn = 16, kHookSamples = 12, kSides = 7;
 constexpr double kHook = 0.55;  // radius of a hook
@@ -136,16 +150,7 @@ vtkSmartPointer<vtkActor> makeCoil(const Look& look, int turns) {
                       corners[] = {i * kSides + k, i * kSides + next, (i + 1) * kSides + next, (i + 1) * kSides + k};
       quads->InsertNextCell(4, corners);
     }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetPolys(quads);
-  data->GetPointData()->SetNormals(normals);
-  vtkNew<vtkPolyDataMapper> mapper;
-  auto actor = actorOf(nullptr, look);
-  mapper->SetInputData(data);
-  mapper->ScalarVisibilityOff();
-  actor->SetMapper(mapper);
-  return actor;
+  return quadActor(points, quads, normals, look);
 }
 
 Vec3 penEnd(const Vec3& hand, double radius) {
@@ -201,16 +206,7 @@ vtkSmartPointer<vtkActor> makeSkin(const SurfaceMesh& mesh, const Look& look) {
     quads->InsertNextCell(4);
     for (const std::uint32_t corner : quad) quads->InsertCellPoint(static_cast<vtkIdType>(corner));
   }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetPolys(quads);
-  data->GetPointData()->SetNormals(normals);
-  vtkNew<vtkPolyDataMapper> mapper;
-  auto actor = actorOf(nullptr, look);
-  mapper->SetInputData(data);
-  mapper->ScalarVisibilityOff();
-  actor->SetMapper(mapper);
-  return actor;
+  return quadActor(points, quads, normals, look);
 }
 
 vtkSmartPointer<vtkActor> makeParameterLines(const SurfaceMesh& mesh, const Look& look, double width) {

@@ -12,6 +12,7 @@
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 #include "sim/trial/protocol.h"
+#include "tests/bare_reach.h"
 
 namespace reachlab::devices {
 namespace {
@@ -303,15 +304,8 @@ TEST(Preflight, TheStiffnessIsWhatTheHandFeelsOfAllItsSprings) {
   EXPECT_TRUE(warningsBeforeBlock(experiment::CompiledExperiment(e), *makeDevice("simulated", e, 1)).empty());
 }
 
-/// A bare hand's reach of 10 cm in 0.5 s under these forces.
-experiment::Experiment bareReach(const experiment::Environment& environment) {
-  experiment::Experiment e;
-  e.constraint.name = "free";
-  e.object.kind = experiment::ObjectKind::None;
-  e.task.emplace();
-  e.task->start = {0, 0, 0};
-  e.task->target = {0, 0, -0.1};
-  e.task->duration = 0.5;
+experiment::Experiment reachUnder(const experiment::Environment& environment) {
+  experiment::Experiment e = experiment::bareReach();
   e.velocityEstimator = {"butterworth", 40};
   e.environment = environment;
   return e;
@@ -322,12 +316,12 @@ TEST(Preflight, AChannelIsHeldAgainstTheDevicesLimitOfStability) {
   wall.damping = 2;
   const auto lineFor = [&](double stiffness) {
     wall.stiffness = stiffness;
-    const experiment::Experiment e = bareReach({{wall, experiment::ForceWhen::Trial}});
+    const experiment::Experiment e = reachUnder({{wall, experiment::ForceWhen::Trial}});
     return lineOf(check(e, infoOf("virtual:omni", e)), "channel");
   };
   const PreflightLine soft = lineFor(500);
   ASSERT_TRUE(soft.limit);
-  const haptics::DeviceInfo info = infoOf("virtual:omni", bareReach({}));
+  const haptics::DeviceInfo info = infoOf("virtual:omni", reachUnder({}));
   LoopSettings loop;
   loop.damping = 2;
   loop.mass = info.apparentMass + 0.3;
@@ -342,7 +336,7 @@ TEST(Preflight, AChannelIsHeldAgainstTheDevicesLimitOfStability) {
 }
 
 TEST(Preflight, ABareHandHasNoCouplingToBeJudged) {
-  const experiment::Experiment e = bareReach({});
+  const experiment::Experiment e = reachUnder({});
   for (const PreflightLine& line : check(e, infoOf("virtual:omni", e))) {
     EXPECT_NE(line.name, "stability");
     EXPECT_NE(line.name, "passivity");
@@ -357,7 +351,7 @@ TEST(Preflight, ACurlFieldsPowerIsThatOfTheLagOfTheVelocity) {
   const double b = 13, omega = std::numbers::pi / 0.5, speed = omega * 0.05;
   const double delay = 0.5e-3 + std::numbers::sqrt2 / (2 * std::numbers::pi * 40);
   const auto powerOf = [&](const experiment::SquareMatrix<3>& matrix) {
-    const experiment::Experiment e = bareReach({{experiment::ViscousForce{matrix}}});
+    const experiment::Experiment e = reachUnder({{experiment::ViscousForce{matrix}}});
     for (const PreflightLine& line : check(e, infoOf("virtual:omni", e)))
       if (line.name == "field_power") return line.asked;
     return 0.0;
@@ -368,7 +362,7 @@ TEST(Preflight, ACurlFieldsPowerIsThatOfTheLagOfTheVelocity) {
 
 TEST(Preflight, TheForceOfAFieldCountsAmongTheForcesOfAReach) {
   const double b = 13;
-  const experiment::Experiment e = bareReach({{experiment::ViscousForce{{{{0, 0, b}, {0, 0, 0}, {-b, 0, 0}}}}}});
+  const experiment::Experiment e = reachUnder({{experiment::ViscousForce{{{{0, 0, b}, {0, 0, 0}, {-b, 0, 0}}}}}});
   const PreflightLine peak = lineOf(check(e, infoOf("virtual:omni", e)), "peak_force");
   EXPECT_NEAR(peak.asked, b * 1.875 * 0.1 / 0.5, 0.1) << "b times the peak speed of a minimum-jerk reach";
 }

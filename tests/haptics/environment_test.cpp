@@ -7,6 +7,7 @@
 #include "base/math/minimum_jerk.h"
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/tick_order.h"
+#include "tests/bare_reach.h"
 #include "tests/haptics/armed_at_once.h"
 
 namespace reachlab::haptics {
@@ -24,22 +25,14 @@ Cursor cursorOf(double rotation, double gain = 1, CursorJudge judge = CursorJudg
   return cursor;
 }
 
-/// A free reach of a bare hand, 10 cm forward in 0.5 s.
-Experiment bareReach() {
-  Experiment e;
-  e.constraint.name = "free";
-  e.object.kind = ObjectKind::None;
-  e.task.emplace();
-  e.task->start = {0, 0, 0};
-  e.task->target = {0, 0, -0.1};
-  e.task->duration = 0.5;
+Experiment judgedReach() {
+  Experiment e = bareReach();
   e.task->tolerance = {0.005, 0.05, 0.2};
   e.task->rest = kNoStartRest;
   e.velocityEstimator.kind = "difference";
   e.timing = kNoTimingLimits;
   return e;
 }
-ViscousForce curl(double b) { return {{{{0, 0, b}, {0, 0, 0}, {-b, 0, 0}}}}; }
 
 class Reach {
  public:
@@ -101,7 +94,7 @@ TEST(EngineEnvironment, AddsTheForceOfTheLawToThatOfTheObject) {
 
 TEST(EngineEnvironment, MovementBeginsAtOnsetAndTrialAtArming) {
   for (const ForceWhen when : {ForceWhen::Movement, ForceWhen::Trial}) {
-    Experiment e = bareReach();
+    Experiment e = judgedReach();
     e.environment = {{ElasticForce{{{{100, 0, 0}, {0, 100, 0}, {0, 0, 100}}}, Vec3{0.01, 0, 0}}, when}};
     Reach run(e);
     run.arm();
@@ -116,7 +109,7 @@ TEST(EngineEnvironment, MovementBeginsAtOnsetAndTrialAtArming) {
 }
 
 TEST(EngineEnvironment, ItsForceObeysTheLimitAndTheSlewOfTheSafetyLayer) {
-  Experiment e = bareReach();
+  Experiment e = judgedReach();
   e.environment = {{curl(200)}, {PulseForce{{0, 8, 0}, {0.1, std::nullopt}, 0.1, 1e-3}}};
   Reach run(e);
   run.arm();
@@ -137,7 +130,7 @@ TEST(EngineEnvironment, ItsForceObeysTheLimitAndTheSlewOfTheSafetyLayer) {
 }
 
 TEST(EngineEnvironment, AChannelThatIsLeftIsMarkedUntilTheNextTrial) {
-  Experiment e = bareReach();
+  Experiment e = judgedReach();
   e.environment = {{ChannelForce{}, ForceWhen::Trial}};
   Reach run(e);
   run.arm();
@@ -152,7 +145,7 @@ TEST(EngineEnvironment, AChannelThatIsLeftIsMarkedUntilTheNextTrial) {
 }
 
 TEST(EngineEnvironment, AForceThatIsNotFiniteEndsInZeroForceAndAbortsTheTrial) {
-  Experiment e = bareReach();
+  Experiment e = judgedReach();
   e.arm.shoulder = {0, -0.55};
   e.environment = {{JointViscousForce{{{{1.66, 0.64}, {0.64, -1.54}}}}}};
   Reach run(e);
@@ -169,7 +162,7 @@ TEST(EngineEnvironment, AForceThatIsNotFiniteEndsInZeroForceAndAbortsTheTrial) {
 }
 
 TEST(BareHand, StartsTheTrialIsSeenWhereItIsAndIsJudged) {
-  Reach run(bareReach());
+  Reach run(judgedReach());
   run.hand += Vec3{0.003, 0.002, -0.004};
   run.arm();
   EXPECT_EQ(run.engine.state().hands[0].hip.position, run.hand) << "there is no object that the hand would be put on";
@@ -180,7 +173,7 @@ TEST(BareHand, StartsTheTrialIsSeenWhereItIsAndIsJudged) {
 }
 
 TEST(BareHand, ThatMissesIsToldByHowMuchAndWithoutAMass) {
-  Reach run(bareReach());
+  Reach run(judgedReach());
   run.arm();
   run.reach({0.008, 0, -0.1});
   const trial::TrialResult& result = run.engine.state().result;
@@ -193,7 +186,7 @@ TEST(JudgedCursor, IsBroughtToTheTargetByTheHandThatUndoesItsRotation) {
   const double angle = -30 * 3.14159265358979323846 / 180;
   const Vec3 turned = 0.1 * Vec3{-std::sin(angle), 0, -std::cos(angle)};  // forward, turned by -30 degrees as seen from above
   const auto outcomeOf = [](const Cursor& cursor, const Vec3& way) {
-    Experiment e = bareReach();
+    Experiment e = judgedReach();
     e.cursor = cursor;
     Reach run(e);
     run.arm();
@@ -207,7 +200,7 @@ TEST(JudgedCursor, IsBroughtToTheTargetByTheHandThatUndoesItsRotation) {
 }
 
 TEST(JudgedCursor, IsKnownInEveryTick) {
-  Experiment e = bareReach();
+  Experiment e = judgedReach();
   e.cursor = cursorOf(0, 2);
   Reach run(e);
   run.hand = {0.3, 0, 0.2};

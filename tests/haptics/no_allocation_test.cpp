@@ -5,22 +5,27 @@
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 #include "sim/haptics/haptic_loop.h"
+#include "tests/bare_reach.h"
 #include "tests/haptics/scripted_device.h"
 
 namespace reachlab::haptics {
 namespace {
 
-// A whole trial: put up, armed, moved, judged, put up again, with every tick handed to window and recorder.
-std::uint64_t allocationsOfThreeTrials(experiment::Experiment experiment) {
-  experiment.task->rest = experiment::kNoStartRest;
-  auto engine = std::make_unique<TickEngine>(experiment, EngineOptions{});
+// A loop whose hand moves by 2 cm in 0.4 s.
+HapticLoop onVirtualClock(std::unique_ptr<TickEngine> engine, test::MemorySink& sink) {
   const Vec3 start = engine->protocol().start;
   const auto device = std::make_shared<test::ScriptedDevice>(start.x, start.x + 0.02, 400);
   device->beside = start;
-  test::MemorySink sink(10);
   LoopOptions options;
   options.virtualClock = true;
-  HapticLoop loop(std::move(engine), device, &sink, options);
+  return HapticLoop(std::move(engine), device, &sink, options);
+}
+
+// A whole trial: put up, armed, moved, judged, put up again, with every tick handed to window and recorder.
+std::uint64_t allocationsOfThreeTrials(experiment::Experiment experiment) {
+  experiment.task->rest = experiment::kNoStartRest;
+  test::MemorySink sink(10);
+  HapticLoop loop = onVirtualClock(std::make_unique<TickEngine>(experiment, EngineOptions{}), sink);
   const std::uint64_t before = cli::countAllocations();
   for (int i = 0; i < 3000; ++i) {
     if (i % 1000 == 0) loop.tryCommand(i == 0 ? trial::Command::NextTrial : trial::Command::Abort);
@@ -44,17 +49,10 @@ TEST(HapticLoop, TickThatChangesTheSceneAllocatesNothing) {
   plain.task->rest = experiment::kNoStartRest;
   experiment::Experiment field = plain;
   field.object.viscosity = 3;
-  field.environment = {{experiment::ViscousForce{{{{0, 0, 13}, {0, 0, 0}, {-13, 0, 0}}}}},
-                       {experiment::ChannelForce{}, experiment::ForceWhen::Trial}};
+  field.environment = {{experiment::curl(13)}, {experiment::ChannelForce{}, experiment::ForceWhen::Trial}};
   const std::vector<experiment::CompiledExperiment> scenes{experiment::CompiledExperiment(plain), experiment::CompiledExperiment(field)};
-  auto engine = std::make_unique<TickEngine>(scenes, EngineOptions{});
-  const Vec3 start = engine->protocol().start;
-  const auto device = std::make_shared<test::ScriptedDevice>(start.x, start.x + 0.02, 400);
-  device->beside = start;
   test::MemorySink sink(10);
-  LoopOptions options;
-  options.virtualClock = true;
-  HapticLoop loop(std::move(engine), device, &sink, options);
+  HapticLoop loop = onVirtualClock(std::make_unique<TickEngine>(scenes, EngineOptions{}), sink);
   const std::uint64_t before = cli::countAllocations();
   bool felt[2] = {false, false};
   for (int i = 0; i < 4000; ++i) {
@@ -99,7 +97,7 @@ TEST(TickEngine, RefusesScenesThatCannotShareARecord) {
 
 TEST(HapticLoop, TickAllocatesNothingUnderAnyForceAndWithACursor) {
   experiment::Experiment e = experiment::readExperiment("chain-moderate");
-  e.environment = {{experiment::ViscousForce{{{{0, 0, 13}, {0, 0, 0}, {-13, 0, 0}}}}},
+  e.environment = {{experiment::curl(13)},
                    {experiment::ElasticForce{{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, {}}},
                    {experiment::JointViscousForce{{{{0.1, 0}, {0, 0.1}}}}},
                    {experiment::ChannelForce{}, experiment::ForceWhen::Trial},

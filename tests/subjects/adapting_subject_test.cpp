@@ -10,6 +10,7 @@
 #include "sim/haptics/tick_order.h"
 #include "sim/subjects/environment_learner.h"
 #include "sim/subjects/subject_kinds.h"
+#include "tests/bare_reach.h"
 #include "tests/refusal.h"
 
 namespace reachlab::subjects {
@@ -19,25 +20,19 @@ using namespace experiment;
 
 constexpr double kB = 13;  // [N s/m]
 
-Experiment bareReach() {
-  Experiment e;
-  e.constraint.name = "free";
-  e.object.kind = ObjectKind::None;
-  e.task.emplace();
-  e.task->start = {0, 0, 0};
-  e.task->target = {0, 0, -0.1};
-  e.task->duration = 0.5;
+Experiment sensedReach() {
+  Experiment e = bareReach();
   e.task->tolerance = {0.01, 0.05, 0.3};
   e.velocityEstimator.kind = "device";
   return e;
 }
 Experiment inCurl() {
-  Experiment e = bareReach();
-  e.environment = {{ViscousForce{{{{0, 0, kB}, {0, 0, 0}, {-kB, 0, 0}}}}}};
+  Experiment e = sensedReach();
+  e.environment = {{curl(kB)}};
   return e;
 }
 Experiment inChannel() {
-  Experiment e = bareReach();
+  Experiment e = sensedReach();
   ChannelForce wall;
   wall.stiffness = 6000;  // as that of Smith et al. 2006
   wall.damping = 100;
@@ -45,7 +40,7 @@ Experiment inChannel() {
   return e;
 }
 Experiment rotated(double degrees) {
-  Experiment e = bareReach();
+  Experiment e = sensedReach();
   e.cursor.emplace();
   e.cursor->rotation = degrees;
   return e;
@@ -105,7 +100,7 @@ class Person {
 
 TEST(AdaptingSubject, IsPushedAsideByACurlFieldAndLearnsToCancelIt) {
   Person person;
-  const double straight = person.reach(bareReach()).deviation;
+  const double straight = person.reach(sensedReach()).deviation;
   EXPECT_NEAR(straight, 0, 1e-6);
   const double first = person.reach(inCurl()).deviation;
   EXPECT_LT(first, -0.005) << "forward is pushed to the left by this field";
@@ -117,10 +112,10 @@ TEST(AdaptingSubject, IsPushedAsideByACurlFieldAndLearnsToCancelIt) {
     before = now;
   }
   EXPECT_LT(std::abs(before), 0.5 * std::abs(first));
-  const double after = person.reach(bareReach()).deviation;
+  const double after = person.reach(sensedReach()).deviation;
   EXPECT_GT(after, 0.25 * std::abs(first)) << "an after-effect to the other side";
-  for (int i = 0; i < 60; ++i) person.reach(bareReach());
-  EXPECT_LT(std::abs(person.reach(bareReach()).deviation), 0.2 * after) << "and it is washed out";
+  for (int i = 0; i < 60; ++i) person.reach(sensedReach());
+  EXPECT_LT(std::abs(person.reach(sensedReach()).deviation), 0.2 * after) << "and it is washed out";
 }
 
 TEST(AdaptingSubject, PressesAgainstAChannelWithWhatItHasLearned) {
@@ -157,7 +152,7 @@ TEST(AdaptingSubject, AnImpedanceFeelsTheFieldAndDoesNotLearn) {
   EXPECT_LT(first, -0.003);
   for (int i = 0; i < 5; ++i) person.reach(inCurl());
   EXPECT_NEAR(person.reach(inCurl()).deviation, first, 1e-12);
-  EXPECT_EQ(Person("kind=impedance,noise=0").reach(bareReach()).result.outcome, trial::Outcome::Success);
+  EXPECT_EQ(Person("kind=impedance,noise=0").reach(sensedReach()).result.outcome, trial::Outcome::Success);
 }
 
 TEST(AdaptingSubject, APlanIsRefusedWhereAForcePushesAndPlayedInAChannel) {
@@ -166,7 +161,7 @@ TEST(AdaptingSubject, APlanIsRefusedWhereAForcePushesAndPlayedInAChannel) {
   };
   EXPECT_NE(refusal(inCurl()).find("environment[0] cannot push it aside"), std::string::npos) << refusal(inCurl());
   EXPECT_EQ(refusal(inChannel()), "");
-  EXPECT_EQ(refusal(bareReach()), "");
+  EXPECT_EQ(refusal(sensedReach()), "");
   EXPECT_EQ(Person("kind=plan,noise=0").reach(inChannel()).result.outcome, trial::Outcome::Success);
 }
 

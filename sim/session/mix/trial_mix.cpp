@@ -15,6 +15,9 @@ namespace {
 constexpr int kMaxCount = 100'000, kMaxTargets = 360, kMaxScenes = 2000;
 constexpr std::size_t kMaxName = 40;
 
+NumberRange ringRadius() { return positiveUpTo(10, "m"); }
+NumberRange ringAngle() { return {-360, 360, true, "-360 to 360 degrees"}; }
+
 bool isKindName(const std::string& name) {
   return !name.empty() && name.size() <= kMaxName &&
          std::all_of(name.begin(), name.end(), [](unsigned char c) { return c < 128 && (std::isalnum(c) || c == '-' || c == '_'); });
@@ -105,8 +108,8 @@ void readTargets(ObjectReader& reader, const JsonNode& node, TrialMix& mix) {
     ObjectReader one(reader.faults(), *ring, targets.keyPath("ring"));
     TargetRing& r = mix.ring.emplace();
     one.integer("count", 1, kMaxTargets, r.count);
-    one.number("radius_m", positiveUpTo(10, "m"), r.radius);
-    one.number("first_deg", {-360, 360, true, "-360 to 360 degrees"}, r.firstDegrees);
+    one.number("radius_m", ringRadius(), r.radius);
+    one.number("first_deg", ringAngle(), r.firstDegrees);
     one.finish();
   }
   targets.finish();
@@ -170,14 +173,12 @@ std::vector<Fault> problems(const TrialMix& mix, int trials, const std::string& 
   }
   if (mix.ring) {
     checkNumber(key + "targets.ring.count", mix.ring->count, wholeNumber(1, kMaxTargets), faults);
-    checkNumber(key + "targets.ring.radius_m", mix.ring->radius, positiveUpTo(10, "m"), faults);
-    checkNumber(key + "targets.ring.first_deg", mix.ring->firstDegrees, {-360, 360, true, "-360 to 360 degrees"}, faults);
+    checkNumber(key + "targets.ring.radius_m", mix.ring->radius, ringRadius(), faults);
+    checkNumber(key + "targets.ring.first_deg", mix.ring->firstDegrees, ringAngle(), faults);
   }
   if (!faults.empty() || mix.isPlain() || trials < 1) return faults;
-  if (mix.targetCount() * static_cast<int>(kindsInUse(mix).size()) > kMaxScenes)
-    faults.push_back({key + "targets",
-                      fmt::format("makes {} scenes of kinds and targets", mix.targetCount() * static_cast<int>(kindsInUse(mix).size())),
-                      fmt::format("{} at most", kMaxScenes)});
+  if (const int scenes = mix.targetCount() * static_cast<int>(kindsInUse(mix).size()); scenes > kMaxScenes)
+    faults.push_back({key + "targets", fmt::format("makes {} scenes of kinds and targets", scenes), fmt::format("{} at most", kMaxScenes)});
   int length = 0;
   for (const KindCount& some : cycleOf(mix)) length += some.count;
   if (length > 0 && trials % length != 0)
