@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cmath>
 #include <cstdint>
@@ -11,6 +12,7 @@
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <sstream>
+#include <string_view>
 #include <tuple>
 #include <unordered_set>
 
@@ -44,6 +46,37 @@ struct CountingIterator {
   bool operator==(const CountingIterator& o) const { return at == o.at; }
   bool operator!=(const CountingIterator& o) const { return at != o.at; }
 };
+
+// The library's description of a fault in the text, and ours of the same fault.
+struct SyntaxFault {
+  std::string_view library;
+  const char *what, *allowed;
+};
+constexpr SyntaxFault kSyntaxFaults[] = {
+    {"unexpected end of input", "the text ends before the value is complete", "one whole JSON value"},
+    {"missing closing quote", "a string is not closed before the end of the text", "a double quote at its end"},
+    {"control character", "a string contains a control character, such as the end of its line", "\\n for a new line, \\t for a tab"},
+    {"UTF-8", "a string contains bytes that are not UTF-8", "a file saved as UTF-8"},
+    {"backslash", "this character has no meaning after a backslash", "\\\" \\\\ \\/ \\b \\f \\n \\r \\t \\uXXXX"},
+    {"'\\u'", "an escaped character is not complete", "\\u and four hexadecimal digits"},
+    {"surrogate", "half of a pair of escaped characters is missing", "both halves, \\uD8XX\\uDCXX"},
+    {"BOM", "the mark at the beginning of the text is not complete", "a file saved as UTF-8"},
+    {"comment", "this comment is not complete", "// to the end of the line, or /* and */"},
+    {"invalid number", "this number is not complete", "numbers such as 1, -0.5 and 2e-3"},
+    {"; expected string literal", "a key is missing here", "a key in double quotes"},
+    {"; expected ':'", "a colon is missing behind the key", "\"key\": value"},
+    {"; expected '}'", "a comma or a closing bracket is missing here", ", or }"},
+    {"; expected ']'", "a comma or a closing bracket is missing here", ", or ]"},
+    {"; expected end of input", "the text continues behind its closing bracket", "one value in a file"},
+    {"", "this is not a value", "a number, true, false, null, text in double quotes, [ or {"}};
+
+// Messages of nlohmann/json: "…; last read: 'TEXT'; expected …", where TEXT is of the file and tells nothing of the fault.
+const SyntaxFault& syntaxFault(std::string message) {
+  if (const auto read = message.find("; last read"); read != std::string::npos)
+    message.erase(read, std::max(message.rfind("'; expected"), read) - read);
+  return *std::find_if(std::begin(kSyntaxFaults), std::end(kSyntaxFaults),
+                       [&](const SyntaxFault& fault) { return message.find(fault.library) != std::string::npos; });
+}
 
 class TreeBuilder : public nlohmann::json::json_sax_t {
  public:
@@ -82,13 +115,11 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
   }
   bool parse_error(std::size_t, const std::string&, const nlohmann::detail::exception& e) override {
     const std::size_t end = offset();
-    std::string what = e.what();
     if (e.id == 406) throw FaultError(Fault{{}, "this number is beyond the range of a double", "finite numbers", place(tokenStart())});
     if (const std::size_t comma = trailingComma(end); comma != std::string::npos)
       throw FaultError(Fault{{}, "this comma has nothing behind it", "a further element, or no comma after the last one", place(comma)});
-    if (const auto at = what.find("column "); at != std::string::npos)
-      if (const auto colon = what.find(": ", at); colon != std::string::npos) what.erase(0, colon + 2);
-    throw FaultError(Fault{{}, what, {}, place(end > 0 ? end - 1 : 0)});
+    const SyntaxFault& fault = syntaxFault(e.what());
+    throw FaultError(Fault{{}, fault.what, fault.allowed, place(end > 0 ? end - 1 : 0)});
   }
 
  private:
@@ -141,8 +172,8 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
     constexpr double kMost = 9007199254740992;
     const auto number = static_cast<double>(value);
     if (std::abs(number) > kMost || (std::abs(number) == kMost && static_cast<Whole>(number) != value))
-      throw FaultError(
-          Fault{key_, fmt::format("is {}, which would be rounded", value), fmt::format("whole numbers up to {:.0f}", kMost), place(tokenStart())});
+      throw FaultError(Fault{key_, fmt::format("is {}, which would be rounded", value), fmt::format("whole numbers up to {:.0f}", kMost),
+                             place(tokenStart())});
     return putNumber(number, true);
   }
   bool putNumber(double value, bool integer) {

@@ -68,10 +68,39 @@ Fault faultOf(const std::string& text) {
 TEST(JsonTree, TellsWhereASentenceOfItsSyntaxBreaks) {
   const Fault fault = faultOf("{\n  \"a\": ,\n}");
   EXPECT_EQ(fault.place, (FilePlace{"made.json", 2, 8}));
-  EXPECT_TRUE(fault.what.starts_with("syntax error while parsing value - unexpected ','")) << fault.what;
-  EXPECT_EQ(fault.key + fault.allowed, "");
+  EXPECT_EQ(toText(fault), "made.json:2:8: this is not a value; allowed: a number, true, false, null, text in double quotes, [ or {");
   EXPECT_EQ(faultOf("").place, (FilePlace{"made.json", 1, 1}));
   EXPECT_EQ(faultOf("x").place, (FilePlace{"made.json", 1, 1}));
+}
+
+// No text of the library, and one sentence for each way in which a text is no JSON.
+TEST(JsonTree, TellsEachFaultOfSyntaxInItsOwnSentence) {
+  const std::pair<std::string, std::string> cases[] = {{"", "the text ends before the value is complete"},
+                                                       {"{\"a\": [1", "the text ends before the value is complete"},
+                                                       {"[\"a", "a string is not closed before the end of the text"},
+                                                       {"[\"a\n\"]", "a string contains a control character, such as the end of its line"},
+                                                       {"[\"\xE9\"]", "a string contains bytes that are not UTF-8"},
+                                                       {R"(["\d"])", "this character has no meaning after a backslash"},
+                                                       {R"(["\u12"])", "an escaped character is not complete"},
+                                                       {R"(["\uD834"])", "half of a pair of escaped characters is missing"},
+                                                       {"\xEF{}", "the mark at the beginning of the text is not complete"},
+                                                       {"{} /* x", "this comment is not complete"},
+                                                       {"[-]", "this number is not complete"},
+                                                       {"[1.]", "this number is not complete"},
+                                                       {"{a: 1}", "a key is missing here"},
+                                                       {"{1: 1}", "a key is missing here"},
+                                                       {"{\"a\" 1}", "a colon is missing behind the key"},
+                                                       {"{\"a\": 1 \"b\": 2}", "a comma or a closing bracket is missing here"},
+                                                       {"[1 2]", "a comma or a closing bracket is missing here"},
+                                                       {"[1, 2}", "a comma or a closing bracket is missing here"},
+                                                       {"{} {}", "the text continues behind its closing bracket"},
+                                                       {"[yes]", "this is not a value"},
+                                                       {"['; expected ':']", "this is not a value"}};
+  for (const auto& [text, what] : cases) {
+    const Fault fault = faultOf(text);
+    EXPECT_EQ(fault.what, what) << text;
+    EXPECT_NE(fault.allowed, "") << text;
+  }
 }
 
 TEST(JsonTree, NamesACommaBehindTheLastElement) {
@@ -81,7 +110,6 @@ TEST(JsonTree, NamesACommaBehindTheLastElement) {
     EXPECT_EQ(fault.place->line, 2) << text;
     EXPECT_EQ(text[std::string(text).find('\n') + static_cast<std::size_t>(fault.place->column)], ',') << text;
   }
-  EXPECT_TRUE(faultOf("[1, 2}").what.starts_with("syntax error")) << "another bracket is another fault";
 }
 
 TEST(JsonTree, RefusesANumberThatNoDoubleHolds) {

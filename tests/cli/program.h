@@ -53,7 +53,8 @@ inline void expectTheOneForm(const std::string& arguments, const Ended& ended) {
     EXPECT_TRUE(!told || isHead || std::regex_match(line, below)) << "reach " << arguments << "\n" << ended.err;
   }
   EXPECT_TRUE(told) << "reach " << arguments << "\n" << ended.err;
-  for (const char* foreign : {"not in range", "Could not convert", "required", "json.exception", "std::", " INT", " FLOAT"})
+  for (const char* foreign :
+       {"not in range", "Could not convert", "required", "json.exception", "syntax error", "parse error", "std::", " INT", " FLOAT"})
     EXPECT_EQ(ended.err.find(foreign), std::string::npos) << "reach " << arguments << "\n" << ended.err;
   if (const char* list = std::getenv("REACHLAB_MESSAGES"))
     std::ofstream(list, std::ios::app) << "$ reach " << arguments << "\n" << ended.err;
