@@ -54,8 +54,6 @@ void addFigure(Html& html, const std::vector<NamedFigure>& figures, const std::s
   }
 }
 
-std::string plural(std::size_t n, const char* noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
-
 std::string real(const std::string& number) {  // a minus is no hyphen
   std::string text = number;
   for (std::size_t at; (at = text.find('-')) != std::string::npos;) text.replace(at, 1, "−");
@@ -360,7 +358,7 @@ std::string makeReport(const ReportHeader& header, const Analysis& analysis, con
   html.paragraph(describeLimits(analysis));
   html.paragraph(
       "Definitions of all measures and columns: docs/analysis.md of Reachlab. Every number of a figure is in a CSV file beside this page.");
-  for (const std::string& sentence : header.plan) html.paragraph(sentence);
+  for (const std::string& option : header.plan) html.paragraph(option);
   html.paragraph("Command: " + header.command, "quiet");
   addProvenance(html, runs, notes);
   html.add("</body>\n</html>");

@@ -19,8 +19,6 @@ std::string joined(const std::vector<std::string>& parts) {
   return text;
 }
 
-std::string plural(std::size_t n, const std::string& noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
-
 /// "[5, 37]"; empty where there is none.
 std::string intervalText(const Bounds& i) {
   return std::isfinite(i.low) && std::isfinite(i.high) ? fmt::format("[{}, {}]", shortNumber(i.low), shortNumber(i.high)) : "";
@@ -55,6 +53,8 @@ std::string shortNumber(double value) {
   if (text.front() == '-') text = "−" + text.substr(1);
   return text;
 }
+
+std::string plural(std::size_t n, const std::string& noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
 
 std::string pText(double p) { return p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p); }
 

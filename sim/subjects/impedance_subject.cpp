@@ -103,8 +103,8 @@ class ImpedanceHand final : public haptics::HapticDevice, public haptics::BlindH
     }
     const ImpedanceSpec& spec = task_->spec;
     SubjectDraws draws(seed_, static_cast<std::uint64_t>(index));
-    constexpr double kShortest = 0.2, kReactionSpread = 0.15;
-    const double stretch = std::max(kShortest, 1 + spec.noise * spec.timeSd * draws.boundedNormal());
+    constexpr double kLeastStretch = 0.2, kReactionSpread = 0.15;
+    const double stretch = std::max(kLeastStretch, 1 + spec.noise * spec.timeSd * draws.boundedNormal());
     const double reaction = spec.reaction * (1 + std::min(spec.noise, 1.0) * kReactionSpread * draws.boundedNormal());
     prepared_.reach = meanReach(*task_, *known_.plant, stretch);
     prepared_.reactionTicks = static_cast<int>(std::lround(reaction / kTickSeconds));

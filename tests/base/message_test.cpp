@@ -68,7 +68,9 @@ TEST(Message, PointsAtCharactersAndNotAtBytes) {
 }
 
 TEST(Message, CutsALongLineAroundItsCaret) {
-  const Written file(std::string(500, 'a') + "!" + std::string(500, 'b'));
+  std::string text(1001, 'b');
+  text.replace(0, 501, std::string(500, 'a') + '!');
+  const Written file(text);
   const std::string message = messageOf(Fault{"", "is wrong", "", FilePlace{file.name, 1, 501}});
   const std::size_t line = message.find("  1 | ") + 6, end = message.find('\n', line), caret = message.find('^');
   const std::string shown = message.substr(line, end - line);
