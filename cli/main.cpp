@@ -12,10 +12,10 @@
 #include "base/system/processor_level.h"
 #include "base/system/stop_signals.h"
 #include "base/terminal/command_words.h"
+#include "base/terminal/help_format.h"
 #include "cli/commands/commands.h"
 #include "cli/terminal/every_option.h"
 #include "cli/terminal/exit_code.h"
-#include "cli/terminal/help_format.h"
 #include "cli/terminal/standard_streams.h"
 
 using namespace reachlab;

@@ -7,6 +7,7 @@
 #include <QTimer>
 #include <cstdio>
 #include <cstdlib>
+#include <memory>
 
 #include <unistd.h>
 
@@ -17,6 +18,7 @@
 #include "base/system/processor_level.h"
 #include "base/system/stop_signals.h"
 #include "base/terminal/command_words.h"
+#include "base/terminal/help_format.h"
 #include "base/terminal/message.h"
 #include "base/terminal/parse_fault.h"
 #include "gui/app/display.h"
@@ -55,6 +57,7 @@ void parseStation(CLI::App& app, int number, bool observes, const CLI::App& opti
 }
 
 Arguments parse(CLI::App& app, int argc, char** argv) {
+  app.formatter(std::make_shared<reachlab::HelpFormat>());  // before the groups, which take it over
   Arguments a;
   reachlab::session::SessionRequest& r = a.request;
   r.what = "chain-moderate";
@@ -62,9 +65,10 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
   app.set_version_flag("--version", "reachlab " REACHLAB_VERSION);
   app.add_option(
       "experiment", r.what,
-      "Experiment or session plan: a file, or the name of a shipped one [chain-moderate]; or what was recorded: a dataset, a session, a log");
-  app.add_option("--device", r.device,
-                 "mouse, simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER, phantom …; `reach list devices` tells all [mouse]");
+      "Experiment or session plan: a file, or the name of a shipped one; or a recording: a dataset, a session, a log [default: chain-moderate]");
+  app.add_option(
+      "--device", r.device,
+      "mouse, simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER, phantom …; `reach list devices` tells all [default: mouse]");
   app.add_option("--instrument", r.instruments,
                  "Instrument: lsl, parallel:PATH, rts:PATH or byte:PATH. It is told go, onset and end. May be given several times")
       ->expected(1)
@@ -74,9 +78,9 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
       ->check(CLI::Range(1, 1000000));
   app.add_option("--run", r.run, "Run number. A number that is taken is refused [default: the next free number]")
       ->check(CLI::Range(1, reachlab::record::kMaxRun));
-  app.add_option("--subject", r.place.subject, "Subject's label, letters and digits [01]");
-  app.add_option("--session", r.place.session, "Session's label, letters and digits [01]");
-  app.add_option("--data", r.place.data, "Folder of the dataset [./data]");
+  app.add_option("--subject", r.place.subject, "Subject's label, letters and digits [default: 01]");
+  app.add_option("--session", r.place.session, "Session's label, letters and digits [default: 01]");
+  app.add_option("--data", r.place.data, "Folder of the dataset [default: ./data]");
   app.add_option("--day", r.day, "Day of the plan, when the session's label is no number")->check(CLI::Range(1, 10000));
   app.add_option("--seed", r.seed, "Seed of noise and order [default: a seed is drawn and stored]")
       ->check(CLI::Validator(
@@ -86,7 +90,7 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
           },
           "SEED"));
   app.add_flag("--resume", r.resume, "Continue with the trial at which this session broke off");
-  app.add_option("--pictures", a.pictures, "Draw every constraint of the catalogue into this folder, and end");
+  app.add_option("--pictures", a.pictures, "Draw every constraint and every shipped experiment into this folder, and end");
   int number = 0;
   reachlab::network::StationSetup setup;
   CLI::App* station = app.add_option_group("Station", "One of several stations that move one object together");

@@ -25,8 +25,8 @@ void addStationOptions(CLI::App& command, StationSetup& setup) {
   command.add_flag(named("conductor"), link.conductor, "Arms the trials and judges them for all; one station");
   auto* peers = command.add_option(named("peers"), link.secure, "Folder of this station's certificates (reach peers)");
   command.add_flag(named("insecure"), setup.insecure, "Without certificates and encryption: on a network of one's own")->excludes(peers);
-  command.add_option(named("name"), link.name, "Name that the others see [the computer's]");
-  command.add_option(named("interface"), link.interface, "Network interface [the system's choice]");
+  command.add_option(named("name"), link.name, "Name that the others see [default: the computer's]");
+  command.add_option(named("interface"), link.interface, "Network interface [default: the system's choice]");
   command.add_option(named("peer"), link.peers, "Address of another station beyond this network; several times. No multicast then")
       ->allow_extra_args(false);
   command.add_option(named("domain"), link.domain, "Stations of one domain hear each other")

@@ -1,4 +1,4 @@
-#include "cli/terminal/help_format.h"
+#include "base/terminal/help_format.h"
 
 #include <algorithm>
 #include <array>
@@ -10,10 +10,10 @@
 
 #include "base/terminal/parse_fault.h"
 
-namespace reachlab::cli {
+namespace reachlab {
 namespace {
 
-constexpr std::size_t kColumns = 100;
+constexpr std::size_t kHelpColumns = 100;
 
 // Letters, and not bytes: an ellipsis has three bytes and one column.
 std::size_t widthOf(std::string_view text) {
@@ -48,13 +48,13 @@ std::string HelpFormat::make_help(const CLI::App* app, std::string name, CLI::Ap
   return help;
 }
 
-std::string HelpFormat::make_description(const CLI::App* app) const { return wrapped(app->get_description(), kColumns) + "\n"; }
+std::string HelpFormat::make_description(const CLI::App* app) const { return wrapped(app->get_description(), kHelpColumns) + "\n"; }
 
 // Paragraphs are filled. An indented line is an example: it goes on in the next line as a shell reads it.
 std::string HelpFormat::make_footer(const CLI::App* app) const {
   std::string filled, paragraph;
   const auto flush = [&] {
-    if (!paragraph.empty()) filled += wrapped(paragraph, kColumns) + "\n";
+    if (!paragraph.empty()) filled += wrapped(paragraph, kHelpColumns) + "\n";
     paragraph.clear();
   };
   std::istringstream lines(app->get_footer());
@@ -65,8 +65,8 @@ std::string HelpFormat::make_footer(const CLI::App* app) const {
       continue;
     }
     flush();
-    if (widthOf(line) <= kColumns) filled += line + "\n";
-    else filled += (heading ? "" : "  ") + wrapped(line, kColumns - 8, " \\\n      ") + "\n";
+    if (widthOf(line) <= kHelpColumns) filled += line + "\n";
+    else filled += (heading ? "" : "  ") + wrapped(line, kHelpColumns - 8, " \\\n      ") + "\n";
   }
   flush();
   return filled;
@@ -74,7 +74,7 @@ std::string HelpFormat::make_footer(const CLI::App* app) const {
 
 std::string HelpFormat::make_subcommand(const CLI::App* command) const {
   std::ostringstream out;
-  CLI::detail::format_help(out, command->get_display_name(true), wrapped(command->get_description(), kColumns - column_width_),
+  CLI::detail::format_help(out, command->get_display_name(true), wrapped(command->get_description(), kHelpColumns - column_width_),
                            column_width_);
   return out.str();
 }
@@ -94,7 +94,7 @@ std::string HelpFormat::make_option_desc(const CLI::Option* option) const {
     if (!option->get_default_str().empty()) text += " [default: " + option->get_default_str() + "]";
     if (option->get_required()) text += " (required)";
   }
-  return wrapped(text, kColumns - column_width_);
+  return wrapped(text, kHelpColumns - column_width_);
 }
 
-}  // namespace reachlab::cli
+}  // namespace reachlab

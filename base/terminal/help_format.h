@@ -2,7 +2,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
-namespace reachlab::cli {
+namespace reachlab {
 
 /// Help in one form for every command: `--trials <N>` on the left, and on the right the meaning, the range, and `[default: …]`. No line has more
 /// than 100 columns.
@@ -16,4 +16,4 @@ class HelpFormat : public CLI::Formatter {
   std::string make_option_desc(const CLI::Option* option) const override;
 };
 
-}  // namespace reachlab::cli
+}  // namespace reachlab
