@@ -10,14 +10,16 @@
 #include "constraints/constraint.h"
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/theme.h"
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/resources.h"
 
 namespace reachlab::gui::scene {
 namespace {
 
 constexpr int kWidth = 480, kHeight = 360, kAcross = 4, kDown = 3;
 
-ScenePlan planOf(const constraints::Definition& definition) {
+experiment::Experiment reachOn(const constraints::Definition& definition) {
   experiment::Experiment e;
   e.object.kind = experiment::ObjectKind::Point;
   e.object.masses = {1};
@@ -25,7 +27,7 @@ ScenePlan planOf(const constraints::Definition& definition) {
   e.task = experiment::Task{};
   e.task->start = definition.start;
   e.task->target = definition.target;
-  return planScene(e, constraints::makeConstraint(definition));
+  return e;
 }
 
 void save(const QImage& image, const QString& file) {
@@ -35,13 +37,21 @@ void save(const QImage& image, const QString& file) {
 }  // namespace
 
 int drawPictures(const QString& folder) {
-  if (!QDir().mkpath(folder)) throw ResourceError(folder.toStdString() + ": the folder could not be made. Choose another folder");
+  for (const QString& part : {folder, folder + QStringLiteral("/experiments")})
+    if (!QDir().mkpath(part)) throw ResourceError(part.toStdString() + ": the folder could not be made. Choose another folder");
   SceneView view;
   OverlayState overlay;
   overlay.semaphoreShown = false;
   view.resize(kWidth, kHeight);
   view.show();
   QCoreApplication::processEvents();
+  const auto picture = [&](const std::string& name, const ScenePlan& plan) {
+    overlay.counter = QString::fromStdString(name);
+    view.setOverlay(overlay);
+    view.setPlan(plan);
+    QCoreApplication::processEvents();
+    return view.grabScene();
+  };
   QImage sheet;
   int drawn = 0, sheets = 0;
   const auto closeSheet = [&] {
@@ -49,22 +59,24 @@ int drawPictures(const QString& folder) {
     sheet = {};
   };
   for (const constraints::Definition& definition : constraints::catalogue()) {
-    const QString name = QString::fromStdString(definition.name);
-    overlay.counter = name;
-    view.setOverlay(overlay);
-    view.setPlan(planOf(definition));
-    QCoreApplication::processEvents();
-    const QImage picture = view.grabScene();
-    save(picture, QStringLiteral("%1/%2.png").arg(folder, name));
+    const QImage image = picture(definition.name, planScene(reachOn(definition), constraints::makeConstraint(definition)));
+    save(image, QStringLiteral("%1/%2.png").arg(folder, QString::fromStdString(definition.name)));
     if (sheet.isNull()) {
       sheet = QImage(kAcross * kWidth, kDown * kHeight, QImage::Format_RGB32);
       sheet.fill(widgets::toQColor(widgets::colours::kBase));
     }
     const int place = drawn % (kAcross * kDown);
-    QPainter(&sheet).drawImage(QRect((place % kAcross) * kWidth, (place / kAcross) * kHeight, kWidth, kHeight), picture);
+    QPainter(&sheet).drawImage(QRect((place % kAcross) * kWidth, (place / kAcross) * kHeight, kWidth, kHeight), image);
     if (++drawn % (kAcross * kDown) == 0) closeSheet();
   }
   closeSheet();
+  for (const auto& names : {experiment::shippedExperiments(), experiment::shippedForTwoHands()})
+    for (const std::string& name : names) {
+      const experiment::CompiledExperiment shipped(experiment::readExperiment(*experiment::shippedExperimentFile(name)));
+      save(picture(name, planScene(shipped.experiment(), shipped.constraint())),
+           QStringLiteral("%1/experiments/%2.png").arg(folder, QString::fromStdString(name)));
+      ++drawn;
+    }
   return drawn;
 }
 
