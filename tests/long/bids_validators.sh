@@ -1,5 +1,5 @@
 #!/bin/bash
-# Both BIDS validators on a dataset of two subjects x two days that `reach` writes. Needs node and npm; $1 is the build folder.
+# Both BIDS validators on a dataset of two subjects x two days that `reach` writes, with a block that mixes kinds of trials. Needs node and npm; $1 is the build folder.
 set -euo pipefail
 build=$(realpath "$1")
 source=$(realpath "$(dirname "$0")/../..")
@@ -18,6 +18,8 @@ for subject in 01 02; do
       "$build/cli/reach" run $experiment --device simulated --trials 3 --seed 1 --fast --subject $subject --session $session --data "$data" \
         --age $age --sex F --handedness R > /dev/null
     done
+    "$build/cli/reach" run "$source/tests/record/bids/mixed.json" --device simulated:kind=ofc --seed 1 --fast --subject $subject --session $session \
+      --data "$data" --age $age --sex F --handedness R > /dev/null
   done
   age=31
 done

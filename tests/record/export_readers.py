@@ -5,9 +5,11 @@ and every number is compared with the CSV export, bit for bit; C3D holds single 
 Octave's and R's readers: tests/long/exports.sh."""
 import csv
 import json
+import struct
 import subprocess
 import sys
 import tempfile
+import zlib
 from pathlib import Path
 
 import h5py
@@ -116,6 +118,62 @@ def check_c3d(path, samples, trial):
     assert c3d.parameters["REACHLAB:OUTCOME"].texts()[0] == trial["outcome"]
 
 
+MIXED = Path(__file__).parent / "bids/mixed.json"
+
+
+def read_log(path):
+    """Rows of samples by column, and (kind, target) of each trial, read without the program (docs/recording.md)."""
+    data, at, rows, planned = path.read_bytes(), 16, [], []
+    while at + 16 <= len(data):
+        length, kind, _, _ = struct.unpack_from("<IHHI", data, at)
+        payload = data[at + 12:at + 12 + length]
+        assert zlib.crc32(data[at:at + 12 + length]) == struct.unpack_from("<I", data, at + 12 + length)[0]
+        if kind == 1:
+            configuration = json.loads(payload)
+        elif kind == 3:
+            count, columns = struct.unpack_from("<II", payload)
+            rows.append(numpy.frombuffer(payload, dtype=[("tick", "<u8"), ("value", "<f8", columns)], count=count, offset=8)["value"])
+        elif kind == 5:
+            planned.append(struct.unpack_from("<i", payload, 4)[0])
+        at += 16 + length
+    scenes = [configuration["scenes"][configuration["trials"][i].get("scene", 0)] for i in planned]
+    names = [(channel["column"], channel["name"], channel["tracked_point"]) for channel in configuration["table"]["channels"]]
+    return names, numpy.concatenate(rows), [(scene["kind"], scene["target"]) for scene in scenes]
+
+
+def check_mixed(run, data):
+    """A block that mixes kinds: forces on the hand, cursor, kinds and targets are the log's in every format."""
+    run("run", MIXED, "--device", "simulated:kind=ofc", "--seed", "1", "--fast", "--data", data)
+    for form in ("csv", "mat", "hdf5", "c3d", "bids"):
+        run("export", data, "--format", form)
+    names, rows, scenes = read_log(next((data / "sourcedata").glob("*_log.reach")))
+    assert len(set(scenes)) == 8, scenes
+    columns = {column: rows[:, k] for k, (column, _, _) in enumerate(names)}
+    assert numpy.abs(columns["environment_z_n"]).max() > 1 and numpy.abs(columns["cursor_z_m"] - columns["hand_z_m"]).max() > 0.02
+    derived = data / "derivatives"
+    samples, trials = read_csv(next(derived.glob("csv/*_samples.csv"))), read_csv(derived / "csv/trials.csv")
+    for column, values in columns.items():
+        if column not in ("time_s", "measured_s"):  # of exported files since the first sample
+            equal(column_of(samples, column), values, ("csv", column))
+    assert [(row["kind"], row["target"]) for row in trials] == scenes
+    assert check_mat5(next(derived.glob("mat/*.mat")), samples, trials) == check_hdf5(next(derived.glob("hdf5/*.h5")), samples, trials)
+    for k, trial in enumerate(trials):
+        c3d = C3d(derived / "c3d" / f"{next(derived.glob('csv/*_samples.csv')).name.removesuffix('_samples.csv')}_trial-{k + 1:03}.c3d")
+        assert (c3d.parameters["REACHLAB:KIND"].texts()[0], c3d.parameters["REACHLAB:TARGET"].texts()[0]) == scenes[k]
+        begin = float(c3d.parameters["REACHLAB:BEGIN_S"].data)
+        first = next(i for i, row in enumerate(samples) if begin <= float(row["time_s"]))
+        part = slice(first, first + len(c3d.place))
+        for axis, name in enumerate("xyz"):
+            assert numpy.array_equal(c3d.place[:, c3d.points.index("cursor"), axis], (1000 * columns[f"cursor_{name}_m"][part]).astype("<f4")), k
+            channel = next(c for column, c, _ in names if column == f"environment_{name}_n")
+            assert numpy.array_equal(c3d.signal[:, c3d.signals.index(channel)].astype("<f4"), columns[f"environment_{name}_n"][part].astype("<f4")), k
+    for events in data.glob("sub-*/ses-*/motion/*_events.tsv"):
+        with open(events, newline="", encoding="utf-8") as file:
+            told = [row for row in csv.DictReader(file, delimiter="\t") if row["trial_type"] == "reach"]
+        assert [(row["kind"], row["target"]) for row in told] == scenes
+    print(f"a mixed block: {len(samples)} rows of {len(columns)} columns, kind and target of {len(trials)} trials are the log's in all formats")
+
+
 def main():
     reach = Path(sys.argv[1]).resolve()
     with tempfile.TemporaryDirectory() as work:
@@ -143,6 +201,7 @@ def main():
             for trial in trials:
                 check_c3d(data / "derivatives/c3d" / f"{name}_trial-{int(trial['trial']):03}.c3d", samples, trial)
             print(f"{name}: {len(samples)} rows of {len(samples[0])} columns and 3 trials read the same from mat, hdf5 and c3d")
+        check_mixed(run, Path(work) / "mixed")
 
 
 if __name__ == "__main__":
