@@ -21,12 +21,14 @@ AdaptationTrial seen(const AnalyzedTrial& trial, bool rotated) {
   return {trial.scene.inField ? 1.0 : 0.0, std::nullopt};
 }
 
-void row(Sheet& table, const std::string& subject, const std::string& block, const AdaptationSeries& series, bool rotated) {
+void row(Sheet& table, const std::string& subject, const std::string& block, const AdaptationSeries& series, bool rotated,
+         const Learning& learning = {}) {
   const auto count = [&](auto&& is) { return static_cast<std::size_t>(std::count_if(series.begin(), series.end(), is)); };
   table.cell(subject).cell(block).cell(rotated ? "deg" : "field");
   table.count(series.size());
   table.count(count([](const AdaptationTrial& t) { return !t.perturbation; }));
   table.count(count([](const AdaptationTrial& t) { return t.response.has_value(); }));
+  std::string remark;
   try {
     const AdaptationFit fit = fitAdaptation(series, kResamples, 1);
     table.cell(fit.count == StateCount::One ? "one" : fit.count == StateCount::Two ? "two" : "undecided");
@@ -37,13 +39,17 @@ void row(Sheet& table, const std::string& subject, const std::string& block, con
       }
       table.number(std::sqrt(of->meanSquare));
     }
-    table.cell("");
   } catch (const RefusedError& error) {
     table.cell("");
     constexpr int kNumbers = 3 * 2 * 3 + 2;  // three states, retention and rate with their intervals; two residuals
     for (int i = 0; i < kNumbers; ++i) table.number(kNotMeasured);
-    table.cell(error.what());
+    remark = error.what();
   }
+  table.number(learning.plateau);
+  for (const bool angles : {false, true})
+    for (const double deviation : {learning.first, learning.last, learning.afterEffect})
+      table.number(angles == rotated ? deviation : kNotMeasured);
+  table.cell(remark);
   table.endRow();
 }
 
@@ -61,7 +67,7 @@ void writeAdaptationTable(const Analysis& analysis, const TableWriter& write) {
       blocks[trial->key.block].push_back(all.back());
     }
     for (const auto& [block, series] : blocks) row(table, subject, std::to_string(block), series, person.rotated);
-    row(table, subject, "all", all, person.rotated);
+    row(table, subject, "all", all, person.rotated, learningOf(person));
   }
   table.flush();
 }

@@ -39,6 +39,7 @@ struct AnalysisOptions {
 struct Condition {
   std::string name;
   experiment::CompiledExperiment compiled;
+  bool pooled = false;  // trials to several targets at one distance; `compiled` is that of the first target
   const experiment::Experiment& experiment() const { return compiled.experiment(); }
 };
 

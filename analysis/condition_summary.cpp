@@ -43,6 +43,11 @@ void addPredictions(const Condition& condition, const AnalysisOptions& options, 
   how.handMass = options.handMass;
   how.handDamping = options.handDamping;
   for (const predict::Criterion criterion : drawnCriteria(options)) {
+    if (!holdsFor(condition, criterion)) {
+      result.refusals.push_back(
+          fmt::format("{}: it differs between directions, and the trials to several targets are taken together", nameOf(criterion)));
+      continue;
+    }
     try {
       std::unique_ptr<predict::Prediction> prediction = options.predictFor == PredictionDuration::Moved && result.used > 0
                                                             ? predictLasting(condition, criterion, how, options, result)
@@ -113,6 +118,10 @@ void summarise(Analysis& analysis, std::size_t condition) {
   result.object = object.result();
   result.handEpsilon = makeEpsilonTable(trials, result.signals.size(), false);
   result.objectEpsilon = makeEpsilonTable(trials, result.signals.size(), true);
+}
+
+bool holdsFor(const Condition& condition, predict::Criterion criterion) {
+  return !condition.pooled || criterion != predict::Criterion::MinTorqueChange;
 }
 
 std::span<AnalyzedTrial> trialsOf(Analysis& analysis, std::size_t condition) {

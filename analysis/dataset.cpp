@@ -32,14 +32,41 @@ std::string nameApart(const std::string& name, const std::vector<std::string>& d
   return fmt::format("{} ({}{})", name, fmt::join(named, ", "), different.size() > kMost ? ", …" : "");
 }
 
-std::size_t conditionIndex(DatasetIndex& dataset, const std::string& name, const experiment::CompiledExperiment& compiled) {
+struct ConditionName {
+  std::string name;
+  bool pooled = false;
+};
+
+/// The condition of each scene of a run. Targets that ask for one movement in several directions are one condition: the kind of trial.
+std::vector<ConditionName> conditionNames(const record::RunConfiguration& c, std::span<const experiment::CompiledExperiment> scenes) {
+  if (!c.scenes) return {ConditionName{record::conditionOf(c)}};
+  const auto withoutTarget = [](const record::RunScene& scene) {
+    const std::string ending = " " + scene.target;
+    if (scene.target.empty() || !scene.condition.ends_with(ending)) return scene.condition;
+    return scene.condition.substr(0, scene.condition.size() - ending.size()) + (scene.target.ends_with("-back") ? " back" : "");
+  };
+  std::map<std::string, std::vector<std::size_t>> kinds;
+  for (std::size_t i = 0; i < c.scenes->size(); ++i) kinds[withoutTarget((*c.scenes)[i])].push_back(i);
+  std::vector<ConditionName> names;
+  for (const record::RunScene& scene : *c.scenes) names.push_back({scene.condition});
+  for (const auto& [name, members] : kinds)
+    if (members.size() > 1 && std::all_of(members.begin() + 1, members.end(), [&](std::size_t i) {
+          return differInDirectionOnly(scenes[members.front()].experiment(), scenes[i].experiment());
+        }))
+      for (const std::size_t i : members) names[i] = {name, true};
+  return names;
+}
+
+std::size_t conditionIndex(DatasetIndex& dataset, const ConditionName& named, const experiment::CompiledExperiment& compiled) {
+  const std::string& name = named.name;
   const experiment::Experiment& experiment = compiled.experiment();
   auto& conditions = dataset.conditions;
   const auto first = std::find_if(conditions.begin(), conditions.end(), [&](const Condition& c) { return c.name == name; });
   if (first == conditions.end()) {
-    conditions.push_back({name, compiled});
+    conditions.push_back({name, compiled, named.pooled});
     return conditions.size() - 1;
   }
+  if (named.pooled && differInDirectionOnly(first->experiment(), experiment)) return static_cast<std::size_t>(first - conditions.begin());
   const std::vector<std::string> different = differences(first->experiment(), experiment);
   if (different.empty()) return static_cast<std::size_t>(first - conditions.begin());
   // One name over unlike experiments would mix what cannot be compared.
@@ -55,7 +82,7 @@ std::size_t conditionIndex(DatasetIndex& dataset, const std::string& name, const
   dataset.notes.push_back(
       fmt::format("{} was recorded with more than one experiment; they are kept apart. {} differs from the first in: {}", name, own,
                   fmt::join(different, ", ")));
-  conditions.push_back({own, compiled});
+  conditions.push_back({own, compiled, named.pooled});
   return conditions.size() - 1;
 }
 
@@ -127,12 +154,13 @@ void addRun(const RunSource& run, std::span<const experiment::CompiledExperiment
     return;
   }
   const auto trained = trainedField(scenes, c.subject, index);
+  const std::vector<ConditionName> names = conditionNames(c, scenes);
   std::map<int, Stage> stages;  // by scene
   const auto stageOf = [&](const trial::PlannedTrial& planned) -> Stage& {
     if (const auto known = stages.find(planned.scene); known != stages.end()) return known->second;
     const experiment::CompiledExperiment& compiled = scenes[static_cast<std::size_t>(planned.scene)];
     const experiment::Experiment& experiment = compiled.experiment();
-    Stage stage{conditionIndex(index, record::conditionOf(c, planned), compiled),
+    Stage stage{conditionIndex(index, names[static_cast<std::size_t>(planned.scene)], compiled),
                 RunTrials(c.table, c.sampleEveryTicks, {compiled.constraint(), experiment.task->start, experiment.task->target},
                           sceneOf(experiment, trained))};
     return stages.emplace(planned.scene, std::move(stage)).first->second;
@@ -143,6 +171,8 @@ void addRun(const RunSource& run, std::span<const experiment::CompiledExperiment
     const std::size_t condition = stage.condition;
     TrialData trial = stage.trials.read(recorded, run.rowsOf);
     trial.key = {c.subject, c.session, index.conditions[condition].name, c.day, c.run, c.block, recorded.trial};
+    if (const record::RunScene* scene = record::sceneOf(c, recorded.planned))
+      trial.key.kind = scene->kind, trial.key.target = scene->target;
     trial.practice = c.practice;
     if (const record::TrialMark* mark = run.marks.find(recorded.trial)) {
       trial.excluded = mark->excluded;

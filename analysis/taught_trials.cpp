@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace reachlab::analysis {
@@ -22,6 +23,40 @@ std::map<std::string, TaughtTrials> taughtTrials(const Analysis& analysis) {
       return place(*a) < place(*b);
     });
   return people;
+}
+
+Learning learningOf(const TaughtTrials& person) {
+  constexpr std::size_t kFew = 5;  // an after-effect fades within some trials
+  const auto& trials = person.trials;
+  const auto perturbed = [&](const AnalyzedTrial* t) { return person.rotated ? t->scene.rotation != 0 : t->scene.inField; };
+  const auto deviation = [&](const AnalyzedTrial* t) { return person.rotated ? t->measures.handAngle : t->measures.maxPerpendicular; };
+  const auto share = [&](const AnalyzedTrial* t) {
+    if (!person.rotated) return t->measures.adaptation;
+    return perturbed(t) ? -100 * t->measures.handAngle / t->scene.rotation : kNotMeasured;
+  };
+  const auto begin = std::find_if(trials.begin(), trials.end(), perturbed);
+  const auto end = std::find_if(trials.rbegin(), trials.rend(), perturbed).base();
+  const auto late = end - (end - begin) / 4;
+  const auto meanOf = [](auto from, auto to, const auto& value, std::size_t most) {
+    std::vector<double> values;
+    for (auto at = from; at != to && values.size() < most; ++at)
+      if (const double v = value(*at); std::isfinite(v)) values.push_back(v);
+    return computeMeanSd(values).mean;
+  };
+  const auto only = [&](bool inTraining) {
+    return
+        [&, inTraining](const AnalyzedTrial* t) { return !t->scene.channel && perturbed(t) == inTraining ? deviation(t) : kNotMeasured; };
+  };
+  constexpr std::size_t kAll = std::numeric_limits<std::size_t>::max();
+  Learning out;
+  out.plateau = meanOf(late, end, share, kAll);
+  const double before = meanOf(trials.begin(), begin, only(false), kAll);
+  const double least = std::isfinite(before) ? before : 0;
+  out.first = meanOf(begin, end, only(true), kFew) - least;
+  out.last = meanOf(late, end, only(true), kAll) - least;
+  const double after = meanOf(end, trials.end(), only(false), kFew);
+  out.afterEffect = (std::isfinite(after) ? after : meanOf(late, end, only(false), kAll)) - least;
+  return out;
 }
 
 }  // namespace reachlab::analysis

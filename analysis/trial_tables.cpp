@@ -39,7 +39,8 @@ void trialsTable(const Analysis& analysis, const TableWriter& write) {
   Sheet table(write, "trials.csv", columns);
   for (const AnalyzedTrial& t : analysis.trials) {
     table.cell(t.key.subject).cell(t.key.session).whole(t.key.run).whole(t.key.block).whole(t.key.trial).whole(t.key.day);
-    table.cell(analysis.conditions[t.condition].name).cell(t.practice ? "practice" : "recorded").cell(trial::nameOf(t.result.outcome));
+    table.cell(analysis.conditions[t.condition].name).cell(t.key.kind).cell(t.key.target).cell(t.practice ? "practice" : "recorded");
+    table.cell(trial::nameOf(t.result.outcome));
     table.cell(t.result.reason == trial::Reason::None ? "" : trial::nameOf(t.result.reason)).whole(t.result.mass).number(t.result.by);
     table.whole(t.used()).cell(t.exclusion).whole(t.measures.beforeGo).whole(t.otherWay);
     for (const Measure& measure : measures()) table.number(t.measures.*measure.value);

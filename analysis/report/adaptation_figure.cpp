@@ -18,7 +18,7 @@ const std::vector<Course>& courses() {
       {"Trials in the field", "Largest deviation to the right (mm)",
        [](const AnalyzedTrial& t) { return t.scene.inField ? millimetres(t) : kNotMeasured; }},
       {"Trials without a field", "Largest deviation to the right (mm)",
-       [](const AnalyzedTrial& t) { return t.scene.trained && !t.scene.inField && !t.scene.channel ? millimetres(t) : kNotMeasured; }},
+       [](const AnalyzedTrial& t) { return !t.scene.cursor && !t.scene.inField && !t.scene.channel ? millimetres(t) : kNotMeasured; }},
       {"Trials with a cursor", "Hand angle (°, counterclockwise)",
        [](const AnalyzedTrial& t) { return t.scene.cursor ? t.measures.handAngle : kNotMeasured; }}};
   return kCourses;

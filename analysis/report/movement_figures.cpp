@@ -6,6 +6,7 @@
 #include "analysis/report/figures.h"
 #include "analysis/report/wording.h"
 #include "analysis/tables.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -92,6 +93,16 @@ void shareScale(std::vector<Panel>& panels) {
   for (Panel& panel : panels) panel.y.from = low - 0.05 * (high - low), panel.y.to = high + 0.05 * (high - low);
 }
 
+bool isHandAlone(const Analysis& analysis, std::size_t condition) {
+  return analysis.conditions[condition].experiment().object.kind == experiment::ObjectKind::None;
+}
+
+void showPanels(NamedFigure& out, const Analysis& analysis, std::size_t condition, const Panel& hand, const Panel& object) {
+  out.figure.panels = {hand};
+  if (!isHandAlone(analysis, condition)) out.figure.panels.push_back(object);
+  out.figure.columns = static_cast<int>(out.figure.panels.size());
+}
+
 }  // namespace
 
 NamedFigure paperFigure(const Analysis& analysis, std::size_t condition) {
@@ -111,22 +122,22 @@ NamedFigure paperFigure(const Analysis& analysis, std::size_t condition) {
     addPrediction(*panel, r, Criterion::MinHandJerk, isObject, palette::kBlack, Dash::Solid, figure::kThick);
     addPrediction(*panel, r, Criterion::MinCrackle, isObject, palette::kVermilion, Dash::Dashed, figure::kThick);
   }
-  out.figure.columns = 2;
-  out.figure.panels = {hand, object};
-  out.caption =
-      r.used > 0
-          ? fmt::format(
-                "{}, as in Figs. 5 and 6: velocity of hand and object. Thin: {} {}trial{}, time-scaled to their average of {:.3f} "
-                "s. Thick: "
-                "criterion (1) solid, (3) dashed, for the task's T, neither cut nor stretched; they begin before the onset by as "
-                "much as the onset rule would leave out of them.",
-                analysis.conditions[condition].name, r.used, r.onlyFailures ? "failed " : "", r.used == 1 ? "" : "s", r.duration.mean)
-          : fmt::format("{}: no movement to show; predictions only.", analysis.conditions[condition].name);
+  showPanels(out, analysis, condition, hand, object);
+  const std::string shownVelocity = isHandAlone(analysis, condition) ? "velocity of the hand" : "velocity of hand and object";
+  out.caption = r.used > 0
+                    ? fmt::format(
+                          "{}, as in Figs. 5 and 6: {}. Thin: {} {}trial{}, time-scaled to their average of {:.3f} "
+                          "s. Thick: "
+                          "criterion (1) solid, (3) dashed, for the task's T, neither cut nor stretched; they begin before the onset by as "
+                          "much as the onset rule would leave out of them.",
+                          analysis.conditions[condition].name, shownVelocity, r.used, r.onlyFailures ? "failed " : "",
+                          r.used == 1 ? "" : "s", r.duration.mean)
+                    : fmt::format("{}: no movement to show; predictions only.", analysis.conditions[condition].name);
   if (r.used > 0 && analysis.options.predictFor == PredictionDuration::Moved)
     out.caption = fmt::format(
-        "{}: velocity of hand and object. Thin: {} trials, time-scaled to their average of {:.3f} s. Thick: criterion (1) solid, (3) "
+        "{}: {}. Thin: {} trials, time-scaled to their average of {:.3f} s. Thick: criterion (1) solid, (3) "
         "dashed, for the T whose movement lasts as long.",
-        analysis.conditions[condition].name, r.used, r.duration.mean);
+        analysis.conditions[condition].name, shownVelocity, r.used, r.duration.mean);
   return out;
 }
 
@@ -136,7 +147,7 @@ NamedFigure lastFiveFigure(const Analysis& analysis, std::size_t condition) {
   NamedFigure out;
   out.name = "last_five_" + fileNameOf(analysis.conditions[condition].name);
   std::vector<const AnalyzedTrial*> used = usedTrials(analysis, condition);
-  if (used.empty() || r.onlyFailures) return out;
+  if (used.empty() || r.onlyFailures || analysis.conditions[condition].pooled) return out;  // five of eight targets are no series
   const std::string subject = used.front()->key.subject;
   std::erase_if(used, [&](const AnalyzedTrial* t) { return t->key.subject != subject; });
   double duration = 0;
@@ -160,8 +171,7 @@ NamedFigure lastFiveFigure(const Analysis& analysis, std::size_t condition) {
     mean.width = 1.8;
     panel->series.push_back(std::move(mean));
   }
-  out.figure.columns = 2;
-  out.figure.panels = {hand, object};
+  showPanels(out, analysis, condition, hand, object);
   out.caption = fmt::format(
       "{}, subject {}, as in Figs. 9 and 10: the last {} successful trials (thin), criterion (1) for the task's T (thick grey) and the "
       "average of all {} successful trials (thick black), time-scaled to their average.",

@@ -7,6 +7,7 @@
 #include <map>
 
 #include "analysis/tables.h"
+#include "analysis/taught_trials.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -194,6 +195,80 @@ std::string describeChoices(const Analysis& analysis, const std::vector<std::siz
                                shortNumber(tried.back()));
   if (!laws.empty()) text += " Chosen for the closest: " + listed(laws) + ".";
   if (!masses.empty()) text += " Its hand mass with the 95 % interval: " + joined(masses) + ".";
+  return text;
+}
+
+namespace {
+
+/// "a counterclockwise curl field of 13 N s/m", "a rotation of the cursor by 30°".
+std::string describeTraining(const TaughtTrials& person) {
+  if (person.rotated) {
+    const auto rotated = std::find_if(person.trials.begin(), person.trials.end(), [](const auto* t) { return t->scene.rotation != 0; });
+    return fmt::format("a rotation of the cursor by {}° {}", shortNumber(std::abs((*rotated)->scene.rotation)),
+                       (*rotated)->scene.rotation > 0 ? "counterclockwise" : "clockwise");
+  }
+  const TrialScene& scene =
+      (*std::find_if(person.trials.begin(), person.trials.end(), [](const auto* t) { return t->scene.inField; }))->scene;
+  const experiment::SquareMatrix<3>& b = *scene.trained;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j)
+      if (b[i][j] != -b[j][i]) return "a viscous field";
+  const Vec3 turn{b[2][1], b[0][2], b[1][0]};  // B v = turn x v
+  return fmt::format("a {} curl field of {} N s/m", dot(turn, scene.normal) > 0 ? "counterclockwise" : "clockwise",
+                     shortNumber(norm(turn)));
+}
+
+/// A mean over people with its interval: "12 [9, 15] mm".
+std::string meanText(const std::vector<double>& values, const char* unit, double scale) {
+  const TTest test = computeTTest(values);
+  const Bounds interval = values.size() > 1 ? intervalOf(test) : Bounds{NAN, NAN};
+  std::string text = shortNumber(scale * test.mean);
+  if (interval.finite()) text += " " + intervalText({scale * interval.low, scale * interval.high});
+  return text + " " + unit;
+}
+
+std::string describeGroup(const std::string& training, bool rotated, const std::vector<Learning>& people) {
+  const auto known = [&](double Learning::*number) {
+    std::vector<double> values;
+    for (const Learning& person : people)
+      if (std::isfinite(person.*number)) values.push_back(person.*number);
+    return values;
+  };
+  const double scale = rotated ? 1 : 1e3;
+  // The side is in the number's sign everywhere else, and a word here.
+  const auto sided = [&](double Learning::*number) {
+    std::vector<double> values = known(number);
+    const bool positive = computeMeanSd(values).mean >= 0;
+    for (double& value : values) value *= positive ? 1 : -1;
+    return meanText(values, rotated ? "°" : "mm", scale) + (rotated    ? positive ? " counterclockwise" : " clockwise"
+                                                            : positive ? " to the right"
+                                                                       : " to the left");
+  };
+  std::string text = fmt::format("In {}, {} ", training, plural(people.size(), "subject"));
+  if (const auto plateau = known(&Learning::plateau); !plateau.empty())
+    text += fmt::format("learned to cancel {} of it ({} of the last quarter of the training).", meanText(plateau, "%", 1),
+                        rotated ? "rotated trials" : "channel trials");
+  else
+    text += fmt::format("deviated by {} at first and by {} in the last quarter of the training.", sided(&Learning::first),
+                        sided(&Learning::last));
+  const auto after = known(&Learning::afterEffect), first = known(&Learning::first);
+  if (after.empty()) return text + " No trial without it followed, so that no after-effect is known.";
+  const bool opposite = computeMeanSd(after).mean * computeMeanSd(first).mean < 0;
+  return text + fmt::format(" Without it they then deviated by {}, {} deviation at first (after-effect).", sided(&Learning::afterEffect),
+                            opposite ? "against the" : "to the side of the");
+}
+
+}  // namespace
+
+std::string describeLearning(const Analysis& analysis) {
+  std::map<std::string, std::pair<bool, std::vector<Learning>>> groups;
+  for (const auto& [subject, person] : taughtTrials(analysis)) {
+    auto& [rotated, people] = groups[describeTraining(person)];
+    rotated = person.rotated;
+    people.push_back(learningOf(person));
+  }
+  std::string text;
+  for (const auto& [training, group] : groups) text += (text.empty() ? "" : " ") + describeGroup(training, group.first, group.second);
   return text;
 }
 

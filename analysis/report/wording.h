@@ -24,6 +24,10 @@ std::string describeTogether(const Analysis& analysis);
 std::string describeChoices(const Analysis& analysis, const std::vector<std::size_t>& conditions,
                             const std::vector<predict::Criterion>& criteria);
 
+/// A sentence for each field or rotation that people were trained in: plateau, after-effect with its side, and number of people. Empty
+/// where nobody was.
+std::string describeLearning(const Analysis& analysis);
+
 /// The methods paragraph, ready to be pasted: every option that changes numbers.
 std::string describeMethods(const Analysis& analysis);
 /// The limits of the conclusions.

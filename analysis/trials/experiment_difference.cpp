@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "sim/experiment/experiment.h"
@@ -71,6 +72,22 @@ std::vector<std::string> differences(const experiment::Experiment& first, const 
   const std::string &before = first.constraint.definition, &now = other.constraint.definition;  // empty: the catalogue's
   if (found.empty() && !before.empty() && !now.empty() && before != now) found.push_back("another definition of " + other.constraint.name);
   return found;
+}
+
+bool differInDirectionOnly(const experiment::Experiment& first, const experiment::Experiment& other) {
+  constexpr double kRounding = 1e-9;  // [m] a ring's targets are rounded to 1e-12
+  const auto isFree = [](const experiment::Experiment& e) {
+    return e.constraint.name == "free" && e.task && (e.object.kind == experiment::ObjectKind::None || e.object.gravity == Vec3{});
+  };
+  if (!isFree(first) || !isFree(other)) return false;
+  const auto distance = [](const experiment::Task& task) {
+    return std::hypot(task.target[0] - task.start[0], task.target[1] - task.start[1], task.target[2] - task.start[2]);
+  };
+  if (std::abs(distance(*first.task) - distance(*other.task)) > kRounding) return false;
+  experiment::Experiment turned = other;
+  turned.task->start = first.task->start;
+  turned.task->target = first.task->target;
+  return differences(first, turned).empty();
 }
 
 }  // namespace reachlab::analysis

@@ -18,6 +18,7 @@ struct TrialKey {
   std::string subject, session, condition;
   int day = 0;  // from the plan, else the session's place among the subject's sessions, from 1
   int run = 0, block = 0, trial = 0;
+  std::string kind = {}, target = {};  // of a block that mixes them
 };
 
 /// The part of a trial's scene that measures across the way need (measures/across.h).

@@ -190,6 +190,7 @@ std::string summaryJson(const analysis::Analysis& analysis, const analysis::Data
   j["figures"] = files.figures;
   j["runs"] = dataset.runs.size();
   j["notes"] = dataset.notes;
+  if (const std::string learning = analysis::describeLearning(analysis); !learning.empty()) j["adaptation"] = learning;
   std::vector<double> masses;
   for (const analysis::ConditionResult& r : analysis.results)
     if (masses.empty()) masses = r.candidates.masses;
@@ -246,6 +247,7 @@ void printRecovery(const analysis::TruthRecovery& recovery) {
 void printSummary(const analysis::Analysis& analysis, const analysis::DatasetIndex& dataset, const analysis::AnalysisFiles& files,
                   const std::optional<analysis::TruthRecovery>& recovery) {
   for (const std::string& note : dataset.notes) fmt::print(stderr, "note: {}\n", note);
+  if (const std::string learning = analysis::describeLearning(analysis); !learning.empty()) fmt::print("{}\n", learning);
   fmt::print("{}\n", analysis::describeConclusion(analysis.overall, analysis.common));
   if (const std::string evidence = analysis::describeEvidence(analysis.overall, analysis.common); !evidence.empty())
     fmt::print("{}\n", evidence);

@@ -81,6 +81,23 @@ TEST(AnalysisOptions, AreRefusedJustOutsideTheirBounds) {
     EXPECT_NE(refusal([&](O& o) { o.handMasses = {1, mass}; }).find("hand_masses"), std::string::npos);
 }
 
+TEST(Differences, BetweenDirectionsAreNoneInFreeSpaceAtOneDistance) {
+  experiment::Experiment ahead = experiment::readExperiment("centre-out"), aside = ahead;
+  const double far = ahead.task->start[2] - ahead.task->target[2];
+  aside.task->target = {ahead.task->start[0] + far, ahead.task->start[1], ahead.task->start[2]};
+  EXPECT_TRUE(differInDirectionOnly(ahead, aside));
+  experiment::Experiment farther = aside, slower = aside, heavy = aside;
+  farther.task->target[0] += 0.01;
+  EXPECT_FALSE(differInDirectionOnly(ahead, farther));
+  slower.task->duration *= 2;
+  EXPECT_FALSE(differInDirectionOnly(ahead, slower));
+  heavy.object.kind = experiment::ObjectKind::Point;
+  heavy.object.masses = {1};
+  heavy.object.gravity = {0, -9.81, 0};
+  EXPECT_FALSE(differInDirectionOnly(heavy, heavy)) << "a weight is carried up or down";
+  EXPECT_FALSE(differInDirectionOnly(chainExperiment(1), chainExperiment(1))) << "on a line";
+}
+
 TEST(Differences, NameValuesThatFitIntoASentence) {
   const experiment::Experiment e = chainExperiment(1.35);
   const auto told = [&](const std::function<void(experiment::Experiment&)>& change) {

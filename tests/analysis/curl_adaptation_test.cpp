@@ -1,9 +1,11 @@
 // The shipped plans of adaptation, recorded with a virtual subject that learns, and measured from the log.
 #include <cmath>
 #include <map>
+#include <set>
 
 #include "analysis/dataset.h"
 #include "analysis/measures/measures.h"
+#include "analysis/report/report.h"
 #include "sim/subjects/subject_kinds.h"
 #include "sim/record/replay.h"
 #include "tests/session/recorded_runs.h"
@@ -33,13 +35,17 @@ class AdaptationPlans : public session::test::Recorded {
       ++blocks_;
     }
     const MeasureOptions options;
-    readDataset(request_.place.data, {[&](TrialData&& trial, std::size_t) {
-                                        const TrialMeasures measures = computeMeasures(trial, computeSignals(trial, options));
-                                        const std::string& name = trial.key.condition;  // "adaptation field 3"
-                                        const std::size_t kind = name.find(' ') + 1;
-                                        series[{trial.key.block, name.substr(kind, name.rfind(' ') - kind)}].push_back(measures);
-                                      },
-                                      [](std::size_t) {}});
+    AnalysisBuilder builder(AnalysisOptions{});
+    const auto take = [&](TrialData&& trial, std::size_t condition) {
+      series[{trial.key.block, trial.key.kind}].push_back(computeMeasures(trial, computeSignals(trial, options)));
+      targets_.insert(trial.key.target);
+      builder.add(std::move(trial), condition);
+    };
+    const DatasetIndex index = readDataset(request_.place.data, {take, [](std::size_t) {}});
+    for (const Condition& condition : index.conditions) conditions_.insert(condition.name);
+    const Analysis analysis = builder.finish(index.conditions);
+    figures_ = makeFigures(analysis, {}).size();
+    report_ = makeReport({}, analysis, {}, {}, {});
     return series;
   }
   static double mean(const std::vector<TrialMeasures>& of, double TrialMeasures::*value, std::size_t from, std::size_t to) {
@@ -51,6 +57,9 @@ class AdaptationPlans : public session::test::Recorded {
     return sum / count;
   }
   int blocks_ = 0;
+  std::set<std::string> conditions_, targets_;
+  std::size_t figures_ = 0;
+  std::string report_;
 };
 
 TEST_F(AdaptationPlans, ToACurlFieldLowersTheErrorFillsTheChannelAndLeavesAnAfterEffect) {
@@ -71,6 +80,15 @@ TEST_F(AdaptationPlans, ToACurlFieldLowersTheErrorFillsTheChannelAndLeavesAnAfte
   const double start = mean(channel, &TrialMeasures::adaptation, 0, 3), end = mean(channel, &TrialMeasures::adaptation, 15, 20);
   EXPECT_GT(end, start + 10);
   EXPECT_GT(end, 40);
+
+  EXPECT_EQ(conditions_, (std::set<std::string>{"adaptation channel", "adaptation field", "baseline channel", "baseline null",
+                                                "washout channel", "washout null"}))
+      << "by kind";
+  EXPECT_EQ(targets_.size(), 8u) << "each trial keeps its target";
+  EXPECT_LE(figures_, 20u);
+  const std::string sentence = report_.substr(report_.find("answer finding"), 400);
+  EXPECT_NE(sentence.find("In a counterclockwise curl field of 13 N s/m, 1 subject learned to cancel "), std::string::npos) << sentence;
+  EXPECT_NE(sentence.find(" to the right, against the deviation at first (after-effect)."), std::string::npos) << sentence;
 }
 
 TEST_F(AdaptationPlans, ToARotationTurnsTheHandAgainstIt) {
@@ -81,6 +99,7 @@ TEST_F(AdaptationPlans, ToARotationTurnsTheHandAgainstIt) {
   EXPECT_LT(std::abs(first), 12);
   EXPECT_LT(last, -15) << "clockwise, against a rotation of 30 degrees counterclockwise";
   EXPECT_LT(mean(series.at({3, "aligned"}), &TrialMeasures::handAngle, 0, 3), -8) << "an after-effect";
+  EXPECT_NE(report_.find("In a rotation of the cursor by 30° counterclockwise, 1 subject learned to cancel "), std::string::npos);
 }
 
 }  // namespace

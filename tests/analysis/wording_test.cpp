@@ -142,6 +142,39 @@ TEST(Wording, OfChoicesCountsMassesAndTimeLaws) {
   expectIn(describeChoices(analysis, {0}, kNames[0]), {"The hand's mass was given, 0.8 kg."});
 }
 
+/// Six trials without a field, twelve in it with every fourth a channel, six after it. The last quarter of the training is trials 16 to 18.
+Analysis madeAdaptation(const std::vector<double>& plateaus, double push) {
+  Analysis analysis;
+  for (std::size_t k = 0; k < plateaus.size(); ++k)
+    for (int n = 1; n <= 24; ++n) {
+      AnalyzedTrial t;
+      t.key.subject = std::string(1, static_cast<char>('A' + k));
+      t.key.trial = n;
+      t.scene.trained = experiment::SquareMatrix<3>{{{0, 0, 13}, {0, 0, 0}, {-13, 0, 0}}};
+      const bool training = n > 6 && n <= 18;
+      t.scene.channel = training && n % 4 == 1;
+      t.scene.inField = training && !t.scene.channel;
+      t.measures.maxPerpendicular = t.scene.channel ? 0 : 0.001 + (training ? push * (n > 15 ? 0.25 : 1) : n > 18 ? -push / 2 : 0);
+      if (t.scene.channel) t.measures.adaptation = n > 15 ? plateaus[k] : 0;
+      analysis.trials.push_back(t);
+    }
+  return analysis;
+}
+
+TEST(Wording, OfLearningGivesPlateauAfterEffectAndItsSide) {
+  EXPECT_EQ(describeLearning(madeAdaptation({60}, -0.02)),
+            "In a counterclockwise curl field of 13 N s/m, 1 subject learned to cancel 60 % of it (channel trials of the last quarter of the "
+            "training). Without it they then deviated by 10 mm to the right, against the deviation at first (after-effect).");
+  // t(0.975; 2) sd / sqrt(3) = 4.3027 * 10 / 1.7321 = 24.8.
+  expectIn(describeLearning(madeAdaptation({50, 60, 70}, 0.02)),
+           {"3 subjects learned to cancel 60 [35.2, 84.8] % of it", "by 10 mm to the left, against the"});
+  Analysis without = madeAdaptation({60}, -0.02);
+  std::erase_if(without.trials, [](const AnalyzedTrial& t) { return t.scene.channel || t.key.trial > 18; });
+  expectIn(describeLearning(without), {"1 subject deviated by 20 mm to the left at first and by 5 mm to the left in the last quarter of the training. "
+                                       "No trial without it followed"});
+  EXPECT_EQ(describeLearning(madeStudy()), "") << "nobody was perturbed";
+}
+
 TEST(Wording, OfMethodsHasEveryOptionThatChangesNumbers) {
   Analysis analysis = madeStudy();
   const std::string usual = describeMethods(analysis);
