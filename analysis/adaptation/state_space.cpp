@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
+#include "analysis/conclusions/comparison.h"
 #include "base/error.h"
 #include "base/math/matrix.h"
 #include "base/math/seeded.h"
@@ -151,7 +153,14 @@ double quantileOfSorted(const std::vector<double>& sorted, double share) {
   return sorted[i] + (at - static_cast<double>(i)) * (sorted[i + 1] - sorted[i]);
 }
 
-/// Percentile intervals from series whose residuals are drawn anew in blocks of neighbours.
+/// The share below a 95 % percentile interval from so few independent blocks: beyond 2.5 % as far as Student's t is beyond the normal
+/// distribution (Hesterberg 2015, The American Statistician 69:371, "expanded percentile interval").
+double shareBelow(double freedom) {
+  const double t = computeTQuantile(0.95, std::max(1.0, freedom));
+  return 0.5 * std::erfc(t / std::numbers::sqrt2);
+}
+
+/// Percentile intervals from series whose residuals are drawn anew in blocks of neighbours. Residuals of a fit are smaller than the noise.
 void addIntervals(LearningFit& fit, const AdaptationSeries& series, int measured, int resamples, std::uint64_t seed) {
   const std::vector<double> x = simulateLearning(fit.states, series);
   std::vector<std::size_t> at;
@@ -161,6 +170,8 @@ void addIntervals(LearningFit& fit, const AdaptationSeries& series, int measured
   // A block as long as the cube root of the series: Hall, Horowitz & Jing (1995) for the spread of an estimate.
   const std::size_t count = residual.size(), block = std::max<std::size_t>(2, static_cast<std::size_t>(std::lround(std::cbrt(count))));
   const std::size_t places = count - block + 1;
+  const double parameters = 2.0 * static_cast<double>(fit.states.size()), responses = static_cast<double>(count);
+  for (double& value : residual) value *= std::sqrt(responses / (responses - parameters));
   std::vector<std::vector<double>> found(2 * fit.states.size());
   AdaptationSeries drawn = series;
   for (int sample = 0; sample < resamples; ++sample) {
@@ -180,7 +191,8 @@ void addIntervals(LearningFit& fit, const AdaptationSeries& series, int measured
     }
   }
   for (auto& values : found) std::sort(values.begin(), values.end());
-  const auto interval = [](const std::vector<double>& sorted) { return Bounds{quantileOfSorted(sorted, 0.025), quantileOfSorted(sorted, 0.975)}; };
+  const double below = shareBelow(responses / static_cast<double>(block) - parameters);
+  const auto interval = [&](const std::vector<double>& sorted) { return Bounds{quantileOfSorted(sorted, below), quantileOfSorted(sorted, 1 - below)}; };
   for (std::size_t k = 0; k < fit.states.size(); ++k) fit.intervals.push_back({interval(found[2 * k]), interval(found[2 * k + 1])});
 }
 
