@@ -6,7 +6,7 @@ void addBenchOptions(CLI::App& command, BenchOptions& options) {
   command.add_option(
       "--scene", options.scenes,
       "Scenes (S1 S1b50 S1b500 S2a S2b S3 S4 S5 S5h S6 S7a S7b S7c S7d S7e S7f S8), or constraint-eval for the computation time of a "
-      "constraint's derivatives [default: all]");
+      "constraint's derivatives, or an experiment with --tick (file or shipped name) [default: all]");
   command.add_option("--method", options.methods, "Methods (auto rk4 exact abm adaptive stiff, or a peer if built) [default: all]");
   command.add_option("--rounds", options.rounds, "Timed repetitions, interleaved over the methods")
       ->check(CLI::Range(5, 1000))
@@ -32,6 +32,7 @@ void addBenchOptions(CLI::App& command, BenchOptions& options) {
       "Examples: reach bench --scene S1 --scene S2a --quick\n"
       "          reach bench --json rows.json --svg work-precision.svg\n"
       "          reach bench --tick --scene S1 --ticks 100000\n"
+      "          reach bench --tick --scene centre-out --scene curl-field\n"
       "          reach bench --network --quick --csv network.csv --svg network.svg\n"
       "          reach bench --network --setups 500\n"
       "          reach bench --scene constraint-eval");

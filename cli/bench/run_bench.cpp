@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -16,6 +17,7 @@
 #include "network/link_check/link_bench.h"
 #include "bench/sampled_hand.h"
 #include "bench/suite.h"
+#include "sim/experiment/describe.h"
 #include "sim/haptics/tick_timing.h"
 
 namespace reachlab::cli {
@@ -76,9 +78,19 @@ void benchConstraints(const BenchOptions& options) {
   if (!options.json.empty()) writeFile(options.json, toJson(rows));
 }
 
+/// A scene of the table, or any experiment.
+bench::BenchScene tickScene(const std::string& name) {
+  for (bench::BenchScene& scene : bench::benchScenes())
+    if (scene.name == name) return std::move(scene);
+  experiment::Experiment experiment = experiment::readExperiment(name);
+  const std::string stem = std::filesystem::path(name).stem().string();
+  return {
+      .name = stem, .title = experiment::describe(experiment), .experiment = std::move(experiment), .hand = {}, .start = {}, .rate = {}};
+}
+
 void benchTicks(const BenchOptions& options) {
   std::vector<bench::BenchScene> scenes;
-  for (const std::string& name : options.scenes) scenes.push_back(bench::benchScene(name));
+  for (const std::string& name : options.scenes) scenes.push_back(tickScene(name));
   if (scenes.empty()) scenes = bench::benchScenes();
   fmt::print("{:<7} {:>9} {:>7} {:>8} {:>10} {:>8} {:>8} {:>10} {:>9} {:>12}   ns, wall clock; middle: mean of the middle half\n", "scene",
              "ticks", "trials", "p50", "middle", "p99", "p99.9", "max", "clock", "allocations");
