@@ -52,7 +52,8 @@ constexpr Measure kMeasures[] = {
      &TrialMeasures::handAngleAtRadius, "hand angle at the target's radius (°)", 1, 1},
     {"channel_leak_m", "Largest distance of the hand from the line of a channel; empty in other trials", &TrialMeasures::channelLeak,
      "leak of the channel (mm)", 1e3, 1},
-    {"adaptation_percent", "Force against a channel's wall as a share of that which would cancel the trained field; empty in other trials",
+    {"adaptation_percent",
+     "Force against a channel's wall as a share of that which would cancel the trained field; empty in other trials and before the first field",
      &TrialMeasures::adaptation, "adaptation (%)", 1, 1},
     {"adaptation_r2", "R² of that share, without an intercept", &TrialMeasures::adaptationR2, "R² of the adaptation", 1, 2},
 };
