@@ -18,7 +18,8 @@ NumberRange positive(const std::string& unit) { return {0, kInfinity, false, fmt
 NumberRange atLeastZero(const std::string& unit) { return {0, kInfinity, true, fmt::format("0 {} or more", unit)}; }
 NumberRange wholeNumber(double lo, double hi) { return {lo, hi, true, fmt::format("a whole number from {} to {}", lo, hi), true}; }
 NumberRange positiveUpTo(double most, const std::string& unit) {
-  return {0, most, false, fmt::format("more than 0 {}, at most {:.0f} {}", unit, most, unit)};
+  const std::string ending = unit.empty() ? "" : " " + unit;
+  return {0, most, false, fmt::format("more than 0{}, at most {:.0f}{}", ending, most, ending)};
 }
 
 bool isWithin(const NumberRange& range, double value) {

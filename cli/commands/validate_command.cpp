@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
@@ -50,6 +51,22 @@ void checkIsJsonObject(const std::string& text, const std::string& file) {
                            FilePlace{file, 1, 1}});
 }
 
+void warn(const std::vector<Fault>& warnings, const std::string& text, const std::string& file) {
+  for (const Fault& warning : atTheirPlaces(warnings, text, file)) fmt::print(stderr, "{}", messageOf(warning, "warning"));
+}
+
+// Each warning once, however many targets and blocks it is of.
+std::vector<Fault> warningsOf(const session::Programme& programme) {
+  std::vector<Fault> warnings;
+  for (std::size_t block = 0; block < programme.scenes.size(); ++block)
+    for (const session::BlockScene& scene : programme.scenes[block])
+      for (Fault warning : trial::implausibleNumbers(scene.experiment)) {
+        warning.key = (scene.kind.empty() ? fmt::format("blocks[{}].experiment", block) : "kinds." + scene.kind) + "." + warning.key;
+        if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(std::move(warning));
+      }
+  return warnings;
+}
+
 // What a file is shows in its keys; a file that shows nothing is read as an experiment, whose faults then say what is missing. Returns what can
 // be done with it, if it is an experiment or a plan.
 std::optional<session::Programme> validateFile(const std::string& fileOrName) {
@@ -62,7 +79,9 @@ std::optional<session::Programme> validateFile(const std::string& fileOrName) {
   checkIsJsonObject(text, file);
   const JsonNode tree = parseJson(text, file);
   if (tree.find("blocks") != nullptr || tree.find("order_seed") != nullptr) {
-    return session::checkedProgramme(file);
+    session::Programme programme = session::checkedProgramme(file);
+    warn(warningsOf(programme), text, file);
+    return programme;
   } else if (tree.find("subjects") != nullptr) {
     study::checkPoints(study::readDesign(file), prepareSimulated());
   } else if (tree.find("curve") != nullptr || tree.find("surface") != nullptr) {
@@ -70,8 +89,7 @@ std::optional<session::Programme> validateFile(const std::string& fileOrName) {
   } else {
     const experiment::CompiledExperiment experiment = experiment::openExperimentText(text, file);
     if (experiment.experiment().task) trial::checkTask(experiment, file);
-    for (const auto& warnings : {trial::implausibleNumbers(experiment), trial::describeWay(experiment)})
-      for (const Fault& warning : atTheirPlaces(warnings, text, file)) fmt::print(stderr, "{}", messageOf(warning, "warning"));
+    for (const auto& warnings : {trial::implausibleNumbers(experiment), trial::describeWay(experiment)}) warn(warnings, text, file);
     return session::programmeOf(experiment);
   }
   return std::nullopt;
