@@ -11,6 +11,7 @@
 #include "base/ticks.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/task_plane.h"
 
 namespace reachlab::haptics {
 namespace {
@@ -43,8 +44,10 @@ TickTiming measureTicks(const experiment::Experiment& experiment, std::uint64_t 
   TickEngine engine(withoutEnd(experiment), {});
   engine.setMassesEvery(kRowTicks);
   const Vec3 start = engine.protocol().start, chord = engine.protocol().target - start;
-  constexpr double kShare = 0.1, kLeast = 0.01, kOmega = 2 * std::numbers::pi;
-  const Vec3 swing = norm(chord) > 0 ? kShare * chord : Vec3{kLeast, 0, 0};
+  constexpr double kShare = 0.1, kLeast = 0.01, kAside = 0.1, kOmega = 2 * std::numbers::pi;
+  const Vec3 along = norm(chord) > 0 ? kShare * chord : Vec3{kLeast, 0, 0};
+  // A little aside, so that the wall of a channel pushes.
+  const Vec3 swing = along + kAside * norm(along) * experiment::rightOf(along, experiment::normalOf(experiment::TaskPlane::Horizontal));
 
   std::vector<std::int64_t> costs(std::max<std::uint64_t>(ticks, 1)), looks(1001);
   for (auto& look : looks) {
