@@ -72,6 +72,36 @@ TEST(TrialMix, EachCycleHasItsExactCountsAndEachRoundEachTargetOnceForEverySeed)
   EXPECT_EQ(different.size(), kSeeds) << "no two seeds give the same order of 240 trials";
 }
 
+// Counts that were added without a bound wrapped round to a cycle of no trials, and every target was compared with every other.
+TEST(TrialMix, OfMoreEntriesThanABlockCanHaveScenesIsRefused) {
+  const auto list = [](int length, const auto& entry) {
+    std::string text;
+    for (int i = 0; i < length; ++i) text += (i == 0 ? "" : ",") + entry(i);
+    return text;
+  };
+  const auto heavy = [](int) { return std::string(R"({ "kind": "field", "count": 65536 })"); };
+  const auto place = [](int i) { return "[" + std::to_string(i) + ",0,0]"; };
+  const auto kind = [](int i) { return "\"k" + std::to_string(i) + "\": {}"; };
+  const auto name = [](int) { return std::string("\"field\""); };
+  EXPECT_NE(faultsOf(kThreeKinds + R"(, "trials": 6, "mix": [)" + list(65536, heavy) + "]").find("has 65536 entries"), std::string::npos);
+  EXPECT_NE(faultsOf(R"("trials": 6, "targets": [)" + list(300'000, place) + "]").find("has 300000 entries"), std::string::npos);
+  EXPECT_NE(faultsOf(R"("trials": 6, "kinds": {)" + list(100'000, kind) + "}").find("has 100000 entries"), std::string::npos);
+  EXPECT_NE(faultsOf(kSevenToOne + R"(, "trials": 8, "not_twice": [)" + list(2001, name) + "]").find("2000 at most"), std::string::npos);
+}
+
+// Were the cost of a draw not in proportion to the number of kinds, this would take minutes, and the test its time-out.
+TEST(TrialMix, OfAThousandKindsIsOrderedInTimeInProportionToThem) {
+  TrialMix mix{.order = TrialOrder::Shuffled};
+  for (int k = 0; k < 1000; ++k) mix.kinds.push_back({"k" + std::to_string(k), {}}), mix.notTwice.push_back(mix.kinds.back().name);
+  const std::vector<MixedTrial> order = orderTrials(mix, 100'000, 1);
+  std::vector<int> often(1000);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    ++often[static_cast<std::size_t>(order[i].kind)];
+    ASSERT_TRUE(i == 0 || order[i].kind != order[i - 1].kind) << i;
+  }
+  EXPECT_EQ(often, std::vector<int>(1000, 100));
+}
+
 TEST(TrialMix, ShuffledOverTheBlockHasExactCountsOfTheBlock) {
   const PlanBlock block = blockOf(kThreeKinds + R"(, "mix": [{ "kind": "null", "count": 3 }, { "kind": "field", "count": 2 },
     { "kind": "channel" }], "trials": 36, "targets": [[0.1, 0, 0], [0, 0.1, 0], [0, 0, 0.1]], "order": "shuffled", "not_twice": ["field", "channel"])");

@@ -37,24 +37,18 @@ struct Rules {
   }
 };
 
-// A kind that may not follow itself fits into the rest of a cycle when each of its trials has a trial of another kind before it. The first
-// one may do without, unless the trial before the rest is of this kind.
-bool canBeApart(const std::vector<int>& left, const Rules& rules, int before) {
-  const int total = std::accumulate(left.begin(), left.end(), 0);
-  for (std::size_t k = 0; k < left.size(); ++k)
-    if (rules.notTwice[k] && left[k] > total - left[k] + (static_cast<int>(k) == before ? 0 : 1)) return false;
-  return true;
-}
-
-// The kinds that may come next, so that the rest of the cycle can still be done.
+// The kinds that may come next, so that the rest of the cycle can still be done. A kind that may not follow itself fits into the rest when
+// each of its trials has a trial of another kind before it. The first one may do without, unless the trial before the rest is of this kind.
 std::vector<int> choices(const std::vector<int>& left, const Rules& rules, int before, bool first) {
+  const int total = std::accumulate(left.begin(), left.end(), 0);
+  const auto crowds = [&](std::size_t k, int others) { return rules.notTwice[k] && left[k] > others; };
+  int crowding = 0;  // kinds that only they themselves may be followed by
+  for (std::size_t k = 0; k < left.size(); ++k) crowding += crowds(k, total - left[k]);
   std::vector<int> found;
   for (std::size_t k = 0; k < left.size(); ++k) {
     const int kind = static_cast<int>(k);
     if (left[k] == 0 || (first && rules.notFirst[k]) || (kind == before && rules.notTwice[k])) continue;
-    std::vector<int> rest = left;
-    --rest[k];
-    if (canBeApart(rest, rules, kind)) found.push_back(kind);
+    if (crowding == crowds(k, total - left[k]) && !crowds(k, total - left[k] + 1)) found.push_back(kind);
   }
   return found;
 }

@@ -12,7 +12,8 @@
 namespace reachlab::session {
 namespace {
 
-constexpr int kMaxCount = 100'000, kMaxTargets = 360, kMaxScenes = 2000;
+constexpr int kMaxCount = 100'000, kMaxTargets = 360;
+constexpr std::size_t kMaxScenes = 2000;
 constexpr std::size_t kMaxName = 40;
 
 NumberRange ringRadius() { return positiveUpTo(10, "m"); }
@@ -148,6 +149,14 @@ void writeMix(nlohmann::ordered_json& block, const TrialMix& mix) {
 std::vector<Fault> problems(const TrialMix& mix, int trials, const std::string& prefix) {
   std::vector<Fault> faults;
   const std::string key = prefix.empty() ? "" : prefix + ".";
+  // Before anything is compared with everything else, and before counts are added.
+  for (const auto& [list, length] : std::initializer_list<std::pair<const char*, std::size_t>>{{"kinds", mix.kinds.size()},
+                                                                                               {"mix", mix.cycle.size()},
+                                                                                               {"targets", mix.targets.size()},
+                                                                                               {"not_first", mix.notFirst.size()},
+                                                                                               {"not_twice", mix.notTwice.size()}})
+    if (length > kMaxScenes) faults.push_back({key + list, fmt::format("has {} entries", length), fmt::format("{} at most", kMaxScenes)});
+  if (!faults.empty()) return faults;
   for (const TrialKind& kind : mix.kinds)
     if (!isKindName(kind.name))
       faults.push_back({key + "kinds." + kind.name, "is no name of a kind", fmt::format("up to {} letters, digits, - and _", kMaxName)});
@@ -177,7 +186,7 @@ std::vector<Fault> problems(const TrialMix& mix, int trials, const std::string& 
     checkNumber(key + "targets.ring.first_deg", mix.ring->firstDegrees, ringAngle(), faults);
   }
   if (!faults.empty() || mix.isPlain() || trials < 1) return faults;
-  if (const int scenes = mix.targetCount() * static_cast<int>(kindsInUse(mix).size()); scenes > kMaxScenes)
+  if (const std::size_t scenes = static_cast<std::size_t>(mix.targetCount()) * kindsInUse(mix).size(); scenes > kMaxScenes)
     faults.push_back({key + "targets", fmt::format("makes {} scenes of kinds and targets", scenes), fmt::format("{} at most", kMaxScenes)});
   int length = 0;
   for (const KindCount& some : cycleOf(mix)) length += some.count;
