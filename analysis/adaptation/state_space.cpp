@@ -1,5 +1,7 @@
 #include "analysis/adaptation/state_space.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -141,7 +143,8 @@ LearningFit fitStates(std::size_t states, const AdaptationSeries& series, int me
     if (trial.response) scale = std::max(scale, std::abs(*trial.response));
   // Residuals below the rounding of the responses are equal to none.
   const double least = std::pow(std::numeric_limits<double>::epsilon() * scale, 2);
-  fit.bic = measured * std::log(std::max({fit.meanSquare, least, std::numeric_limits<double>::min()})) + 2.0 * static_cast<double>(states) * std::log(measured);
+  fit.bic = measured * std::log(std::max({fit.meanSquare, least, std::numeric_limits<double>::min()})) +
+            2.0 * static_cast<double>(states) * std::log(measured);
   return fit;
 }
 
@@ -192,7 +195,9 @@ void addIntervals(LearningFit& fit, const AdaptationSeries& series, int measured
   }
   for (auto& values : found) std::sort(values.begin(), values.end());
   const double below = shareBelow(responses / static_cast<double>(block) - parameters);
-  const auto interval = [&](const std::vector<double>& sorted) { return Bounds{quantileOfSorted(sorted, below), quantileOfSorted(sorted, 1 - below)}; };
+  const auto interval = [&](const std::vector<double>& sorted) {
+    return Bounds{quantileOfSorted(sorted, below), quantileOfSorted(sorted, 1 - below)};
+  };
   for (std::size_t k = 0; k < fit.states.size(); ++k) fit.intervals.push_back({interval(found[2 * k]), interval(found[2 * k + 1])});
 }
 
@@ -212,17 +217,26 @@ std::vector<double> simulateLearning(const std::vector<LearningState>& states, c
 
 AdaptationFit fitAdaptation(const AdaptationSeries& series, int resamples, std::uint64_t seed) {
   constexpr std::size_t kLeastResponses = 12;  // three for each parameter of two states
+  constexpr std::size_t kMostTrials = 20'000;  // the fit and its intervals take about a minute
+  constexpr double kLargest = 1e100;           // of a number and of its inverse, whose squares a double holds with room for sums
   constexpr double kStrong = 6;                // difference of criteria; Kass & Raftery (1995)
   AdaptationFit fit;
   bool perturbed = false;
+  double largest = 0;
   for (const AdaptationTrial& trial : series) {
+    largest = std::max({largest, std::abs(trial.perturbation.value_or(0)), std::abs(trial.response.value_or(0))});
     fit.responses += trial.response.has_value();
     fit.channels += !trial.perturbation;
     perturbed = perturbed || (trial.perturbation && *trial.perturbation != 0);
   }
   if (!perturbed) throw RefusedError("every perturbation is 0 or a channel, so there is nothing to learn");
   if (fit.responses < kLeastResponses)
-    throw RefusedError("only " + std::to_string(fit.responses) + " responses are measured; a fit needs " + std::to_string(kLeastResponses) + " or more");
+    throw RefusedError("only " + std::to_string(fit.responses) + " responses are measured; a fit needs " + std::to_string(kLeastResponses) +
+                       " or more");
+  if (series.size() > kMostTrials)
+    throw RefusedError(fmt::format("the series has {} trials; a fit takes up to {}", series.size(), kMostTrials));
+  if (!(largest <= kLargest && largest >= 1 / kLargest))
+    throw RefusedError(fmt::format("the largest number of the series is {:g}; a fit needs a unit in which it is 1e-100 to 1e100", largest));
   const int measured = static_cast<int>(fit.responses);
   fit.one = fitStates(1, series, measured);
   fit.two = fitStates(2, series, measured);

@@ -55,5 +55,24 @@ TEST(Adaptation, RefusesASeriesThatTeachesNothing) {
   EXPECT_THROW(fitAdaptation(AdaptationSeries(11, AdaptationTrial{1.0, 0.1}), 100, 1), RefusedError);
 }
 
+// Squares of larger numbers are infinite and of smaller ones zero: nothing could be fitted to them.
+TEST(Adaptation, DoesNotDependOnTheUnitAndRefusesNumbersWhoseSquaresAreNoNumbers) {
+  const auto inUnit = [](double unit) {
+    AdaptationSeries series = savings(kSmith, 0.05, 3);
+    for (AdaptationTrial& trial : series) {
+      if (trial.perturbation) *trial.perturbation *= unit;
+      *trial.response *= unit;
+    }
+    return series;
+  };
+  const AdaptationFit fit = fitAdaptation(inUnit(1), 100, 1);
+  for (const double unit : {1e-90, 1e90}) EXPECT_NEAR(fitAdaptation(inUnit(unit), 100, 1).one.states[0].retention, fit.one.states[0].retention, 1e-6);
+  for (const double unit : {5e-324, 1e-200, 1e160, 1e300}) EXPECT_THROW(fitAdaptation(inUnit(unit), 100, 1), RefusedError) << unit;
+}
+
+TEST(Adaptation, RefusesMoreTrialsThanAFitCanTakeInAMinute) {
+  EXPECT_THROW(fitAdaptation(AdaptationSeries(20'001, AdaptationTrial{1.0, 0.1}), 100, 1), RefusedError);
+}
+
 }  // namespace
 }  // namespace reachlab::analysis
