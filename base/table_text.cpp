@@ -76,10 +76,11 @@ TsvTable parseTsv(const std::string& text) {
     }
     cells.assign(1, "");
   };
-  for (const char c : text) {
-    if (c == '\t') cells.emplace_back();
-    else if (c == '\n') finishRow();
-    else if (c != '\r') cells.back() += c;
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  for (std::size_t i = text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0; i < text.size(); ++i) {
+    if (text[i] == '\t') cells.emplace_back();
+    else if (text[i] == '\n' || text[i] == '\r') finishRow();
+    else cells.back() += text[i];
   }
   finishRow();
   return table;

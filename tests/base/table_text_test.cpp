@@ -62,5 +62,13 @@ TEST(TsvTable, IsReadRowByRow) {
   EXPECT_EQ(parseTsv("only\nx").rows, (std::vector<std::vector<std::string>>{{"x"}}));
 }
 
+// As other programs write them. Lines that end with a carriage return alone were a single header, and so a table without rows.
+TEST(TsvTable, IsTheSameWhateverItsLinesEndWithAndWithAByteOrderMark) {
+  for (const char* text : {"a\tb\n1\t2\n", "a\tb\r\n1\t2\r\n", "a\tb\r1\t2\r",
+                           "\xef\xbb\xbf"
+                           "a\tb\n1\t2"})
+    EXPECT_EQ(toText(parseTsv(text)), "a\tb\n1\t2\n") << text;
+}
+
 }  // namespace
 }  // namespace reachlab
