@@ -19,10 +19,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-double numberOf(const std::string& text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return error == std::errc() && end == text.data() + text.size() ? value : kNotMeasured;
+/// The number of a cell; kNotMeasured for n/a. A text that only begins with a number, such as 1,5, is refused under `key`.
+double numberOf(std::string_view cell, const char* key, const std::string& file, int line = 0) {
+  double value = kNotMeasured;
+  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (error == std::errc() && end == cell.data() + cell.size()) return value;
+  if (!cell.empty() && cell != "n/a")
+    throw FaultError(Fault{key, fmt::format("'{}' is not a number", cell.substr(0, 40)), "a number with a decimal point, or n/a",
+                           FilePlace{file, line}});
+  return kNotMeasured;
 }
 
 std::size_t columnOf(const TsvTable& table, const std::string& name, const fs::path& file) {
@@ -48,26 +53,41 @@ std::uint64_t tickOf(double seconds) {
   return static_cast<std::uint64_t>(std::llround(seconds * kTicksPerSecond));
 }
 
-// A whole number of a cell; 0 where there is none.
-int countOf(const std::string& text) {
-  const double number = numberOf(text);
+// A whole number; 0 where there is none.
+int countOf(double number) {
   constexpr double kMost = 1e9;
   return std::isfinite(number) && number >= 0 && number <= kMost ? static_cast<int>(number) : 0;
 }
 
+// Vectors are read from their x on, and numbers without a conversion: order and units have to be those of an export.
+void checkChannels(const record::ChannelTable& table, const fs::path& path) {
+  experiment::Experiment experiment;
+  experiment.object.masses.resize(static_cast<std::size_t>(table.massCount));
+  const record::ChannelTable exported = record::makeChannelTable(experiment, table.parameterCount);
+  for (std::size_t i = 0; i < exported.size(); ++i) {
+    const record::Channel &wanted = exported.channels[i], found = i < table.size() ? table.channels[i] : record::Channel{};
+    if (found.name == wanted.name && found.units == wanted.units) continue;
+    throw FaultError(Fault{fmt::format("channel {}", i + 1), fmt::format("is \"{}\" in {}", found.name, found.units),
+                           fmt::format("{} in {}, in the order of an export of Reachlab", wanted.name, wanted.units),
+                           FilePlace{path.string()}});
+  }
+}
+
 record::ChannelTable readChannels(const fs::path& path) {
   const TsvTable text = parseTsv(record::readWholeFile(path.string()));
-  const std::size_t name = columnOf(text, "name", path);
+  const std::size_t name = columnOf(text, "name", path), units = columnOf(text, "units", path);
   record::ChannelTable table;
   for (const auto& row : text.rows) {
     record::Channel channel;
     channel.name = row.at(name);
+    channel.units = row.at(units);
     if (channel.name.starts_with("mass") && channel.name.ends_with("_pos_x")) ++table.massCount;
     if (channel.name.starts_with("mass1_q") && !channel.name.ends_with("_rate")) ++table.parameterCount;
     if (channel.name == "environment_force_x") table.environment = true;
     if (channel.name == "cursor_pos_x") table.cursor = true;
     table.channels.push_back(channel);
   }
+  checkChannels(table, path);
   return table;
 }
 
@@ -80,12 +100,12 @@ record::SampleRows readMotion(const fs::path& path, std::size_t columns) {
   while (at < end) {
     const std::size_t before = rows.values.size();
     for (bool more = true; more && at < end;) {
-      double value = kNotMeasured;
-      at = std::from_chars(at, end, value).ptr;
-      while (at < end && *at != '\t' && *at != '\n') ++at;  // "n/a"
+      const char* const cell = at;
+      at = std::find_if(cell, end, [](char c) { return c == '\t' || c == '\n'; });
+      const std::string_view text(cell, static_cast<std::size_t>(at - cell));
+      rows.values.push_back(numberOf(text.substr(0, text.find('\r')), "", path.native(), static_cast<int>(rows.ticks.size() + 1)));
       more = at < end && *at == '\t';
       if (at < end) ++at;
-      rows.values.push_back(value);
     }
     if (rows.values.size() - before != columns)
       throw FaultError(Fault{{},
@@ -136,7 +156,7 @@ RunSource readRun(const fs::path& motion) {
   c.subject = labelIn(name, "sub");
   c.session = labelIn(name, "ses");
   c.task = labelIn(name, "task");
-  c.run = countOf(labelIn(name, "run"));
+  c.run = countOf(numberOf(labelIn(name, "run"), "run", motion.native()));
   c.table = readChannels(sibling("channels.tsv"));
   c.device = "n/a";
   const auto about = nlohmann::json::parse(record::readWholeFile(sibling("motion.json").string()), nullptr, false);
@@ -171,14 +191,16 @@ RunSource readRun(const fs::path& motion) {
     begin += secondsOf(later);
   }
   for (const auto& row : events.rows) {
-    const auto number = [&](const char* key) { return numberOf(row.at(column(key))); };
+    const int line = static_cast<int>(&row - events.rows.data()) + 2;
+    const auto number = [&](const char* key) { return numberOf(row.at(column(key)), key, eventsFile.native(), line); };
+    const auto count = [&](const char* key) { return countOf(number(key)); };
     const auto tick = [&](const char* key) { return tickOf(number(key) + begin); };
     record::RecordedTrial trial;
-    trial.trial = countOf(row.at(column("trial")));
+    trial.trial = count("trial");
     trial.planned.catchTrial = row.at(column("trial_type")) == "catch";
     trial.result.outcome = outcomeFrom(row.at(column("outcome")));
     trial.result.reason = reasonFrom(row.at(column("reason")));
-    trial.result.mass = countOf(row.at(column("mass")));
+    trial.result.mass = count("mass");
     trial.result.by = number("by");
     const double movement = number("movement_time");
     trial.result.movementTime = std::isfinite(movement) ? movement : 0;
@@ -190,8 +212,8 @@ RunSource readRun(const fs::path& motion) {
     trial.lastTick = trial.result.endTick;
     trial.peakForce = number("peak_force");
     trial.meanForce = number("mean_force");
-    c.day = countOf(row.at(column("day")));
-    c.block = countOf(row.at(column("block")));
+    c.day = count("day");
+    c.block = count("block");
     c.practice = row.at(column("phase")) == "practice";
     c.condition = row.at(column("condition"));
     trial.planned.scene = sceneIn(events, row, c);

@@ -154,6 +154,34 @@ TEST(Dataset, WhoseEventsAreNoTableOfEventsIsRefusedAndNotARunWithoutTrials) {
       }
 }
 
+// Each dataset below was read as if nothing had happened: other units, another order, and decimal commas.
+TEST(Dataset, OfBidsFilesThatAnotherProgramHasChangedIsRefusedWhereItsNumbersWouldBeOthers) {
+  const TemporaryFolder folder;
+  writeDatasetWithoutLogs(folder.path(), recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2}));
+  const auto refusalOf = [&](const std::string& ending, const std::regex& text, const std::string& instead) -> std::string {
+    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path())) {
+      if (!entry.path().string().ends_with(ending)) continue;
+      const std::string before = record::readWholeFile(entry.path().string()), after = std::regex_replace(before, text, instead);
+      EXPECT_NE(before, after);
+      std::ofstream(entry.path(), std::ios::binary) << after;
+      std::string refusal;
+      try {
+        (void)analyzeTrials(openDataset(folder.path()).input, quick());
+      } catch (const FaultError& error) {
+        refusal = error.what();
+      }
+      std::ofstream(entry.path(), std::ios::binary) << before;
+      return refusal;
+    }
+    return "no such file";
+  };
+  EXPECT_EQ(refusalOf("_motion.tsv", std::regex("\n"), "\r\n"), "") << "the ends of lines are no number";
+  EXPECT_NE(refusalOf("_channels.tsv", std::regex("\tm\t"), "\tmm\t").find("hand_pos_x in m"), std::string::npos);
+  EXPECT_NE(refusalOf("_channels.tsv", std::regex("hand_pos_y"), "hand_pos_z").find("hand_pos_y in m"), std::string::npos);
+  EXPECT_NE(refusalOf("_motion.tsv", std::regex("\\."), ",").find("is not a number"), std::string::npos);
+  EXPECT_NE(refusalOf("_events.tsv", std::regex("\\."), ",").find("is not a number"), std::string::npos);
+}
+
 // The sidecar says how often rows come, or else their times do; a single row has none to tell it by.
 TEST(Dataset, OfBidsFilesThatDoNotSayHowOftenHasTheRateOfItsRows) {
   const TemporaryFolder folder;
