@@ -63,5 +63,18 @@ TEST(FullDisk, StopsTheRunWithOneSentenceAndExitCode3AndKeepsEveryAnnouncedTrial
   }
 }
 
+// Such a log took a run's number, and every later command warned of it.
+TEST(FullDisk, LeavesNoLogOfARunThatCouldNotBegin) {
+  const TemporaryFolder folder;
+  for (const rlim_t limit : {10u, 1000u}) {
+    const std::string data = folder / std::to_string(limit);
+    const std::filesystem::path sources = std::filesystem::path(data) / "sourcedata";
+    std::filesystem::create_directories(sources);
+    EXPECT_EQ(runWithFileLimit(data, data, limit).exitCode, 3);
+    for (const auto& entry : std::filesystem::directory_iterator(sources)) EXPECT_EQ(entry.path().string().find("_log.reach"), std::string::npos);
+    EXPECT_TRUE(session::recordedRuns({data}).empty());
+  }
+}
+
 }  // namespace
 }  // namespace reachlab::cli

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "base/error.h"
 #include "base/fault.h"
@@ -18,12 +19,19 @@ constexpr std::uint64_t kBytesPerDiskLook = 1 << 20;
 
 std::span<const std::uint8_t> bytesOf(const std::string& text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
 
-// Nothing is created for a run that nobody could read.
+// Nothing is created for a run that nobody could read, and nothing is left of a log whose first record the disk does not take.
 LogWriter createLog(const std::string& path, const RunConfiguration& configuration) {
   const std::string text = readableText(configuration, path);
-  LogWriter log = LogWriter::create(path);
-  log.append(RecordType::Configuration, bytesOf(text));
-  return log;
+  std::error_code error;
+  const bool another = std::filesystem::exists(path, error);
+  try {
+    LogWriter log = LogWriter::create(path);
+    log.append(RecordType::Configuration, bytesOf(text));
+    return log;
+  } catch (const ResourceError&) {
+    if (!another) std::filesystem::remove(path, error);
+    throw;
+  }
 }
 
 }  // namespace
