@@ -23,7 +23,7 @@ void addReplayCommand(CLI::App& app, int& exitCode) {
       "  reach replay data/sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach --check");
   command->callback([path, check, &exitCode] {
     const record::RunLog log = record::RunLog::open(*path);
-    if (log.goodBytes() < log.fileBytes()) fmt::print(stderr, "{}: damaged after byte {}: replayed up to there\n", *path, log.goodBytes());
+    if (!log.healthy()) fmt::print(stderr, "note: {}: not closed in order or damaged; replayed up to its last good record\n", *path);
     const auto tell = [&](const record::Replay& replay) {
       for (const record::RecordedTrial& trial : replay.trials)
         fmt::print("{}\n", trialLine(trial.trial, trial.result, record::sceneOf(log.configuration(), trial.planned)));

@@ -77,6 +77,25 @@ TEST(Replay, NeedsNoFileOfTheConstraintThatAnExperimentNames) {
   EXPECT_EQ(record::recordedExperiment(recorded).experiment().constraint.shape.at("w_m"), 0.12);
 }
 
+// What is gone cannot differ: without the note, a log that lost its end would count as a whole one.
+TEST(Replay, SaysOfALogThatWasCutShortThatItIsNotAllOfTheRun) {
+  const TemporaryFolder folder;
+  const std::string data = folder / "data", said = folder / "said";
+  ASSERT_EQ(reach("run dingwell --device simulated --trials 3 --seed 4 --fast --data " + data), 0);
+  const std::string log = session::recordedRuns({data}).at(0).path;
+  std::uint64_t beginOfLast = 0;
+  {
+    record::LogReader reader(log);
+    record::RecordView record;
+    while (reader.next(record)) beginOfLast = record.offset;
+  }
+  for (const bool cut : {false, true}) {
+    if (cut) std::filesystem::resize_file(log, beginOfLast);  // between two records, as a kill leaves it
+    ASSERT_EQ(std::system(("\"" REACH_PROGRAM "\" replay " + log + " --check > /dev/null 2> " + said).c_str()), 0);
+    EXPECT_EQ(record::readWholeFile(said).find("not closed in order") != std::string::npos, cut) << record::readWholeFile(said);
+  }
+}
+
 // The same log with one number of one row changed, every record good in itself.
 TEST(Replay, NamesTheFirstStateThatDiffersAndExits1) {
   const TemporaryFolder folder;
