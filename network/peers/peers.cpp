@@ -111,6 +111,9 @@ Certificate makeCertificate(const std::string& name, const Key& key, const X509*
   constexpr long kDay = 86400;
   X509_gmtime_adj(X509_getm_notBefore(certificate), -kDay);
   X509_gmtime_adj(X509_getm_notAfter(certificate), kDay * days);
+  // Nobody accepts a certificate beyond its authority's last day.
+  if (issuer != nullptr && ASN1_TIME_compare(X509_get0_notAfter(certificate), X509_get0_notAfter(issuer)) > 0)
+    X509_set1_notAfter(certificate, X509_get0_notAfter(issuer));
   X509_set_pubkey(certificate, key.get());
   X509_NAME* subject = X509_get_subject_name(certificate);
   setCommonName(subject, name);

@@ -130,6 +130,10 @@ TEST_F(Peers, CertificatesAndPermissionsHoldFromTheDayBeforeForAsManyDaysAsAreAs
   std::smatch found;
   const std::string permissions = textOf(at("lab/permissions.p7s"));
   ASSERT_TRUE(std::regex_search(permissions, found, std::regex("<not_before>(.*)</not_before><not_after>(.*)</not_after>")));
+  initStation(at("other"), "right");
+  addStation(at("lab"), at("other/request.pem"), {.days = 100});
+  const std::vector<PeerFolder> peers = listPeers(at("lab"));
+  EXPECT_EQ(peers.at(1).validUntil, peers.at(0).validUntil) << "no longer than the authority that signed";
   for (const auto& [text, days] : {std::pair{found[1].str(), -1}, std::pair{found[2].str(), 10}}) {
     std::tm parts{};
     ASSERT_NE(strptime(text.c_str(), "%Y-%m-%dT%H:%M:%S", &parts), nullptr) << text;
