@@ -80,21 +80,23 @@ class ProbeLoss {
  public:
   void add(std::uint32_t number) {
     if (known_ == 0 || number <= last_) came_.reset(), known_ = 0, last_ = number - 1;  // the program of the peer was started again
-    const std::size_t steps = std::min<std::size_t>(number - last_, kProbes);
+    const std::size_t steps = std::min<std::size_t>(number - last_, kMany);
     came_ <<= steps;
     came_.set(0);
-    known_ = std::min(known_ + steps, kProbes);
+    known_ = std::min(known_ + steps, kMany);
     last_ = number;
   }
-  /// Over the last two seconds. 0 in the first half second.
-  double share() const {
-    if (known_ < kLeast) return 0;
-    return 1 - static_cast<double>(came_.count()) / static_cast<double>(known_);
-  }
+  /// Over the last two or the last ten seconds, whichever is more: a link that becomes bad is noticed soon, and two lucky seconds do not
+  /// make a bad link good. 0 in the first half second.
+  double share() const { return known_ < kLeast ? 0 : std::max(shareOf(kFew), shareOf(kMany)); }
 
  private:
-  static constexpr std::size_t kProbes = 100, kLeast = 25;
-  std::bitset<kProbes> came_;  // the newest first
+  static constexpr std::size_t kFew = 100, kMany = 500, kLeast = 25;
+  double shareOf(std::size_t newest) const {
+    const std::size_t count = std::min(newest, known_);
+    return 1 - static_cast<double>((came_ << (kMany - count)).count()) / static_cast<double>(count);
+  }
+  std::bitset<kMany> came_;  // the newest first
   std::size_t known_ = 0;
   std::uint32_t last_ = 0;
 };

@@ -60,7 +60,7 @@ struct LinkStatus {
   std::atomic<double> roundTrip{-1};  // [s] the newest; -1: not known
   std::atomic<double> jitter{0};      // [s] SD of the round trip over the last samples
   std::atomic<double> offset{0};      // [s] the peer's clock less ours, from the fastest recent exchange
-  std::atomic<double> loss{0};        // share of its samples that do not arrive, over the last two seconds
+  std::atomic<double> loss{0};        // share of its samples that do not arrive, over two or ten seconds, whichever is more
   std::atomic<double> overtaken{0};   // share of a second's samples that came after a newer sample and were not used
   std::atomic<double> gap{0};         // [s] longest time without a sample in the last second
   std::atomic<std::int64_t> heardNs{0};

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/math/seeded.h"
 #include "network/endpoint/message_limit.h"
 
 namespace reachlab::network {
@@ -117,13 +118,27 @@ double lossOver(std::uint32_t from, std::uint32_t to, const std::function<bool(s
   return loss.share();
 }
 
-TEST(ProbeLoss, IsTheShareOfTheLastHundredThatDidNotCome) {
+TEST(ProbeLoss, IsTheShareOfTheLastHundredOrFiveHundredThatDidNotCome) {
   const auto all = [](std::uint32_t) { return true; };
   EXPECT_EQ(lossOver(7, 1000, all), 0);
   EXPECT_NEAR(lossOver(1, 1001, [](std::uint32_t number) { return number % 5 != 0; }), 0.2, 1e-12);
   EXPECT_NEAR(lossOver(1, 1000, [](std::uint32_t number) { return number > 970 || number <= 940; }), 0.3, 1e-12) << "at one go";
-  EXPECT_EQ(lossOver(1, 1000, [](std::uint32_t number) { return number > 900; }), 0) << "forgotten after a hundred";
-  EXPECT_NEAR(lossOver(1, 1000, [](std::uint32_t number) { return number < 10 || number == 1000; }), 0.99, 1e-12);
+  EXPECT_EQ(lossOver(1, 1000, [](std::uint32_t number) { return number > 900; }), 0) << "nothing is known of before the first";
+  EXPECT_NEAR(lossOver(1, 1000, [](std::uint32_t number) { return number < 10 || number == 1000; }), 0.998, 1e-12);
+  EXPECT_NEAR(lossOver(1, 1000, [](std::uint32_t number) { return number > 900 || number % 2 == 0; }), 0.4, 1e-12) << "a hundred good ones";
+  EXPECT_EQ(lossOver(1, 1000, [](std::uint32_t number) { return number > 500 || number % 2 == 0; }), 0) << "forgotten after five hundred";
+}
+
+// Two seconds alone let such a link through within seconds.
+TEST(ProbeLoss, OfALinkThatLosesThreeTenthsIsNotBelowAFifthInAMinute) {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    ProbeLoss loss;
+    for (std::uint32_t number = 1; number <= 3500; ++number) {
+      if (seededFraction(seed, number) < 0.3) continue;
+      loss.add(number);
+      if (number > 500) ASSERT_GT(loss.share(), 0.2) << "seed " << seed << ", probe " << number;
+    }
+  }
 }
 
 TEST(ProbeLoss, IsNotJudgedByAFewNorByThoseOfAnEarlierStart) {
