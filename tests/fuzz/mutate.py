@@ -5,9 +5,9 @@
     tests/fuzz/mutate.py build/release --minutes 10 --limits         # and nothing above 2 s of processor time or 512 MB
     tests/fuzz/mutate.py build/dev --only 1234 --seed 1 --keep DIR   # one case again, its files kept
 
-Experiments, plans and definitions as JSON trees; logs record by record, with right lengths, sequence numbers and CRCs; replayed reaches as
-tables; BIDS folders cell by cell. Case n depends on (seed, n) alone. Findings are named with their case; exit 1 when there is one. A `run` or a
-`simulate` of a movement that lasts long (`duration_s` up to 3600 is allowed) may take 20 us more for each of its ticks.
+Experiments, plans and definitions as JSON trees; logs record by record, with right lengths, sequence numbers and CRCs; replayed reaches and
+series of adaptation as tables; BIDS folders cell by cell. Case n depends on (seed, n) alone. Findings are named with their case; exit 1 when there
+is one. A `run` or a `simulate` of a movement that lasts long (`duration_s` up to 3600 is allowed) may take 20 us more for each of its ticks.
 """
 import argparse
 import json
@@ -30,6 +30,26 @@ CRITERIA = ["min-hand-jerk", "min-hand-jerk", "min-torque-change", "min-crackle"
             "min-hand-crackle"]
 NUMBERS = [0, -0.0, 1, -1, 2, 3, 0.5, 1e-9, -1e-9, 1e-300, 5e-324, 1e3, 1e6, 1e9, 1e15, 1e20, 1e300, 1.7e308, -1.7e308, 2**31 - 1, 2**31, 2**32,
            2**53 + 1, 2**63, 2**64 - 1, 2**64, -2**31 - 1, -2**63 - 1, 600, 9999, 10000, 65536]
+# Every force and a cursor, and a block that mixes them.
+FORCES = {"schema_version": 1, "constraint": {"name": "free"}, "object": {"kind": "none"},
+          "task": {"start": [0, 0, 0], "target": [0, 0, -0.1], "duration_s": 0.5, "plane": "horizontal",
+                   "tolerance": {"position_m": 0.01, "velocity_m_per_s": 0.05, "time_s": 0.2}},
+          "environment": [{"kind": "viscous", "when": "trial", "matrix_n_s_per_m": [[0, 0, 5], [0, 0, 0], [-5, 0, 0]]},
+                          {"kind": "elastic", "matrix_n_per_m": [[10, 0, 0], [0, 0, 0], [0, 0, 10]], "centre_m": [0, 0, 0]},
+                          {"kind": "joint-viscous", "matrix_n_m_s_per_rad": [[0.5, 0], [0, 0.5]]},
+                          {"kind": "channel", "stiffness_n_per_m": 1000, "damping_n_s_per_m": 15, "half_width_m": 0.001, "ramp_s": 0.1, "break_m": 0.03},
+                          {"kind": "pulse", "force_n": [1, 0, 0], "at": {"onset_s": 0.1}, "duration_s": 0.1, "rise_s": 0.01},
+                          {"kind": "pulse", "force_n": [1, 0, 0], "at": {"distance_m": 0.02}}],
+          "arm": {"link_length_m": [0.33, 0.34], "shoulder_m": [0, -0.4]},
+          "cursor": {"rotation_deg": 30, "gain": 1.2, "delay_s": 0.1, "show": "movement-end", "judge": "hand"}}
+MIXED = {"schema_version": 1, "name": "mixed",
+         "kinds": {"null": {"environment": []}, "turned": {"cursor": {"clamp_deg": 30}}, "channel": {"environment[0]": {"kind": "channel"}}},
+         "blocks": [{"experiment": "curl-field", "trials": 4, "mix": [{"kind": "null", "count": 1}, {"kind": "channel", "count": 1}],
+                     "targets": {"ring": {"count": 2, "radius_m": 0.1, "first_deg": 90}}, "order": "shuffled-cycles", "not_first": ["channel"],
+                     "return": "reach"},
+                    {"experiment": "curl-field", "trials": 2, "mix": [{"kind": "null"}, {"kind": "turned"}], "order": "shuffled",
+                     "targets": [[0, 0, -0.1], [0.1, 0, 0]], "not_twice": ["null"]}]}
+FELT = ["simulated", "simulated:kind=ofc", "simulated:kind=impedance"]
 TEXTS = ["", " ", "a", "..", "../../x", "/dev/zero", "x" * 5000, "\u0000", "\x1b[31m", "\udcff".encode("utf-8", "replace").decode(), "ä", "🦀" * 50, "=1+1",
          "sin(", "phi^phi^phi", "1/0", "((((((((" * 30, "a*cos(phi)", "u", "-", "1e400", "NaN", "%s%n", "\n", "\t", ",", "\"", "'"]
 
@@ -116,6 +136,16 @@ def seconds_asked_for(command):
         return 0
 
 
+def is_short(plan):
+    """Whether the plan's trials and pauses let it be recorded here."""
+    try:
+        tree = json.loads(plan)
+        settings = [tree, *tree["blocks"]]
+        return sum(block.get("trials", tree.get("trials", 0)) for block in tree["blocks"]) <= 40 and len(settings) <= 10
+    except (ValueError, KeyError, TypeError, AttributeError, RecursionError):
+        return True  # refused before the first trial
+
+
 class Log:
     """A log as its records: (type, payload)."""
 
@@ -191,32 +221,45 @@ class Seeds:
 
     def __init__(self, reach, folder):
         read = lambda pattern: {p: json.loads(strip_comments(p.read_text(encoding="utf-8"))) for p in sorted(ROOT.glob(pattern))}
-        self.experiments = list(read("resources/experiments/*.json").values())
-        self.plans = list(read("resources/plans/*.json").values())
+        self.experiments = [*read("resources/experiments/**/*.json").values(), *[FORCES] * 6]
+        self.plans = [*read("resources/plans/*.json").values(), *[MIXED] * 4]
         self.definitions = list(read("constraints/definitions/*.json").values())
         self.reaches = [p.read_text() for p in sorted(ROOT.glob("resources/reaches/*.csv"))[:4]]
         data = folder / "seed"
         for experiment in ("dingwell", "torus"):
             subprocess.run([reach, "run", experiment, "--device", "simulated", "--trials", "2", "--seed", "1", "--fast", "--data", data],
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
+        mixed = folder / "mixed.json"
+        mixed.write_text(json.dumps(MIXED))
+        subprocess.run([reach, "run", mixed, "--device", "simulated:kind=ofc", "--seed", "1", "--fast", "--subject", "02", "--data", data],
+                       stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=True)
+        self.series = (ROOT / "docs/examples/adaptation-series.csv").read_text()
         self.logs = [Log(p.read_bytes()) for p in sorted((data / "sourcedata").glob("*.reach"))]
         self.dataset = data
 
 
 def make_case(seeds, chance, folder):
     """Files in `folder`, and the commands to run on them."""
-    kind = chance.choice(["experiment"] * 4 + ["plan"] * 2 + ["definition"] * 2 + ["log"] * 5 + ["reach"] * 2 + ["bids"] * 2)
+    kind = chance.choice(["experiment"] * 4 + ["plan"] * 2 + ["definition"] * 2 + ["log"] * 5 + ["reach"] * 2 + ["bids"] * 2 + ["series"])
     if kind == "experiment":
         file = folder / "case.json"
         file.write_bytes(json_case(chance.choice(seeds.experiments), chance))
         criterion = chance.choice(CRITERIA)
-        return kind, chance.sample([["validate", file], ["simulate", file, "--hand", chance.choice(["hold", "none", "min-jerk", "min-jerk-along"])],
+        return kind, chance.sample([["validate", file], ["validate", file, "--device", "virtual:omni"],
+                                    ["simulate", file, "--hand", chance.choice(["hold", "none", "min-jerk", "min-jerk-along"])],
                                     ["predict", file, "--criterion", criterion, "--json"],
-                                    ["run", file, "--device", "simulated", "--trials", "1", "--seed", "1", "--fast", "--data", folder / "data"]], 2)
+                                    ["run", file, "--device", chance.choice(FELT), "--trials", "1", "--seed", "1", "--fast", "--data", folder / "data"]], 2)
     if kind == "plan":
         file = folder / "plan.json"
         file.write_bytes(json_case(chance.choice(seeds.plans), chance))
-        return kind, [["validate", file]]
+        commands = [["validate", file]]
+        if is_short(file.read_bytes()):
+            commands.append(["run", file, "--device", chance.choice(FELT), "--seed", "1", "--fast", "--data", folder / "data"])
+        return kind, commands
+    if kind == "series":
+        file = folder / "series.csv"
+        file.write_bytes(table_case(seeds.series, ",", chance))
+        return kind, [["adaptation", file, "--resamples", "100"]]
     if kind == "definition":
         file = folder / "definition.json"
         file.write_bytes(json_case(chance.choice(seeds.definitions), chance))
