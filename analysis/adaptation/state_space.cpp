@@ -217,7 +217,7 @@ std::vector<double> simulateLearning(const std::vector<LearningState>& states, c
 
 AdaptationFit fitAdaptation(const AdaptationSeries& series, int resamples, std::uint64_t seed) {
   constexpr std::size_t kLeastResponses = 12;  // three for each parameter of two states
-  constexpr std::size_t kMostTrials = 20'000;  // the fit and its intervals take about a minute
+  constexpr std::size_t kMostTrials = 10'000;  // the fit and its intervals take minutes
   constexpr double kLargest = 1e100;           // of a number and of its inverse, whose squares a double holds with room for sums
   constexpr double kStrong = 6;                // difference of criteria; Kass & Raftery (1995)
   AdaptationFit fit;

@@ -42,7 +42,7 @@ struct AdaptationFit {
 
 /// Least squares within 0 <= A_f <= A_s <= 1 and 0 <= B_s <= B_f <= 1, from several starts. The intervals come from `resamples` bootstrap
 /// series whose residuals are drawn in blocks of neighbouring trials, which keeps slow drifts together. Throws RefusedError where nothing
-/// is perturbed, fewer than 12 responses are measured, which is three for each parameter of two states, there are more than 20,000 trials,
+/// is perturbed, fewer than 12 responses are measured, which is three for each parameter of two states, there are more than 10,000 trials,
 /// or the squares of the numbers go beyond a double.
 AdaptationFit fitAdaptation(const AdaptationSeries& series, int resamples, std::uint64_t seed);
 
