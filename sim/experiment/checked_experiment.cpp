@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/fault.h"
 #include "base/number_range.h"
@@ -47,7 +48,8 @@ struct KeyCheck {
   template <std::size_t N>
   void operator()(const Key& key, const SquareMatrix<N>& matrix) const {
     for (std::size_t i = 0; i < N; ++i)
-      for (std::size_t j = 0; j < N; ++j) checkNumber(fmt::format("{}[{}][{}]", keyIn(group, key.name), i, j), matrix[i][j], key.range, faults);
+      for (std::size_t j = 0; j < N; ++j)
+        checkNumber(fmt::format("{}[{}][{}]", keyIn(group, key.name), i, j), matrix[i][j], key.range, faults);
   }
   void operator()(const Key&, const ForceLaw& law) const {
     std::visit([&](const auto& of) { visitKeys(of, *this); }, law);
@@ -95,8 +97,7 @@ void checkCoupling(const Experiment& e, std::vector<Fault>& faults) {
   }
   if (parallel && e.coupling)
     return faults.push_back({"coupling", "stands beside a parallel object, whose own springs are the hand's", "no coupling"});
-  if (!parallel && !e.coupling)
-    faults.push_back({"coupling", "is missing", "{ \"stiffness_n_per_m\": …, \"damping_n_s_per_m\": … }"});
+  if (!parallel && !e.coupling) faults.push_back({"coupling", "is missing", "{ \"stiffness_n_per_m\": …, \"damping_n_s_per_m\": … }"});
 }
 
 void checkHands(const Experiment& e, std::vector<Fault>& faults) {
@@ -118,13 +119,35 @@ void checkHands(const Experiment& e, std::vector<Fault>& faults) {
   }
 }
 
+// A joint field is a quotient by the bend of the arm: it has no value where the arm is stretched or does not reach.
+void checkReachOfArm(const Experiment& e, const std::string& key, std::vector<Fault>& faults) {
+  if (!e.task || e.constraint.name != "free") return;
+  const double least = std::abs(e.arm.length[0] - e.arm.length[1]), most = e.arm.length[0] + e.arm.length[1];
+  for (const auto& [name, at] : {std::pair{"start", &e.task->start}, std::pair{"target", &e.task->target}}) {
+    if (at->size() != 3) continue;
+    const double away = std::hypot((*at)[0] - e.arm.shoulder[0], -(*at)[2] - e.arm.shoulder[1]);
+    if (!(away > least && away < most))
+      faults.push_back({key + ".kind", fmt::format("is joint-viscous, but the task's {} is {:g} m from the arm's shoulder", name, away),
+                        fmt::format("more than {:g} and less than {:g} m, where the arm is bent", least, most)});
+  }
+}
+
 void checkEnvironment(const Experiment& e, std::vector<Fault>& faults) {
+  constexpr std::size_t kMostForces = 100;  // a servo cycle has time for them
+  if (e.environment.size() > kMostForces)
+    return faults.push_back({"environment", fmt::format("has {} forces", e.environment.size()), fmt::format("up to {}", kMostForces)});
   const bool stays = e.task && e.task->start == e.task->target;
   for (std::size_t i = 0; i < e.environment.size(); ++i) {
     const std::string key = fmt::format("environment[{}]", i);
     const ForceLaw& law = e.environment[i].law;
     if (std::holds_alternative<ChannelForce>(law) && stays)
-      faults.push_back({key + ".kind", "is channel, but start and target are the same place", "a task with a distance from start to target"});
+      faults.push_back(
+          {key + ".kind", "is channel, but start and target are the same place", "a task with a distance from start to target"});
+    if (const auto* channel = std::get_if<ChannelForce>(&law); channel != nullptr && channel->breakDistance <= channel->halfWidth)
+      faults.push_back({key + ".break_m",
+                        fmt::format("is {:g}, so that the channel lets go before its walls are touched", channel->breakDistance),
+                        fmt::format("more than {:g} m, its half_width_m", channel->halfWidth)});
+    if (std::holds_alternative<JointViscousForce>(law)) checkReachOfArm(e, key, faults);
     const auto* pulse = std::get_if<PulseForce>(&law);
     if (pulse == nullptr) continue;
     if (pulse->at.onset.has_value() == pulse->at.distance.has_value())

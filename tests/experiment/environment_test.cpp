@@ -50,6 +50,28 @@ TEST(EnvironmentKeys, NoForceIsAnEmptyListOrNoKey) {
   EXPECT_TRUE(read(R"("hand_mass_kg": 1)").environment.empty());
 }
 
+// Each of these was fine, and each trial then ended as a fault of the computation, or without a wall.
+TEST(EnvironmentKeys, RefuseForcesThatNoTrialCouldFeel) {
+  const auto joint = [](const std::string& arm) {
+    return refused(R"("environment": [{ "kind": "joint-viscous", "matrix_n_m_s_per_rad": [[1, 0], [0, 1]] }], "arm": )" + arm);
+  };
+  EXPECT_EQ(joint(R"({ "shoulder_m": [0, -0.49] })"), "") << "0.59 m to the target";
+  EXPECT_NE(joint(R"({ "shoulder_m": [0, -0.5] })").find("target is 0.6 m from the arm's shoulder"), std::string::npos) << "stretched";
+  EXPECT_NE(joint(R"({ "shoulder_m": [3, 4] })").find("start is 5 m from the arm's shoulder"), std::string::npos);
+  EXPECT_NE(joint(R"({ "shoulder_m": [0, 0], "link_length_m": [0.3, 0.3] })").find("start is 0 m"), std::string::npos) << "folded";
+  const auto channel = [](const std::string& keys) { return refused(R"("environment": [{ "kind": "channel", )" + keys + " }]"); };
+  EXPECT_EQ(channel(R"("half_width_m": 0.01)"), "");
+  EXPECT_NE(channel(R"("half_width_m": 0.01, "break_m": 0.01)").find("environment[0].break_m: is 0.01"), std::string::npos);
+  EXPECT_NE(channel(R"("half_width_m": 0.05)").find("more than 0.05 m"), std::string::npos);
+}
+
+TEST(EnvironmentKeys, RefuseMoreForcesThanAServoCycleHasTimeFor) {
+  std::string forces = R"({ "kind": "channel" })";
+  for (int i = 1; i < 100; ++i) forces += R"(, { "kind": "channel" })";
+  EXPECT_EQ(refused(R"("environment": [)" + forces + "]"), "");
+  EXPECT_NE(refused(R"("environment": [)" + forces + R"(, { "kind": "channel" }])").find("environment: has 101 forces"), std::string::npos);
+}
+
 TEST(EnvironmentKeys, RefuseWhatIsNoForceUnderItsKey) {
   const auto told = [](const std::string& force) { return refused(R"("environment": [ )" + force + " ]"); };
   EXPECT_NE(refused(R"("environment": { "kind": "channel" })").find("environment: is"), std::string::npos);
