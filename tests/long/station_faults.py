@@ -132,14 +132,14 @@ def before_others():
 class Pair:
     """One run of two stations; `left` is the conductor."""
 
-    def __init__(self, bench, name, wait=20, experiment=None, trials=None, **stations):
+    def __init__(self, bench, name, wait=20, experiment=None, trials=None, noise=0, **stations):
         self.folder = os.path.join(bench.work, name)
         os.makedirs(self.folder)
         self.bench, self.processes = bench, {}
         for side, number in (("right", 2), ("left", 1)):
             more = stations.get(side, {})
             words = ["ip", "netns", "exec", bench.link.spaces[number - 1], more.get("reach", bench.reach), "station", experiment or bench.experiment,
-                     "--number", str(number), "--device", "simulated:noise=0", "--seed", str(number), "--every-tick", "--wait", str(wait),
+                     "--number", str(number), "--device", f"simulated:noise={noise}", "--seed", str(number), "--every-tick", "--wait", str(wait),
                      "--peers", more.get("peers", os.path.join(bench.work, side)), "--interface", bench.link.outer[number - 1] + "n",
                      "--peer", f"10.77.0.{3 - number}", "--data", self.path(side)]
             if side == "left":
@@ -366,15 +366,16 @@ class Bench:
             pair.check_lost(side)
         pair.check_logs()
 
-    def over_a_link(self, delay, jitter, bound):
-        """`delay` +- `jitter` ms each way, 5 % loss; copies apart at most `bound` mm. The chain of five as it is shipped, but that ticks may be late."""
+    def over_a_link(self, delay, jitter, bound, noise=0, trials=3):
+        """`delay` +- `jitter` ms each way, 5 % loss; copies apart at most `bound` mm. The chain of five as it is shipped, but that ticks may be late.
+        Hands without noise, or the virtual subjects as they are."""
         with open(os.path.join(HERE, "../../resources/experiments/two-hands/chain-two-hands.json")) as file:
             experiment = {**json.load(file), "timing": SLOW["timing"]}
         chain = os.path.join(self.work, "chain-two-hands.json")
         with open(chain, "w") as file:
             json.dump(experiment, file)
         self.link.order(f"link {delay} {jitter} 5")
-        pair = Pair(self, f"link_{2 * delay}", experiment=chain, trials=3)
+        pair = Pair(self, f"link_{2 * delay}_{noise}", experiment=chain, trials=trials, noise=noise)
         codes = pair.end()
         self.link.order("link 1 0.1 0")
         check(codes == {"left": 0, "right": 0}, f"exit {codes}")
@@ -390,6 +391,24 @@ class Bench:
 
     def link_100(self):
         self.over_a_link(50, 5, 1.5)
+
+    def link_50_noise(self):
+        self.over_a_link(25, 2.5, 0.6, noise=1, trials=10)
+
+    def link_100_noise(self):
+        self.over_a_link(50, 5, 1.5, noise=1, trials=10)
+
+    def loss_30(self):
+        """A link that loses more than the 20 % that are allowed, from the first trial on: that is the last one."""
+        pair = Pair(self, "loss_30", wait=8, trials=2)
+        check(pair.await_movement(), "they move")
+        self.link.order("link 1 0.1 30")
+        codes = pair.end()
+        self.link.order("link 1 0.1 0")
+        found = re.search(r"(\d+) % of what it sends is lost; allowed: up to 20", pair.text("left.err"))
+        check(codes["left"] == 3 and pair.log("left").trials == 1, f"left: exit {codes['left']}, {pair.log('left').trials} trial")
+        check(found and 20 < int(found[1]) < 45, f"left says how much: {found and found[0]}")
+        pair.check_logs()
 
     def clock_step(self):
         shim = os.path.join(self.work, "clock_step.so")
@@ -502,7 +521,7 @@ class Bench:
         check(f"runs reachlab {other}, and this one reachlab {version}" in pair.text("left.err"), "left says which")
 
 
-CASES = ["link_50", "link_100", "peer_killed", "conductor_killed", "stall", "cut_30", "cut_90", "cut_500", "clock_step", "duplicates", "replays", "wrong_certificate",
+CASES = ["link_50", "link_100", "link_50_noise", "link_100_noise", "loss_30", "peer_killed", "conductor_killed", "stall", "cut_30", "cut_90", "cut_500", "clock_step", "duplicates", "replays", "wrong_certificate",
          "expired_certificate", "self_signed_permissions", "other_version"]
 
 
