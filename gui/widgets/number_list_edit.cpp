@@ -96,6 +96,7 @@ void NumberListEdit::setNumbers(const std::vector<double>& numbers) {
   const bool beingTyped = numbers == shown_ && !numbersOf(text());
   shown_ = told_ = numbers;
   if (!beingTyped) setText(textOf(numbers));
+  if (!hasFocus()) setCursorPosition(0);  // a list that is too long for the field is read from its beginning
   mark();
 }
 
