@@ -12,7 +12,8 @@ TrialReplay::TrialReplay(const record::RunLog& log, const record::RecordedTrial&
   zero_ = trial.armedTick > 0 ? trial.armedTick : trial.startTick;
   rows_ = log.rows(zero_, std::max(zero_, trial.result.endTick > 0 ? trial.result.endTick : trial.lastTick));
   hand_ = table.indexOf("hand_pos_x");
-  force_ = table.indexOf("coupling_force_x");
+  // Without an object nothing is coupled, and the hand feels the environment alone.
+  force_ = table.indexOf(table.massCount == 0 && table.environment ? "environment_force_x" : "coupling_force_x");
   valid_ = table.indexOf("valid");
   // Without an object the hand, or its cursor, is drawn as a mass.
   mass_ = table.indexOf(table.massCount > 0 ? "mass1_pos_x" : table.cursor ? "cursor_pos_x" : "hand_pos_x");

@@ -20,7 +20,7 @@ class TrialReplay {
   double neighbour(double time, int rows) const;
   /// Held beyond the ends.
   scene::SceneFrame frameAt(double time) const;
-  double forceAt(double time) const;  // [N] of the coupling
+  double forceAt(double time) const;  // [N] of the coupling; without an object, of the environment
 
  private:
   double timeOf(std::size_t row) const;
