@@ -7,7 +7,10 @@ namespace {
 
 QString number(double value, int digits) { return QString::number(value, 'f', digits); }
 
-QString massName(int mass) { return mass > 0 ? QStringLiteral("mass %1").arg(mass) : QStringLiteral("the object"); }
+// "mass 5 is " before what it misses. A result names no mass where the hand or its cursor is judged.
+QString massIs(int mass, const char* verb) {
+  return mass > 0 ? QStringLiteral("mass %1 %2 ").arg(mass).arg(QLatin1String(verb)) : QString();
+}
 
 }  // namespace
 
@@ -16,9 +19,9 @@ QString outcomeText(const trial::TrialResult& result) {
     case trial::Reason::TimeShort: return QStringLiteral("Too fast by %1 s").arg(number(result.by, 2));
     case trial::Reason::TimeLong: return QStringLiteral("Too slow by %1 s").arg(number(result.by, 2));
     case trial::Reason::Position:
-      return QStringLiteral("Time is up: %1 is %2 mm too far from the target").arg(massName(result.mass), number(1000 * result.by, 1));
+      return QStringLiteral("Time is up: %1%2 mm too far from the target").arg(massIs(result.mass, "is"), number(1000 * result.by, 1));
     case trial::Reason::Velocity:
-      return QStringLiteral("Time is up: %1 still moves %2 mm/s too fast").arg(massName(result.mass), number(1000 * result.by, 1));
+      return QStringLiteral("Time is up: %1%2 mm/s too fast").arg(massIs(result.mass, "still moves"), number(1000 * result.by, 1));
     case trial::Reason::ForceLimit: return QStringLiteral("The force exceeded its limit");
     case trial::Reason::DeviceLost: return QStringLiteral("The device was lost");
     case trial::Reason::NoOnset: return QStringLiteral("No movement began");
@@ -96,10 +99,14 @@ QString taskText(const experiment::Experiment& experiment, bool hiding) {
   const experiment::Task& task = *experiment.task;
   const auto digits = [](double value) { return QString::number(value, 'g', 4); };
   const std::size_t masses = experiment.object.masses.size();
-  const QString what = experiment.object.kind == experiment::ObjectKind::Body ? QStringLiteral("the body")
-                       : masses == 1                                          ? QStringLiteral("the mass")
-                       : masses == 2                                          ? QStringLiteral("both masses")
-                                                                              : QStringLiteral("all %1 masses").arg(masses);
+  const bool bare = experiment.object.kind == experiment::ObjectKind::None,
+             byCursor = experiment.cursor && experiment.cursor->judge == experiment::CursorJudge::Cursor;
+  const QString what = bare && byCursor                                         ? QStringLiteral("the cursor")
+                       : bare                                                   ? QStringLiteral("your hand")
+                       : experiment.object.kind == experiment::ObjectKind::Body ? QStringLiteral("the body")
+                       : masses == 1                                            ? QStringLiteral("the mass")
+                       : masses == 2                                            ? QStringLiteral("both masses")
+                                                                                : QStringLiteral("all %1 masses").arg(masses);
   const double earliest = task.duration - task.tolerance.time, latest = task.duration + task.tolerance.time;
   const QString when = earliest > 0 ? QStringLiteral("%1 to %2 s").arg(digits(earliest), digits(latest))
                                     : QStringLiteral("at most %1 s").arg(digits(latest));
