@@ -12,7 +12,7 @@ namespace {
 
 // Pixels, as the scale has them: docks left and right of a scene that is still seen, and three of them below one another.
 constexpr int kThreeColumns = 1200, kThreeRows = 680;
-constexpr int kLayoutVersion = 6;  // another set of docks is another layout
+constexpr int kLayoutVersion = 7;  // another set of docks is another layout
 
 QString key(const char* name) { return QStringLiteral("window/") + QLatin1String(name); }
 

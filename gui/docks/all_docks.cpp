@@ -5,6 +5,7 @@
 #include "gui/docks/constraint_dock.h"
 #include "gui/docks/coupling_dock.h"
 #include "gui/docks/device_dock.h"
+#include "gui/docks/environment_dock.h"
 #include "gui/docks/object_dock.h"
 #include "gui/docks/prediction_dock.h"
 #include "gui/docks/session_dock.h"
@@ -44,11 +45,14 @@ Docks makeDocks(QMainWindow& window, bool station) {
   window.tabifyDockWidget(docks.trials, docks.devices);
   docks.predictions->raise();
   Dock* object = add(new ObjectDock(&window), Qt::RightDockWidgetArea);
-  add(new CouplingDock(&window), Qt::RightDockWidgetArea);
-  add(new TaskDock(&window), Qt::RightDockWidgetArea);
+  Dock* coupling = add(new CouplingDock(&window), Qt::RightDockWidgetArea);
+  Dock* task = add(new TaskDock(&window), Qt::RightDockWidgetArea);
+  window.tabifyDockWidget(task, add(new EnvironmentDock(&window), Qt::RightDockWidgetArea));
+  task->raise();
   window.resizeDocks({docks.velocity}, {270}, Qt::Vertical);
   window.resizeDocks({docks.session, docks.constraint, docks.predictions}, {1, 190, 260},
                      Qt::Vertical);  // the session has its least height
+  window.resizeDocks({object, coupling, task}, {270, 110, 380}, Qt::Vertical);
   window.resizeDocks({docks.session, object}, {378, 300}, Qt::Horizontal);
   return docks;
 }

@@ -2,6 +2,9 @@
 
 #include <QRegularExpression>
 #include <map>
+#include <string_view>
+
+#include "sim/experiment/unit_ending.h"
 
 namespace reachlab::gui::widgets {
 namespace {
@@ -27,9 +30,15 @@ const std::map<QString, QString>& fieldNames() {
 }  // namespace
 
 QString inWords(const Fault& fault) {
-  static const QRegularExpression index(QStringLiteral("\\[(\\d+)\\]$"));
+  static const QRegularExpression index(QStringLiteral("\\[(\\d+)\\]$")), force(QStringLiteral("^environment\\[(\\d+)\\]\\.(\\w+)"));
   QString key = QString::fromStdString(fault.key);
   QString number;
+  if (const auto found = force.match(key); found.hasMatch()) {  // keys of a force are those of other parts too: "duration_s"
+    const std::string name = found.captured(2).toStdString();
+    const std::string_view bare = experiment::splitUnit(name).name;
+    key = QStringLiteral("force %1, ").arg(found.captured(1).toInt() + 1) + QString::fromUtf8(bare.data(), static_cast<int>(bare.size()));
+    key.replace(QLatin1Char('_'), QLatin1Char(' '));
+  }
   if (const auto found = index.match(key); found.hasMatch()) {
     number = QStringLiteral(" %1").arg(found.captured(1).toInt() + 1);
     key.truncate(found.capturedStart());
