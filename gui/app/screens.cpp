@@ -58,8 +58,15 @@ void Screens::rebuild() {
 void Screens::showRest() {
   frame_ = restingFrame(main_.plan());
   main_.showFrame(frame_);
-  if (subject_) subject_->view().showFrame(frame_);
+  showSubjectsFrame(trial::Phase::Idle);
   showPatch(nullptr);
+}
+
+void Screens::showSubjectsFrame(trial::Phase phase) {
+  if (!subject_) return;
+  scene::SceneFrame seen = frame_;
+  seen.cursorShown = isCursorShown(subject_->view().plan(), phase);
+  subject_->view().showFrame(seen);
 }
 
 // White from the go signal to the trial's end: with the picture that shows it, not before.
@@ -77,8 +84,10 @@ void Screens::showState(const haptics::TickState& state, const network::OtherHan
   for (std::size_t hand = 0; hand < std::min(others.known.size(), main_.plan().hands.size()); ++hand)
     if (others.known[hand]) frame_.hands[hand] = others.place[hand];
   if (!main_.plan().look.forceArrow) frame_.force = {};
+  if (const auto& cursor = main_.plan().cursor; cursor && !frame_.masses.empty())
+    frame_.masses[0] = cursor_.at(state.tick, frame_.masses[0], cursor->delay);
   main_.showFrame(frame_);
-  if (subject_) subject_->view().showFrame(frame_);
+  showSubjectsFrame(state.phase);
   showPatch(&state);
 }
 

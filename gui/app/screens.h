@@ -8,6 +8,7 @@
 
 #include "gui/model/model_reader.h"
 #include "gui/scene/scene_overlay.h"
+#include "gui/scene_plan/late_cursor.h"
 #include "gui/scene_plan/scene_plan.h"
 #include "network/link/station_sink.h"
 #include "sim/experiment/compiled_experiment.h"
@@ -66,6 +67,7 @@ class Screens : public QObject {
  private:
   void rebuild();
   void showPatch(const haptics::TickState* state);
+  void showSubjectsFrame(trial::Phase phase);
   void openSubject(const QString& screen);
   void mirror();
 
@@ -74,6 +76,7 @@ class Screens : public QObject {
   std::optional<experiment::CompiledExperiment> experiment_;
   scene::ViewOptions options_;
   scene::SceneFrame frame_;
+  scene::LateCursor cursor_;
   scene::OverlayState overlay_, subjectsOverlay_;
   QList<QAction*> actions_;
   QString folder_;

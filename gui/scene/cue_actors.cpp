@@ -43,13 +43,14 @@ Actor actorOf(vtkPolyDataMapper* mapper, const widgets::Colour& colour, double o
 struct CueActors::Impl {
   Impl(vtkRenderer& to, const ScenePlan& plan)
       : renderer(to), look(plan.look), shift(plan.massShift), radius(plan.massRadius), unit(plan.unit), floor(plan.floor),
-        handRadius(plan.handRadius) {}
+        handRadius(plan.handRadius), handShown(plan.handShown) {}
 
   vtkRenderer& renderer;
   const PlanLook look;
   const std::vector<Vec3> shift;
   const std::vector<double> radius;
   const double unit, floor, handRadius;
+  const bool handShown;             // false: the cues are those of the first mass
   std::vector<Actor> all, shadows;  // of the masses, and last the hand's
   Actor arrow;
   vtkNew<vtkPoints> tracePoints;
@@ -129,13 +130,15 @@ struct CueActors::Impl {
       tracePoints->Reset();
     }
     const vtkIdType count = tracePoints->GetNumberOfPoints();
-    if (!frame.traced || !isFinite(ownHand(frame)) || (count > 0 && norm(ownHand(frame) - lastTraced) < kTraceStep * unit)) return;
-    lastTraced = ownHand(frame);
+    const Vec3& at = handShown || frame.masses.empty() ? ownHand(frame) : frame.masses.front();
+    if (!frame.traced || !(handShown || frame.cursorShown)) return;
+    if (!isFinite(at) || (count > 0 && norm(at - lastTraced) < kTraceStep * unit)) return;
+    lastTraced = at;
     if (count >= kTracePoints) {  // the older half goes
       for (vtkIdType i = 0; i < count / 2; ++i) tracePoints->SetPoint(i, tracePoints->GetPoint(i + count - count / 2));
       tracePoints->SetNumberOfPoints(count / 2);
     }
-    tracePoints->InsertNextPoint(ownHand(frame).x, ownHand(frame).y, ownHand(frame).z);
+    tracePoints->InsertNextPoint(at.x, at.y, at.z);
     vtkNew<vtkCellArray> line;
     line->InsertNextCell(static_cast<int>(tracePoints->GetNumberOfPoints()));
     for (vtkIdType i = 0; i < tracePoints->GetNumberOfPoints(); ++i) line->InsertCellPoint(i);
@@ -170,9 +173,10 @@ CueActors::CueActors(vtkRenderer& renderer, const ScenePlan& plan) : impl_(std::
   if (d.look.shadow) {
     for (const double radius : d.radius) d.shadows.push_back(d.addShadow(radius));
     d.shadows.push_back(d.addShadow(1.6 * d.handRadius));
+    d.shadows.back()->SetVisibility(d.handShown);
   }
   if (d.look.trace) d.addTrace();
-  if (d.look.forceArrow) d.addArrow();
+  if (d.look.forceArrow && d.handShown) d.addArrow();
 }
 
 CueActors::~CueActors() {
@@ -185,11 +189,12 @@ void CueActors::show(const SceneFrame& frame) {
   for (std::size_t i = 0; i < d.shadows.size(); ++i) {
     const bool hand = i + 1 == d.shadows.size();
     if (!hand && i >= frame.masses.size()) continue;
+    if (i == 0 && !hand) d.shadows[i]->SetVisibility(frame.cursorShown);
     const Vec3 at = hand ? ownHand(frame) : frame.masses[i] + d.shift[i];
     if (isFinite(at)) d.shadows[i]->SetPosition(at.x, height, at.z);
   }
   if (d.look.trace) d.showTrace(frame);
-  if (d.look.forceArrow) d.showArrow(frame);
+  if (d.arrow) d.showArrow(frame);
 }
 
 int CueActors::tracePointCount() const { return static_cast<int>(impl_->tracePoints->GetNumberOfPoints()); }

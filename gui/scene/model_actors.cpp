@@ -58,11 +58,13 @@ Actor actorOf(const model::ModelPart& part) {
 struct ModelActors::Impl {
   vtkRenderer& renderer;
   std::vector<Vec3> shift;
+  bool handShown;
   std::vector<Actor> all, hand;
   std::vector<std::vector<Actor>> masses;
 };
 
-ModelActors::ModelActors(vtkRenderer& renderer, const ScenePlan& plan) : impl_(new Impl{renderer, plan.massShift, {}, {}, {}}) {
+ModelActors::ModelActors(vtkRenderer& renderer, const ScenePlan& plan)
+    : impl_(new Impl{renderer, plan.massShift, plan.handShown, {}, {}, {}}) {
   Impl& d = *impl_;
   d.masses.resize(plan.massRadius.size());
   if (!plan.model) return;
@@ -76,6 +78,7 @@ ModelActors::ModelActors(vtkRenderer& renderer, const ScenePlan& plan) : impl_(n
     renderer.AddActor(actor);
     d.all.push_back(actor);
     if (where != nullptr) where->push_back(actor);
+    if (where == &d.hand) actor->SetVisibility(d.handShown);
   }
 }
 
@@ -92,6 +95,8 @@ void ModelActors::show(const SceneFrame& frame) {
     for (const Actor& actor : actors) actor->SetPosition(at.x, at.y, at.z);
   };
   place(impl_->hand, ownHand(frame));
+  if (!impl_->masses.empty())
+    for (const Actor& actor : impl_->masses.front()) actor->SetVisibility(frame.cursorShown);
   for (std::size_t i = 0; i < std::min(frame.masses.size(), impl_->masses.size()); ++i)
     place(impl_->masses[i], frame.masses[i] + impl_->shift[i]);
 }

@@ -126,7 +126,7 @@ struct ObjectActors::Impl {
       hands[i]->SetVisibility(i == own);
     }
     for (std::size_t i = 0; i < masses.size(); ++i) masses[i]->SetVisibility(!model->hasMass(i));
-    hands[own]->SetVisibility(!model->hasHand());
+    hands[own]->SetVisibility(from.handShown && !model->hasHand());
   }
 };
 
@@ -157,6 +157,7 @@ void ObjectActors::show(const SceneFrame& frame) {
     if (plan.body) placeBody(*impl_->masses[i], drawn(i), frame.body.orientation, 2.2 * plan.massRadius[i]);
     else place(*impl_->masses[i], drawn(i));
   }
+  if (count > 0) impl_->masses[0]->SetVisibility(frame.cursorShown && !impl_->model->hasMass(0));
   // Masses at one position are drawn as one: two skins at one position flicker.
   for (std::size_t i = 1; i < count; ++i) {
     bool hidden = impl_->model->hasMass(i);

@@ -10,6 +10,7 @@
 #include "gui/widgets/themes.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/scene_look.h"
+#include "sim/trial/protocol.h"
 
 namespace reachlab::gui::scene {
 namespace {
@@ -191,6 +192,8 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
   const double reach = norm(plan.target - plan.start);
   plan.unit = plan.hasTask && reach > 0.3 * plan.size ? reach : std::max(0.5 * plan.size, reach);
   plan.viewFrom = viewDirection(box, plan.kind);
+  plan.bareHand = experiment.object.kind == experiment::ObjectKind::None;
+  plan.cursor = experiment.cursor;
   plan.handRadius = 0.016 * plan.unit;
   plan.markRadius = 0.014 * plan.unit;
   plan.railRadius = std::max(0.0045 * plan.unit, 0.0028 * plan.size);
@@ -207,7 +210,8 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
 
 ScenePlan subjectsPlan(ScenePlan plan, const experiment::SubjectScreen& screen) {
   plan.targetShown = screen.target;
-  if (!screen.masses) {
+  plan.handShown = !plan.bareHand;
+  if (!screen.masses && !plan.bareHand) {
     plan.massRadius.clear();
     plan.massRole.clear();
     plan.massShift.clear();
@@ -216,11 +220,17 @@ ScenePlan subjectsPlan(ScenePlan plan, const experiment::SubjectScreen& screen) 
   return plan;
 }
 
+bool isCursorShown(const ScenePlan& plan, trial::Phase phase) {
+  if (!plan.cursor || plan.handShown || plan.cursor->show == experiment::CursorShow::Always) return true;
+  return plan.cursor->show == experiment::CursorShow::MovementEnd && !trial::isEngaged(phase);
+}
+
 SceneFrame restingFrame(const ScenePlan& plan) {
   SceneFrame frame;
   frame.hands.assign(std::max<std::size_t>(plan.hands.size(), 1), plan.start);
   frame.ownHand = plan.ownHand;
   frame.masses.assign(plan.massRadius.size(), plan.start);
+  frame.cursorShown = isCursorShown(plan, trial::Phase::Idle);
   return frame;
 }
 
@@ -239,7 +249,9 @@ void copyToFrame(const haptics::TickState& state, SceneFrame& frame) {
 
 bool movedBeyond(double distance, const SceneFrame& from, const SceneFrame& to) {
   const auto apart = [&](const Vec3& a, const Vec3& b) { return !(norm(a - b) <= distance); };
-  if (from.handValid != to.handValid || from.masses.size() != to.masses.size() || from.hands.size() != to.hands.size()) return true;
+  if (from.handValid != to.handValid || from.cursorShown != to.cursorShown || from.masses.size() != to.masses.size() ||
+      from.hands.size() != to.hands.size())
+    return true;
   for (std::size_t i = 0; i < from.hands.size(); ++i)
     if (from.hands[i].has_value() != to.hands[i].has_value() || (from.hands[i] && apart(*from.hands[i], *to.hands[i]))) return true;
   for (std::size_t i = 0; i < from.masses.size(); ++i)

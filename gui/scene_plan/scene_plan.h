@@ -7,6 +7,7 @@
 #include "gui/scene_plan/constraint_mesh.h"
 #include "gui/scene_plan/place_marks.h"
 #include "gui/widgets/colours.h"
+#include "sim/experiment/cursor.h"
 #include "sim/experiment/experiment_fwd.h"
 #include "sim/haptics/tick_state.h"
 
@@ -58,9 +59,12 @@ struct ScenePlan {
   std::vector<MassRole> massRole;
   std::vector<Vec3> massShift;  // [m] added for the eye only
   std::vector<SpringPlan> springs;
-  std::vector<HandPlan> hands;                            // empty: one hand
-  int ownHand = 0;                                        // which of them the frame's own hand is
-  bool body = false;                                      // drawn as a box that turns
+  std::vector<HandPlan> hands;  // empty: one hand
+  int ownHand = 0;              // which of them the frame's own hand is
+  bool body = false;            // drawn as a box that turns
+  bool bareHand = false;        // there is no object: the first mass is the hand or its cursor
+  std::optional<experiment::Cursor> cursor;
+  bool handShown = true;                                  // by its pen
   double handRadius = 0, markRadius = 0, railRadius = 0;  // [m]
   PlanLook look;
   Box box;                                    // [m] of constraint and task
@@ -76,7 +80,7 @@ struct ViewOptions {
 
 ScenePlan planScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const ViewOptions& options = {});
 
-/// The same without its masses and springs, or without its target.
+/// The same without its masses and springs, or without its target. A bare hand has no pen, so that a cursor looks like it.
 ScenePlan subjectsPlan(ScenePlan plan, const experiment::SubjectScreen& screen);
 
 /// One instant of the scene: positions that actors are moved to.
@@ -85,19 +89,22 @@ struct SceneFrame {
   int ownHand = 0;                                 // the index of the hand that is here; its place is always known
   std::vector<Vec3> masses;                        // [m] true places
   dynamics::BodyState body;
-  bool handValid = true;   // the own hand's device delivers samples
-  Vec3 force;              // [N] of the coupling on the own hand; zero where no arrow is drawn
-  std::int32_t trial = 0;  // a trace ends with its trial
-  bool traced = false;     // the hand is under way
+  bool handValid = true;    // the own hand's device delivers samples
+  bool cursorShown = true;  // the first mass, where it is a cursor
+  Vec3 force;               // [N] of the coupling on the own hand; zero where no arrow is drawn
+  std::int32_t trial = 0;   // a trace ends with its trial
+  bool traced = false;      // the hand is under way
 };
 inline const Vec3& ownHand(const SceneFrame& frame) { return *frame.hands[static_cast<std::size_t>(frame.ownHand)]; }
 inline Vec3& ownHand(SceneFrame& frame) { return *frame.hands[static_cast<std::size_t>(frame.ownHand)]; }
+/// Whether the plan's picture has its cursor in this phase of a trial. The experimenter always sees it.
+bool isCursorShown(const ScenePlan& plan, trial::Phase phase);
 /// At rest at the start.
 SceneFrame restingFrame(const ScenePlan& plan);
 /// The state's first hand becomes the hand of the frame. Further hands come from the state, and the rest is not known.
 void copyToFrame(const haptics::TickState& state, SceneFrame& frame);
 /// Whether the change is visible: a shift of more than that length [m], a turn of more than a thousandth, a drawn force that differs by
-/// 0.05 N, or a hand that was lost or found.
+/// 0.05 N, a hand that was lost or found, or a cursor that appeared or vanished.
 bool movedBeyond(double distance, const SceneFrame& from, const SceneFrame& to);
 /// The number of masses that hide behind the first: all of them if each is within half its radius of the first, else 0.
 int massesAtOnePlace(const ScenePlan& plan, const SceneFrame& frame);

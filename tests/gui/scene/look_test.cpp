@@ -11,6 +11,7 @@
 #include "gui/plot/criterion_style.h"
 #include "gui/scene/cue_actors.h"
 #include "gui/scene/scene_view.h"
+#include "gui/scene_plan/late_cursor.h"
 #include "gui/widgets/themes.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
@@ -111,6 +112,52 @@ TEST(Trace, IsOfOneTrialAndItsMemoryIsBounded) {
   frame.trial = 2;
   cues.show(frame);
   EXPECT_LE(cues.tracePointCount(), 1);
+}
+
+// A subject who saw pen, shadow or trace of the hand would see the rotation.
+TEST_F(Looks, TheSubjectsPictureOfABareHandHasTheCursorAndNothingOfTheHand) {
+  experiment::SceneLook look;
+  look.depthCue = "shadow";
+  look.trace = look.forceArrow = true;
+  experiment::Experiment bare = experiment::withLook(experiment::readExperiment("centre-out"), look);
+  bare.cursor.emplace().show = experiment::CursorShow::MovementEnd;
+  const experiment::CompiledExperiment compiled(bare);
+  const ScenePlan experimenters = planScene(compiled.experiment(), compiled.constraint());
+  const ScenePlan subjects = subjectsPlan(experimenters, {.masses = false});
+  SceneFrame hand = restingFrame(subjects);
+  hand.traced = true;
+  hand.force = {0, 0, 3};
+  ownHand(hand) = {0, 0, -0.05};
+  SceneFrame elsewhere = hand;
+  ownHand(elsewhere) = {0.03, 0.01, -0.02};
+  EXPECT_EQ(differing(picture(subjects, &hand), picture(subjects, &elsewhere)), 0);
+  EXPECT_GT(differing(picture(experimenters, &hand), picture(experimenters, &elsewhere)), 300) << "the experimenter sees both";
+  SceneFrame cursor = hand;
+  cursor.masses[0] = {-0.025, 0, -0.043};
+  EXPECT_GT(differing(picture(subjects, &hand), picture(subjects, &cursor)), 100);
+  EXPECT_GT(differing(picture(experimenters, &hand), picture(experimenters, &cursor)), 100);
+  SceneFrame hidden = hand, hiddenElsewhere = cursor;
+  hidden.cursorShown = hiddenElsewhere.cursorShown = false;
+  EXPECT_GT(differing(picture(subjects, &hand), picture(subjects, &hidden)), 100);
+  EXPECT_EQ(differing(picture(subjects, &hidden), picture(subjects, &hiddenElsewhere)), 0) << "no shadow and no trace tells where it is";
+  EXPECT_TRUE(isCursorShown(subjects, trial::Phase::Waiting));
+  EXPECT_FALSE(isCursorShown(subjects, trial::Phase::Armed));
+  EXPECT_FALSE(isCursorShown(subjects, trial::Phase::Moving));
+  EXPECT_TRUE(isCursorShown(subjects, trial::Phase::Done));
+  EXPECT_TRUE(isCursorShown(experimenters, trial::Phase::Moving));
+}
+
+TEST(LateCursor, IsWhereTheCursorWasADelayBefore) {
+  LateCursor late;
+  const auto place = [](double seconds) {
+    return Vec3{0.3 * seconds, 0, -0.2 * seconds};
+  };  // at constant speed lines between states are exact
+  for (const std::uint64_t tick : {100, 133, 150, 201, 260, 290, 390}) {
+    const double seconds = 0.001 * static_cast<double>(tick), shown = std::max(seconds - 0.12, 0.1);
+    EXPECT_NEAR(norm(late.at(tick, place(seconds), 0.12) - place(shown)), 0, 1e-12) << tick;
+  }
+  EXPECT_EQ(late.at(390, place(0.39), 0), place(0.39)) << "without a delay it is where it is";
+  EXPECT_EQ(late.at(5, {1, 2, 3}, 0.12), (Vec3{1, 2, 3})) << "another run knows nothing of the run before";
 }
 
 TEST_F(Looks, PicturesOfAFilmHaveOneEvenSize) {

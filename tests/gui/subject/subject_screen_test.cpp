@@ -3,13 +3,21 @@
 
 #include <QAction>
 #include <QLabel>
+#include <QPointer>
+#include <cmath>
 #include <fstream>
+#include <functional>
+#include <memory>
 
+#include "base/math/minimum_jerk.h"
+#include "gui/app/screens.h"
 #include "gui/app/window_layout.h"
 #include "gui/scene/scene_overlay.h"
 #include "gui/scene/scene_view.h"
 #include "gui/subject/subject_window.h"
 #include "sim/experiment/experiment.h"
+#include "sim/haptics/tick_engine.h"
+#include "tests/bare_reach.h"
 #include "tests/gui/at_the_window.h"
 
 namespace reachlab::gui::subject {
@@ -83,6 +91,83 @@ TEST_F(SubjectsScreen, SpeaksTheSubjectsLanguageAndIsChangedWithTheExperiment) {
   window_->edits().undo();
   EXPECT_FALSE(window_->session().experiment().subjectScreen.photodiode);
   EXPECT_EQ(screen().patch(), Patch::None);
+}
+
+// The engine's states of a reach along -z, without a clock: a busy machine draws fewer pictures, and they show the same.
+class SubjectsCursor : public ::testing::Test {
+ protected:
+  static constexpr int kPictureTicks = 30;
+  void use(const experiment::Cursor& cursor) {
+    experiment::Experiment e = experiment::bareReach();
+    e.cursor = cursor;
+    const experiment::CompiledExperiment compiled(e);
+    screens_.showExperiment(compiled, {});
+    if (!subject_) screens_.toggleSubject();
+    for (QWidget* top : QApplication::topLevelWidgets())
+      if (auto* found = qobject_cast<SubjectWindow*>(top)) subject_ = found;
+    engine_ = std::make_unique<haptics::TickEngine>(compiled, haptics::EngineOptions{});
+  }
+  ~SubjectsCursor() override { delete subject_; }
+  Vec3 handAt(std::uint64_t tick) const {
+    return {0, 0, moving_ == 0 || tick < moving_ ? 0.0 : -0.1 * heldMinimumJerk(static_cast<double>(tick - moving_) / 500).value};
+  }
+  // Until the trial is in that phase: its pictures, each after the state that it shows.
+  void until(trial::Phase phase, const std::function<void()>& look) {
+    for (int ticks = 0; engine_->state().phase != phase; ++ticks) {
+      ASSERT_LT(ticks, 5000);
+      haptics::TickInput input;
+      input.devices[0].position = handAt(++tick_);
+      input.command = tick_ == 1 ? trial::Command::NextTrial : trial::Command::None;
+      engine_->step(input);
+      engine_->limit(input);
+      if (engine_->state().phase == trial::Phase::Armed && moving_ == 0) moving_ = tick_ + 100;
+      if (tick_ % kPictureTicks != 0 || engine_->state().phase == phase) continue;
+      screens_.showState(engine_->state());
+      look();
+    }
+    screens_.showState(engine_->state());
+  }
+  scene::SceneFrame subjects() const { return subject_->view().frame(); }
+  scene::SceneView view_;
+  app::Screens screens_{view_};
+  QPointer<SubjectWindow> subject_;
+  std::unique_ptr<haptics::TickEngine> engine_;
+  std::uint64_t tick_ = 0, moving_ = 0;
+};
+
+// The rotation is written out here: counterclockwise as seen from above, where right is x and up is -z.
+TEST_F(SubjectsCursor, IsInPlaceOfTheHandAndLate) {
+  use(experiment::Cursor{.rotation = 30, .clamp = {}, .delay = 0.15});
+  EXPECT_FALSE(subject_->view().plan().handShown);
+  EXPECT_TRUE(view_.plan().handShown);
+  const auto cursorAt = [&](std::uint64_t tick) {
+    const Vec3 hand = handAt(tick);
+    return Vec3{0.5 * hand.z, 0, std::sqrt(3.0) / 2 * hand.z};
+  };
+  double furthest = 0;  // [m] from the picture to the cursor of now
+  until(trial::Phase::Done, [&] {
+    const Vec3 late = cursorAt(std::max<std::uint64_t>(tick_, 180) - 150), seen = subjects().masses.at(0);
+    EXPECT_NEAR(norm(seen - late), 0, 1e-4) << "a tenth of a pixel is not drawn";
+    EXPECT_NEAR(norm(view_.frame().masses.at(0) - late), 0, 1e-12) << "the experimenter sees what the subject sees";
+    EXPECT_EQ(ownHand(view_.frame()), handAt(tick_)) << "and the hand";
+    furthest = std::max(furthest, norm(cursorAt(tick_) - seen));
+  });
+  EXPECT_GT(furthest, 0.04) << "a hand at 0.37 m/s";
+}
+
+TEST_F(SubjectsCursor, IsHiddenDuringTheMovementOrAlways) {
+  for (const auto show : {experiment::CursorShow::MovementEnd, experiment::CursorShow::Never}) {
+    use(experiment::Cursor{.clamp = {}, .show = show});
+    tick_ = moving_ = 0;
+    const bool end = show == experiment::CursorShow::MovementEnd;
+    EXPECT_EQ(subjects().cursorShown, end);
+    until(trial::Phase::Armed, [&] { EXPECT_EQ(subjects().cursorShown, end) << "the way to the start"; });
+    until(trial::Phase::Done, [&] {
+      EXPECT_FALSE(subjects().cursorShown);
+      EXPECT_TRUE(view_.frame().cursorShown) << "the experimenter sees it";
+    });
+    EXPECT_EQ(subjects().cursorShown, end) << "the trial has ended";
+  }
 }
 
 }  // namespace
