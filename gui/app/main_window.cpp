@@ -247,7 +247,7 @@ void MainWindow::showExperiment() {
   for (docks::Dock* dock : docks_.all) dock->showExperiment(compiled, !session_.isPlan());
   const auto& task = compiled.experiment().task;
   trace_.setPath(task ? constraints::TaskPath(compiled.constraint(), task->start, task->target) : constraints::TaskPath());
-  screens_->showExperiment(compiled);
+  screens_->showExperiment(compiled, session_.blockPlaces());
   showOverlay();
   plans_->refresh();
   forecast_.setExperiment(compiled);
@@ -568,6 +568,11 @@ void MainWindow::tell(const QString& sentence) { messages_->say(widgets::Grade::
 
 void MainWindow::setSideBySide(bool on) {
   screens_->setSideBySide(on);
+  showOverlay();
+}
+
+void MainWindow::setForcesShown(bool on) {
+  screens_->setForcesShown(on);
   showOverlay();
 }
 

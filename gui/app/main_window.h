@@ -112,6 +112,7 @@ class MainWindow : public QMainWindow {
   /// Stores the present camera as a named camera of the experiment. A camera with the same name is replaced.
   void rememberView(const QString& name);
   void setSideBySide(bool on);
+  void setForcesShown(bool on);
   void setMuted(bool muted);
   void resetLayout();
   void switchLayout(WindowLayout layout);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "gui/scene/scene_view.h"
+#include "gui/scene/trial_texts.h"
 #include "gui/subject/subject_window.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/scene_look.h"
@@ -27,27 +28,27 @@ Screens::Screens(scene::SceneView& main) : main_(main), mirror_(new QLabel(&main
   connect(&model_, &model::ModelReader::failed, this, &Screens::said);
   connect(&model_, &model::ModelReader::ready, this, [this] {
     if (!model_.model()) return;  // rebuilt by who asked for none
-    const scene::Camera kept = main_.camera();
-    rebuild();
-    main_.setCamera(kept);
+    rebuild(true);
   });
 }
 
 Screens::~Screens() { delete subject_; }
 
-void Screens::showExperiment(const experiment::CompiledExperiment& experiment) {
+void Screens::showExperiment(const experiment::CompiledExperiment& experiment, const std::vector<Vec3>& blockPlaces) {
+  const bool keepsView = !blockPlaces.empty() && blockPlaces == options_.blockPlaces;
   experiment_ = experiment;
+  options_.blockPlaces = blockPlaces;
   model_.begin(model::findSceneFile(experiment::lookOf(experiment_->experiment()).sceneFile, folder_));
-  rebuild();
+  rebuild(keepsView);
 }
 
-void Screens::rebuild() {
+void Screens::rebuild(bool keepsView) {
   scene::ScenePlan plan = planScene(experiment_->experiment(), experiment_->constraint(), options_);
   plan.model = model_.model();
   frame_ = restingFrame(plan);
-  main_.setPlan(plan);
-  if (subject_) subject_->view().setPlan(subjectsPlan(plan, experiment_->experiment().subjectScreen));
-  if (const experiment::SceneLook look = experiment::lookOf(experiment_->experiment()); !look.cameras.empty()) {
+  main_.setPlan(plan, !keepsView);
+  if (subject_) subject_->view().setPlan(subjectsPlan(plan, experiment_->experiment().subjectScreen), !keepsView);
+  if (const experiment::SceneLook look = experiment::lookOf(experiment_->experiment()); !keepsView && !look.cameras.empty()) {
     const experiment::NamedCamera& first = look.cameras.front();
     for (scene::SceneView* view : {&main_, subject_ ? &subject_->view() : nullptr})
       if (view != nullptr) view->setCamera({first.position, first.focus, first.up, first.angle, first.parallel});
@@ -93,8 +94,9 @@ void Screens::showState(const haptics::TickState& state, const network::OtherHan
 
 void Screens::showOverlay(const scene::OverlayState& experimenters, const scene::OverlayState& subjects) {
   overlay_ = experimenters;
+  overlay_.legend = forcesText(main_.plan().forces);
   subjectsOverlay_ = subjects;
-  main_.setOverlay(experimenters);
+  main_.setOverlay(overlay_);
   if (subject_) subject_->view().setOverlay(subjects);
 }
 
@@ -104,6 +106,11 @@ void Screens::setSideBySide(bool on) {
   rebuild();
   main_.setCamera(kept);
   main_.fit();
+}
+
+void Screens::setForcesShown(bool on) {
+  options_.forces = on;
+  rebuild(true);
 }
 
 bool Screens::massesHide() const {

@@ -33,8 +33,9 @@ class Screens : public QObject {
   explicit Screens(scene::SceneView& main);
   ~Screens() override;
 
-  /// Builds the picture anew, the hand at rest at the start.
-  void showExperiment(const experiment::CompiledExperiment& experiment);
+  /// Builds the picture anew, the hand at rest at the start. `blockPlaces`: starts and targets [m] of the plan's block that it is a trial of.
+  /// The camera stays while these are the same.
+  void showExperiment(const experiment::CompiledExperiment& experiment, const std::vector<Vec3>& blockPlaces);
   /// The index from 0 of the hand at this station. The other hands are at other stations.
   void setOwnHand(int hand) { options_.ownHand = hand; }
   /// The folder of a scene file that is named without a folder.
@@ -48,6 +49,8 @@ class Screens : public QObject {
   void setSubjectsActions(const QList<QAction*>& actions) { actions_ = actions; }
   /// Draws masses beside one another, for the eye only, as seen from the present camera.
   void setSideBySide(bool on);
+  /// Draws the forces on the hand for the experimenter. On by default.
+  void setForcesShown(bool on);
   void toggleSubject();
   /// Opens the subject's screen on the monitor of that name, or moves it there.
   void showSubjectOn(const QString& screen);
@@ -65,7 +68,7 @@ class Screens : public QObject {
   void said(const QString& sentence);
 
  private:
-  void rebuild();
+  void rebuild(bool keepsView = false);
   void showPatch(const haptics::TickState* state);
   void showSubjectsFrame(trial::Phase phase);
   void openSubject(const QString& screen);
@@ -74,7 +77,7 @@ class Screens : public QObject {
   scene::SceneView& main_;
   QPointer<subject::SubjectWindow> subject_;
   std::optional<experiment::CompiledExperiment> experiment_;
-  scene::ViewOptions options_;
+  scene::ViewOptions options_{.forces = true};
   scene::SceneFrame frame_;
   scene::LateCursor cursor_;
   scene::OverlayState overlay_, subjectsOverlay_;

@@ -150,6 +150,9 @@ void addViewMenu(MainWindow& window, TrialActions& actions) {
   aside->setChecked(window.session().experiment().object.kind == experiment::ObjectKind::Parallel);
   addSwitch(window, menu, QStringLiteral("Surfaces as &wire frame"), Qt::Key_W,
             [&window](bool on) { window.view().setSurfaceStyle(on ? scene::SurfaceStyle::Wire : scene::SurfaceStyle::Glass); });
+  QAction* forces = addSwitch(window, menu, QStringLiteral("&Forces on the hand"), {}, &MainWindow::setForcesShown);
+  forces->setObjectName(QStringLiteral("forcesShown"));
+  forces->setChecked(true);
   addLookMenu(window, *menu);
   menu->addSeparator();
   actions.subjectsScreen = add(window, menu, QStringLiteral("&Subject's screen"), Qt::Key_F11, &MainWindow::toggleSubjectWindow);

@@ -1,7 +1,6 @@
 #include "gui/scene/cue_actors.h"
 
 #include <vtkActor.h>
-#include <vtkArrowSource.h>
 #include <vtkCellArray.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
@@ -16,6 +15,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "gui/scene/scene_actors.h"
 #include "gui/scene/scene_overlay.h"
 
 namespace reachlab::gui::scene {
@@ -109,17 +109,8 @@ struct CueActors::Impl {
   }
 
   void addArrow() {
-    vtkNew<vtkArrowSource> source;
-    source->SetShaftRadius(0.05);
-    source->SetTipRadius(0.13);
-    source->SetTipLength(0.3);
-    source->SetShaftResolution(14);
-    source->SetTipResolution(18);
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputConnection(source->GetOutputPort());
-    arrow = add(actorOf(mapper, look.colours.force, 1));
-    arrow->GetProperty()->SetLighting(true);
-    arrow->GetProperty()->SetAmbient(0.3);
+    arrow = add(makeArrows({{{}, {1, 0, 0}}}, 1, {look.colours.force, 1, 0}));
+    arrow->PickableOff();
     arrow->SetUserMatrix(vtkNew<vtkMatrix4x4>());
     arrow->VisibilityOff();
   }

@@ -19,6 +19,9 @@ namespace {
 
 using Actor = vtkSmartPointer<vtkActor>;
 
+constexpr double kOtherPlaces = 0.5;                     // opacity of places that are not of this trial
+constexpr double kFieldArrow = 0.18, kPulseArrow = 0.4;  // of the reach, the longest of each
+
 widgets::Colour colourOf(MassRole role, const PartColours& colours) {
   switch (role) {
     case MassRole::Driven: return colours.driven;
@@ -110,6 +113,20 @@ struct ObjectActors::Impl {
                             std::any_of(from.massShift.begin(), from.massShift.end(), [](const Vec3& shift) { return norm(shift) == 0; });
     if (from.tolerance > from.markRadius && massOnRail) mark(from.target, from.look.colours.target, from.tolerance, 0.13);
   }
+  // The forces on the hand, and the places of the block's other trials.
+  void addForces(const ScenePlan& from) {
+    const ForceMarks& forces = from.forces;
+    const widgets::Colour& colour = from.look.colours.force;
+    if (!from.otherPlaces.empty()) add(makeDots(from.otherPlaces, 1.8 * from.markRadius, {from.look.colours.target, kOtherPlaces, 0}));
+    if (!forces.field.empty()) add(makeArrows(forces.field, kFieldArrow * from.unit, {colour, 0.6, 0.1}));
+    if (!forces.pulses.empty()) add(makeArrows(forces.pulses, kPulseArrow * from.unit, {colour, 0.9, 0.1}));
+    if (forces.channel.quads.empty()) return;
+    add(makeSkin(forces.channel, {from.look.colours.surface, 0.22, 0}));
+    add(makeParameterLines(forces.channel, {from.look.colours.surfaceLine, 0.9, 0}, 2.0));
+    SurfaceMesh dashes;
+    dashes.parameterLines = forces.letsGo;
+    add(makeParameterLines(dashes, {from.look.colours.surfaceLine, 0.6, 0}, 1.0));
+  }
   void addObject(const ScenePlan& from) {
     for (const SpringPlan& spring : from.springs)
       springs.push_back(
@@ -139,6 +156,7 @@ ObjectActors::ObjectActors(vtkRenderer& renderer, const ScenePlan& plan, Surface
   impl_->addConstraint(plan, style);
   impl_->addPlaces(plan);
   impl_->addMarks(plan);
+  impl_->addForces(plan);
   impl_->addObject(plan);
 }
 

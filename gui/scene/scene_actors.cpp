@@ -2,10 +2,12 @@
 
 #include <vtkActor.h>
 #include <vtkAppendPolyData.h>
+#include <vtkArrowSource.h>
 #include <vtkCellArray.h>
 #include <vtkCubeSource.h>
 #include <vtkCylinderSource.h>
 #include <vtkConeSource.h>
+#include <vtkDoubleArray.h>
 #include <vtkFloatArray.h>
 #include <vtkGlyph3D.h>
 #include <vtkNew.h>
@@ -233,6 +235,32 @@ vtkSmartPointer<vtkActor> makeDots(const std::vector<Vec3>& places, double radiu
   dots->SetSourceConnection(ball->GetOutputPort());
   dots->ScalingOff();
   return actorOf(dots->GetOutputPort(), look);
+}
+
+vtkSmartPointer<vtkActor> makeArrows(const std::vector<ForceArrow>& arrows, double longest, const Look& look) {
+  vtkNew<vtkPoints> points;
+  vtkNew<vtkDoubleArray> forces;
+  forces->SetNumberOfComponents(3);
+  for (const auto& [at, force] : arrows) {
+    points->InsertNextPoint(at.x, at.y, at.z);
+    forces->InsertNextTuple3(force.x, force.y, force.z);
+  }
+  vtkNew<vtkPolyData> data;
+  data->SetPoints(points);
+  data->GetPointData()->SetVectors(forces);
+  vtkNew<vtkArrowSource> arrow;
+  arrow->SetShaftRadius(0.05);
+  arrow->SetTipRadius(0.13);
+  arrow->SetTipLength(0.3);
+  arrow->SetShaftResolution(14);
+  arrow->SetTipResolution(18);
+  vtkNew<vtkGlyph3D> glyphs;
+  glyphs->SetInputData(data);
+  glyphs->SetSourceConnection(arrow->GetOutputPort());
+  glyphs->SetVectorModeToUseVector();
+  glyphs->SetScaleModeToScaleByVector();
+  glyphs->SetScaleFactor(longest / longestOf(arrows));
+  return actorOf(glyphs->GetOutputPort(), look);
 }
 
 void stretch(vtkActor& coil, const Vec3& from, const Vec3& to, double radius, double wire) {

@@ -1,6 +1,7 @@
 #pragma once
 #include "base/math/vec3.h"
 #include "gui/scene_plan/constraint_mesh.h"
+#include "gui/scene_plan/force_marks.h"
 #include "gui/widgets/colours.h"
 
 template <class T>
@@ -39,6 +40,9 @@ vtkSmartPointer<vtkActor> makeParameterLines(const SurfaceMesh& mesh, const Look
 
 /// Small balls, all one actor. [m]
 vtkSmartPointer<vtkActor> makeDots(const std::vector<Vec3>& places, double radius, const Look& look);
+
+/// Arrows from their places, all one actor. `longest` [m]: the length of the largest force.
+vtkSmartPointer<vtkActor> makeArrows(const std::vector<ForceArrow>& arrows, double longest, const Look& look);
 
 /// Lays a coil between two points. The wire keeps its thickness, whatever the length of the coil. Does not allocate. [m]
 void stretch(vtkActor& coil, const Vec3& from, const Vec3& to, double radius, double wire);

@@ -138,6 +138,7 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
   if (!state_.rulersShown) return;
   paintScale(painter);
   paintAxes(painter);
+  paintLegend(painter);
   if (!label_.isEmpty()) paintLabel(painter);
 }
 
@@ -228,6 +229,17 @@ void SceneOverlay::paintAxes(QPainter& painter) const {
     painter.drawText(QRectF(origin.x() + 1.36 * arm * axes_[i].x() - 8, origin.y() + 1.36 * arm * axes_[i].y() - 8, 16, 16),
                      Qt::AlignCenter, names[i]);
   }
+}
+
+// Between axes and scale.
+void SceneOverlay::paintLegend(QPainter& painter) const {
+  if (state_.legend.isEmpty()) return;
+  QFont font = painter.font();
+  font.setPointSizeF(9.5);
+  painter.setFont(font);
+  painter.setPen(widgets::toQColor(widgets::colours::kFaintText));
+  painter.drawText(QRectF(100, height() - kFootHeight - 14, 0.76 * width() - 140, kFootHeight),
+                   Qt::AlignLeft | Qt::AlignBottom | Qt::TextWordWrap, state_.legend);
 }
 
 }  // namespace reachlab::gui::scene

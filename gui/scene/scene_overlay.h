@@ -26,6 +26,7 @@ struct OverlayState {
   QString instruction;      // what the subject is to do
   QString detail;           // how the last trial ended
   QString task;             // what the trials ask for; over several lines, and only before the first
+  QString legend;           // of the drawn forces, a line each
   enum class Tone { Plain, Good, Bad } tone = Tone::Plain;
   std::optional<RestState> rest;
   bool operator==(const OverlayState&) const = default;
@@ -41,6 +42,7 @@ class SceneOverlay : public QWidget {
   /// Screen directions of x, y, z (length at most 1, y down) and metres a pixel in the plane through the scene's centre.
   void setView(const std::array<QPointF, 3>& axes, double metresPerPixel);
   void setTextScale(double scale);
+  static constexpr double kFootHeight = 60;  // pixels at the bottom that three lines of the legend take
   /// Pixels at the top that the texts take: the scene is put below them.
   double headHeight() const { return state_.semaphoreShown ? 96 * textScale_ : 0; }
   /// "5 masses" beside masses that are drawn over one another. Empty if all masses are visible.
@@ -55,6 +57,7 @@ class SceneOverlay : public QWidget {
  private:
   void paintScale(QPainter& painter) const;
   void paintAxes(QPainter& painter) const;
+  void paintLegend(QPainter& painter) const;
   void paintLabel(QPainter& painter) const;
   void paintRest(QPainter& painter, const RestState& rest) const;
 

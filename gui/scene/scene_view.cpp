@@ -109,7 +109,9 @@ struct SceneView::Impl {
   void lookFrom(const Vec3& direction) {
     std::vector<Vec3> points = plan.seen;
     for (const Vec3& hand : {plan.start, plan.target}) points.push_back(penEnd(hand, plan.handRadius));
-    camera = lookAtPointsBelow(overlay->headHeight(), points, 0.06 * plan.size, direction, width(), height(), parallel);
+    const double foot = plan.bareHand || !plan.forces.empty() ? std::min(SceneOverlay::kFootHeight, 0.12 * height()) : 0;
+    camera = lookAtPointsBelow(overlay->headHeight() + foot, points, 0.06 * plan.size, direction, width(), height(), parallel);
+    pan(camera, 0, -foot, height());
   }
 
   void applyCamera() {

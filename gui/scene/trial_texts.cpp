@@ -118,6 +118,20 @@ QString taskText(const experiment::Experiment& experiment, bool hiding) {
   return text;
 }
 
+QString forcesText(const ForceMarks& forces) {
+  const auto digits = [](double value) { return QString::number(value, 'g', 3); };
+  QStringList lines;
+  if (!forces.field.empty())
+    lines << (forces.speed > 0 ? QStringLiteral("Arrows: force at %1 m/s to the target, up to %2 N")
+                                     .arg(digits(forces.speed), digits(longestOf(forces.field)))
+                               : QStringLiteral("Arrows: force, up to %1 N").arg(digits(longestOf(forces.field))));
+  if (!forces.pulses.empty()) lines << QStringLiteral("Large arrow: pulse of %1 N").arg(digits(longestOf(forces.pulses)));
+  if (!forces.channel.quads.empty())
+    lines << QStringLiteral("Walls of %1 N/m, which let go at the dashes (%2 mm)")
+                 .arg(QString::number(forces.stiffness), digits(1000 * forces.letGoDistance));
+  return lines.join(QLatin1Char('\n'));
+}
+
 OverlayState restingOverlay(const QString& experiment, bool mouse) {
   OverlayState o;
   o.counter = experiment;

@@ -1,5 +1,6 @@
 #pragma once
 #include "gui/scene/scene_overlay.h"
+#include "gui/scene_plan/force_marks.h"
 #include "sim/experiment/experiment_fwd.h"
 #include "sim/haptics/tick_state.h"
 
@@ -14,6 +15,8 @@ OverlayState restingOverlay(const QString& experiment, bool mouse);
 /// The task of the trials in a sentence with the numbers that are judged. `hiding`: masses are at the same position, and a second line
 /// names the keys that part them. Empty without a task.
 QString taskText(const experiment::Experiment& experiment, bool hiding);
+/// What the drawn forces mean, a line each.
+QString forcesText(const ForceMarks& forces);
 /// Why a trial did not succeed, for the tally: "too fast", "still moving".
 QString reasonText(trial::Reason reason);
 /// How a trial ended, for the subject: "Too fast by 0.12 s", "Mass 5 still moved too fast: 0.004 m/s over".

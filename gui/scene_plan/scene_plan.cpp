@@ -20,6 +20,8 @@ Vec3 placeOrOrigin(const constraints::Constraint& constraint, const std::vector<
   return isFinite(r) ? r : Vec3{};
 }
 
+constexpr double kSamePlace = 1e-9;  // [m]
+
 // Looks at the broadest side of the box, a little from above and from the right.
 Vec3 viewDirection(const Box& box, constraints::ConstraintKind kind) {
   const Vec3 extent = box.high - box.low;
@@ -149,7 +151,7 @@ std::vector<Vec3> pointsSeen(const ScenePlan& plan) {
   const std::size_t skipQuads = 1 + plan.surface.quads.size() / 800;
   for (std::size_t i = 0; i < plan.surface.quads.size(); i += skipQuads) seen.push_back(plan.surface.points[plan.surface.quads[i][0]]);
   if (plan.hasTask)
-    for (const Vec3& place : {plan.start, plan.target}) {
+    for (const Vec3& place : plan.blockPlaces.empty() ? std::vector<Vec3>{plan.start, plan.target} : plan.blockPlaces) {
       seen.push_back(place);
       for (const Vec3& shift : plan.massShift) seen.push_back(place + shift);
     }
@@ -186,6 +188,11 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
     box.add(plan.start);
     box.add(plan.target);
   }
+  plan.blockPlaces = options.blockPlaces;
+  for (const Vec3& place : plan.blockPlaces) {
+    box.add(place);
+    if (norm(place - plan.start) > kSamePlace && norm(place - plan.target) > kSamePlace) plan.otherPlaces.push_back(place);
+  }
   if (!box.valid() || box.diagonal() <= 0) box.add({-0.1, -0.05, 0}), box.add({0.1, 0.05, 0});
   plan.centre = box.centre();
   plan.size = box.diagonal();
@@ -194,6 +201,9 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
   plan.viewFrom = viewDirection(box, plan.kind);
   plan.bareHand = experiment.object.kind == experiment::ObjectKind::None;
   plan.cursor = experiment.cursor;
+  if (plan.bareHand && plan.hasTask)  // onto the plane, with the subject's right to the right
+    plan.viewFrom = experiment.task->plane == experiment::TaskPlane::Frontal ? Vec3{0, 0.18, 1} : Vec3{0, 1, 0.55};
+  if (options.forces) plan.forces = markForces(experiment, plan.start, plan.target);
   plan.handRadius = 0.016 * plan.unit;
   plan.markRadius = 0.014 * plan.unit;
   plan.railRadius = std::max(0.0045 * plan.unit, 0.0028 * plan.size);
@@ -210,6 +220,8 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
 
 ScenePlan subjectsPlan(ScenePlan plan, const experiment::SubjectScreen& screen) {
   plan.targetShown = screen.target;
+  plan.forces = {};
+  plan.otherPlaces.clear();
   plan.handShown = !plan.bareHand;
   if (!screen.masses && !plan.bareHand) {
     plan.massRadius.clear();

@@ -5,6 +5,7 @@
 
 #include "gui/model/model.h"
 #include "gui/scene_plan/constraint_mesh.h"
+#include "gui/scene_plan/force_marks.h"
 #include "gui/scene_plan/place_marks.h"
 #include "gui/widgets/colours.h"
 #include "sim/experiment/cursor.h"
@@ -69,6 +70,9 @@ struct ScenePlan {
   PlanLook look;
   Box box;                                    // [m] of constraint and task
   double floor = 0;                           // [m] height of the grid, below all of it
+  ForceMarks forces;                          // on the hand
+  std::vector<Vec3> blockPlaces;              // [m] ViewOptions::blockPlaces
+  std::vector<Vec3> otherPlaces;              // [m] of them, neither start nor target of this trial; drawn faintly
   std::shared_ptr<const model::Model> model;  // scenery, and what stands for hand and masses; null: none
 };
 
@@ -76,11 +80,14 @@ struct ViewOptions {
   enum class SideBySide { Auto, Always, Never };
   SideBySide sideBySide = SideBySide::Auto;  // Auto: parallel masses only, as in the paper's Fig. 7
   int ownHand = 0;                           // which of the experiment's hands is here, from 0
+  bool forces = false;                       // the forces on the hand are drawn
+  std::vector<Vec3> blockPlaces = {};        // [m] starts and targets of all trials of the block: every trial is seen from the same side
 };
 
 ScenePlan planScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const ViewOptions& options = {});
 
-/// The same without its masses and springs, or without its target. A bare hand has no pen, so that a cursor looks like it.
+/// The same without forces and other places, and without its masses and springs or its target where the screen has none. A bare hand has
+/// no pen, so that a cursor looks like it.
 ScenePlan subjectsPlan(ScenePlan plan, const experiment::SubjectScreen& screen);
 
 /// One instant of the scene: positions that actors are moved to.

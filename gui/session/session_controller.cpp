@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/fault.h"
+#include "constraints/geometry/task_path.h"
 #include "base/system/error_report.h"
 #include "base/terminal/message.h"
 #include "devices/instruments/instruments.h"
@@ -241,6 +242,24 @@ void SessionController::showScene() {
   if (!isPlan() || &now.experiment() == &shown_.experiment()) return;
   shown_ = now;
   Q_EMIT experimentChanged();
+}
+
+std::vector<Vec3> SessionController::blockPlaces() const {
+  std::vector<Vec3> places;
+  for (std::size_t block = 0; block < programme_.scenes.size(); ++block) {
+    const std::vector<session::BlockScene>& scenes = programme_.scenes[block];
+    const auto isShown = [&](const experiment::CompiledExperiment& e) { return &e.experiment() == &shown_.experiment(); };
+    if (scenes.size() < 2 || (!isShown(programme_.experiments[block]) &&
+                              std::none_of(scenes.begin(), scenes.end(), [&](const auto& scene) { return isShown(scene.experiment); })))
+      continue;
+    for (const session::BlockScene& scene : scenes)
+      for (const std::vector<double>& q : {scene.experiment.experiment().task->start, scene.experiment.experiment().task->target})
+        if (const Vec3 place = constraints::placeOn(scene.experiment.constraint(), q);
+            isFinite(place) && std::find(places.begin(), places.end(), place) == places.end())
+          places.push_back(place);
+    break;
+  }
+  return places;
 }
 
 void SessionController::abort() {

@@ -44,6 +44,9 @@ class SessionController : public QObject {
   /// A plan has its settings in its file: they are shown, not edited.
   bool isPlan() const { return programme_.isPlan(); }
 
+  /// Starts and targets [m] of all trials of the plan's block that is shown, each once. Empty for a block of one scene.
+  std::vector<Vec3> blockPlaces() const;
+
   /// Takes the programme over from the next run on. Label, condition and log name belong to it.
   void setProgramme(const session::Programme& programme);
   /// Every fault of an edited experiment. It is taken over if there is no fault. Throws RefusedError if the scene cannot be computed.

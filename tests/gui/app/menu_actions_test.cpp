@@ -142,6 +142,7 @@ class MenuActions : public AtTheWindow {
             "View/Along z",
             "View/Masses side by side",
             "View/Surfaces as wire frame",
+            "View/Forces on the hand",
             "View/View from/*",
             "View/Parallel projection",
             "View/Stereo, for red and cyan glasses",
@@ -288,6 +289,16 @@ TEST_F(MenuActions, OfTheViewMoveTheCameraAndChangeTheDrawing) {
     EXPECT_NE(view.grabScene(), before) << path;
     trigger(path);
   }
+  trigger("Experiment/Shipped/curl-field");
+  const QImage forces = view.grabScene();
+  EXPECT_FALSE(window.overlay().legend.isEmpty());
+  trigger("View/Forces on the hand");
+  EXPECT_NE(view.grabScene(), forces);
+  EXPECT_TRUE(window.overlay().legend.isEmpty());
+  trigger("View/Forces on the hand");
+  EXPECT_FALSE(view.plan().forces.field.empty());
+  trigger("Experiment/Shipped/torus");
+  window.edits().setClean();
   {
     const Answer answer([](QWidget* box) {
       auto* dialog = qobject_cast<QInputDialog*>(box);

@@ -6,6 +6,7 @@
 #include <QApplication>
 #include <QFontMetricsF>
 #include <cmath>
+#include <numbers>
 
 #include "gui/scene/scene_overlay.h"
 #include "gui/scene/trial_texts.h"
@@ -103,6 +104,91 @@ TEST(ScenePlan, MarksAreSmallerThanMasses) {
   const ScenePlan plan = planOf("dingwell");
   EXPECT_LT(plan.markRadius, plan.massRadius[0]);
   EXPECT_NEAR(norm(plan.target - plan.start), 0.2, 1e-12);
+}
+
+experiment::Experiment bareWith(experiment::Environment environment) {
+  experiment::Experiment e = experiment::readExperiment("centre-out");  // from 0 to 0.1 m along -z in 0.6 s
+  e.environment = std::move(environment);
+  return e;
+}
+
+ScenePlan forcesPlan(const experiment::Experiment& e) { return planScene(e, constraints::makeConstraint(e.constraint), {.forces = true}); }
+
+TEST(ForceMarks, AFieldIsDrawnAtThePeakSpeedOfAMinimumJerkReach) {
+  const ScenePlan plan = forcesPlan(bareWith({{experiment::ViscousForce{{{{0, 0, 13}, {0, 0, 0}, {-13, 0, 0}}}}}}));
+  const double speed = 1.875 * 0.1 / 0.6;  // Flash and Hogan 1985
+  EXPECT_NEAR(plan.forces.speed, speed, 1e-12);
+  ASSERT_EQ(plan.forces.field.size(), 30u);
+  for (const ForceArrow& arrow : plan.forces.field) EXPECT_NEAR(norm(arrow.force - Vec3{-13 * speed, 0, 0}), 0, 1e-12) << "to the left";
+  EXPECT_TRUE(plan.forces.channel.quads.empty());
+  EXPECT_EQ(forcesText(plan.forces), QStringLiteral("Arrows: force at 0.313 m/s to the target, up to 4.06 N"));
+}
+
+TEST(ForceMarks, AnElasticForceIsDrawnWhereItActs) {
+  const ScenePlan plan = forcesPlan(bareWith({{experiment::ElasticForce{{{{100, 0, 0}, {0, 0, 0}, {0, 0, 50}}}, Vec3{0.01, 0, 0}}}}));
+  EXPECT_EQ(plan.forces.speed, 0);
+  ASSERT_FALSE(plan.forces.field.empty());
+  for (const auto& [at, force] : plan.forces.field)
+    EXPECT_NEAR(norm(force - Vec3{-100 * (at.x - 0.01), 0, -50 * at.z}), 0, 1e-12) << at.x << ", " << at.z;
+  EXPECT_TRUE(forcesText(plan.forces).startsWith(QStringLiteral("Arrows: force, up to ")));
+}
+
+TEST(ForceMarks, AJointFieldIsLeftOutWhereItsArmDoesNotReach) {
+  experiment::Experiment e = bareWith({{experiment::JointViscousForce{{{{1.66, 0.64}, {0.64, -1.54}}}}}});
+  e.arm.length = {0.33, 0.34};
+  const std::size_t all = forcesPlan(e).forces.field.size();
+  e.arm.shoulder = {0, -0.62};  // the target is 0.72 m away, and the arm 0.67 m long
+  const std::vector<ForceArrow> near = forcesPlan(e).forces.field;
+  EXPECT_LT(near.size(), all);
+  EXPECT_FALSE(near.empty());
+  for (const ForceArrow& arrow : near) EXPECT_LT(std::hypot(arrow.at.x, -arrow.at.z + 0.62), 0.67);
+}
+
+TEST(ForceMarks, AChannelHasItsWallsAndItsEndAndAPulseItsPlace) {
+  experiment::PulseForce pulse{.force = {5, 0, 0}, .at = {.onset = {}, .distance = 0.04}};
+  const ScenePlan plan = forcesPlan(bareWith({{experiment::ChannelForce{.halfWidth = 0.004, .breakDistance = 0.02}}, {pulse}}));
+  ASSERT_EQ(plan.forces.channel.parameterLines.size(), 2u);
+  for (const auto& wall : plan.forces.channel.parameterLines)
+    for (const Vec3& p : wall) EXPECT_NEAR(std::abs(p.x), 0.004, 1e-12);
+  for (const auto& dash : plan.forces.letsGo)
+    for (const Vec3& p : dash) EXPECT_NEAR(std::abs(p.x), 0.02, 1e-12);
+  for (const Vec3& p : plan.forces.channel.points) EXPECT_EQ(p.y, 0) << "in the plane of the task";
+  ASSERT_EQ(plan.forces.pulses.size(), 1u);
+  EXPECT_NEAR(norm(plan.forces.pulses[0].at - Vec3{0, 0, -0.04}), 0, 1e-12);
+  EXPECT_TRUE(subjectsPlan(plan, {}).forces.pulses.empty()) << "the subject sees no force";
+  EXPECT_TRUE(forcesText(subjectsPlan(plan, {}).forces).isEmpty());
+  EXPECT_TRUE(forcesPlan(bareWith({})).forces.field.empty());
+}
+
+TEST(ScenePlan, ABlockIsSeenFromOneSideAndItsOtherTargetsAreFaint) {
+  const experiment::Experiment e = bareWith({});
+  std::vector<Vec3> block{{0, 0, 0}};
+  for (int i = 0; i < 8; ++i)
+    block.push_back({0.1 * std::cos(i * 0.25 * std::numbers::pi), 0, -0.1 * std::sin(i * 0.25 * std::numbers::pi)});
+  experiment::Experiment right = e;
+  right.task->target = {0.1, 0, 0};
+  const constraints::Constraint free = constraints::makeConstraint(e.constraint);
+  const ScenePlan ahead = planScene(e, free, {.blockPlaces = block}), aside = planScene(right, free, {.blockPlaces = block});
+  EXPECT_EQ(ahead.seen, aside.seen);
+  EXPECT_EQ(ahead.viewFrom, aside.viewFrom);
+  EXPECT_EQ(ahead.massRadius, aside.massRadius);
+  EXPECT_EQ(ahead.otherPlaces.size(), 7u);
+  EXPECT_TRUE(subjectsPlan(ahead, {}).otherPlaces.empty());
+  EXPECT_GT(planScene(e, free).viewFrom.y, 0.8) << "a bare hand on the table is seen from above";
+}
+
+TEST(TrialTexts, OfABareHandNameNoMass) {
+  trial::TrialResult result;
+  result.outcome = trial::Outcome::Failure;
+  result.reason = trial::Reason::Position;
+  result.by = 0.003;
+  EXPECT_EQ(outcomeText(result), QStringLiteral("Time is up: 3.0 mm too far from the target"));
+  experiment::Experiment e = bareWith({});
+  EXPECT_TRUE(taskText(e, false).startsWith(QStringLiteral("Bring your hand to")));
+  e.cursor = experiment::Cursor{};
+  EXPECT_TRUE(taskText(e, false).startsWith(QStringLiteral("Bring the cursor to")));
+  e.cursor->judge = experiment::CursorJudge::Hand;
+  EXPECT_TRUE(taskText(e, false).startsWith(QStringLiteral("Bring your hand to")));
 }
 
 TEST(TrialTexts, SayWhatTheSubjectCanUse) {
