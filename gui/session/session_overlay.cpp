@@ -21,6 +21,19 @@ scene::RestState restOf(SessionController& session, const QString& title) {
           static_cast<int>(session.blockCount())};
 }
 
+// ": channel, target 3" of a trial in a block that has kinds or targets.
+QString sceneWords(const SessionController& session) {
+  for (const std::vector<session::BlockScene>& scenes : session.programme().scenes)
+    for (const session::BlockScene& scene : scenes) {
+      if (scenes.size() < 2 || &scene.experiment.experiment() != &session.experiment()) continue;
+      QStringList words;
+      if (!scene.kind.empty()) words << QString::fromStdString(scene.kind);
+      if (!scene.target.empty()) words << QStringLiteral("target %1").arg(QString::fromStdString(scene.target));
+      return QStringLiteral(": ") + words.join(QStringLiteral(", "));
+    }
+  return {};
+}
+
 // "Station 2 is missing. The window waits for it."; empty if every station sends.
 QString missingStations(SessionController& session) {
   QStringList numbers;
@@ -79,8 +92,8 @@ scene::OverlayState overlayOf(SessionController& session, bool mouse, bool masse
     overlay = scene::overlayOf(run->latest(), experiment.task.value_or(experiment::Task{}), static_cast<int>(run->trialCount()), mouse);
     if (!run->underWay() && run->latest().trial == 0) overlay.instruction = QStringLiteral("Press Space to begin");
     if (session.isPlan())
-      overlay.counter =
-          QStringLiteral("Block %1 of %2, ").arg(run->configuration().block).arg(session.blockCount()) + overlay.counter.toLower();
+      overlay.counter = QStringLiteral("Block %1 of %2, ").arg(run->configuration().block).arg(session.blockCount()) +
+                        overlay.counter.toLower() + sceneWords(session);
     if (session.station() != nullptr) tellStations(session, overlay);
     if (isOver(session)) {
       const bool more = session.blocksLeft() > 0;
