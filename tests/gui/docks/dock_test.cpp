@@ -19,6 +19,7 @@
 #include "gui/widgets/number_list_edit.h"
 #include "gui/widgets/unit_spin_box.h"
 #include "sim/experiment/experiment.h"
+#include "tests/gui/at_the_window.h"
 
 namespace reachlab::gui::docks {
 namespace {
@@ -209,6 +210,33 @@ TEST_F(EnvironmentDockTest, ACursorIsGivenAndTakenAwayOnlyWithoutAnObject) {
   showExperiment(experiment::readExperiment("chain-moderate"));
   EXPECT_FALSE(box->isEnabled());
   EXPECT_FALSE(box->toolTip().isEmpty());
+}
+
+class EnvironmentAtTheWindow : public AtTheWindow {};
+
+TEST_F(EnvironmentAtTheWindow, IsUndoneRedoneAndAPlansIsOnlyShown) {
+  request_.what = "centre-out";
+  app::MainWindow& window = make();
+  find<QPushButton>("addForce")->click();
+  EXPECT_EQ(window.session().experiment().environment.size(), 1u);
+  EXPECT_EQ(find<QListWidget>("forces")->count(), 1);
+  window.edits().undo();
+  EXPECT_TRUE(window.session().experiment().environment.empty());
+  EXPECT_EQ(find<QListWidget>("forces")->count(), 0);
+  window.edits().redo();
+  EXPECT_EQ(find<QListWidget>("forces")->count(), 1);
+  // A task without a distance has no channel: the fault is beside the fields, and the force stays.
+  experiment::Experiment still = window.session().experiment();
+  still.task->target = still.task->start;
+  ASSERT_TRUE(window.session().tryEdit(still).empty());
+  auto* kind = find<QComboBox>("forceKind");
+  kind->setCurrentIndex(3);
+  Q_EMIT kind->activated(3);
+  EXPECT_TRUE(find<QLabel>("environmentFaults")->text().startsWith(QStringLiteral("force 1, kind: is channel")));
+  EXPECT_EQ(kind->currentIndex(), 0);
+  window.edits().setClean();
+  window.openExperiment(QStringLiteral("curl-adaptation"));
+  EXPECT_FALSE(find<QPushButton>("addForce")->isEnabled());
 }
 
 TEST(AllDocks, EachHasANameOfItsOwnByWhichTheLayoutIsRemembered) {
