@@ -73,7 +73,7 @@ TEST_F(Window, StartsWithItsDocksAndAPicture) {
         << dock->windowTitle().toStdString();
     titles.insert(dock->windowTitle());
   }
-  EXPECT_EQ(titles.size(), 10u);
+  EXPECT_EQ(titles.size(), 11u);
   const QImage picture = window.view().grabScene();
   QSet<QRgb> inks;
   for (int y = 0; y < picture.height(); y += 3)
