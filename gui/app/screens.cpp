@@ -85,8 +85,9 @@ void Screens::showState(const haptics::TickState& state, const network::OtherHan
   for (std::size_t hand = 0; hand < std::min(others.known.size(), main_.plan().hands.size()); ++hand)
     if (others.known[hand]) frame_.hands[hand] = others.place[hand];
   if (!main_.plan().look.forceArrow) frame_.force = {};
-  if (const auto& cursor = main_.plan().cursor; cursor && !frame_.masses.empty())
-    frame_.masses[0] = cursor_.at(state.tick, frame_.masses[0], cursor->delay);
+  const auto& cursor = main_.plan().cursor;
+  if (!cursor) cursor_ = {};  // a later kind of trial does not begin with the place of an earlier one
+  else if (!frame_.masses.empty()) frame_.masses[0] = cursor_.at(state.tick, frame_.masses[0], cursor->delay);
   main_.showFrame(frame_);
   showSubjectsFrame(state.phase);
   showPatch(&state);
@@ -110,7 +111,11 @@ void Screens::setSideBySide(bool on) {
 
 void Screens::setForcesShown(bool on) {
   options_.forces = on;
-  rebuild(true);
+  scene::ScenePlan plan = main_.plan();
+  plan.forces = on ? scene::markForces(experiment_->experiment(), plan.start, plan.target) : scene::ForceMarks();
+  const scene::SceneFrame kept = main_.frame();
+  main_.setPlan(plan, false);  // the subject's picture is left alone, also in mid-trial
+  main_.showFrame(kept);
 }
 
 bool Screens::massesHide() const {
