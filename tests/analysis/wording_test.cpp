@@ -170,8 +170,9 @@ TEST(Wording, OfLearningGivesPlateauAfterEffectAndItsSide) {
            {"3 subjects learned to cancel 60 [35.2, 84.8] % of it", "by 10 mm to the left, against the"});
   Analysis without = madeAdaptation({60}, -0.02);
   std::erase_if(without.trials, [](const AnalyzedTrial& t) { return t.scene.channel || t.key.trial > 18; });
-  expectIn(describeLearning(without), {"1 subject deviated by 20 mm to the left at first and by 5 mm to the left in the last quarter of the training. "
-                                       "No trial without it followed"});
+  expectIn(describeLearning(without),
+           {"1 subject deviated by 20 mm to the left at first and by 5 mm to the left in the last quarter of the training. No trial without it "
+            "followed"});
   EXPECT_EQ(describeLearning(madeStudy()), "") << "nobody was perturbed";
 }
 

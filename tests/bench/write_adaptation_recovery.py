@@ -57,10 +57,12 @@ def main():
                 for name, true in zip(NAMES, truth):
                     found = [f["two_state"][name] for f in fits]
                     covers = sum(low <= true <= high for low, high in (f["two_state"]["interval_95"][name] for f in fits))
-                    numbers.append(f"| {design} | {source} | `{name}` | {true} | {statistics.mean(found) - true:+.4f} | {statistics.stdev(found):.4f} | "
-                                   f"{100 * covers / len(fits):.1f} % |".replace("| -", "| −"))
+                    bias = f"{statistics.mean(found) - true:+.4f}".replace("-", "−")
+                    spread, share = statistics.stdev(found), 100 * covers / len(fits)
+                    numbers.append(f"| {design} | {source} | `{name}` | {true} | {bias} | {spread:.4f} | {share:.1f} % |")
                 told = [f["states"] for f in fits]
-                states.append(f"| {design} | {source} | " + " | ".join(f"{100 * told.count(s) / len(told):.0f} %" for s in ("two", "undecided", "one")) + " |")
+                shares = " | ".join(f"{100 * told.count(count) / len(told):.0f} %" for count in ("two", "undecided", "one"))
+                states.append(f"| {design} | {source} | {shares} |")
                 print(*numbers[-4:], states[-1], sep="\n", flush=True)
     text = PAGE.read_text(encoding="utf-8")
     table = "\n".join([*numbers, "", *states])

@@ -1,5 +1,6 @@
 #!/bin/bash
-# Both BIDS validators on a dataset of two subjects x two days that `reach` writes, with a block that mixes kinds of trials. Needs node and npm; $1 is the build folder.
+# Both BIDS validators on a dataset of two subjects x two days that `reach` writes, with a block of several kinds.
+# Needs node and npm; $1 is the build folder.
 set -euo pipefail
 build=$(realpath "$1")
 source=$(realpath "$(dirname "$0")/../..")
