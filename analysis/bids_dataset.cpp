@@ -102,8 +102,8 @@ record::SampleRows readMotion(const fs::path& path, std::size_t columns) {
     for (bool more = true; more && at < end;) {
       const char* const cell = at;
       at = std::find_if(cell, end, [](char c) { return c == '\t' || c == '\n'; });
-      const std::string_view text(cell, static_cast<std::size_t>(at - cell));
-      rows.values.push_back(numberOf(text.substr(0, text.find('\r')), "", path.native(), static_cast<int>(rows.ticks.size() + 1)));
+      const std::string_view number(cell, static_cast<std::size_t>(at - cell));
+      rows.values.push_back(numberOf(number.substr(0, number.find('\r')), "", path.native(), static_cast<int>(rows.ticks.size() + 1)));
       more = at < end && *at == '\t';
       if (at < end) ++at;
     }

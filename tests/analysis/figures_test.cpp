@@ -85,7 +85,7 @@ TEST(PeopleFigure, HasOneScaleForAllPeople) {
 TEST(Shortened, KeepsWhatFitsAndSaysThatItIsCut) {
   const std::string text(34, 'x');
   EXPECT_EQ(shortened(text), text);
-  EXPECT_EQ(shortened(text + "y"), std::string(33, 'x') + "…");
+  EXPECT_EQ(shortened(text + "y"), std::string(33, 'x').append("…"));
   EXPECT_EQ(shortened("abcdef", 4), "abc…");
 }
 

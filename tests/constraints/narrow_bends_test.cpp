@@ -20,7 +20,7 @@ Constraint named(const char* name) { return makeConstraint({.name = name, .curve
 TEST(NarrowBand, IsFoundOnTheLinesThroughTheStart) {
   for (const int k : {0, 1}) {
     const std::string q = k == 0 ? "u" : "v";
-    const auto band = findNarrowBand(surface("1e-6*exp(-((" + q + " - 0.31)/1e-5)^2)"), {0.1, -0.2});
+    const auto band = findNarrowBand(surface(std::string("1e-6*exp(-((").append(q).append(" - 0.31)/1e-5)^2)")), {0.1, -0.2});
     ASSERT_TRUE(band) << q;
     EXPECT_EQ(band->parameter, k);
     EXPECT_NEAR(band->at, 0.31, 2e-5);

@@ -83,7 +83,7 @@ TEST(Formula, TenThousandCharactersAndParenthesesAreRefused) {
   EXPECT_NE(fault(std::string(10000, '1')).what.find("10000 characters"), std::string::npos);
   EXPECT_EQ(fault(std::string(10000, '(')).allowed, "2000");
   EXPECT_NE(fault(std::string(1500, '(')).what.find("nested too deeply"), std::string::npos);
-  EXPECT_NE(fault(std::string(1500, '-') + "1").what.find("nested too deeply"), std::string::npos);
+  EXPECT_NE(fault(std::string(1500, '-').append("1")).what.find("nested too deeply"), std::string::npos);
   std::string tower = "phi";
   for (int i = 0; i < 300; ++i) tower += "^phi";
   EXPECT_NE(fault(tower).what.find("nested too deeply"), std::string::npos);

@@ -136,7 +136,9 @@ TEST(ProbeLoss, OfALinkThatLosesThreeTenthsIsNotBelowAFifthInAMinute) {
     for (std::uint32_t number = 1; number <= 3500; ++number) {
       if (seededFraction(seed, number) < 0.3) continue;
       loss.add(number);
-      if (number > 500) ASSERT_GT(loss.share(), 0.2) << "seed " << seed << ", probe " << number;
+      if (number > 500) {
+        ASSERT_GT(loss.share(), 0.2) << "seed " << seed << ", probe " << number;
+      }
     }
   }
 }

@@ -31,6 +31,7 @@ TEST(Plan, WithRestAndInstructionsReadsBackEqual) {
   plan.orderSeed = 12;
   plan.counterbalance = Counterbalance::Permute;
   plan.blocks.push_back({.experiment = "chain-slow",
+                         .changes = {},
                          .trials = 3,
                          .practice = true,
                          .pauseSeconds = 1.5,
@@ -41,7 +42,8 @@ TEST(Plan, WithRestAndInstructionsReadsBackEqual) {
                          .catchShare = 0.1,
                          .repeatAborted = true,
                          .restSeconds = 90,
-                         .instructions = "Read \"this\",\nthen begin."});
+                         .instructions = "Read \"this\",\nthen begin.",
+                         .mix = {}});
   const Plan read = parsePlan(toJson(plan), "mine.json");
   EXPECT_EQ(toJson(read), toJson(plan));
   EXPECT_EQ(read.blocks[0].instructions, plan.blocks[0].instructions);

@@ -91,7 +91,8 @@ TEST(TrialMix, OfMoreEntriesThanABlockCanHaveScenesIsRefused) {
 
 // Were the cost of a draw not in proportion to the number of kinds, this would take minutes, and the test its time-out.
 TEST(TrialMix, OfAThousandKindsIsOrderedInTimeInProportionToThem) {
-  TrialMix mix{.order = TrialOrder::Shuffled};
+  TrialMix mix;
+  mix.order = TrialOrder::Shuffled;
   for (int k = 0; k < 1000; ++k) mix.kinds.push_back({"k" + std::to_string(k), {}}), mix.notTwice.push_back(mix.kinds.back().name);
   const std::vector<MixedTrial> order = orderTrials(mix, 100'000, 1);
   std::vector<int> often(1000);
