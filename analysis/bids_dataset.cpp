@@ -206,6 +206,12 @@ RunSource readRun(const fs::path& motion) {
     trial.result.movementTime = std::isfinite(movement) ? movement : 0;
     trial.result.onsetTick = std::isfinite(movement) ? tick("onset") : 0;
     trial.result.endTick = tickOf(number("onset") + number("duration") + begin);
+    constexpr std::uint64_t kBeyond = kTicksPerSecond;  // the last rows of a recording that broke off may be missing
+    if (rows->size() > 1 && trial.result.endTick > rows->ticks.back() + kBeyond)
+      throw FaultError(Fault{"onset",
+                             fmt::format("and duration end at {:g} s, and the recording at {:g} s", secondsOf(trial.result.endTick) - begin,
+                                         secondsOf(rows->ticks.back()) - begin),
+                             "times within the recording, in s since its first row", FilePlace{eventsFile.string(), line}});
     trial.goTick = tick("go");
     trial.armedTick = tick("armed");
     trial.startTick = trial.armedTick;

@@ -180,6 +180,7 @@ TEST(Dataset, OfBidsFilesThatAnotherProgramHasChangedIsRefusedWhereItsNumbersWou
   EXPECT_NE(refusalOf("_channels.tsv", std::regex("hand_pos_y"), "hand_pos_z").find("hand_pos_y in m"), std::string::npos);
   EXPECT_NE(refusalOf("_motion.tsv", std::regex("\\."), ",").find("is not a number"), std::string::npos);
   EXPECT_NE(refusalOf("_events.tsv", std::regex("\\."), ",").find("is not a number"), std::string::npos);
+  EXPECT_NE(refusalOf("_events.tsv", std::regex("\n"), "\n9").find("and the recording at"), std::string::npos) << "90 s later";
 }
 
 // The sidecar says how often rows come, or else their times do; a single row has none to tell it by.
