@@ -18,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr int kMaxTrials = 1'000'000, kMaxDay = 10'000;
-constexpr double kMaxPause = 86400;  // [s] longer ones are another session
+constexpr std::size_t kMaxBlocks = 1000, kMaxCondition = 100;  // a condition is part of the names of the analysis's files
+constexpr double kMaxPause = 86400;                            // [s] longer ones are another session
 
 void readForeperiod(ObjectReader& reader, PlanBlock& block) {
   const JsonNode* node = reader.optional("foreperiod_s");
@@ -74,6 +75,8 @@ void checkBlock(const std::string& key, const PlanBlock& block, std::vector<Faul
   if (!block.changes.empty() && block.condition.empty())
     faults.push_back(
         {key + ".condition", "is not given where the experiment is changed", "a name that tells these trials from the others"});
+  if (block.condition.size() > kMaxCondition)
+    faults.push_back({key + ".condition", fmt::format("has {} bytes", block.condition.size()), fmt::format("up to {}", kMaxCondition)});
   checkNumber(key + ".trials", block.trials, wholeNumber(1, kMaxTrials), faults);
   checkNumber(key + ".pause_s", block.pauseSeconds, {0, kMaxPause, true, "0 to 86400 s"}, faults);
   checkNumber(key + ".rest_s", block.restSeconds, {0, kMaxPause, true, "0 to 86400 s"}, faults);
@@ -170,6 +173,8 @@ Plan parsePlan(const std::string& text, const std::string& file) {
 std::vector<Fault> problems(const Plan& plan) {
   std::vector<Fault> faults;
   if (plan.blocks.empty()) faults.push_back({"blocks", "is empty", "an array of blocks"});
+  if (plan.blocks.size() > kMaxBlocks)
+    return {{"blocks", fmt::format("has {} blocks", plan.blocks.size()), fmt::format("up to {}", kMaxBlocks)}};
   for (std::size_t i = 0; i < plan.blocks.size(); ++i) checkBlock(fmt::format("blocks[{}]", i), plan.blocks[i], faults);
   return faults;
 }

@@ -89,6 +89,28 @@ TEST(TrialMix, OfMoreEntriesThanABlockCanHaveScenesIsRefused) {
   EXPECT_NE(faultsOf(kSevenToOne + R"(, "trials": 8, "not_twice": [)" + list(2001, name) + "]").find("2000 at most"), std::string::npos);
 }
 
+// Their runs were recorded, and reach analyze could not write a file of such a name.
+TEST(TrialMix, OfAConditionThatIsNoPartOfAFileNameIsRefused) {
+  const auto named = [](std::size_t length) { return faultsOf(R"("trials": 1, "condition": ")" + std::string(length, 'c') + "\""); };
+  EXPECT_EQ(named(100), "");
+  EXPECT_NE(named(101).find("condition: has 101 bytes"), std::string::npos);
+}
+
+TEST(TrialMix, OfMoreThanAThousandBlocksIsRefusedBeforeTheyAreLookedAt) {
+  const auto faultOf = [](int blocks) -> std::string {
+    std::string text = R"({ "schema_version": 1, "trials": 1, "blocks": [)";
+    for (int i = 0; i < blocks; ++i) text += (i == 0 ? "" : ",") + std::string(R"({ "experiment": "free-point" })");
+    try {
+      (void)parsePlan(text + "] }", "p.json");
+      return "";
+    } catch (const FaultError& error) {
+      return error.what();
+    }
+  };
+  EXPECT_EQ(faultOf(1000), "");
+  EXPECT_NE(faultOf(1001).find("blocks: has 1001 blocks"), std::string::npos) << faultOf(1001);
+}
+
 // Were the cost of a draw not in proportion to the number of kinds, this would take minutes, and the test its time-out.
 TEST(TrialMix, OfAThousandKindsIsOrderedInTimeInProportionToThem) {
   TrialMix mix;
