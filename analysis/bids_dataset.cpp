@@ -59,17 +59,24 @@ int countOf(double number) {
   return std::isfinite(number) && number >= 0 && number <= kMost ? static_cast<int>(number) : 0;
 }
 
-// Vectors are read from their x on, and numbers without a conversion: order and units have to be those of an export.
+// Vectors are read from their x on, and numbers without a conversion: units and the order of components have to be those of an export.
 void checkChannels(const record::ChannelTable& table, const fs::path& path) {
   experiment::Experiment experiment;
   experiment.object.masses.resize(static_cast<std::size_t>(table.massCount));
   const record::ChannelTable exported = record::makeChannelTable(experiment, table.parameterCount);
-  for (std::size_t i = 0; i < exported.size(); ++i) {
-    const record::Channel &wanted = exported.channels[i], found = i < table.size() ? table.channels[i] : record::Channel{};
-    if (found.name == wanted.name && found.units == wanted.units) continue;
-    throw FaultError(Fault{fmt::format("channel {}", i + 1), fmt::format("is \"{}\" in {}", found.name, found.units),
-                           fmt::format("{} in {}, in the order of an export of Reachlab", wanted.name, wanted.units),
-                           FilePlace{path.string()}});
+  const auto require = [&](std::size_t i, const record::Channel& wanted) {
+    const record::Channel found = i < table.size() ? table.channels[i] : record::Channel{};
+    if (found.name != wanted.name || found.units != wanted.units)
+      throw FaultError(Fault{fmt::format("channel {}", i + 1), fmt::format("is \"{}\" in {}", found.name, found.units),
+                             fmt::format("{} in {}, as an export of Reachlab has it", wanted.name, wanted.units),
+                             FilePlace{path.string()}});
+  };
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const auto& all = exported.channels;
+    const auto known = std::find_if(all.begin(), all.end(), [&](const record::Channel& c) { return c.name == table.channels[i].name; });
+    if (known == all.end()) continue;
+    const std::ptrdiff_t components = known->name.ends_with("_x") ? 3 : 1;
+    for (std::ptrdiff_t k = 0; k < components; ++k) require(i + static_cast<std::size_t>(k), known[k]);
   }
 }
 

@@ -279,8 +279,7 @@ def objectOf(plant, h):
     return x[-1] + h[0], v[-1]
 
 
-CHANNELS = ["latency", "hand_pos_x", "hand_pos_y", "hand_pos_z", "coupling_force_x", "coupling_force_y", "coupling_force_z", "mass1_pos_x",
-            "mass1_pos_y", "mass1_pos_z", "mass1_vel_x", "mass1_vel_y", "mass1_vel_z"]
+CHANNELS = {"latency": "s", "hand_pos": "m", "coupling_force": "N", "mass1_pos": "m", "mass1_vel": "m/s"}  # vectors have three rows
 EVENTS = ["onset", "duration", "trial_type", "trial", "block", "phase", "condition", "outcome", "reason", "mass", "by", "movement_time", "armed",
           "go", "peak_force", "mean_force", "day"]
 
@@ -303,7 +302,8 @@ def write(folder, experiment, plant, person):
                        f"{length - onset - 0.45:.3f}", f"{at:.3f}", f"{at:.3f}", "n/a", "n/a", "n/a"])
         at += (len(h) - 1) / 1000 + 0.5
     (base / f"{name}_motion.tsv").write_text("\n".join(rows) + "\n")
-    (base / f"{name}_channels.tsv").write_text("name\n" + "\n".join(CHANNELS) + "\n")
+    rows = [f"{channel}{axis}\t{unit}" for channel, unit in CHANNELS.items() for axis in ([""] if channel == "latency" else ["_x", "_y", "_z"])]
+    (base / f"{name}_channels.tsv").write_text("\n".join(["name\tunits", *rows]) + "\n")
     (base / f"{name}_events.tsv").write_text("\n".join("\t".join(map(str, r)) for r in [EVENTS, *events]) + "\n")
     about = {"TaskDescription": f"Rest-to-rest reaching with the simulated object of experiment {experiment}", "SamplingFrequency": RATE}
     (base / f"{name}_motion.json").write_text(json.dumps(about))
