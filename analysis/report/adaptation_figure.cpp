@@ -43,9 +43,16 @@ NamedFigure adaptationFigure(const Analysis& analysis) {
       figure::Series series = subjectSeries(analysis, subject);
       series.width = people.size() > 3 ? figure::kThin : figure::kNormal;
       series.marker = figure::MarkerShape::None;
+      const TrialKey* last = nullptr;
       for (std::size_t i = 0; i < person.trials.size(); ++i) {
         const double value = course.value(*person.trials[i]);
-        if (!(value == value)) continue;  // the line joins the trials of its kind
+        if (!(value == value)) continue;  // the line joins the trials of its kind within a block
+        const TrialKey& key = person.trials[i]->key;
+        if (last != nullptr && (last->run != key.run || last->block != key.block)) {
+          series.x.push_back(static_cast<double>(i + 1));
+          series.y.push_back(kNotMeasured);
+        }
+        last = &key;
         series.x.push_back(static_cast<double>(i + 1));
         series.y.push_back(value);
       }
