@@ -12,11 +12,7 @@ namespace reachlab::analysis {
 namespace {
 
 std::vector<predict::Criterion> drawnCriteria(const AnalysisOptions& options) {
-  if (!options.drawn.empty()) return options.drawn;
-  if (!options.criteria.empty()) return options.criteria;
-  std::vector<predict::Criterion> all;
-  for (int i = 0; i < predict::kCriterionCount; ++i) all.push_back(static_cast<predict::Criterion>(i));
-  return all;
+  return options.drawn.empty() ? comparedCriteria(options) : options.drawn;
 }
 
 /// The prediction whose movement, measured like a trial's, lasts `measured`: fixed-point steps on its duration.
@@ -118,6 +114,13 @@ void summarise(Analysis& analysis, std::size_t condition) {
   result.object = object.result();
   result.handEpsilon = makeEpsilonTable(trials, result.signals.size(), false);
   result.objectEpsilon = makeEpsilonTable(trials, result.signals.size(), true);
+}
+
+std::vector<predict::Criterion> comparedCriteria(const AnalysisOptions& options) {
+  if (!options.criteria.empty()) return options.criteria;
+  std::vector<predict::Criterion> all;
+  for (int i = 0; i < predict::kCriterionCount; ++i) all.push_back(static_cast<predict::Criterion>(i));
+  return all;
 }
 
 bool holdsFor(const Condition& condition, predict::Criterion criterion) {

@@ -16,14 +16,6 @@ FitWindow windowOf(const Analysis& analysis, const AnalyzedTrial& trial) {
   return window;
 }
 
-std::vector<predict::Criterion> comparedCriteria(const Analysis& analysis, std::size_t condition) {
-  std::vector<predict::Criterion> compared = analysis.options.criteria;
-  for (int i = 0; analysis.options.criteria.empty() && i < predict::kCriterionCount; ++i)
-    compared.push_back(static_cast<predict::Criterion>(i));
-  std::erase_if(compared, [&](predict::Criterion c) { return !holdsFor(analysis.conditions[condition], c); });
-  return compared;
-}
-
 }  // namespace
 
 void fitPeople(Analysis& analysis, std::size_t condition, const FittingProgress& progress) {
@@ -49,7 +41,8 @@ void fitPeople(Analysis& analysis, std::size_t condition, const FittingProgress&
     if (windows.size() >= kFewestTrials) {
       if (result.candidates.candidates.empty()) {
         CandidateOptions how;
-        how.criteria = comparedCriteria(analysis, condition);
+        how.criteria = comparedCriteria(analysis.options);
+        std::erase_if(how.criteria, [&](predict::Criterion c) { return !holdsFor(analysis.conditions[condition], c); });
         how.handMasses = analysis.options.handMasses;
         how.handMass = analysis.options.handMass;
         how.handDamping = analysis.options.handDamping;
