@@ -244,21 +244,26 @@ void SessionController::showScene() {
   Q_EMIT experimentChanged();
 }
 
-std::vector<Vec3> SessionController::blockPlaces() const {
-  std::vector<Vec3> places;
+const std::vector<session::BlockScene>* SessionController::shownScenes() const {
+  const auto isShown = [&](const experiment::CompiledExperiment& e) { return &e.experiment() == &shown_.experiment(); };
   for (std::size_t block = 0; block < programme_.scenes.size(); ++block) {
     const std::vector<session::BlockScene>& scenes = programme_.scenes[block];
-    const auto isShown = [&](const experiment::CompiledExperiment& e) { return &e.experiment() == &shown_.experiment(); };
-    if (scenes.size() < 2 || (!isShown(programme_.experiments[block]) &&
-                              std::none_of(scenes.begin(), scenes.end(), [&](const auto& scene) { return isShown(scene.experiment); })))
-      continue;
-    for (const session::BlockScene& scene : scenes)
-      for (const std::vector<double>& q : {scene.experiment.experiment().task->start, scene.experiment.experiment().task->target})
-        if (const Vec3 place = constraints::placeOn(scene.experiment.constraint(), q);
-            isFinite(place) && std::find(places.begin(), places.end(), place) == places.end())
-          places.push_back(place);
-    break;
+    if (scenes.size() > 1 && (isShown(programme_.experiments[block]) ||
+                              std::any_of(scenes.begin(), scenes.end(), [&](const auto& scene) { return isShown(scene.experiment); })))
+      return &scenes;
   }
+  return nullptr;
+}
+
+std::vector<Vec3> SessionController::blockPlaces() const {
+  std::vector<Vec3> places;
+  const std::vector<session::BlockScene>* scenes = shownScenes();
+  if (scenes == nullptr) return places;
+  for (const session::BlockScene& scene : *scenes)
+    for (const std::vector<double>& q : {scene.experiment.experiment().task->start, scene.experiment.experiment().task->target})
+      if (const Vec3 place = constraints::placeOn(scene.experiment.constraint(), q);
+          isFinite(place) && std::find(places.begin(), places.end(), place) == places.end())
+        places.push_back(place);
   return places;
 }
 

@@ -44,7 +44,9 @@ class SessionController : public QObject {
   /// A plan has its settings in its file: they are shown, not edited.
   bool isPlan() const { return programme_.isPlan(); }
 
-  /// Starts and targets [m] of all trials of the plan's block that is shown, each once. Empty for a block of one scene.
+  /// The scenes of the plan's block that is shown. Null for a block of one scene.
+  const std::vector<session::BlockScene>* shownScenes() const;
+  /// Starts and targets [m] of these scenes, each once.
   std::vector<Vec3> blockPlaces() const;
 
   /// Takes the programme over from the next run on. Label, condition and log name belong to it.

@@ -1,5 +1,6 @@
 #include "gui/session/session_overlay.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "gui/scene/trial_texts.h"
@@ -23,15 +24,16 @@ scene::RestState restOf(SessionController& session, const QString& title) {
 
 // ": channel, target 3" of a trial in a block that has kinds or targets.
 QString sceneWords(const SessionController& session) {
-  for (const std::vector<session::BlockScene>& scenes : session.programme().scenes)
-    for (const session::BlockScene& scene : scenes) {
-      if (scenes.size() < 2 || &scene.experiment.experiment() != &session.experiment()) continue;
-      QStringList words;
-      if (!scene.kind.empty()) words << QString::fromStdString(scene.kind);
-      if (!scene.target.empty()) words << QStringLiteral("target %1").arg(QString::fromStdString(scene.target));
-      return QStringLiteral(": ") + words.join(QStringLiteral(", "));
-    }
-  return {};
+  const std::vector<session::BlockScene>* scenes = session.shownScenes();
+  if (scenes == nullptr) return {};
+  const auto shown = std::find_if(scenes->begin(), scenes->end(), [&](const session::BlockScene& scene) {
+    return &scene.experiment.experiment() == &session.experiment();
+  });
+  if (shown == scenes->end()) return {};
+  QStringList words;
+  if (!shown->kind.empty()) words << QString::fromStdString(shown->kind);
+  if (!shown->target.empty()) words << QStringLiteral("target %1").arg(QString::fromStdString(shown->target));
+  return QStringLiteral(": ") + words.join(QStringLiteral(", "));
 }
 
 // "Station 2 is missing. The window waits for it."; empty if every station sends.
