@@ -163,7 +163,8 @@ double shareBelow(double freedom) {
   return 0.5 * std::erfc(t / std::numbers::sqrt2);
 }
 
-/// Percentile intervals from series whose residuals are drawn anew in blocks of neighbours. Residuals of a fit are smaller than the noise.
+/// Percentile intervals from series whose residuals are drawn with replacement in blocks of neighbours. A fit takes part of the noise, so
+/// its residuals are enlarged before they are drawn.
 void addIntervals(LearningFit& fit, const AdaptationSeries& series, int measured, int resamples, std::uint64_t seed) {
   const std::vector<double> x = simulateLearning(fit.states, series);
   std::vector<std::size_t> at;

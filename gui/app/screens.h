@@ -33,7 +33,7 @@ class Screens : public QObject {
   explicit Screens(scene::SceneView& main);
   ~Screens() override;
 
-  /// Builds the picture anew, the hand at rest at the start. `blockPlaces`: starts and targets [m] of the plan's block that it is a trial of.
+  /// Builds a new picture with the hand at rest at the start. `blockPlaces` are the starts and targets [m] of all trials of the plan's block.
   /// The camera stays while these are the same.
   void showExperiment(const experiment::CompiledExperiment& experiment, const std::vector<Vec3>& blockPlaces);
   /// The index from 0 of the hand at this station. The other hands are at other stations.

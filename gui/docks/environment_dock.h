@@ -3,7 +3,6 @@
 
 #include "gui/docks/dock.h"
 
-class QCheckBox;
 class QComboBox;
 class QGroupBox;
 class QListWidget;
