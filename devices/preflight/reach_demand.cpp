@@ -98,6 +98,7 @@ ReachDemand computeReachDemand(const experiment::CompiledExperiment& experiment,
   } catch (const Error& error) {  // a task that nobody can plan is still felt
     demand = rigidBodyDemand(asked, engine.protocol(), centre, error.what());
   }
+  for (const Vec3& place : engine.protocol().via) demand.farthest = std::max(demand.farthest, norm(place - centre));
   demand.duration = asked.task->duration;
   return demand;
 }

@@ -23,10 +23,22 @@ TaskDock::TaskDock(QWidget* parent) : Dock(QStringLiteral("Task"), QStringLitera
   position_ = new widgets::UnitSpinBox(1e-5, 1, QStringLiteral("m"));
   velocity_ = new widgets::UnitSpinBox(1e-5, 10, QStringLiteral("m/s"));
   start_->setObjectName(QStringLiteral("taskStart"));
+  via_ = new widgets::NumberListEdit;
+  via_->setObjectName(QStringLiteral("taskVia"));
+  via_->setToolTip(QStringLiteral("Places that the last mass, or a bare hand, passes in this order before it arrives: x y z of each."));
+  widgets::NumberListRule places;
+  places.list = QStringLiteral("via");
+  places.multipleOf = 3;
+  places.most = 60;
+  via_->setRule(places);
+  viaRadius_ = new widgets::UnitSpinBox(1e-5, 1, QStringLiteral("m"));
+  viaRadius_->setToolTip(QStringLiteral("Distance within which such a place counts as passed."));
   startLabel_ = new QLabel;
   targetLabel_ = new QLabel;
   form->addRow(startLabel_, start_);
   form->addRow(targetLabel_, target_);
+  form->addRow(QStringLiteral("via x y z [m]"), via_);
+  form->addRow(QStringLiteral("± via"), viaRadius_);
   form->addRow(QStringLiteral("time T"), duration_);
   form->addRow(QStringLiteral("± ΔT"), time_);
   form->addRow(QStringLiteral("± Δx"), position_);
@@ -37,8 +49,9 @@ TaskDock::TaskDock(QWidget* parent) : Dock(QStringLiteral("Task"), QStringLitera
   time_->setName(QStringLiteral("ΔT"));
   position_->setName(QStringLiteral("Δx"));
   velocity_->setName(QStringLiteral("Δv"));
-  for (auto* list : {start_, target_}) faults()->watch(list);
-  for (auto* number : {duration_, time_, position_, velocity_}) faults()->watch(number);
+  viaRadius_->setName(QStringLiteral("radius of via"));
+  for (auto* list : {start_, target_, via_}) faults()->watch(list);
+  for (auto* number : {duration_, time_, position_, velocity_, viaRadius_}) faults()->watch(number);
   setBody(body);
 
   const auto bind = [this](widgets::UnitSpinBox* box, auto set) {
@@ -51,6 +64,13 @@ TaskDock::TaskDock(QWidget* parent) : Dock(QStringLiteral("Task"), QStringLitera
   bind(time_, [](experiment::Task& t, double v) { t.tolerance.time = v; });
   bind(position_, [](experiment::Task& t, double v) { t.tolerance.position = v; });
   bind(velocity_, [](experiment::Task& t, double v) { t.tolerance.velocity = v; });
+  bind(viaRadius_, [](experiment::Task& t, double v) { t.viaRadius = v; });
+  connect(via_, &widgets::NumberListEdit::numbersEdited, this, [this] {
+    const std::vector<double> numbers = *via_->numbers();
+    task_.via.clear();
+    for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) task_.via.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
+    tell();
+  });
   connect(start_, &widgets::NumberListEdit::numbersEdited, this, [this] {
     task_.start = *start_->numbers();
     tell();
@@ -89,6 +109,11 @@ void TaskDock::display(const experiment::CompiledExperiment& experiment, bool ed
   target_->setToolTip(places);
   start_->setNumbers(task.start);
   target_->setNumbers(task.target);
+  std::vector<double> via;
+  for (const Vec3& place : task.via) via.insert(via.end(), {place.x, place.y, place.z});
+  via_->setNumbers(via);
+  viaRadius_->show(task.viaRadius);
+  viaRadius_->setEnabled(!via.empty());
   duration_->show(task.duration);
   time_->show(task.tolerance.time);
   position_->show(task.tolerance.position);

@@ -23,8 +23,8 @@ class TaskDock : public Dock {
   void tell();
 
   experiment::Task task_;
-  widgets::NumberListEdit *start_, *target_;
-  widgets::UnitSpinBox *duration_, *time_, *position_, *velocity_;
+  widgets::NumberListEdit *start_, *target_, *via_;
+  widgets::UnitSpinBox *duration_, *time_, *position_, *velocity_, *viaRadius_;
   QLabel *startLabel_, *targetLabel_;
 };
 

@@ -19,6 +19,7 @@ namespace {
 
 using Actor = vtkSmartPointer<vtkActor>;
 
+constexpr double kViaOpacity = 0.45, kPassedOpacity = 0.12;  // of a place on the way, before and after it was passed
 constexpr double kOtherPlaces = 0.5;                     // opacity of places that are not of this trial
 constexpr double kFieldArrow = 0.18, kPulseArrow = 0.4;  // of the reach, the longest of each
 
@@ -54,7 +55,7 @@ void placeBody(vtkActor& actor, const Vec3& at, const std::array<double, 4>& q, 
 struct ObjectActors::Impl {
   vtkRenderer& renderer;
   ScenePlan plan;  // without its meshes
-  std::vector<Actor> all, masses, springs, hands;
+  std::vector<Actor> all, masses, springs, hands, via;
   std::unique_ptr<CueActors> cues;
   std::unique_ptr<ModelActors> model;
   bool handWasValid = true;
@@ -90,6 +91,12 @@ struct ObjectActors::Impl {
   }
   void addMarks(const ScenePlan& from) {
     if (!from.hasTask) return;
+    for (const Vec3& at : from.via) {
+      via.push_back(add(makeBall({from.look.colours.target, kViaOpacity, 0.2})));
+      makeShell(*via.back());
+      via.back()->SetScale(from.viaRadius);
+      place(*via.back(), at);
+    }
     const auto mark = [&](const Vec3& at, const widgets::Colour& colour, double radius, double opacity) {
       Actor ball = add(makeBall({colour, opacity, 0.2}));
       if (opacity < 0.5) makeShell(*ball);
@@ -148,7 +155,7 @@ struct ObjectActors::Impl {
 };
 
 ObjectActors::ObjectActors(vtkRenderer& renderer, const ScenePlan& plan, SurfaceStyle style)
-    : impl_(new Impl{renderer, plan, {}, {}, {}, {}, nullptr, nullptr}) {
+    : impl_(new Impl{renderer, plan, {}, {}, {}, {}, {}, nullptr, nullptr}) {
   impl_->plan.curve = {};
   impl_->plan.surface = {};
   impl_->model = std::make_unique<ModelActors>(renderer, plan);
@@ -184,6 +191,8 @@ void ObjectActors::show(const SceneFrame& frame) {
                           norm(drawn(i) - drawn(k)) < 0.12 * plan.massRadius[k]);
     impl_->masses[i]->SetVisibility(!hidden);
   }
+  for (std::size_t i = 0; i < impl_->via.size(); ++i)
+    impl_->via[i]->GetProperty()->SetOpacity(static_cast<int>(i) < frame.viaPassed ? kPassedOpacity : kViaOpacity);
   const auto own = static_cast<std::size_t>(plan.ownHand);
   const auto isShown = [&](std::size_t i) { return i < frame.hands.size() && frame.hands[i] && isFinite(*frame.hands[i]); };
   for (std::size_t i = 0; i < impl_->hands.size(); ++i) {

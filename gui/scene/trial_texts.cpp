@@ -22,6 +22,8 @@ QString outcomeText(const trial::TrialResult& result) {
       return QStringLiteral("Time is up: %1%2 mm too far from the target").arg(massIs(result.mass, "is"), number(1000 * result.by, 1));
     case trial::Reason::Velocity:
       return QStringLiteral("Time is up: %1%2 mm/s too fast").arg(massIs(result.mass, "still moves"), number(1000 * result.by, 1));
+    case trial::Reason::Via:
+      return QStringLiteral("Time is up: a place on the way was missed by %1 mm").arg(number(1000 * result.by, 1));
     case trial::Reason::ForceLimit: return QStringLiteral("The force exceeded its limit");
     case trial::Reason::DeviceLost: return QStringLiteral("The device was lost");
     case trial::Reason::NoOnset: return QStringLiteral("No movement began");
@@ -45,6 +47,7 @@ QString reasonText(trial::Reason reason) {
     case trial::Reason::TimeLong: return QStringLiteral("too slow");
     case trial::Reason::Position: return QStringLiteral("too far from the target");
     case trial::Reason::Velocity: return QStringLiteral("still moving");
+    case trial::Reason::Via: return QStringLiteral("missed a place on the way");
     case trial::Reason::ForceLimit: return QStringLiteral("over the force limit");
     case trial::Reason::DeviceLost: return QStringLiteral("device lost");
     case trial::Reason::NoOnset: return QStringLiteral("no movement");

@@ -155,6 +155,7 @@ std::vector<Vec3> pointsSeen(const ScenePlan& plan) {
       seen.push_back(place);
       for (const Vec3& shift : plan.massShift) seen.push_back(place + shift);
     }
+  seen.insert(seen.end(), plan.via.begin(), plan.via.end());
   if (seen.empty()) seen = {plan.centre - Vec3{0.5 * plan.size, 0, 0}, plan.centre + Vec3{0.5 * plan.size, 0, 0}};
   return seen;
 }
@@ -185,6 +186,9 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
     plan.start = placeOrOrigin(constraint, from);
     plan.target = placeOrOrigin(constraint, to);
     plan.tolerance = experiment.task->tolerance.position;
+    plan.via = experiment.task->via;
+    plan.viaRadius = experiment.task->viaRadius;
+    for (const Vec3& place : plan.via) box.add(place);
     box.add(plan.start);
     box.add(plan.target);
   }
@@ -253,6 +257,7 @@ void copyToFrame(const haptics::TickState& state, SceneFrame& frame) {
   frame.handValid = state.hands[0].hip.valid;
   frame.force = state.hands[0].feedbackForce;
   frame.trial = state.trial;
+  frame.viaPassed = state.viaPassed;
   frame.traced = state.phase == trial::Phase::Armed || state.phase == trial::Phase::Moving;
   frame.body = state.body;
   frame.masses.resize(static_cast<std::size_t>(state.massCount));
@@ -261,7 +266,7 @@ void copyToFrame(const haptics::TickState& state, SceneFrame& frame) {
 
 bool movedBeyond(double distance, const SceneFrame& from, const SceneFrame& to) {
   const auto apart = [&](const Vec3& a, const Vec3& b) { return !(norm(a - b) <= distance); };
-  if (from.handValid != to.handValid || from.cursorShown != to.cursorShown || from.masses.size() != to.masses.size() ||
+  if (from.handValid != to.handValid || from.cursorShown != to.cursorShown || from.viaPassed != to.viaPassed || from.masses.size() != to.masses.size() ||
       from.hands.size() != to.hands.size())
     return true;
   for (std::size_t i = 0; i < from.hands.size(); ++i)

@@ -50,6 +50,8 @@ struct ScenePlan {
   Vec3 start, target;             // [m]
   bool hasTask = false;
   bool targetShown = true;
+  std::vector<Vec3> via;           // [m] places to pass on the way
+  double viaRadius = 0;            // [m]
   double tolerance = 0;            // [m] dx, drawn as a faint shell around the target
   Vec3 centre{};                   // [m] what the camera looks at
   double size = 0.2;               // [m] diagonal of what is seen
@@ -99,6 +101,7 @@ struct SceneFrame {
   bool handValid = true;    // the own hand's device delivers samples
   bool cursorShown = true;  // the first mass, where it is a cursor
   Vec3 force;               // [N] of the coupling on the own hand; zero where no arrow is drawn
+  int viaPassed = 0;        // of the plan's
   std::int32_t trial = 0;   // a trace ends with its trial
   bool traced = false;      // the hand is under way
 };
@@ -111,7 +114,7 @@ SceneFrame restingFrame(const ScenePlan& plan);
 /// The state's first hand becomes the hand of the frame. Further hands come from the state, and the rest is not known.
 void copyToFrame(const haptics::TickState& state, SceneFrame& frame);
 /// Whether the change is visible: a shift of more than that length [m], a turn of more than a thousandth, a drawn force that differs by
-/// 0.05 N, a hand that was lost or found, or a cursor that appeared or vanished.
+/// 0.05 N, a hand that was lost or found, a cursor that appeared or vanished, or a place that was passed.
 bool movedBeyond(double distance, const SceneFrame& from, const SceneFrame& to);
 /// The number of masses that hide behind the first: all of them if each is within half its radius of the first, else 0.
 int massesAtOnePlace(const ScenePlan& plan, const SceneFrame& frame);

@@ -18,6 +18,7 @@ const char* const kTooFast = QT_TRANSLATE_NOOP("Subject", "Too fast");
 const char* const kTooSlow = QT_TRANSLATE_NOOP("Subject", "Too slow");
 const char* const kNotThere = QT_TRANSLATE_NOOP("Subject", "Not at the target in time");
 const char* const kNotAtRest = QT_TRANSLATE_NOOP("Subject", "Not at rest in time");
+const char* const kNotPassed = QT_TRANSLATE_NOOP("Subject", "Not through every ball on the way");
 const char* const kEarly = QT_TRANSLATE_NOOP("Subject", "Too early: wait for the signal");
 const char* const kNoMovement = QT_TRANSLATE_NOOP("Subject", "No movement began");
 const char* const kNoCount = QT_TRANSLATE_NOOP("Subject", "This trial does not count");
@@ -28,7 +29,7 @@ const char* const kThanks = QT_TRANSLATE_NOOP("Subject", "That was all: thank yo
 
 const std::vector<const char*>& subjectSentences() {
   static const std::vector<const char*> all{kWait,     kGoToStart, kHold,  kReach,      kGo,      kWell, kTooFast, kTooSlow,
-                                            kNotThere, kNotAtRest, kEarly, kNoMovement, kNoCount, kRest, kThanks};
+                                            kNotThere, kNotAtRest, kNotPassed, kEarly, kNoMovement, kNoCount, kRest, kThanks};
   return all;
 }
 
@@ -80,6 +81,7 @@ QString SubjectWords::outcome(const trial::TrialResult& result) const {
     case trial::Reason::TimeLong: return say(kTooSlow);
     case trial::Reason::Position: return say(kNotThere);
     case trial::Reason::Velocity: return say(kNotAtRest);
+    case trial::Reason::Via: return say(kNotPassed);
     case trial::Reason::Early: return say(kEarly);
     case trial::Reason::NoOnset: return say(kNoMovement);
     default: return say(kNoCount);

@@ -65,8 +65,9 @@ QString faultOf(const QString& text, const NumberListRule& rule) {
              rule.lowAllowed ? shortest(rule.low) + QStringLiteral(" or more") : QStringLiteral("more than ") + shortest(rule.low));
   }
   const auto count = static_cast<std::size_t>(parts.size());
-  if (count >= rule.fewest && count <= rule.most) return {};
+  if (count >= rule.fewest && count <= rule.most && count % rule.multipleOf == 0) return {};
   QString allowed = rule.fewest == rule.most ? QString::number(rule.most) : QStringLiteral("%1 to %2").arg(rule.fewest).arg(rule.most);
+  if (rule.multipleOf > 1) allowed += QStringLiteral(", in groups of %1").arg(rule.multipleOf);
   if (!rule.names.isEmpty()) allowed += QStringLiteral(" (%1)").arg(rule.names.join(QStringLiteral(", ")));
   return QStringLiteral("%1: %2; allowed: %3")
       .arg(rule.list,

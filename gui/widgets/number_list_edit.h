@@ -15,7 +15,7 @@ struct NumberListRule {
   QString unit = {};
   double low = -std::numeric_limits<double>::infinity();
   bool lowAllowed = true;
-  std::size_t fewest = 0, most = 512;
+  std::size_t fewest = 0, most = 512, multipleOf = 1;
 };
 
 /// Several numbers in one line, parted by blanks: "0.6 0.6 0.6" or "5 x 0.6". Red while the rule does not hold.

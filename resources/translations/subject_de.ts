@@ -44,6 +44,10 @@
         <translation>Nicht rechtzeitig in Ruhe</translation>
     </message>
     <message>
+        <source>Not through every ball on the way</source>
+        <translation>Nicht durch jede Kugel auf dem Weg</translation>
+    </message>
+    <message>
         <source>Too early: wait for the signal</source>
         <translation>Zu früh: auf das Zeichen warten</translation>
     </message>

@@ -44,6 +44,10 @@
         <translation>時間内に静止しませんでした</translation>
     </message>
     <message>
+        <source>Not through every ball on the way</source>
+        <translation>途中の球をすべて通過しませんでした</translation>
+    </message>
+    <message>
         <source>Too early: wait for the signal</source>
         <translation>早すぎます：合図を待ってください</translation>
     </message>

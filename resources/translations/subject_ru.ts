@@ -44,6 +44,10 @@
         <translation>Движение не остановлено вовремя</translation>
     </message>
     <message>
+        <source>Not through every ball on the way</source>
+        <translation>Пройдены не все шары на пути</translation>
+    </message>
+    <message>
         <source>Too early: wait for the signal</source>
         <translation>Слишком рано: ждите сигнала</translation>
     </message>

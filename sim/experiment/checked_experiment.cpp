@@ -45,6 +45,10 @@ struct KeyCheck {
     checkNumbers(keyIn(group, key.name), {v[0], v[1]}, 2, key.range, faults);
   }
   void operator()(const Key& key, const Vec3& v) const { checkNumbers(keyIn(group, key.name), {v.x, v.y, v.z}, 3, key.range, faults); }
+  void operator()(const Key& key, const std::vector<Vec3>& places) const {
+    for (std::size_t i = 0; i < places.size(); ++i)
+      checkNumbers(fmt::format("{}[{}]", keyIn(group, key.name), i), {places[i].x, places[i].y, places[i].z}, 3, key.range, faults);
+  }
   template <std::size_t N>
   void operator()(const Key& key, const SquareMatrix<N>& matrix) const {
     for (std::size_t i = 0; i < N; ++i)
@@ -174,6 +178,9 @@ void checkPlaces(const Task& task, int coordinates, std::vector<Fault>& faults) 
     if (place->empty()) faults.push_back({key, "is missing", "constraint parameters, or three metres when free"});
     else checkNumbers(key, *place, coordinates, componentRange(), faults);
   }
+  constexpr std::size_t kMostVia = 20;  // a subject cannot learn a longer way
+  if (task.via.size() > kMostVia)
+    faults.push_back({"task.via_m", fmt::format("has {} places", task.via.size()), fmt::format("up to {}", kMostVia)});
 }
 
 void checkShape(const constraints::ConstraintSpec& spec, std::vector<Fault>& faults) {

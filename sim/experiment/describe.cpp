@@ -101,8 +101,10 @@ std::string cursorOf(const Cursor& cursor) {
 
 std::string taskOf(const Task& task, bool object) {
   const std::string pace = describePace(task);
-  return fmt::format("from rest at {} to rest at {} {}{}, {} within {:.6g} m and {:.6g} m/s", placeOf(task.start), placeOf(task.target),
-                     pace.starts_with("within") ? "" : "in ", pace, object ? "every mass" : "the hand", task.tolerance.position,
+  const std::string via =
+      task.via.empty() ? "" : fmt::format(" past {} place{} on the way", task.via.size(), task.via.size() == 1 ? "" : "s");
+  return fmt::format("from rest at {} to rest at {}{} {}{}, {} within {:.6g} m and {:.6g} m/s", placeOf(task.start), placeOf(task.target),
+                     via, pace.starts_with("within") ? "" : "in ", pace, object ? "every mass" : "the hand", task.tolerance.position,
                      task.tolerance.velocity);
 }
 

@@ -80,6 +80,8 @@ void visitKeys(T& t, const Visit& visit) {
   visit(Key{"rest_s", {0, kMaxRestDuration, true, fmt::format("0 to {:.0f} s", kMaxRestDuration)}}, t.rest.seconds);
   visit(Key{"rest_speed_m_per_s", positive("m/s")}, t.rest.speed);
   visit(Key{.name = "plane", .names = &kTaskPlaneNames}, t.plane);
+  visit(Key{.name = "via_m", .range = componentRange(), .shape = "a list of places [x, y, z]"}, t.via);
+  visit(Key{"via_radius_m", lengthRange()}, t.viaRadius);
 }
 
 template <MaybeConst<ViscousForce> T, class Visit>

@@ -180,6 +180,16 @@ struct KeyReader {
   void operator()(const Key& key, Vec3& v) const {
     if (const auto read = numbers(key, 3); !read.empty()) v = {read[0], read[1], read[2]};
   }
+  void operator()(const Key& key, std::vector<Vec3>& places) const {
+    const JsonNode* node = in.optional(key.name);
+    if (node == nullptr) return;
+    if (node->kind != JsonNode::Kind::Array)
+      return in.faults().add(*node, in.keyPath(key.name), fmt::format("is {}", nameOf(node->kind)), key.shape);
+    std::vector<double> place;
+    for (std::size_t i = 0; i < node->items.size(); ++i)
+      if (in.numbers(node->items[i], fmt::format("{}[{}]", key.name, i), 3, anyNumber(), place))
+        places.push_back({place[0], place[1], place[2]});
+  }
   template <std::size_t N>
   void operator()(const Key& key, SquareMatrix<N>& matrix) const {
     if (const JsonNode* node = find(key)) readMatrix(in, *node, key, matrix);

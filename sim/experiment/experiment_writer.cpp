@@ -55,6 +55,9 @@ struct KeyWriter {
   void operator()(const Key& key, const std::optional<T>& value) const {
     if (value) (*this)(key, *value);
   }
+  void operator()(const Key& key, const std::vector<Vec3>& places) const {
+    for (const Vec3& place : places) out[key.name].push_back(toArray(place));
+  }
   void operator()(const Key& key, const std::vector<Hand>& hands) const {
     for (const Hand& hand : hands) out[key.name].push_back(handJson(hand, experiment.object.kind == ObjectKind::Body));
   }

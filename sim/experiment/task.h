@@ -2,6 +2,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "base/math/vec3.h"
+
 namespace reachlab::experiment {
 
 struct Tolerance {
@@ -31,6 +33,8 @@ struct Task {
   double timeout = 10;      // [s] no onset by then: aborted
   StartRest rest;
   TaskPlane plane = TaskPlane::Horizontal;
+  std::vector<Vec3> via;    // [m] centres of spheres that the last mass passes in this order before it arrives
+  double viaRadius = 0.01;  // [m]
   bool operator==(const Task&) const = default;
 };
 

@@ -295,6 +295,7 @@ void TickEngine::step(const TickInput& input) noexcept {
   state_.semaphore = protocol_.semaphore;
   state_.gone = protocol_.gone;
   state_.trial = protocol_.trial;
+  state_.viaPassed = protocol_.viaPassed;
   state_.trialTime = protocol_.phase == trial::Phase::Moving ? static_cast<double>(state_.tick - protocol_.onsetTick) * kTickSeconds
                                                              : protocol_.result.movementTime;
   state_.result = protocol_.result;

@@ -54,6 +54,7 @@ struct TickHeader {
   dynamics::StepStatus status = dynamics::StepStatus::Ok;
   std::int32_t trial = 0;     // from 1
   bool gone = false;          // the go signal was given
+  std::int32_t viaPassed = 0;  // places on the way
   double trialTime = 0;       // [s] since onset; 0 before
   double energy = 0;          // [J]
   trial::TrialResult result;  // valid in phase Done

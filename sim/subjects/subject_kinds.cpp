@@ -19,11 +19,18 @@ void requireNothingPushes(const experiment::Experiment& experiment) {
                              "kind=impedance or kind=ofc, which feel forces on the hand"});
 }
 
+void requireStraightWay(const experiment::Experiment& experiment) {
+  if (experiment.task && !experiment.task->via.empty())
+    throw FaultError(Fault{"device", "simulated: its subjects go straight to the target, and task.via_m asks for another way",
+                           "a force device, mouse, or a replayed hand"});
+}
+
 }  // namespace
 
 MakeSubject prepareSubjects(const experiment::CompiledExperiment& experiment, const std::string& device) {
   const std::string name = device.substr(0, device.find(':'));
   if (name != "simulated") throw FaultError(Fault{"subject", "is " + device, "a simulated subject"});
+  requireStraightWay(experiment.experiment());
   const std::string options = name == device ? "" : device.substr(name.size() + 1);
   const std::string kind = DeviceOptions(options, "device simulated").word("kind", {"plan", "impedance", "ofc"});
   if (kind == "ofc") return prepareFeedbackSubjects(experiment, options);

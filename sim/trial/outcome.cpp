@@ -31,6 +31,7 @@ std::string_view nameOf(Reason reason) {
     case Reason::Timing: return "timing";
     case Reason::NoStart: return "no_start";
     case Reason::PeerLost: return "peer_lost";
+    case Reason::Via: return "via";
   }
   return "none";
 }

@@ -23,8 +23,9 @@ enum class Reason : std::uint8_t {
   Timing,    // more ticks were missed in the movement than the experiment allows
   NoStart,   // a simulated or replayed hand was never at the start
   PeerLost,  // another station that moves the same object fell silent
+  Via,       // a place on the way was not passed
 };
-inline constexpr Reason kLastReason = Reason::PeerLost;
+inline constexpr Reason kLastReason = Reason::Via;
 std::string_view nameOf(Outcome outcome);  // "success", "failure", "aborted", "interrupted"
 std::string_view nameOf(Reason reason);    // "position", "velocity", "time_short", …
 

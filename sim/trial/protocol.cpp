@@ -1,6 +1,8 @@
 #include "sim/trial/protocol.h"
 
 #include <algorithm>
+#include <limits>
+#include <utility>
 
 #include "base/ticks.h"
 
@@ -91,12 +93,39 @@ bool endByMissedTime(const ProtocolSettings& s, const ProtocolInput& in, Protoco
   return end(state, in.tick, Outcome::Interrupted, Reason::Timing), true;
 }
 
+// [m] from the straight line between two points.
+double distanceFrom(const Vec3& place, const Vec3& a, const Vec3& b) noexcept {
+  const Vec3 way = b - a;
+  const double square = dot(way, way), along = square > 0 ? std::clamp(dot(place - a, way) / square, 0.0, 1.0) : 0;
+  return norm(a + along * way - place);
+}
+
+void beginWay(const ProtocolInput& in, ProtocolState& state) noexcept {
+  state.viaPassed = 0;
+  state.viaLeast = std::numeric_limits<double>::infinity();
+  if (!in.masses.empty()) state.viaFrom = in.masses.back().r;
+}
+
+bool hasPassedAll(const ProtocolSettings& s, const ProtocolInput& in, ProtocolState& state) noexcept {
+  const auto count = static_cast<std::int32_t>(s.via.size());
+  if (state.viaPassed == count || in.masses.empty()) return state.viaPassed == count;
+  const Vec3 from = std::exchange(state.viaFrom, in.masses.back().r);
+  while (state.viaPassed < count) {
+    state.viaLeast = std::min(state.viaLeast, distanceFrom(s.via[static_cast<std::size_t>(state.viaPassed)], from, state.viaFrom));
+    if (!(state.viaLeast <= s.viaRadius)) return false;
+    ++state.viaPassed;
+    state.viaLeast = std::numeric_limits<double>::infinity();
+  }
+  return true;
+}
+
 void watchForOnset(const ProtocolSettings& s, const ProtocolInput& in, ProtocolState& state) noexcept {
   const auto waited = static_cast<std::int64_t>(in.tick - state.armedTick);
   const std::int64_t foreperiod = std::max(0, state.planned.foreperiodTicks);
   if (hasLeft(s, in, state)) {
     state.onsetTick = in.tick;
     state.phase = Phase::Moving;
+    beginWay(in, state);
     if (!endByMissedTime(s, in, state) && !state.gone) end(state, in.tick, Outcome::Failure, Reason::Early);
     return;
   }
@@ -111,7 +140,8 @@ void watchForOnset(const ProtocolSettings& s, const ProtocolInput& in, ProtocolS
 void watchForArrival(const ProtocolSettings& s, const ProtocolInput& in, ProtocolState& state) noexcept {
   const auto moved = static_cast<std::int64_t>(in.tick - state.onsetTick);
   if (moved >= s.earliestTick) state.semaphore = Semaphore::Green;
-  if (haveAllArrived(s, in.masses)) {
+  const bool passed = hasPassedAll(s, in, state);
+  if (passed && haveAllArrived(s, in.masses)) {
     if (moved < s.earliestTick)
       end(state, in.tick, Outcome::Failure, Reason::TimeShort, {0, s.earliest - static_cast<double>(moved) * kTickSeconds});
     else end(state, in.tick, Outcome::Success, Reason::None);
@@ -121,7 +151,8 @@ void watchForArrival(const ProtocolSettings& s, const ProtocolInput& in, Protoco
   Arrival arrival = judge(s, in.masses);
   const bool away = arrival.position.mass > 0;
   if (s.judgesHand) arrival.position.mass = arrival.velocity.mass = 0;
-  end(state, in.tick, Outcome::Failure, away ? Reason::Position : Reason::Velocity, away ? arrival.position : arrival.velocity);
+  if (!passed) end(state, in.tick, Outcome::Failure, Reason::Via, {0, state.viaLeast - s.viaRadius});
+  else end(state, in.tick, Outcome::Failure, away ? Reason::Position : Reason::Velocity, away ? arrival.position : arrival.velocity);
   state.semaphore = Semaphore::Red;
 }
 

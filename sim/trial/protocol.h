@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <vector>
 
 #include "sim/dynamics/object/mass_state.h"
 #include "sim/experiment/experiment_fwd.h"
@@ -28,7 +29,7 @@ struct Constraint;
 ///   Armed            catch trial: T + dT after the foreperiod               Done      success
 ///   Moving           all masses within dx and dv, t < T - dT                Done      failure, time_short
 ///   Moving           all masses within dx and dv, |t - T| <= dT             Done      success
-///   Moving           t = T + dT and not all masses within                   Done      failure, position or velocity
+///   Moving           t = T + dT and not all masses within                   Done      failure, via, position or velocity
 ///   Armed, Moving    the device's force was clamped, if that ends trials    Done      failure, force_limit
 ///   Armed, Moving    the body ran off the constraint                        Done      failure, end_of_constraint
 ///   Armed, Moving    a step failed (not finite, capped, no continuation)    Done      aborted, computation
@@ -43,7 +44,9 @@ struct Constraint;
 ///
 /// Where several hands hold the object, each must be at the start, the one that moves first makes the onset, and losing one loses all.
 /// Of several at one tick the lower row of the table wins. Armed begins with the go signal unless the trial has a foreperiod.
-/// At T + dT the reason is `position` while any mass is farther than dx from the target, else `velocity`. The result names the mass
+/// No mass is within dx and dv before the last mass has passed all places of `via` in their order. It passes a place when the straight line
+/// between its positions at two ticks comes within `viaRadius`. At T + dT the reason is `via` if a place was not passed, by its least
+/// distance. Otherwise it is `position` while any mass is farther than dx from the target, else `velocity`. The result names the mass
 /// with the largest excess in that quantity. The semaphore is green from T - dT on, red once T + dT has passed without success.
 namespace reachlab::trial {
 
@@ -57,6 +60,8 @@ struct ProtocolSettings {
   double onset = 0.001;           // [m]
   std::int64_t restTicks = 0;     // at the start, without a break
   double restSpeed = 1000;        // [m/s] at most, of the estimated velocity
+  std::vector<Vec3> via;          // [m] passed in this order
+  double viaRadius = 0;           // [m]
   double positionTolerance = 0;   // [m] dx
   double velocityTolerance = 0;   // [m/s] dv
   double earliest = 0;            // [s] T - dT
@@ -99,6 +104,9 @@ struct ProtocolState {
   std::int64_t restTicks = 0;    // at the start and at rest, in a row
   int lostTicks = 0;             // in a row
   std::int64_t missedTicks = 0;  // of the movement: since onset, with the gap that it lies in
+  std::int32_t viaPassed = 0;    // places of `via`
+  double viaLeast = 0;           // [m] least distance from the place that comes next
+  Vec3 viaFrom;                  // [m] the last mass at the tick before
   TrialResult result;            // in Done
 };
 

@@ -21,6 +21,8 @@ ProtocolSettings makeProtocolSettings(const experiment::Experiment& experiment, 
   s.target = constraints::placeOn(constraint, task.target);
   if (!isFinite(s.start)) throw FaultError(Fault{"task.start", "is no place on the constraint", "where the formula has a value"});
   if (!isFinite(s.target)) throw FaultError(Fault{"task.target", "is no place on the constraint", "where the formula has a value"});
+  s.via = task.via;
+  s.viaRadius = task.viaRadius;
   s.armRadius = task.armRadius;
   s.onset = task.onset;
   s.restTicks = std::llround(task.rest.seconds * kTicksPerSecond);

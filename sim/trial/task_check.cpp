@@ -25,6 +25,30 @@ double wayOf(const constraints::Constraint& constraint, const experiment::Task& 
   return constraints::ArcLength(constraint, task.start[0], task.target[0]).length();
 }
 
+/// False if every point of the constraint is farther from the place than the radius. The search looks at a grid of points, and doubts
+/// in favour of the place between them.
+bool canBePassed(const constraints::Constraint& c, const Vec3& place, double radius) {
+  const auto isNear = [&](const Vec3& r, double spacing) { return !(norm(r - place) > radius + spacing); };
+  const auto [first, second] = c.domain;
+  if (c.kind == constraints::ConstraintKind::Free) return true;
+  const bool curve = c.kind == constraints::ConstraintKind::Curve;
+  const int cells = curve ? 4000 : 200;
+  const double step = (first.hi - first.lo) / cells, across = (second.hi - second.lo) / cells;
+  if (!std::isfinite(step) || (!curve && !std::isfinite(across))) return true;
+  for (int i = 0; i <= cells; ++i) {
+    if (curve) {
+      const constraints::CurvePoint p = evaluate(c.curve, first.lo + i * step);
+      if (isNear(p.r, norm(p.rPhi) * step)) return true;
+      continue;
+    }
+    for (int k = 0; k <= cells; ++k) {
+      const constraints::SurfacePoint p = evaluate(c.surface, first.lo + i * step, second.lo + k * across);
+      if (isNear(p.r, norm(p.rU) * step + norm(p.rV) * across)) return true;
+    }
+  }
+  return false;
+}
+
 }  // namespace
 
 std::vector<Fault> taskProblems(const experiment::CompiledExperiment& compiled) {
@@ -39,7 +63,12 @@ std::vector<Fault> taskProblems(const experiment::CompiledExperiment& compiled) 
   }
   const bool flat = constraint.kind == constraints::ConstraintKind::Free || constraint.straight;
   if (experiment.task->start == experiment.task->target || (flat && place.start == place.target)) return {constraints::samePlaceFault()};
-  return {};
+  std::vector<Fault> found;
+  for (std::size_t i = 0; i < place.via.size(); ++i)
+    if (!canBePassed(constraint, place.via[i], place.viaRadius))
+      found.push_back({fmt::format("task.via_m[{}]", i), "is farther from the constraint than via_radius_m, so that no mass can pass it",
+                       "a place on the constraint"});
+  return found;
 }
 
 void checkTask(const experiment::CompiledExperiment& experiment, const std::string& file) {

@@ -25,6 +25,9 @@ class Pushed : public Recorded {
   /// Three trials of a hand that goes straight, or 5 cm beside the line.
   record::RunLog recorded(const std::string& keys, double beside = 0) {
     easy_ = programmeOf(experiment::openExperimentText(bareReach(keys), "bare.json"));
+    return runOf(beside);
+  }
+  record::RunLog runOf(double beside) {
     auto hand = std::make_unique<haptics::test::ScriptedDevice>(-0.1, 0.1, 300);
     hand->beside = {0, beside, 0};
     RecordedRun run(block(), std::move(hand), options());
@@ -87,6 +90,23 @@ TEST_F(Pushed, ABrokenChannelIsAnEventAndAMarkOfItsTrial) {
   for (const record::RecordedTrial& trial : held.trials()) EXPECT_FALSE(trial.channelBroken);
   for (const record::RecordedTrial& trial : left.trials()) EXPECT_TRUE(trial.channelBroken);
   EXPECT_TRUE(record::replayRun(left).identical());
+}
+
+// 1 mm from the place and 49 mm from it.
+TEST_F(Pushed, AHandThatMissesAPlaceOnTheWayFailsByItsDistance) {
+  const auto past = [&](double beside) {
+    std::string text = bareReach(R"("hand_mass_kg": 1)");
+    text.insert(text.find("\"plane\""), R"("via_m": [[0.01, 0.05, 0]], "via_radius_m": 0.002, )");
+    easy_ = programmeOf(experiment::openExperimentText(text, "bare.json"));
+    return runOf(beside);
+  };
+  const record::RunLog missed = past(0), passed = past(0.049);
+  for (const record::RecordedTrial& trial : passed.trials()) EXPECT_EQ(trial.result.outcome, trial::Outcome::Success);
+  for (const record::RecordedTrial& trial : missed.trials()) {
+    EXPECT_EQ(trial.result.reason, trial::Reason::Via);
+    EXPECT_NEAR(trial.result.by, 0.05 - 0.002, 1e-12);
+  }
+  EXPECT_TRUE(record::replayRun(missed).identical());
 }
 
 }  // namespace

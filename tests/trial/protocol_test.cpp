@@ -170,6 +170,40 @@ TEST_F(Protocol, AllMassesArriveAtOneTickOrNone) {
   expectEnd(Outcome::Success, Reason::None);
 }
 
+// The last mass goes from -0.1 to 0.1 m with 1 mm a tick, `aside` from the straight line.
+TEST_F(Protocol, ArrivalNeedsThePlacesOnTheWayInTheirOrder) {
+  const Vec3 first{-0.05, 0.03, 0}, second{0.05, 0, 0};
+  settings.via = {first, second};
+  settings.viaRadius = 1e-4;  // less than the way of one tick
+  const auto reachPast = [&](std::initializer_list<Vec3> corners) {
+    for (dynamics::MassState& m : masses) m = {}, m.r = settings.start;
+    leave();
+    for (const Vec3& corner : corners) {
+      const Vec3 from = masses[1].r;
+      constexpr int kTicks = 97;  // no position lies at a corner's side
+      for (int i = 1; i <= kTicks; ++i) masses[1].r = from + (i / double{kTicks}) * (corner - from), tick();
+    }
+    ticks(850 - static_cast<int>(now - state.onsetTick));
+    masses[0].r = masses[1].r;  // within the window
+    tick();
+  };
+  const auto expectMiss = [&] {
+    ticks(static_cast<int>(state.onsetTick + 1200 - now));
+    expectEnd(Outcome::Failure, Reason::Via);
+    EXPECT_EQ(state.semaphore, Semaphore::Red);
+    EXPECT_EQ(state.result.mass, 0);
+  };
+  reachPast({first, second + Vec3{0, 0.01, 0}, second - Vec3{0, 0.01, 0}, settings.target});
+  expectEnd(Outcome::Success, Reason::None);
+  EXPECT_EQ(state.viaPassed, 2);
+  reachPast({second, first, settings.target});
+  EXPECT_EQ(state.viaPassed, 1) << "the second was passed before the first";
+  expectMiss();
+  reachPast({{-0.05, -0.002, 0}, settings.target});
+  expectMiss();
+  EXPECT_NEAR(state.result.by, 0.032 * std::cos(std::atan2(0.002, 0.05)) - 1e-4, 1e-12) << "from the way's first part, less the radius";
+}
+
 TEST_F(Protocol, TheDeadlineBlamesTheWorstMassForItsPositionElseForItsVelocity) {
   leave();
   arrive();
@@ -474,9 +508,9 @@ TEST(TrialResult, HasNamesThatFilesKnow) {
   for (int i = 0; i < 5; ++i) EXPECT_EQ(nameOf(static_cast<Outcome>(i)), outcomes[i]);
   const std::string_view reasons[] = {"none",        "position", "velocity",     "time_short",        "time_long",   "force_limit",
                                       "device_lost", "no_onset", "experimenter", "end_of_constraint", "computation", "program",
-                                      "early",       "timing",   "no_start",     "peer_lost"};
-  for (int i = 0; i < 16; ++i) EXPECT_EQ(nameOf(static_cast<Reason>(i)), reasons[i]);
-  EXPECT_EQ(kLastReason, static_cast<Reason>(15));
+                                      "early",       "timing",   "no_start",     "peer_lost",         "via"};
+  for (int i = 0; i < 17; ++i) EXPECT_EQ(nameOf(static_cast<Reason>(i)), reasons[i]);
+  EXPECT_EQ(kLastReason, static_cast<Reason>(16));
 }
 
 experiment::Experiment withTask(double start, double target) {

@@ -28,6 +28,7 @@ experiment::Task taskOf(const RunConfiguration& configuration, const trial::Plan
 
 std::string unitOf(trial::Reason reason) {
   switch (reason) {
+    case trial::Reason::Via:
     case trial::Reason::Position: return "m";
     case trial::Reason::Velocity: return "m/s";
     case trial::Reason::TimeShort:
