@@ -186,7 +186,7 @@ PreflightLine fieldPower(const CompiledExperiment& compiled, double curl, const 
   if (line.asked <= *line.limit) return line;
   line.verdict = Verdict::Warning;
   line.sentence += ": the field drives the hand";
-  line.remedy = fmt::format("a weaker field (b <= {:.3g} N s/m), a longer reach, or a velocity_estimator that lags less",
+  line.remedy = fmt::format("a weaker matrix_n_s_per_m (b <= {:.3g} N s/m), a longer reach, or a velocity_estimator that lags less",
                             friction / std::sin(omega * delay));
   return line;
 }
@@ -195,10 +195,13 @@ void checkEnvironment(const CompiledExperiment& compiled, const experiment::Coup
                       std::vector<PreflightLine>& lines) {
   const Experiment& experiment = compiled.experiment();
   experiment::SquareMatrix<3> sum{};
-  for (const experiment::HandForce& force : experiment.environment) {
-    if (const auto* wall = std::get_if<experiment::ChannelForce>(&force.law))
+  for (std::size_t f = 0; f < experiment.environment.size(); ++f) {
+    const experiment::ForceLaw& law = experiment.environment[f].law;
+    if (const auto* wall = std::get_if<experiment::ChannelForce>(&law)) {
       lines.push_back(channelLine(experiment, coupling, *wall, device));
-    if (const auto* field = std::get_if<experiment::ViscousForce>(&force.law))
+      lines.back().sentence = fmt::format("environment[{}]: {}", f, lines.back().sentence);
+    }
+    if (const auto* field = std::get_if<experiment::ViscousForce>(&law))
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) sum[i][j] += field->matrix[i][j];
   }
@@ -216,7 +219,7 @@ PreflightLine workspace(const haptics::DeviceInfo& device, const ReachDemand& de
   line.verdict = demand.farthest <= *line.limit * (1 + kRounding) ? Verdict::Fine : Verdict::Warning;
   line.sentence = fmt::format("the hand goes {:.3g} m from its middle; {} reaches {:.3g} m", demand.farthest, device.name, *line.limit);
   if (line.verdict == Verdict::Warning)
-    line.remedy = fmt::format("a scale {:.3g} times as large (a mapping), or another offset", demand.farthest / *line.limit);
+    line.remedy = fmt::format("places of the task (start, target, via_m) nearer to the middle, a scale {:.3g} times as large (a mapping), or another offset", demand.farthest / *line.limit);
   return line;
 }
 
