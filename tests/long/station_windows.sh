@@ -31,6 +31,8 @@ begin() {
       xdotool key --clearmodifiers alt+2  # the layout in which one runs
       sleep 1
       xdotool windowsize --sync "$id" 1194 960 windowmove --sync "$id" "$x" 24
+      sleep 1
+      xdotool mousemove --window "$id" 700 330 click 1  # Space begins a trial only in the scene
       return
     done
     kill -0 $window || { cat "$work/said$number" >&2; exit 1; }
