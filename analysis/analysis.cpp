@@ -20,11 +20,12 @@ namespace {
 
 auto orderOf(const AnalyzedTrial& t) { return std::tie(t.condition, t.key.subject, t.key.session, t.key.run, t.key.trial); }
 
-std::string whyExcluded(const AnalyzedTrial& trial, const std::string& excluded, const Movement& movement, bool includePractice) {
+std::string whyExcluded(const AnalyzedTrial& trial, const std::string& excluded, const Movement& movement, const AnalysisOptions& options) {
   if (!excluded.empty()) return "excluded: " + excluded;
   if (trial.catchTrial) return "catch trial";
-  if (trial.practice && !includePractice) return "practice";
-  if (trial.result.outcome != trial::Outcome::Success)
+  if (trial.practice && !options.includePractice) return "practice";
+  const bool failed = trial.result.outcome == trial::Outcome::Failure;
+  if (trial.result.outcome != trial::Outcome::Success && !(failed && options.includeFailures))
     return trial.result.outcome == trial::Outcome::Interrupted && trial.result.reason == trial::Reason::Timing
                ? "invalid timing"
                : std::string(nameOf(trial.result.outcome));
@@ -162,7 +163,7 @@ void AnalysisBuilder::add(TrialData&& data, std::size_t condition) {
   trial.otherWay = signals.otherWay;
   trial.measures = computeMeasures(data, signals);
   trial.scene = data.scene;
-  trial.exclusion = whyExcluded(trial, data.excluded, signals.movement, options.includePractice);
+  trial.exclusion = whyExcluded(trial, data.excluded, signals.movement, options);
   trial.counted = data.excluded.empty() && !trial.catchTrial && (!trial.practice || options.includePractice) &&
                   (trial.result.outcome == trial::Outcome::Success || trial.result.outcome == trial::Outcome::Failure);
   if (signals.movement.found) {

@@ -25,6 +25,7 @@ enum class PredictionDuration { Task, Moved };
 struct AnalysisOptions {
   MeasureOptions measure;
   bool includePractice = false;
+  bool includeFailures = false;  // failed trials are used as successful ones are
   std::vector<predict::Criterion> criteria;  // compared criteria, empty: all criteria that are defined for the object
   std::vector<predict::Criterion> drawn;     // in figures, predictions and the paper's epsilon, empty: the compared criteria
   std::optional<double> handMass;            // [kg] of the predictions; nullopt: the experiment's
@@ -130,6 +131,15 @@ struct SeriesResult {
   std::vector<double> handError, objectError;  // [m/s] one a criterion
 };
 
+/// What an analysis with another choice concludes (alternatives.h).
+struct AlternativeConclusion {
+  std::string choice, condition;  // "cut-off 6 Hz"; a condition, or "all"
+  std::string criterion, reason;  // that is named, or empty and why none is
+  std::string best;               // closest candidate; empty where nothing could be compared
+  std::optional<double> p;        // of its nearest rival
+  bool changed = false;
+};
+
 struct Analysis {
   AnalysisOptions options;
   std::vector<Condition> conditions;
@@ -140,6 +150,7 @@ struct Analysis {
   std::vector<std::vector<predict::Criterion>> common;  // candidates of the overall conclusion; an empty one is the reference
   std::vector<std::size_t> together;  // conditions of the overall conclusion: those in which every judged subject has enough trials
   Conclusion overall;                 // over all conditions, indexes `common`
+  std::vector<AlternativeConclusion> alternatives;  // empty where they were not asked for
   std::vector<std::string> subjects;
   std::vector<SuccessCell> success;
   std::vector<LearningPoint> learning;

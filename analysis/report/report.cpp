@@ -7,6 +7,7 @@
 
 #include <set>
 
+#include "analysis/alternatives.h"
 #include "analysis/report/wording.h"
 #include "analysis/tables.h"
 #include "sim/experiment/describe.h"
@@ -238,6 +239,19 @@ void addRecovery(Html& html, const TruthRecovery& recovery, const std::vector<Na
   html.add("</tbody></table>");
 }
 
+void addAlternatives(Html& html, const Analysis& analysis) {
+  const std::string sentence = describeAlternatives(analysis);
+  if (sentence.empty()) return;
+  html.heading(3, "Other choices of the analysis");
+  html.paragraph(sentence);
+  html.add("<table><thead><tr><th>Choice</th><th>Condition</th><th>Criterion</th><th>Closest</th><th>p</th></tr></thead><tbody>");
+  for (const AlternativeConclusion& row : analysis.alternatives)
+    html.add(fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>", row.choice, escaped(row.condition),
+                         row.criterion.empty() ? "undecided: " + row.reason : row.changed ? "<b>" + row.criterion + "</b>" : row.criterion,
+                         row.best, row.p ? shortNumber(*row.p) : ""));
+  html.add("</tbody></table>");
+}
+
 void addMeasures(Html& html, const Analysis& analysis, std::size_t condition) {
   const auto summary = [&](const Measure& measure, bool success) -> std::string {
     std::vector<double> values;
@@ -356,6 +370,7 @@ std::string makeReport(const ReportHeader& header, const Analysis& analysis, con
                           [](const ConditionResult& r) { return r.used > 0 && !r.onlyFailures; })) {
     html.paragraph("No trial succeeded. What the failed ones were like is described below, condition by condition.", "warning");
   }
+  addAlternatives(html, analysis);
   if (recovery) addRecovery(html, *recovery, figures);
   addSuccessTable(html, analysis);
   if (!analysis.success.empty()) addProgress(html, analysis, figures);

@@ -2,6 +2,7 @@
 
 #include <list>
 
+#include "analysis/alternatives.h"
 #include "analysis/hands.h"
 #include "analysis/table_columns.h"
 #include "analysis/tables.h"
@@ -48,6 +49,7 @@ AnalysisFiles writeAnalysis(const Analysis& analysis, const DatasetIndex& datase
   const record::FolderHold hold(folder, record::FolderHold::WithoutLocks::HoldNothing);  // all that is written here belongs to one analysis
   TableFiles tables(folder);
   writeTables(analysis, [&](const std::string& name, std::string_view piece) { tables.write(name, piece); });
+  if (!analysis.alternatives.empty()) tables.write("alternatives.csv", alternativesTable(analysis));
   if (recovery) tables.write("recovery.csv", recoveryTable(*recovery));
   if (const std::string hands = handsTable(dataset); !hands.empty()) tables.write("hands.csv", hands);
   files.tables = tables.close();

@@ -13,6 +13,7 @@
 #include "cli/terminal/criterion_option.h"
 #include "base/error.h"
 #include "base/fault.h"
+#include "analysis/alternatives.h"
 #include "analysis/tables.h"
 #include "analysis/report/wording.h"
 #include "analysis/report/write_analysis.h"
@@ -27,7 +28,7 @@ struct AnalyzeOptions {
   double percent = 5, speed = 0.01, cutoff = 10, handMass = -1, handDamping = 0;
   int bin = 10, recovery = 0, jobs = 0;
   std::uint64_t seed = 1;
-  bool includePractice = false, json = false;
+  bool includePractice = false, alternatives = false, json = false;
 };
 
 std::vector<double> parseMasses(const std::string& text) {
@@ -226,6 +227,17 @@ std::string summaryJson(const analysis::Analysis& analysis, const analysis::Data
                              {"slope_percent_per_100_trials", s.perHundred},
                              {"interval", jsonOf(s.interval)},
                              {"p", s.people > 1 ? Json(s.p) : Json(nullptr)}});
+  if (!analysis.alternatives.empty()) {
+    j["alternatives"] = Json::array();
+    for (const analysis::AlternativeConclusion& a : analysis.alternatives)
+      j["alternatives"].push_back({{"choice", a.choice},
+                                   {"condition", a.condition},
+                                   {"criterion", a.criterion.empty() ? Json(nullptr) : Json(a.criterion)},
+                                   {"reason", a.reason},
+                                   {"best", a.best.empty() ? Json(nullptr) : Json(a.best)},
+                                   {"p", a.p ? Json(*a.p) : Json(nullptr)},
+                                   {"changed", a.changed}});
+  }
   if (recovery) j["recovery"] = jsonOf(*recovery);
   return j.dump(2) + "\n";
 }
@@ -257,6 +269,7 @@ void printSummary(const analysis::Analysis& analysis, const analysis::DatasetInd
     fmt::print("{}: {}\n", analysis.conditions[c].name, analysis::describeCounts(r));
     if (analysis.conditions.size() > 1) fmt::print("  {}\n", analysis::describeConclusion(r.conclusion, analysis::candidatesOf(r)));
   }
+  if (const std::string others = analysis::describeAlternatives(analysis); !others.empty()) fmt::print("{}\n", others);
   if (recovery) printRecovery(*recovery);
   fmt::print("{} tables, {} figures and {}\n", files.tables.size(), files.figures.size(), files.report);
 }
@@ -284,6 +297,7 @@ std::string commandOf(const AnalyzeOptions& o) {
   add(o.speed != usual.speed, fmt::format("--onset-speed {}", o.speed));
   add(o.cutoff != usual.cutoff, fmt::format("--cutoff {}", o.cutoff));
   add(o.bin != usual.bin, fmt::format("--learning-bin {}", o.bin));
+  add(o.alternatives, "--alternatives");
   add(o.recovery > 0, fmt::format("--recovery {}", o.recovery));
   add(o.recovery > 0 && o.seed != usual.seed, fmt::format("--seed {}", o.seed));
   add(!o.experiment.empty(), "--experiment " + o.experiment);
@@ -304,13 +318,30 @@ void run(CLI::App& command, const AnalyzeOptions& o) {
     if (terminal && of > 0) fmt::print(stderr, "\r{} {} of {} \033[K{}", what, done, of, done == of ? "\n" : "");
   };
   analysis::AnalysisBuilder builder(options);
+  const std::vector<analysis::Alternative> alternatives =
+      o.alternatives ? analysis::alternativesTo(options) : std::vector<analysis::Alternative>{};
+  std::vector<analysis::AnalysisBuilder> others;
+  for (const analysis::Alternative& alternative : alternatives) others.emplace_back(alternative.options);
   const analysis::DatasetIndex dataset = analysis::readDataset(
       o.dataset,
-      {[&](analysis::TrialData&& trial, std::size_t condition) { builder.add(std::move(trial), condition); },
-       [&](std::size_t count) { builder.takeBack(count); }},
+      {[&](analysis::TrialData&& trial, std::size_t condition) {
+         for (analysis::AnalysisBuilder& other : others) other.add(analysis::TrialData(trial), condition);
+         builder.add(std::move(trial), condition);
+       },
+       [&](std::size_t count) {
+         for (analysis::AnalysisBuilder& other : others) other.takeBack(count);
+         builder.takeBack(count);
+       }},
       o.experiment, [&](std::size_t done, std::size_t of, const std::string&) { progress("reading run", done + 1, of); });
-  const analysis::Analysis analysis =
-      builder.finish(dataset.conditions, [&](std::size_t done, std::size_t of) { progress("fitting trial", done, of); });
+  const auto fitting = [&](std::size_t done, std::size_t of) { progress("fitting trial", done, of); };
+  analysis::Analysis analysis = builder.finish(dataset.conditions, fitting);
+  std::vector<analysis::AlternativeConclusion> rows;
+  for (std::size_t i = 0; i < others.size(); ++i) {
+    progress("other choice", i + 1, others.size());
+    const auto of = analysis::conclusionsOf(others[i].finish(dataset.conditions), alternatives[i].choice);
+    rows.insert(rows.end(), of.begin(), of.end());
+  }
+  if (o.alternatives) analysis::addAlternatives(analysis, std::move(rows));
   std::optional<analysis::TruthRecovery> recovery;
   if (o.recovery > 0)
     recovery = analysis::recover(analysis, o.recovery, o.seed, static_cast<unsigned>(std::max(0, o.jobs)),
@@ -365,6 +396,9 @@ void addAnalyzeCommand(CLI::App& app, int&) {
   command->add_option("--onset-percent", o->percent, "Share of the trial's peak speed [%]")->capture_default_str();
   command->add_option("--onset-speed", o->speed, "Speed for --onset absolute [m/s]")->capture_default_str();
   command->add_option("--cutoff", o->cutoff, "Zero-lag Butterworth on the hand's velocity [Hz], 0: none")->capture_default_str();
+  command->add_flag("--alternatives", o->alternatives,
+                    "Analyse again with each of some other choices (cut-off, onset, hand masses, failed trials, criteria), and say which "
+                    "conclusions change. Takes about 15 times as long");
   command
       ->add_option("--recovery", o->recovery,
                    "Simulate that many studies of this very design for each truth, and say how often each is named (all processors)")
@@ -385,6 +419,7 @@ void addAnalyzeCommand(CLI::App& app, int&) {
       "  reach analyze data\n"
       "  reach analyze data --out results --cutoff 12 --onset-percent 3\n"
       "  reach analyze data --recovery 20\n"
+      "  reach analyze data --alternatives\n"
       "  reach analyze data --plan analysis-plan.json\n"
       "  reach analyze data --hand-mass 1 --criterion min-hand-jerk --criterion min-hand-force-change --json");
   command->callback([o, command] { run(*command, *o); });

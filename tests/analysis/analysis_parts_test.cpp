@@ -4,6 +4,7 @@
 #include <functional>
 #include <limits>
 
+#include "analysis/alternatives.h"
 #include "analysis/conclusions/candidates.h"
 #include "analysis/counts.h"
 #include "analysis/measures/paper_error.h"
@@ -263,6 +264,25 @@ TEST(TruthRecovery, NamesTheTruthsAndDoesNotHangOnTheThreads) {
   EXPECT_NE(recoveryTable(one).find("reference,undecided,3\n"), std::string::npos);
   for (const auto& row : recover(analysis, 1, 7, 1).counts) EXPECT_EQ(row[0] + row[1] + row[2] + row[3], 1u) << "one study is enough";
   for (const int none : {0, -1}) EXPECT_EQ(recover(analysis, none, 7, 1).counts, std::vector<std::vector<std::size_t>>(3, {0, 0, 0, 0}));
+}
+
+// One person who plans by minimum hand jerk: no other choice changes the name, unless this criterion is left out.
+TEST(Alternatives, ChangeTheConclusionOnlyWhereTheTruthIsLeftOut) {
+  AnalysisOptions asked;
+  asked.criteria = {Criterion::MinHandJerk, Criterion::MinCrackle, Criterion::MinComAcceleration};
+  const auto analyzed = [](const AnalysisOptions& options) {
+    return analyzeTrials(simulatedTrials({{"moderate", compiledChain(1.35)}}, Criterion::MinHandJerk, 0, 1, 1, 20, 3), options);
+  };
+  Analysis analysis = analyzed(asked);
+  EXPECT_EQ(describeAlternatives(analysis), "") << "they were not asked for";
+  std::vector<AlternativeConclusion> rows;
+  for (const Alternative& other : alternativesTo(asked))
+    for (const AlternativeConclusion& row : conclusionsOf(analyzed(other.options), other.choice)) rows.push_back(row);
+  addAlternatives(analysis, rows);
+  EXPECT_EQ(analysis.alternatives.front().criterion, "min-hand-jerk");
+  EXPECT_GE(analysis.alternatives.size(), 10u);
+  for (const AlternativeConclusion& row : analysis.alternatives) EXPECT_EQ(row.changed, row.choice == "without min-hand-jerk") << row.choice;
+  EXPECT_NE(describeAlternatives(analysis).find(" The others are: without min-hand-jerk: "), std::string::npos);
 }
 
 // What the fits try is what the options say, and each condition tells it.
