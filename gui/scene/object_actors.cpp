@@ -19,7 +19,7 @@ namespace {
 
 using Actor = vtkSmartPointer<vtkActor>;
 
-constexpr double kViaOpacity = 0.45, kPassedOpacity = 0.12;  // of a place on the way, before and after it was passed
+constexpr double kNextVia = 0.6, kLaterVia = 0.3, kPassedVia = 0.1;  // opacity of places on the way
 constexpr double kOtherPlaces = 0.5;                     // opacity of places that are not of this trial
 constexpr double kFieldArrow = 0.18, kPulseArrow = 0.4;  // of the reach, the longest of each
 
@@ -92,7 +92,7 @@ struct ObjectActors::Impl {
   void addMarks(const ScenePlan& from) {
     if (!from.hasTask) return;
     for (const Vec3& at : from.via) {
-      via.push_back(add(makeBall({from.look.colours.target, kViaOpacity, 0.2})));
+      via.push_back(add(makeBall({from.look.colours.surfaceLine, kLaterVia, 0.2})));
       makeShell(*via.back());
       via.back()->SetScale(from.viaRadius);
       place(*via.back(), at);
@@ -191,8 +191,10 @@ void ObjectActors::show(const SceneFrame& frame) {
                           norm(drawn(i) - drawn(k)) < 0.12 * plan.massRadius[k]);
     impl_->masses[i]->SetVisibility(!hidden);
   }
-  for (std::size_t i = 0; i < impl_->via.size(); ++i)
-    impl_->via[i]->GetProperty()->SetOpacity(static_cast<int>(i) < frame.viaPassed ? kPassedOpacity : kViaOpacity);
+  for (std::size_t i = 0; i < impl_->via.size(); ++i) {
+    const int ahead = static_cast<int>(i) - frame.viaPassed;
+    impl_->via[i]->GetProperty()->SetOpacity(ahead < 0 ? kPassedVia : ahead == 0 ? kNextVia : kLaterVia);
+  }
   const auto own = static_cast<std::size_t>(plan.ownHand);
   const auto isShown = [&](std::size_t i) { return i < frame.hands.size() && frame.hands[i] && isFinite(*frame.hands[i]); };
   for (std::size_t i = 0; i < impl_->hands.size(); ++i) {

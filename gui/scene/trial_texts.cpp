@@ -23,7 +23,7 @@ QString outcomeText(const trial::TrialResult& result) {
     case trial::Reason::Velocity:
       return QStringLiteral("Time is up: %1%2 mm/s too fast").arg(massIs(result.mass, "still moves"), number(1000 * result.by, 1));
     case trial::Reason::Via:
-      return QStringLiteral("Time is up: a place on the way was missed by %1 mm").arg(number(1000 * result.by, 1));
+      return QStringLiteral("Time is up: a via point was missed by %1 mm").arg(number(1000 * result.by, 1));
     case trial::Reason::ForceLimit: return QStringLiteral("The force exceeded its limit");
     case trial::Reason::DeviceLost: return QStringLiteral("The device was lost");
     case trial::Reason::NoOnset: return QStringLiteral("No movement began");
@@ -47,7 +47,7 @@ QString reasonText(trial::Reason reason) {
     case trial::Reason::TimeLong: return QStringLiteral("too slow");
     case trial::Reason::Position: return QStringLiteral("too far from the target");
     case trial::Reason::Velocity: return QStringLiteral("still moving");
-    case trial::Reason::Via: return QStringLiteral("missed a place on the way");
+    case trial::Reason::Via: return QStringLiteral("missed a via point");
     case trial::Reason::ForceLimit: return QStringLiteral("over the force limit");
     case trial::Reason::DeviceLost: return QStringLiteral("device lost");
     case trial::Reason::NoOnset: return QStringLiteral("no movement");
@@ -117,6 +117,8 @@ QString taskText(const experiment::Experiment& experiment, bool hiding) {
                      "Bring %1 to the small yellow sphere (within %2 mm) and to rest there (below %3 mm/s), %4 after your hand "
                      "starts to move.")
                      .arg(what, digits(1000 * task.tolerance.position), digits(1000 * task.tolerance.velocity), when);
+  if (task.via.size() == 1) text += QStringLiteral(" Pass the ball on the way.");
+  if (task.via.size() > 1) text += QStringLiteral(" Pass the %1 balls on the way in their order, the clearest next.").arg(task.via.size());
   if (hiding) text += QStringLiteral("\nMasses can hide one another: F puts them side by side, right drag turns the view, Home fits it.");
   return text;
 }

@@ -215,7 +215,7 @@ std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, co
     throw FaultError(Fault{"task", "has start and target of another length", fmt::format("{} numbers each", parameters)});
   if (task.start == task.target) throw FaultError(constraints::samePlaceFault());
   if (!task.via.empty())
-    throw FaultError(Fault{"task.via_m", "has places to pass on the way, and predictions go straight to the target", "a task without via_m"});
+    throw FaultError(Fault{"task.via_m", "has via points, and predictions go straight to the target", "a task without via_m"});
   const double duration = options.duration > 0 ? options.duration : task.duration;
   const double handMass = options.handMass.value_or(experiment.handMass);
   requireTested(experiment, duration, handMass, options.handDamping);

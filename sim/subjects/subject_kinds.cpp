@@ -21,7 +21,7 @@ void requireNothingPushes(const experiment::Experiment& experiment) {
 
 void requireStraightWay(const experiment::Experiment& experiment) {
   if (experiment.task && !experiment.task->via.empty())
-    throw FaultError(Fault{"device", "simulated: its subjects go straight to the target, and task.via_m asks for another way",
+    throw FaultError(Fault{"device", "simulated: its subjects go straight to the target, and task.via_m has via points",
                            "a force device, mouse, or a replayed hand"});
 }
 

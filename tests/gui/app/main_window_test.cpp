@@ -290,6 +290,14 @@ TEST_F(Window, AWrongEntryIsNamedWhileItIsTypedAndClearsWhenItIsRight) {
   EXPECT_EQ(masses->styleSheet(), QString());
   typed(find<QLineEdit>("stiffness"), "900 900");
   EXPECT_TRUE(faults->text().startsWith(QStringLiteral("springs: 2 numbers; allowed: 1"))) << faults->text().toStdString();
+  auto* via = find<QLineEdit>("taskVia");
+  typed(via, "0.1 0");
+  EXPECT_EQ(find<QLabel>("taskFaults")->text().toStdString(), "via: 2 numbers; allowed: 0 to 60, in groups of 3");
+  typed(via, "0.1 0 0");
+  QTest::keyClick(via, Qt::Key_Return);
+  EXPECT_EQ(window.session().experiment().task->via, (std::vector<Vec3>{{0.1, 0, 0}}));
+  typed(via, "");
+  QTest::keyClick(via, Qt::Key_Return);
   auto* start = find<QLineEdit>("taskStart");
   typed(start, "0 1");
   EXPECT_EQ(find<QLabel>("taskFaults")->text().toStdString(), "start: 2 numbers; allowed: 1 (phi)");

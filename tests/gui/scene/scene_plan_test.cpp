@@ -177,6 +177,22 @@ TEST(ScenePlan, ABlockIsSeenFromOneSideAndItsOtherTargetsAreFaint) {
   EXPECT_GT(planScene(e, free).viewFrom.y, 0.8) << "a bare hand on the table is seen from above";
 }
 
+TEST(ScenePlan, PlacesOnTheWayAreSeenByTheSubjectAndFadeOnceTheyArePassed) {
+  experiment::Experiment e = bareWith({});
+  e.task->via = {{0.05, 0, -0.05}, {0.3, 0, -0.05}};
+  const ScenePlan plan = subjectsPlan(planScene(e, constraints::makeConstraint(e.constraint)), {});
+  EXPECT_EQ(plan.via, e.task->via);
+  EXPECT_EQ(std::count(plan.seen.begin(), plan.seen.end(), e.task->via[1]), 1) << "the picture holds it";
+  haptics::TickState state;
+  state.massCount = 1;
+  SceneFrame before = restingFrame(plan), after = before;
+  copyToFrame(state, before);
+  state.viaPassed = 1;
+  copyToFrame(state, after);
+  EXPECT_TRUE(movedBeyond(1, before, after));
+  EXPECT_TRUE(taskText(e, false).contains(QStringLiteral("2 balls on the way")));
+}
+
 TEST(TrialTexts, OfABareHandNameNoMass) {
   trial::TrialResult result;
   result.outcome = trial::Outcome::Failure;
