@@ -131,7 +131,7 @@ struct SeriesResult {
   std::vector<double> handError, objectError;  // [m/s] one a criterion
 };
 
-/// What an analysis with another choice concludes (alternatives.h).
+/// What an analysis with another choice concludes (report/alternatives.h).
 struct AlternativeConclusion {
   std::string choice, condition;  // "cut-off 6 Hz"; a condition, or "all"
   std::string criterion, reason;  // that is named, or empty and why none is

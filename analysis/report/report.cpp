@@ -7,7 +7,7 @@
 
 #include <set>
 
-#include "analysis/alternatives.h"
+#include "analysis/report/alternatives.h"
 #include "analysis/report/wording.h"
 #include "analysis/tables.h"
 #include "sim/experiment/describe.h"

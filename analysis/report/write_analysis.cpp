@@ -2,7 +2,7 @@
 
 #include <list>
 
-#include "analysis/alternatives.h"
+#include "analysis/report/alternatives.h"
 #include "analysis/hands.h"
 #include "analysis/table_columns.h"
 #include "analysis/tables.h"

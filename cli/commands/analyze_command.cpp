@@ -13,7 +13,7 @@
 #include "cli/terminal/criterion_option.h"
 #include "base/error.h"
 #include "base/fault.h"
-#include "analysis/alternatives.h"
+#include "analysis/report/alternatives.h"
 #include "analysis/tables.h"
 #include "analysis/report/wording.h"
 #include "analysis/report/write_analysis.h"

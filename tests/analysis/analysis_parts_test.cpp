@@ -4,7 +4,7 @@
 #include <functional>
 #include <limits>
 
-#include "analysis/alternatives.h"
+#include "analysis/report/alternatives.h"
 #include "analysis/conclusions/candidates.h"
 #include "analysis/counts.h"
 #include "analysis/measures/paper_error.h"

@@ -32,7 +32,7 @@ NUMBERS = [0, -0.0, 1, -1, 2, 3, 0.5, 1e-9, -1e-9, 1e-300, 5e-324, 1e3, 1e6, 1e9
            2**53 + 1, 2**63, 2**64 - 1, 2**64, -2**31 - 1, -2**63 - 1, 600, 9999, 10000, 65536]
 # Every force and a cursor, and a block that mixes them.
 FORCES = {"schema_version": 1, "constraint": {"name": "free"}, "object": {"kind": "none"},
-          "task": {"start": [0, 0, 0], "target": [0, 0, -0.1], "duration_s": 0.5, "plane": "horizontal",
+          "task": {"start": [0, 0, 0], "target": [0, 0, -0.1], "duration_s": 0.5, "plane": "horizontal", "via_m": [[0.01, 0, -0.05]], "via_radius_m": 0.02,
                    "tolerance": {"position_m": 0.01, "velocity_m_per_s": 0.05, "time_s": 0.2}},
           "environment": [{"kind": "viscous", "when": "trial", "matrix_n_s_per_m": [[0, 0, 5], [0, 0, 0], [-5, 0, 0]]},
                           {"kind": "elastic", "matrix_n_per_m": [[10, 0, 0], [0, 0, 0], [0, 0, 10]], "centre_m": [0, 0, 0]},

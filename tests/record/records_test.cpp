@@ -377,7 +377,7 @@ TEST(TrialRecord, HasAnOutcomeAReasonAndAnEndThatIsNotBeforeItsStart) {
   EXPECT_EQ(trialOf(with(13, 4)).result.outcome, trial::Outcome::Interrupted);
   expectRefused(with(13, 5), "trial", trialOf);
   EXPECT_EQ(trialOf(with(14, 15)).result.reason, trial::Reason::PeerLost);
-  expectRefused(with(14, 16), "trial", trialOf);
+  expectRefused(with(14, 17), "trial", trialOf);
   RecordedTrial t = wholeTrial();
   t.startTick = t.lastTick;
   ByteWriter one, none;

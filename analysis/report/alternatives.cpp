@@ -1,4 +1,4 @@
-#include "analysis/alternatives.h"
+#include "analysis/report/alternatives.h"
 
 #include <fmt/format.h>
 
