@@ -119,20 +119,33 @@ RunName runNameOf(const std::string& file) {
 
 bool isTemporary(const std::string& name) { return name.starts_with('.'); }
 
-// Every file of the dataset that is to be kept: not what can be made again from it, not what is being written.
-std::vector<fs::path> filesOf(const fs::path& dataset, const fs::path& backup) {
+// The calls ask for the rights of the user for whom the program works.
+bool canBeRead(const fs::path& path, bool folder) {
+  return ::faccessat(AT_FDCWD, path.c_str(), folder ? R_OK | X_OK : R_OK, AT_EACCESS) == 0;
+}
+
+struct DatasetFiles {
   std::vector<fs::path> files;
+  std::string unreadable;  // files and folders, a sentence and a line each
+};
+
+// Every file of the dataset that is to be kept: not what can be made again from it, not what is being written.
+DatasetFiles filesOf(const fs::path& dataset, const fs::path& backup) {
+  DatasetFiles found;
   std::error_code error;
-  auto entry = fs::recursive_directory_iterator(dataset, error);
-  if (error) throw ResourceError(fmt::format("{}: cannot be read: {}", dataset.string(), error.message()));
-  for (; entry != fs::end(entry); entry.increment(error)) {
-    if (error) throw ResourceError(fmt::format("{}: cannot be read: {}", dataset.string(), error.message()));
-    const bool isDerived = entry.depth() == 0 && entry->path().filename() == "derivatives";
-    if (entry->is_directory(error) && (isDerived || entry->path() == backup)) entry.disable_recursion_pending();
-    else if (entry->is_regular_file(error) && !isTemporary(entry->path().filename().string())) files.push_back(entry->path());
+  for (auto entry = fs::recursive_directory_iterator(dataset); entry != fs::end(entry); ++entry) {
+    const bool folder = entry->is_directory(error);
+    if (folder && ((entry.depth() == 0 && entry->path().filename() == "derivatives") || entry->path() == backup)) {
+      entry.disable_recursion_pending();
+    } else if (!canBeRead(entry->path(), folder)) {
+      if (folder) entry.disable_recursion_pending();
+      found.unreadable += fmt::format("{}{}: cannot be read: {}", found.unreadable.empty() ? "" : "\n", entry->path().string(), std::strerror(errno));
+    } else if (!folder && entry->is_regular_file(error) && !isTemporary(entry->path().filename().string())) {
+      found.files.push_back(entry->path());
+    }
   }
-  std::sort(files.begin(), files.end());
-  return files;
+  std::sort(found.files.begin(), found.files.end());
+  return found;
 }
 
 // Copies one file and reads it back. Returns its hash.
@@ -178,9 +191,9 @@ class Backup {
   BackupReport run() {
     if (isInside(backup_, dataset_))
       throw FaultError(Fault{{}, "lies in the dataset itself", "a folder elsewhere, best on another disk", FilePlace{backup_.string()}});
-    const std::vector<fs::path> files = filesOf(dataset_, backup_);
+    const auto [files, unreadable] = filesOf(dataset_, backup_);
     std::vector<RunName> left;  // runs that are not copied
-    std::string refused;
+    std::string refused = unreadable;
     for (const fs::path& file : files) {
       const std::string name = file.filename().string();
       if (!name.ends_with(kLogEnding)) continue;

@@ -89,6 +89,31 @@ TEST_F(Backups, HoldEveryFileOfFinishedRunsByteByByte) {
   EXPECT_TRUE(faultsOfBackup(backup_).empty());
 }
 
+/// As a user who owns nothing: everything may be read by root.
+class AsNobody {
+ public:
+  AsNobody() { (void)!::seteuid(::geteuid() == 0 ? 65534 : ::geteuid()); }
+  ~AsNobody() { (void)!::seteuid(::getuid()); }
+};
+
+TEST_F(Backups, NameWhatCannotBeReadAndCopyTheRest) {
+  addRun(2);
+  fs::create_directories(backup_);
+  for (const fs::path& folder : {fs::path(folder_.path()), fs::path(backup_).parent_path(), fs::path(backup_)}) fs::permissions(folder, fs::perms::all);
+  fs::permissions(dataset_ + "/code", fs::perms::none);
+  fs::permissions(logOf(1), fs::perms::none);
+  std::string told;
+  {
+    const AsNobody nobody;
+    told = refusal();
+  }
+  EXPECT_NE(told.find(dataset_ + "/code: cannot be read: Permission denied"), std::string::npos) << told;
+  EXPECT_NE(told.find(logOf(1) + ": cannot be read: Permission denied"), std::string::npos) << told;
+  EXPECT_TRUE(fs::exists(inBackup(logOf(2))));
+  EXPECT_TRUE(fs::exists(backup_ + "/sub-01/ses-01/sub-01_ses-01_scans.tsv")) << "it comes after the folder that cannot be read";
+  fs::permissions(dataset_ + "/code", fs::perms::owner_all);
+}
+
 // The list is for who does not have this program.
 TEST_F(Backups, AreCheckedBySha256sum) {
   (void)backUp(dataset_, backup_);
