@@ -253,7 +253,7 @@ std::vector<std::string> findBidsRuns(const std::string& folder) {
   std::error_code error;
   if (!fs::is_directory(folder, error)) throw FaultError(Fault{{}, "no such folder", {}, FilePlace{folder}});
   std::vector<std::string> files;
-  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder, error))
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
     if (const std::string name = entry.path().filename().string();
         name.ends_with("_motion.tsv") && name.find("_tracksys-haptic") != std::string::npos)
       files.push_back(entry.path().string());

@@ -49,7 +49,7 @@ std::vector<std::string> reachFiles(const std::string& path) {
   std::error_code error;
   if (fs::is_directory(path, error)) {
     std::vector<std::string> files;
-    for (const auto& entry : fs::directory_iterator(path, error))
+    for (const auto& entry : fs::directory_iterator(path))
       if (entry.path().extension() == ".csv" || isBids(entry.path()) || isC3d(entry.path())) files.push_back(entry.path().string());
     if (files.empty()) throw ResourceError(path + ": no CSV, BIDS motion or C3D files to replay in this folder");
     std::sort(files.begin(), files.end());

@@ -40,7 +40,9 @@ std::vector<RunOnDisk> recordedRuns(const SessionPlace& place) {
   std::vector<RunOnDisk> runs;
   std::error_code error;
   const std::string prefix = fmt::format("sub-{}_ses-{}_", place.subject, place.session);
-  for (const fs::directory_entry& entry : fs::directory_iterator(fs::path(place.data) / "sourcedata", error)) {
+  const fs::path logs = fs::path(place.data) / "sourcedata";
+  if (!fs::exists(logs, error)) return runs;
+  for (const fs::directory_entry& entry : fs::directory_iterator(logs)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(prefix) || !name.ends_with(kEnding)) continue;
     const std::string number = partOf(name, "run");

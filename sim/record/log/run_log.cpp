@@ -301,7 +301,7 @@ std::vector<std::string> findLogs(const std::string& path) {
   }
   if (fs::is_directory(root / "sourcedata", error)) root /= "sourcedata";
   std::vector<std::string> logs;
-  for (const fs::directory_entry& entry : fs::directory_iterator(root, error)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(root)) {
     const std::string file = entry.path().filename().string();
     if (file.ends_with(kEnding) && file.starts_with(prefix)) logs.push_back(entry.path().string());
   }
