@@ -1,4 +1,5 @@
 #include "cli/commands/commands.h"
+#include "cli/output/json_text.h"
 
 #include <fmt/format.h>
 
@@ -64,7 +65,7 @@ void fitSeries(const AdaptationRequest& r) {
     object["sentence"] = sentenceOf(fit);
     object["responses"] = fit.responses;
     object["channel_trials"] = fit.channels;
-    fmt::print("{}\n", object.dump(2));
+    fmt::print("{}", jsonText(object));
     return;
   }
   fmt::print("{} responses, {} channel trials\n", fit.responses, fit.channels);

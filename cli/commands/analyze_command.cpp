@@ -11,6 +11,7 @@
 #include "cli/terminal/at_option.h"
 #include "cli/commands/commands.h"
 #include "cli/terminal/criterion_option.h"
+#include "cli/output/json_text.h"
 #include "base/error.h"
 #include "base/fault.h"
 #include "analysis/report/alternatives.h"
@@ -239,7 +240,7 @@ std::string summaryJson(const analysis::Analysis& analysis, const analysis::Data
                                    {"changed", a.changed}});
   }
   if (recovery) j["recovery"] = jsonOf(*recovery);
-  return j.dump(2) + "\n";
+  return jsonText(j);
 }
 
 void printRecovery(const analysis::TruthRecovery& recovery) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands/commands.h"
+#include "cli/output/json_text.h"
 #include "devices/driver/registry.h"
 #include "devices/clock_timing.h"
 
@@ -39,7 +40,7 @@ void compare(const LatencyRequest& r) {
                       {"latency_p50_s", row.ageP50},
                       {"latency_p99_s", row.ageP99},
                       {"latency_max_s", row.ageMax}});
-    fmt::print("{}\n", list.dump(2));
+    fmt::print("{}", jsonText(list));
     return;
   }
   fmt::print("{:<10} {:>8} {:>7} {:>27} {:>27}\n", "clock", "ticks/s", "missed", "jitter us p50/p99/max", "latency us p50/p99/max");

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "cli/commands/commands.h"
+#include "cli/output/json_text.h"
 #include "constraints/catalogue/definition.h"
 #include "devices/driver/registry.h"
 #include "sim/experiment/describe.h"
@@ -139,7 +140,7 @@ void addListCommand(CLI::App& app, int&) {
                       : *what == "criteria"    ? listCriteria()
                                                : listDevices();
     if (*asJson) {
-      std::puts(rows.dump(2).c_str());
+      fmt::print("{}", jsonText(rows));
       return;
     }
     for (const Json& row : rows)

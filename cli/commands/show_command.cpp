@@ -11,6 +11,7 @@
 #include "cli/output/readable_logs.h"
 #include "cli/output/success_table.h"
 #include "cli/output/trial_profile.h"
+#include "cli/output/json_text.h"
 #include "sim/record/export/tidy_csv.h"
 #include "sim/record/log/run_log.h"
 #include "sim/record/log/trial_measures.h"
@@ -160,7 +161,7 @@ void showTrial(const record::RunLog& log, const record::RecordedTrial& trial, bo
                        {"first_mass_speed_m_per_s", profile.firstSpeed},
                        {"last_mass_speed_m_per_s", profile.lastSpeed},
                        {"coupling_force_n", profile.force}};
-    fmt::print("{}\n", json.dump(2));
+    fmt::print("{}", jsonText(json));
     return;
   }
   fmt::print("{}\n", trialLine(trial.trial, trial.result, record::sceneOf(log.configuration(), trial.planned)));
@@ -185,7 +186,7 @@ void show(const ShowOptions& options) {
   if (options.json) {
     Json runs = Json::array();
     for (const record::RunLog& log : logs) runs.push_back(runJson(log));
-    fmt::print("{}\n", runs.dump(2));
+    fmt::print("{}", jsonText(runs));
   } else {
     fmt::print("{}", runsTable(logs));
     if (logs.size() == 1) fmt::print("\n{}", trialsTable(logs[0]));

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "cli/commands/commands.h"
+#include "cli/output/json_text.h"
 #include "devices/replay/velocity_table.h"
 #include "sim/experiment/resources.h"
 
@@ -32,7 +33,7 @@ void compare(const VelocityRequest& r) {
                       {"noise_m_per_s", row.noise},
                       {"error_m_per_s", row.error},
                       {"worst_m_per_s", row.worst}});
-    fmt::print("{}\n", list.dump(2));
+    fmt::print("{}", jsonText(list));
     return;
   }
   fmt::print("{:<16} {:>9} {:>9} {:>11} {:>11} {:>11}\n", "estimator", "step (mm)", "delay ms", "noise mm/s", "error mm/s", "worst mm/s");

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "cli/output/json_text.h"
+
 namespace reachlab::cli {
 
 using devices::PreflightLine;
@@ -30,7 +32,7 @@ std::string preflightJson(const std::vector<PreflightLine>& lines) {
                     {"unit", line.unit},
                     {"sentence", line.sentence},
                     {"remedy", line.remedy.empty() ? Json(nullptr) : Json(line.remedy)}});
-  return rows.dump(2) + "\n";
+  return jsonText(rows);
 }
 
 }  // namespace reachlab::cli

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 
 #include "tests/cli/program.h"
 
@@ -34,6 +35,9 @@ TEST(Show, TellsTheTrialsAsTheyWereJudged) {
 
 TEST(Show, GivesATrialSampleBySample) {
   const Recorded recorded;
+  const std::string odd = recorded.log.substr(0, recorded.log.rfind('/')) + "/\xff_log.reach";
+  std::filesystem::copy(recorded.log, odd);
+  EXPECT_EQ(Json::parse(reach("show --json " + odd).out).size(), 1u) << "a name that is no UTF-8";
   const Json trial = Json::parse(reach("show --json --trial 2 " + recorded.log).out);
   EXPECT_EQ(trial["trial"], 2);
   const auto time = trial["samples"]["since_onset_s"].get<std::vector<double>>();
