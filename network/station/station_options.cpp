@@ -1,11 +1,13 @@
 #include "network/station/station_options.h"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
 
 #include "base/fault.h"
 #include "base/system/helper_program.h"
+#include "network/peers/peers.h"
 
 namespace reachlab::network {
 namespace {
@@ -17,6 +19,15 @@ std::string hostName() {
 
 // Keys are the requests' own.
 std::string named(const char* key) { return std::string("--") + key; }
+
+// The endpoint would only say that it cannot be made.
+void requireCertificates(const std::string& folder) {
+  const PeerFolder own = listPeers(folder).front();
+  if (own.complete && own.fault.empty()) return;
+  throw FaultError(Fault{"peers",
+                         fmt::format("{}: {}", folder, own.fault.empty() ? "files of the conductor's answer are missing" : own.fault),
+                         "a folder of which `reach peers list` says complete=yes and no fault"});
+}
 
 }  // namespace
 
@@ -42,6 +53,7 @@ void addStationOptions(CLI::App& command, StationSetup& setup) {
 void completeStationSetup(StationSetup& setup, const std::string& device, const std::string& program) {
   if (!setup.insecure && setup.link.secure.empty())
     throw FaultError(Fault{"peers", "are not told", "the folder of this station's certificates, or insecure in so many words"});
+  if (!setup.insecure) requireCertificates(setup.link.secure);
   if (setup.link.name.empty()) setup.link.name = hostName();
   setup.link.device = device;
   setup.link.software = "reachlab " REACHLAB_VERSION;

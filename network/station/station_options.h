@@ -12,7 +12,7 @@ namespace reachlab::network {
 void addStationOptions(CLI::App& command, StationSetup& setup);
 
 /// Called after the parsing. Completes the options that were not given, and the values that belong to the computer. `program` is the
-/// program that starts the endpoint, for the message. Throws FaultError without certificates and without `insecure`. Throws ResourceError
+/// program that starts the endpoint, for the message. Throws FaultError without valid certificates and without `insecure`. Throws ResourceError
 /// without an endpoint.
 void completeStationSetup(StationSetup& setup, const std::string& device, const std::string& program);
 

@@ -16,7 +16,9 @@
 #include <sstream>
 
 #include "base/fault.h"
+#include "network/station/station_options.h"
 #include "test_paths.h"
+#include "tests/refusal.h"
 
 namespace reachlab::network {
 namespace {
@@ -78,6 +80,23 @@ TEST_F(Peers, WhatIsWrongWithAFolderIsSaid) {
   EXPECT_THROW(addStation(at("nowhere"), at("other/request.pem")), FaultError);
   std::ofstream(at("request.pem")) << "nothing";
   EXPECT_THROW(addStation(at("foreign"), at("request.pem")), FaultError);
+}
+
+// Before a run: the network itself only says that it cannot begin.
+TEST_F(Peers, AStationDoesNotBeginWithAFolderThatHasAFault) {
+  initConductor(at("lab"), "left");
+  initConductor(at("foreign"), "left");
+  initStation(at("other"), "right");
+  StationSetup setup;
+  const auto refusal = [&](const char* folder) {
+    setup.link.secure = at(folder);
+    return refusalOf([&] { completeStationSetup(setup, "mouse", "reach"); });
+  };
+  EXPECT_NE(refusal("other").find("waits for the conductor's answer"), std::string::npos) << refusal("other");
+  fs::copy(at("foreign/identity.pem"), at("lab/identity.pem"), fs::copy_options::overwrite_existing);
+  EXPECT_NE(refusal("lab").find("the certificate is not of this authority"), std::string::npos) << refusal("lab");
+  fs::remove(at("foreign/governance.p7s"));
+  EXPECT_NE(refusal("foreign").find("are missing"), std::string::npos) << refusal("foreign");
 }
 
 using Certificate = std::unique_ptr<X509, decltype([](X509* x) { X509_free(x); })>;
