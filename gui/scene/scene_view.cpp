@@ -37,7 +37,7 @@ namespace {
 
 constexpr int kRestMs = 250;  // a picture that has not moved for so long rests
 // Where the processor draws and pictures of a movement come slower than this, so many times in a row, they are drawn coarser.
-constexpr int kSlowMs = 48, kSlowPictures = 6;
+constexpr int kSlowMs = 33, kSlowPictures = 4;  // 30 pictures per second look smooth
 constexpr struct {
   double scale;
   bool smooth;  // the edges
