@@ -54,6 +54,8 @@ key() { xdotool windowactivate --sync "$conductor" key "$1"; }
 # Ends the run, and computes each copy again from its own log.
 close_run() {
   key ctrl+e
+  sleep 1
+  xdotool key Tab space  # trials are left: *End the run*, which is not the usual choice
   sleep 3
   for number in 1 2; do
     "$build/cli/reach" replay "$work"/data$number/sourcedata/*_log.reach --check > "$work/replayed$number" || check "station $number's log replays" false
