@@ -1,11 +1,12 @@
 #include "gui/scene_plan/constraint_mesh.h"
 
-#include "constraints/constraint.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <numbers>
+
+#include "base/math/segment.h"
+#include "constraints/constraint.h"
 
 namespace reachlab::gui::scene {
 namespace {
@@ -13,13 +14,6 @@ namespace {
 double angleBetween(const Vec3& a, const Vec3& b) {
   const double scale = norm(a) * norm(b);
   return scale > 0 ? std::acos(std::clamp(dot(a, b) / scale, -1.0, 1.0)) : 0;
-}
-
-double distanceToChord(const Vec3& p, const Vec3& a, const Vec3& b) {
-  const Vec3 chord = b - a;
-  const double length2 = dot(chord, chord);
-  const double t = length2 > 0 ? std::clamp(dot(p - a, chord) / length2, 0.0, 1.0) : 0;
-  return norm(p - (a + t * chord));
 }
 
 double sizeOf(const std::vector<Vec3>& points) {
@@ -45,7 +39,7 @@ bool bendsTooMuch(const Knot& a, const Knot& middle, const Knot& b, double error
       continue;
     }
     const double length = norm(m - p) + norm(q - m);
-    if (distanceToChord(m, p, q) > error || (length > 8 * error && angleBetween(m - p, q - m) > turn)) return true;
+    if (distanceToSegment(m, p, q) > error || (length > 8 * error && angleBetween(m - p, q - m) > turn)) return true;
   }
   return false;
 }

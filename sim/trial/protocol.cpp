@@ -4,6 +4,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/math/segment.h"
 #include "base/ticks.h"
 
 namespace reachlab::trial {
@@ -93,13 +94,6 @@ bool endByMissedTime(const ProtocolSettings& s, const ProtocolInput& in, Protoco
   return end(state, in.tick, Outcome::Interrupted, Reason::Timing), true;
 }
 
-// [m] from the straight line between two points.
-double distanceFrom(const Vec3& place, const Vec3& a, const Vec3& b) noexcept {
-  const Vec3 way = b - a;
-  const double square = dot(way, way), along = square > 0 ? std::clamp(dot(place - a, way) / square, 0.0, 1.0) : 0;
-  return norm(a + along * way - place);
-}
-
 void beginWay(const ProtocolInput& in, ProtocolState& state) noexcept {
   state.viaPassed = 0;
   state.viaLeast = std::numeric_limits<double>::infinity();
@@ -111,7 +105,7 @@ bool hasPassedAll(const ProtocolSettings& s, const ProtocolInput& in, ProtocolSt
   if (state.viaPassed == count || in.masses.empty()) return state.viaPassed == count;
   const Vec3 from = std::exchange(state.viaFrom, in.masses.back().r);
   while (state.viaPassed < count) {
-    state.viaLeast = std::min(state.viaLeast, distanceFrom(s.via[static_cast<std::size_t>(state.viaPassed)], from, state.viaFrom));
+    state.viaLeast = std::min(state.viaLeast, distanceToSegment(s.via[static_cast<std::size_t>(state.viaPassed)], from, state.viaFrom));
     if (!(state.viaLeast <= s.viaRadius)) return false;
     ++state.viaPassed;
     state.viaLeast = std::numeric_limits<double>::infinity();

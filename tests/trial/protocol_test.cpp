@@ -170,7 +170,7 @@ TEST_F(Protocol, AllMassesArriveAtOneTickOrNone) {
   expectEnd(Outcome::Success, Reason::None);
 }
 
-// The last mass goes from -0.1 to 0.1 m with 1 mm a tick, `aside` from the straight line.
+// The last mass goes from -0.1 to 0.1 m with 1 mm a tick.
 TEST_F(Protocol, ArrivalNeedsThePlacesOnTheWayInTheirOrder) {
   const Vec3 first{-0.05, 0.03, 0}, second{0.05, 0, 0};
   settings.via = {first, second};
