@@ -206,10 +206,11 @@ class Endpoint {
     if (clock.echoHeard == 0) ++peers_;
     const auto ours = static_cast<std::size_t>(own_.station) - 1;
     clock.add(own_.station == 0 ? Echo{s.seq, s.sent_ns} : Echo{s.seq, s.sent_ns, s.echo_sent_ns[ours], s.echo_heard_ns[ours]}, now);
-    const double loss = losses_[s.station - 1].share();
+    const ProbeLoss& probes = losses_[s.station - 1];
+    const double loss = probes.share();
     LinkStatus& status = memory_.status[s.station - 1];
     status.roundTrip.store(clock.roundTrip), status.jitter.store(clock.jitter), status.offset.store(clock.offset);
-    status.loss.store(loss), status.overtaken.store(std::max(0.0, clock.missing - loss)), status.gap.store(clock.gap),
+    status.loss.store(loss), status.lossBound.store(probes.bound()), status.overtaken.store(std::max(0.0, clock.missing - loss)), status.gap.store(clock.gap),
         status.heardNs.store(now);
     if (clock.roundTrip < 0 && own_.station != 0) return;  // its time means nothing here yet
     HeardState heard;

@@ -87,13 +87,22 @@ class ProbeLoss {
     last_ = number;
   }
   /// Over the last two or the last ten seconds, whichever is more: a link that becomes bad is noticed soon, and two lucky seconds do not
-  /// make a bad link good. 0 in the first half second.
-  double share() const { return known_ < kLeast ? 0 : std::max(shareOf(kFew), shareOf(kMany)); }
+  /// make a bad link good. 0 before the first probe.
+  double share() const { return std::max(shareOf(kFew), shareOf(kMany)); }
+  /// The most that may be lost if the probes of the last ten seconds had little luck: one-sided interval of Wilson (1927), and at least
+  /// `share`. 1 before the first probe, at most 0.2 from the 56th on if all came.
+  double bound() const {
+    if (known_ == 0) return 1;
+    constexpr double kZ = 3.719;  // standard normal quantile of 1 - 1e-4: a trial may be armed at each of many moments
+    const double n = static_cast<double>(known_), share = shareOf(kMany), half = kZ * kZ / (2 * n);
+    return std::max(this->share(), (share + half + kZ * std::sqrt(share * (1 - share) / n + half / (2 * n))) / (1 + 2 * half));
+  }
 
  private:
-  static constexpr std::size_t kFew = 100, kMany = 500, kLeast = 25;
+  static constexpr std::size_t kFew = 100, kMany = 500;
   double shareOf(std::size_t newest) const {
     const std::size_t count = std::min(newest, known_);
+    if (count == 0) return 0;
     return 1 - static_cast<double>((came_ << (kMany - count)).count()) / static_cast<double>(count);
   }
   std::bitset<kMany> came_;  // the newest first

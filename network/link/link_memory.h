@@ -61,6 +61,7 @@ struct LinkStatus {
   std::atomic<double> jitter{0};      // [s] SD of the round trip over the last samples
   std::atomic<double> offset{0};      // [s] the peer's clock less ours, from the fastest recent exchange
   std::atomic<double> loss{0};        // share of its samples that do not arrive, over two or ten seconds, whichever is more
+  std::atomic<double> lossBound{1};   // the most that the loss may be; 1: not known
   std::atomic<double> overtaken{0};   // share of a second's samples that came after a newer sample and were not used
   std::atomic<double> gap{0};         // [s] longest time without a sample in the last second
   std::atomic<std::int64_t> heardNs{0};
@@ -78,7 +79,7 @@ struct EndpointSettings {
 };
 
 struct LinkMemory {
-  static constexpr std::uint32_t kVersion = 4;
+  static constexpr std::uint32_t kVersion = 5;
   std::uint32_t version = kVersion;
   EndpointSettings settings;
   std::atomic<bool> stop{false};

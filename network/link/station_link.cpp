@@ -208,8 +208,8 @@ StationStatus StationLink::statusOf(int station) const {
   if (options_.software != s.software) say(fmt::format("runs {}, and this one {}", s.software, options_.software));
   if (card.experiment != experiment_) say(fmt::format("has another experiment ({:016x}, here {:016x})", card.experiment, experiment_));
   if (card.conductor && options_.conductor) say("is a conductor too");
-  s.roundTrip = link.roundTrip.load(), s.jitter = link.jitter.load(), s.loss = link.loss.load(), s.overtaken = link.overtaken.load(),
-  s.offset = link.offset.load();
+  s.roundTrip = link.roundTrip.load(), s.jitter = link.jitter.load(), s.loss = link.loss.load(), s.lossBound = link.lossBound.load(),
+  s.overtaken = link.overtaken.load(), s.offset = link.offset.load();
   const std::int64_t silentNs = std::max<std::int64_t>(now - link.heardNs.load(), 0);
   const double gap = link.gap.load();
   const bool observes = options_.station == 0;  // nobody answers it: there is no round trip
@@ -223,7 +223,9 @@ StationStatus StationLink::statusOf(int station) const {
   if (s.roundTrip > kMostRoundTrip)
     say(fmt::format("a round trip takes {:.0f} ms; allowed: up to {:.0f}", 1e3 * s.roundTrip, 1e3 * kMostRoundTrip));
   // Overtaken samples are dropped by design, so their share says nothing; what is lost and how long nothing comes does.
-  if (s.loss > kMostLoss) say(fmt::format("{:.0f} % of what it sends is lost; allowed: up to {:.0f}", 100 * s.loss, 100 * kMostLoss));
+  if (s.lossBound > kMostLoss)
+    say(fmt::format("{:.0f} % of what it sends is lost, perhaps {:.0f} %; allowed: up to {:.0f}", 100 * s.loss, 100 * s.lossBound,
+                    100 * kMostLoss));
   if (gap > kMostGap) say(fmt::format("nothing comes for {:.0f} ms at a time; allowed: up to {:.0f}", 1e3 * gap, 1e3 * kMostGap));
   if (offsets_[index].jumpNs != 0 && now - offsets_[index].jumpNs < kJumpNs)
     say(fmt::format("its clock jumped by {:.1f} ms against this one's; allowed: up to {:.0f}", 1e3 * offsets_[index].jump,

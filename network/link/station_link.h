@@ -31,6 +31,7 @@ struct StationStatus {
   bool heard = false;                  // it sends, so the values below are known
   double roundTrip = 0, jitter = 0;    // [s]
   double loss = 0;                     // share of its samples that do not arrive
+  double lossBound = 1;                // the most that this share may be, as far as the samples tell
   double overtaken = 0;                // share of its samples that came after a newer sample
   double offset = 0;                   // [s] its clock less ours
   double age = 0;                      // [s] since its newest sample came

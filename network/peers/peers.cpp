@@ -19,6 +19,7 @@
 #include <ctime>
 #include <filesystem>
 #include <memory>
+#include <optional>
 
 #include "base/fault.h"
 
@@ -33,6 +34,7 @@ struct Freed {
     Free(thing);
   }
 };
+void freeStack(STACK_OF(X509) * stack) { sk_X509_free(stack); }
 using Key = std::unique_ptr<EVP_PKEY, Freed<EVP_PKEY_free>>;
 using Certificate = std::unique_ptr<X509, Freed<X509_free>>;
 using Request = std::unique_ptr<X509_REQ, Freed<X509_REQ_free>>;
@@ -140,6 +142,21 @@ void writeSigned(const std::string& document, const Certificate& signer, const K
   if (SMIME_write_PKCS7(out.get(), made.get(), text.get(), kFlags) != 1) fail(path);
 }
 
+/// The text of a signed document, or nothing if `signer` did not sign it.
+std::optional<std::string> textSignedBy(const Certificate& signer, const std::string& path) {
+  const Bio in = openForReading(path);
+  BIO* clear = nullptr;
+  const Signed document(SMIME_read_PKCS7(in.get(), &clear));
+  const Bio content(clear), text(BIO_new(BIO_s_mem()));
+  const std::unique_ptr<STACK_OF(X509), Freed<freeStack>> signers(sk_X509_new_null());
+  sk_X509_push(signers.get(), signer.get());
+  constexpr int kFlags = PKCS7_NOVERIFY | PKCS7_NOINTERN | PKCS7_TEXT;  // by this certificate and no other
+  if (!document || PKCS7_verify(document.get(), signers.get(), nullptr, content.get(), text.get(), kFlags) != 1) return std::nullopt;
+  char* data = nullptr;
+  const long size = BIO_get_mem_data(text.get(), &data);
+  return std::string(data, static_cast<std::size_t>(size));
+}
+
 // Everything encrypted, nobody without a certificate and permissions.
 constexpr const char* kGovernance = R"(<?xml version="1.0" encoding="utf-8"?>
 <dds xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="http://www.omg.org/spec/DDS-SECURITY/20170901/omg_shared_ca_governance.xsd">
@@ -167,6 +184,7 @@ constexpr const char* kGovernance = R"(<?xml version="1.0" encoding="utf-8"?>
 </dds>
 )";
 
+std::string grantTo(const std::string& name) { return fmt::format("<subject_name>CN={}</subject_name>", name); }
 std::string permissionsOf(const std::string& name, int days) {
   const std::time_t now = std::time(nullptr);
   constexpr std::time_t kDay = 86400;
@@ -175,7 +193,7 @@ std::string permissionsOf(const std::string& name, int days) {
 <dds xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="http://www.omg.org/spec/DDS-SECURITY/20170901/omg_shared_ca_permissions.xsd">
   <permissions>
     <grant name="{0}">
-      <subject_name>CN={0}</subject_name>
+      {3}
       <validity><not_before>{1}</not_before><not_after>{2}</not_after></validity>
       <allow_rule>
         <domains><id_range><min>0</min><max>230</max></id_range></domains>
@@ -187,7 +205,7 @@ std::string permissionsOf(const std::string& name, int days) {
   </permissions>
 </dds>
 )",
-                     name, at(now - kDay), at(now + kDay * days));
+                     name, at(now - kDay), at(now + kDay * days), grantTo(name));
 }
 
 void makeFolder(const std::string& folder) {
@@ -223,6 +241,15 @@ void answer(const std::string& folder, const std::string& name, const Key& key, 
   writeSigned(permissionsOf(name, days), by.permissions, by.permissionsKey, folder + "/permissions.p7s");
 }
 
+// Who may do what: both documents are signed, and the permissions are this station's. Empty: no fault.
+std::string documentsFault(const std::string& folder, const std::string& name) {
+  const Certificate authority = readCertificate(folder + "/permissions_ca.pem");
+  if (!textSignedBy(authority, folder + "/governance.p7s")) return "governance.p7s is not signed by this authority";
+  const std::optional<std::string> permissions = textSignedBy(authority, folder + "/permissions.p7s");
+  if (!permissions) return "permissions.p7s is not signed by this authority";
+  return permissions->find(grantTo(name)) == std::string::npos ? "the permissions are another station's" : "";
+}
+
 PeerFolder lookAt(const std::string& folder, bool needsKey) {
   PeerFolder found;
   std::error_code error;
@@ -245,6 +272,8 @@ PeerFolder lookAt(const std::string& folder, bool needsKey) {
         if (X509_verify(certificate.get(), X509_get0_pubkey(authority.get())) != 1)
           found.fault = "the certificate is not of this authority";
       }
+      if (has("permissions_ca.pem") && has("governance.p7s") && has("permissions.p7s"))
+        if (const std::string fault = documentsFault(folder, found.name); !fault.empty()) found.fault = fault;
     } else if (has("request.pem")) {
       const Bio in = openForReading(folder + "/request.pem");
       const Request request(PEM_read_bio_X509_REQ(in.get(), nullptr, nullptr, nullptr));
@@ -321,8 +350,10 @@ std::vector<PeerFolder> listPeers(const std::string& folder) {
     throw FaultError(Fault{"peers", fmt::format("{} is no folder", folder), "a folder of certificates"});
   std::vector<PeerFolder> all{lookAt(folder, true)};
   std::vector<std::string> answered;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    if (entry.is_directory() && entry.path().filename().string().starts_with("for-")) answered.push_back(entry.path().string());
+  auto entry = fs::directory_iterator(folder, error);
+  for (; !error && entry != fs::directory_iterator(); entry.increment(error))
+    if (entry->is_directory(error) && entry->path().filename().string().starts_with("for-")) answered.push_back(entry->path().string());
+  if (error) throw ResourceError(fmt::format("{}: cannot be read: {}", folder, error.message()));
   std::sort(answered.begin(), answered.end());
   for (const std::string& one : answered) all.push_back(lookAt(one, false));
   return all;

@@ -75,6 +75,15 @@ TEST_F(Peers, WhatIsWrongWithAFolderIsSaid) {
   initConductor(at("foreign"), "left");
   fs::copy(at("foreign/identity.pem"), at("lab/identity.pem"), fs::copy_options::overwrite_existing);
   EXPECT_FALSE(listPeers(at("lab")).at(0).fault.empty()) << "a certificate of another authority";
+  fs::copy(at("foreign/identity_ca.pem"), at("lab/identity_ca.pem"), fs::copy_options::overwrite_existing);
+  fs::copy(at("foreign/key.pem"), at("lab/key.pem"), fs::copy_options::overwrite_existing);
+  EXPECT_EQ(listPeers(at("lab")).at(0).fault, "");
+  fs::copy(at("foreign/governance.p7s"), at("lab/governance.p7s"), fs::copy_options::overwrite_existing);
+  EXPECT_EQ(listPeers(at("lab")).at(0).fault, "governance.p7s is not signed by this authority");
+  initStation(at("other"), "right");
+  const std::string answer = addStation(at("foreign"), at("other/request.pem"));
+  fs::copy(at("foreign/permissions.p7s"), answer + "/permissions.p7s", fs::copy_options::overwrite_existing);
+  EXPECT_EQ(listPeers(at("foreign")).at(1).fault, "the permissions are another station's");
   EXPECT_THROW(initConductor(at("lab"), "left"), FaultError) << "never overwritten";
   EXPECT_THROW(initStation(at("x"), "no name"), FaultError);
   EXPECT_THROW(addStation(at("nowhere"), at("other/request.pem")), FaultError);
