@@ -10,6 +10,7 @@
 #include "analysis/dataset.h"
 #include "base/fault.h"
 #include "base/table_text.h"
+#include "base/text_file.h"
 #include "base/ticks.h"
 #include "sim/record/export/bids.h"
 #include "sim/record/log/append_file.h"
@@ -251,6 +252,7 @@ RunSource readRun(const fs::path& motion) {
 
 std::vector<std::string> findBidsRuns(const std::string& folder) {
   std::error_code error;
+  requireSearchable(folder);
   if (!fs::is_directory(folder, error)) throw FaultError(Fault{{}, "no such folder", {}, FilePlace{folder}});
   std::vector<std::string> files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))

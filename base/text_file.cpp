@@ -30,4 +30,10 @@ std::string readTextFile(const std::string& file, std::uintmax_t mostBytes) {
   return std::move(text).str();
 }
 
+void requireSearchable(const std::string& path) {
+  std::error_code error;
+  (void)std::filesystem::exists(path, error);
+  if (error) throw ResourceError(fmt::format("{}: cannot be read: {}", path, error.message()));
+}
+
 }  // namespace reachlab

@@ -9,4 +9,8 @@ inline constexpr std::uintmax_t kMostTextBytes = 16u << 20;
 /// Reads a whole file of at most `mostBytes`. Throws FaultError naming the file and the operating system's reason.
 std::string readTextFile(const std::string& file, std::uintmax_t mostBytes = kMostTextBytes);
 
+/// Passes if the path exists or does not exist. Throws ResourceError naming the system's reason if that cannot be known (no permission to
+/// search a folder, links in a loop). Call it before you say that something is not there.
+void requireSearchable(const std::string& path);
+
 }  // namespace reachlab

@@ -173,17 +173,11 @@ std::string renderPng(const Figure& figure, double dpi) {
   return bytes;
 }
 
-void writeFigure(const Figure& figure, const std::string& path) {
-  const auto endsWith = [&](const char* ending) { return path.ends_with(ending); };
-  std::string bytes;
-  if (endsWith(".svg")) bytes = renderSvg(figure);
-  else if (endsWith(".pdf")) bytes = renderPdf(figure);
-  else if (endsWith(".png")) bytes = renderPng(figure);
-  else throw FaultError(Fault{path, "unknown kind of figure", ".svg, .pdf, .png"});
-  std::FILE* file = std::fopen(path.c_str(), "wb");
-  const bool written = file && std::fwrite(bytes.data(), 1, bytes.size(), file) == bytes.size();
-  const bool closed = file && std::fclose(file) == 0;
-  if (!written || !closed) throw ResourceError(path + ": cannot be written");
+std::string renderFor(const std::string& file, const Figure& figure) {
+  if (file.ends_with(".svg")) return renderSvg(figure);
+  if (file.ends_with(".pdf")) return renderPdf(figure);
+  if (file.ends_with(".png")) return renderPng(figure);
+  throw FaultError(Fault{file, "unknown kind of figure", ".svg, .pdf, .png"});
 }
 
 }  // namespace reachlab::figure

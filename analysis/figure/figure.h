@@ -103,8 +103,8 @@ std::string renderPdf(const Figure& figure);
 /// [dots per inch] of a white page.
 std::string renderPng(const Figure& figure, double dpi = 150);
 
-/// Writes FILE.svg, FILE.pdf or FILE.png as its ending says. Throws FaultError for another ending, ResourceError when it cannot write.
-void writeFigure(const Figure& figure, const std::string& path);
+/// The content of FILE.svg, FILE.pdf or FILE.png, as the ending says. Throws FaultError for another ending.
+std::string renderFor(const std::string& file, const Figure& figure);
 
 /// Round numbers within [from, to] that divide it into about `wanted` parts. Steps are 1, 2 or 5 times a power of ten. Empty unless
 /// from < to and both are finite.

@@ -270,7 +270,10 @@ std::vector<std::string> writeReport(const StudyReport& report, const std::strin
   const auto draw = [&](const std::string& name, const figure::Figure& figure) {
     if (figure.panels.empty()) return;
     figures.push_back(name);
-    for (const char* ending : {".svg", ".pdf"}) figure::writeFigure(figure, written.emplace_back(out + "/" + name + ending));
+    for (const char* ending : {".svg", ".pdf"}) {
+      const std::string& file = written.emplace_back(out + "/" + name + ending);
+      record::writeFileAtomically(file, figure::renderFor(file, figure));
+    }
   };
   record::makeFolders(out);
   write("success.csv", successTable(report));

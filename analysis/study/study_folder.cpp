@@ -15,6 +15,7 @@
 #include "analysis/study/points.h"
 #include "analysis/study/trial_row.h"
 #include "base/fault.h"
+#include "base/text_file.h"
 #include "sim/record/log/append_file.h"
 
 namespace reachlab::study {
@@ -86,6 +87,7 @@ StudyFolder makeFolder(const Design& design, const std::string& path) {
 StudyFolder openFolder(const std::string& path) {
   const std::string file = designPath(path);
   std::error_code error;
+  requireSearchable(file);
   if (!fs::exists(file, error)) throw FaultError(Fault{"study", file + " is not there", "the folder that a study was written to"});
   try {
     const Json json = Json::parse(record::readWholeFile(file));

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -19,6 +18,7 @@
 #include "bench/suite.h"
 #include "sim/experiment/describe.h"
 #include "sim/haptics/tick_timing.h"
+#include "sim/record/log/append_file.h"
 
 namespace reachlab::cli {
 namespace {
@@ -33,13 +33,6 @@ void showRefusals(const std::vector<std::string>& refusals) {
 
 nlohmann::ordered_json number(double value) {
   return std::isfinite(value) ? nlohmann::ordered_json(value) : nlohmann::ordered_json(nullptr);
-}
-
-void writeFile(const std::string& path, const std::string& text) {
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw ResourceError(path + ": cannot be written");
 }
 
 std::string toJson(const std::vector<bench::Row>& rows) {
@@ -75,7 +68,7 @@ void benchConstraints(const BenchOptions& options) {
   fmt::print("{:<16} {:<14} {:>11} {:>8}\n", "constraint", "form", "ns_per_eval", "apart_m");
   for (const ConstraintEvalRow& row : rows)
     fmt::print("{:<16} {:<14} {:>11.1f} {:>8.1e}\n", row.constraint, row.form, row.nsPerEval, row.apart);
-  if (!options.json.empty()) writeFile(options.json, toJson(rows));
+  if (!options.json.empty()) record::writeFileAtomically(options.json, toJson(rows));
 }
 
 /// A scene of the table, or any experiment.
@@ -121,8 +114,8 @@ void benchNetwork(const BenchOptions& options) {
       throw FaultError(Fault{"method", fmt::format("is \"{}\"", name), "design with --network: the coupling that stations have"});
   const network::LinkBenchTables tables = network::runLinkBench(plan, showProgress);
   std::fputs(network::formatLinkBench(tables).c_str(), stdout);
-  if (!options.csv.empty()) writeFile(options.csv, network::linkBenchCsv(tables));
-  if (!options.svg.empty()) writeFile(options.svg, network::drawLinkBench(tables));
+  if (!options.csv.empty()) record::writeFileAtomically(options.csv, network::linkBenchCsv(tables));
+  if (!options.svg.empty()) record::writeFileAtomically(options.svg, network::drawLinkBench(tables));
 }
 
 void benchMethods(const BenchOptions& options) {
@@ -135,8 +128,8 @@ void benchMethods(const BenchOptions& options) {
   for (const bench::Row& row : rows) peers |= bench::isPeer(row);
   if (peers) std::fputs(("\n" + bench::formatRatios(rows)).c_str(), stdout);
   showRefusals(refusals);
-  if (!options.json.empty()) writeFile(options.json, toJson(rows));
-  if (!options.svg.empty()) writeFile(options.svg, bench::drawWorkPrecision(rows));
+  if (!options.json.empty()) record::writeFileAtomically(options.json, toJson(rows));
+  if (!options.svg.empty()) record::writeFileAtomically(options.svg, bench::drawWorkPrecision(rows));
 }
 
 }  // namespace

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <fstream>
 #include <future>
 #include <iostream>
 #include <memory>
@@ -19,6 +18,7 @@
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/tested_ranges.h"
+#include "sim/record/log/append_file.h"
 
 namespace reachlab::cli {
 namespace {
@@ -37,10 +37,11 @@ void writeText(const std::string& text, const std::string& path) {
     std::cout << text << std::flush;
     return;
   }
-  std::ofstream file(path, std::ios::binary);
-  file << text;
-  file.close();
-  if (!file) throw ResourceError(fmt::format("{}: cannot be written", path));
+  record::writeFileAtomically(path, text);
+}
+
+void writeFigure(const figure::Figure& figure, const std::string& path) {
+  record::writeFileAtomically(path, figure::renderFor(path, figure));
 }
 
 // Median of repeated computations, on stderr: a figure for the machine at hand.
@@ -86,7 +87,7 @@ void runSweep(const PredictArguments& arguments, const experiment::CompiledExper
   for (const predict::SweepRow& row : rows)
     if (!row.prediction) std::cerr << fmt::format("{} = {}: {}\n", sweep.key, row.value, row.refusal);
   writeText(writeSweepCsv(sweep, rows), arguments.out);
-  if (!arguments.figure.empty()) figure::writeFigure(drawSweep(sweep, rows, criterion), arguments.figure);
+  if (!arguments.figure.empty()) writeFigure(drawSweep(sweep, rows, criterion), arguments.figure);
 }
 
 void runPredict(const PredictArguments& arguments) {
@@ -113,7 +114,7 @@ void runPredict(const PredictArguments& arguments) {
   if (arguments.time) reportTime(experiment, criterion, options);
   if (arguments.json) std::cout << writePredictionJson(*prediction) << std::flush;
   if (!arguments.json || !arguments.out.empty()) writeText(writePredictionCsv(*prediction, arguments.samples), arguments.out);
-  if (!arguments.figure.empty()) figure::writeFigure(drawPrediction(*prediction, arguments.samples), arguments.figure);
+  if (!arguments.figure.empty()) writeFigure(drawPrediction(*prediction, arguments.samples), arguments.figure);
 }
 
 std::string footer() {

@@ -33,7 +33,7 @@ class Table {
   explicit Table(const std::string& out) {
     if (!out.empty()) {
       file_.open(out, std::ios::binary | std::ios::trunc);
-      if (!file_) throw ResourceError(out + ": cannot be written; choose another --out");
+      if (!file_) throw ResourceError(fmt::format("{}: cannot be written: {}; choose another --out", out, std::strerror(errno)));
     }
   }
   void text(std::string_view text) { buffer_ += text; }

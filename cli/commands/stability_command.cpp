@@ -1,15 +1,13 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "analysis/figure/figure.h"
-#include "base/error.h"
 #include "base/fault.h"
 #include "cli/commands/commands.h"
 #include "devices/virtual/stability_map.h"
+#include "sim/record/log/append_file.h"
 
 namespace reachlab::cli {
 namespace {
@@ -57,12 +55,6 @@ figure::Figure figureOf(const devices::DeviceModel& model, const StabilityReques
   return figure;
 }
 
-void writeText(const std::string& text, const std::filesystem::path& path) {
-  std::ofstream out(path, std::ios::binary);
-  out << text << std::flush;
-  if (!out) throw ResourceError(path.string() + ": cannot be written");
-}
-
 void drawMap(const StabilityRequest& request) {
   const devices::DeviceModel* model = devices::findDeviceModel(request.model);
   if (model == nullptr)
@@ -72,13 +64,10 @@ void drawMap(const StabilityRequest& request) {
     fmt::print("{}", tableOf(map));
     return;
   }
-  std::error_code error;
-  std::filesystem::create_directories(request.out, error);
-  if (error) throw ResourceError(request.out + ": " + error.message());
-  const std::filesystem::path folder = request.out, name = "stability-" + request.model;
-  writeText(tableOf(map), folder / (name.string() + ".csv"));
-  figure::writeFigure(figureOf(*model, request, map), (folder / (name.string() + ".svg")).string());
-  fmt::print(stderr, "{}\n", (folder / (name.string() + ".{csv,svg}")).string());
+  const std::string stem = request.out + "/stability-" + request.model;
+  record::writeFileAtomically(stem + ".csv", tableOf(map));
+  record::writeFileAtomically(stem + ".svg", figure::renderSvg(figureOf(*model, request, map)));
+  fmt::print(stderr, "{}.{{csv,svg}}\n", stem);
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ void InspectorPage::exportTo(const QString& file) {
     return;
   }
   const TimeAxis axis = axis_->currentIndex() == 0 ? TimeAxis::AsMoved : TimeAxis::Scaled;
-  figure::writeFigure(figureOf(*inspection_, condition(), axis, epsilons_->chosen()), file.toStdString());
+  const std::string name = file.toStdString();
+  record::writeFileAtomically(name, figure::renderFor(name, figureOf(*inspection_, condition(), axis, epsilons_->chosen())));
 }
 
 void InspectorPage::exportTable(const QString& file) {

@@ -61,6 +61,7 @@ CompiledExperiment openExperiment(const std::string& fileOrName) {
   const std::vector<std::string> names = shippedExperiments();
   if (const auto file = shippedExperimentFile(fileOrName)) return openExperimentText(readTextFile(*file), *file);
   if (fs::is_directory(fileOrName, ignored)) throw FaultError(Fault{fileOrName, "is a folder", "an experiment file or name"});
+  requireSearchable(fileOrName);
   if (looksLikeFile) throw FaultError(Fault{fileOrName, "there is no such file", "an experiment file, or one of " + listOf(names)});
   if (const std::vector<std::string> plans = shippedNames("plans"); std::find(plans.begin(), plans.end(), fileOrName) != plans.end()) {
     const std::string file = (fs::path(resourceFolder()) / "plans" / (fileOrName + ".json")).string();

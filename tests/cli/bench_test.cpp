@@ -48,7 +48,7 @@ TEST(Bench, MeasuresInAProgramOfItsOwnAndKeepsItsContract) {
   EXPECT_NE(ended.out.find("S6"), std::string::npos);
   EXPECT_EQ(reach("bench --scene S99").exitCode, 2);
   EXPECT_EQ(reach("bench --rounds 1").exitCode, 2);
-  EXPECT_EQ(reach("bench --scene S1 --quick --rounds 5 --method auto --json /no/such/folder/rows.json").exitCode, 3);
+  EXPECT_EQ(reach("bench --scene S1 --quick --rounds 5 --method auto --json /dev/null/rows.json").exitCode, 3);
 }
 
 TEST(Bench, FormsOfAConstraintWhosePricesStandTogetherAreTheSameConstraint) {

@@ -96,6 +96,29 @@ TEST(Recordings, WhatCouldNotBeReadAgainIsRefusedBeforeTheFirstTrial) {
   EXPECT_EQ(reach("show " + (folder / "data").string()).exitCode, 0);
 }
 
+// No permission, and links in a loop: as root, only the second is to be had.
+TEST(Inputs, APlaceThatCannotBeLookedUpIsNotSaidToBeMissing) {
+  const TemporaryFolder folder;
+  const std::string loop = folder / "loop";
+  std::filesystem::create_symlink("loop", loop);
+  for (const char* command :
+       {"validate ", "predict --criterion min-hand-jerk ", "show ", "export --format csv ", "analyze ", "study report "}) {
+    const Ended ended = reach(command + loop + "/e.json");
+    EXPECT_EQ(ended.exitCode, 3) << command << ended.err;
+    EXPECT_NE(ended.err.find(loop), std::string::npos) << command << ended.err;
+    EXPECT_NE(ended.err.find("cannot be read: Too many levels of symbolic links"), std::string::npos) << command << ended.err;
+  }
+}
+
+TEST(Outputs, ThatCannotBeWrittenAreNamedWithTheReason) {
+  for (const char* command : {"predict dingwell --criterion min-hand-jerk --out ", "predict dingwell --criterion min-hand-jerk --figure ",
+                              "simulate dingwell --hand none --until 0.1 --out ", "stability omni --out "}) {
+    const Ended ended = reach(command + std::string("/proc/none/x.svg"));
+    EXPECT_EQ(ended.exitCode, 3) << command << ended.err;
+    EXPECT_NE(ended.err.find("No such file or directory"), std::string::npos) << command << ended.err;
+  }
+}
+
 TEST(FullDisk, EndsAnExportByALibraryInOneSentenceAndLeavesNothing) {
   const TemporaryFolder folder;
   ASSERT_EQ(reach("run dingwell --device simulated --fast --seed 1 --trials 8 --data " + (folder / "data").string()).exitCode, 0);

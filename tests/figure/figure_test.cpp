@@ -6,11 +6,9 @@
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <limits>
 #include <random>
 #include <regex>
-#include <sstream>
 
 #include "analysis/figure/ticks.h"
 #include "base/error.h"
@@ -52,13 +50,6 @@ Figure exampleFigure() {
   return figure;
 }
 
-std::string readFile(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 TEST(NiceTicks, OfNoIntervalAreNone) {
   EXPECT_TRUE(niceTicks(1, 1, 5).empty());
   EXPECT_TRUE(niceTicks(2, 1, 5).empty());
@@ -76,15 +67,10 @@ TEST(Figure, IsTheSameBytesEachTime) {
 }
 
 TEST(Figure, IsOfTheKindItsNameSays) {
-  const std::string folder = ::testing::TempDir();
-  writeFigure(exampleFigure(), folder + "/figure_test.svg");
-  writeFigure(exampleFigure(), folder + "/figure_test.pdf");
-  writeFigure(exampleFigure(), folder + "/figure_test.png");
-  EXPECT_NE(readFile(folder + "/figure_test.svg").find("<svg"), std::string::npos);
-  EXPECT_EQ(readFile(folder + "/figure_test.pdf").substr(0, 5), "%PDF-");
-  EXPECT_EQ(readFile(folder + "/figure_test.png").substr(1, 3), "PNG");
-  EXPECT_THROW(writeFigure(exampleFigure(), folder + "/figure_test.bmp"), FaultError);
-  EXPECT_THROW(writeFigure(exampleFigure(), folder + "/no/such/folder/figure.svg"), ResourceError);
+  EXPECT_NE(renderFor("a/figure.svg", exampleFigure()).find("<svg"), std::string::npos);
+  EXPECT_EQ(renderFor("figure.pdf", exampleFigure()).substr(0, 5), "%PDF-");
+  EXPECT_EQ(renderFor("figure.png", exampleFigure()).substr(1, 3), "PNG");
+  EXPECT_THROW(renderFor("figure.bmp", exampleFigure()), FaultError);
 }
 
 TEST(Figure, PrefixesEveryIdAndReference) {

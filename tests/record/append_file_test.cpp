@@ -218,12 +218,18 @@ TEST(AtomicFile, OneThatCannotBeWrittenLeavesTheOldOne) {
   EXPECT_EQ(readWholeFile(path), std::string(1000, 'n'));
 }
 
-TEST(AtomicFile, CannotTakeTheNameOfAFolder) {
+// The renamed file would stand in the place of /dev/null.
+TEST(AtomicFile, CannotTakeTheNameOfAFolderOrADevice) {
   const TemporaryFolder folder;
-  const std::string path = folder / "table.tsv";
+  const std::string path = folder / "table.tsv", pipe = folder / "pipe";
   std::filesystem::create_directories(path + "/inside");
-  EXPECT_EQ(refusalOf([&] { writeFileAtomically(path, "new"); }),
-            path + ": cannot be written: Is a directory; check the folder and its permissions");
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  for (const std::string& name : {path, pipe}) {
+    const std::string refusal = name + ": cannot be written: is no regular file; choose a file on a disk";
+    EXPECT_EQ(refusalOf([&] { writeFileAtomically(name, "new"); }), refusal);
+    EXPECT_EQ(refusalOf([&] { ForeignFile{name}; }), refusal);
+  }
+  EXPECT_TRUE(std::filesystem::is_fifo(pipe));
   EXPECT_EQ(countFiles(folder / ""), 0u);
 }
 
@@ -255,6 +261,11 @@ TEST(ForeignFile, TakesItsNameWhenItIsCommitted) {
     EXPECT_EQ(refusalOf([&] { file.giveUp("the library failed"); }),
               path + ": cannot be written: the library failed; check the folder and the space on its disk");
   }
+  {
+    ForeignFile file(path);
+    const FileLimit limit(1000);
+    EXPECT_EQ(refusalOf([&] { file.giveUp("the library failed"); }), path + ": cannot be written: File too large; " + kTooLarge);
+  }
   EXPECT_EQ(readWholeFile(path), "by a library");
   EXPECT_EQ(countFiles(folder / ""), 1u);
 }
@@ -274,7 +285,7 @@ TEST(ReadWholeFile, RefusesWhatIsNotThereNoFileOrTooLarge) {
   const TemporaryFolder folder;
   const std::string path = folder / "file";
   EXPECT_EQ(refusalOf([&] { readWholeFile(path); }),
-            path + ": cannot be opened: No such file or directory; check the folder and its permissions");
+            path + ": cannot be read: No such file or directory");
   EXPECT_EQ(refusalOf([&] { readWholeFile(folder / ""); }), (folder / "").string() + ": is no regular file; allowed: a file on a disk");
   writeFileAtomically(path, "");
   std::filesystem::resize_file(path, (1u << 30) + 1);  // takes no room on the disk

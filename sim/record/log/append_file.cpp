@@ -13,6 +13,7 @@
 #include <fstream>
 #include <random>
 #include <utility>
+#include <vector>
 
 #include "base/error.h"
 #include "base/fault.h"
@@ -110,6 +111,15 @@ bool putInPlace(const std::string& temporary, const std::string& path) {
   return false;
 }
 
+// A rename would put a file in the place of a device or a pipe.
+void makePlaceFor(const std::string& path) {
+  makeFolders(std::filesystem::path(path).parent_path().string());
+  std::error_code error;
+  const std::filesystem::file_status there = std::filesystem::status(path, error);
+  if (std::filesystem::exists(there) && !std::filesystem::is_regular_file(there))
+    throw ResourceError(path + ": cannot be written: is no regular file; choose a file on a disk");
+}
+
 void removeTemporary(const std::string& temporary) {
   if (!hasNoName(temporary)) ::unlink(temporary.c_str());
 }
@@ -173,7 +183,7 @@ void AppendFile::sync() {
 }
 
 AtomicFile::AtomicFile(const std::string& path) : path_(path) {
-  makeFolders(std::filesystem::path(path).parent_path().string());
+  makePlaceFor(path);
   descriptor_ = openTemporary(path, temporary_);
   if (descriptor_ < 0) fail("cannot be created", path);
 }
@@ -262,7 +272,7 @@ FolderHold::~FolderHold() {
 }
 
 ForeignFile::ForeignFile(const std::string& path) : path_(path) {
-  makeFolders(std::filesystem::path(path).parent_path().string());
+  makePlaceFor(path);
   descriptor_ = openTemporary(path, temporary_);
   if (descriptor_ < 0) fail("cannot be created", path);
 }
@@ -280,12 +290,20 @@ void ForeignFile::commit() {
 }
 
 void ForeignFile::giveUp(const std::string& what) {
+  // A library says only that it failed. If the disk takes nothing more either, then that is why.
+  const int own = ::open(openFileOf(descriptor_).c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  const std::vector<std::uint8_t> some(kBytesAWrite);
+  const bool good = own >= 0 && writeAll(own, some.data(), some.size()) && os::syncFile(own);
+  const int reason = errno;
+  if (own >= 0) ::close(own);
+  errno = reason;
+  if (!good) fail("cannot be written", path_);
   throw ResourceError(fmt::format("{}: cannot be written: {}; check the folder and the space on its disk", path_, what));
 }
 
 std::string readWholeFile(const std::string& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);  // opening a pipe would wait for its writer
-  if (descriptor < 0) fail("cannot be opened", path);
+  if (descriptor < 0) throw ResourceError(fmt::format("{}: cannot be read: {}", path, std::strerror(errno)));
   struct stat status {};
   const bool known = ::fstat(descriptor, &status) == 0;
   if (!known || !S_ISREG(status.st_mode) || status.st_size > kMaxBytesOfAFile) {
@@ -304,10 +322,7 @@ std::string readWholeFile(const std::string& path) {
   }
   const int fault = errno;
   ::close(descriptor);
-  if (count < 0) {
-    errno = fault;
-    fail("cannot be read", path);
-  }
+  if (count < 0) throw ResourceError(fmt::format("{}: cannot be read: {}", path, std::strerror(fault)));
   text.resize(done);
   return text;
 }

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "base/fault.h"
+#include "base/text_file.h"
 #include "base/ticks.h"
 #include "sim/record/log/records.h"
 
@@ -284,6 +285,7 @@ std::vector<std::string> findLogs(const std::string& path) {
   constexpr std::string_view kEnding = "_log.reach";
   std::error_code error;
   if (fs::is_regular_file(path, error)) return {path};
+  requireSearchable(path);
   if (!fs::is_directory(path, error)) throw FaultError(Fault{{}, "no such log or folder", {}, FilePlace{path}});
   // A session's folder (sub-01/ses-01) holds the exported data; its logs lie in sourcedata of the same dataset, with its labels
   // in their names.
