@@ -92,6 +92,7 @@ class OneStation : public testing::Test {
   void hear(std::uint32_t number, double roundTrip) {
     LinkStatus& status = memory().status[number - 1];
     status.roundTrip.store(roundTrip);
+    status.lossBound.store(status.loss.load());
     status.heardNs.store(os::now());
   }
   void tell(std::uint32_t number, LinkEvent::Kind kind, std::int32_t trial, trial::Outcome outcome = trial::Outcome::None) {
@@ -314,16 +315,18 @@ TEST_F(OneStation, ALinkThatLosesMoreThanAFifthStandsInTheWay) {
   open(1, true);
   showCard(2, false);
   LinkStatus& link = memory().status[1];
-  const auto status = [&](double loss, double overtaken) {
+  const auto status = [&](double loss, double overtaken, double bound) {
     link.loss.store(loss), link.overtaken.store(overtaken);
     hear(2, 0.002);
+    link.lossBound.store(bound);
     station_->keep();
     return station_->link().statuses().at(0);
   };
-  EXPECT_EQ(status(0, 0.76).light, Light::Good) << "what is overtaken is not lost";
-  EXPECT_EQ(status(0.11, 0).light, Light::Fair);
-  EXPECT_EQ(status(0.2, 0).obstacles, (std::vector<std::string>{}));
-  EXPECT_EQ(status(0.21, 0).obstacles, (std::vector<std::string>{"21 % of what it sends is lost; allowed: up to 20"}));
+  EXPECT_EQ(status(0, 0.76, 0.03).light, Light::Good) << "what is overtaken is not lost";
+  EXPECT_EQ(status(0.11, 0, 0.16).light, Light::Fair);
+  EXPECT_EQ(status(0.13, 0, 0.2).obstacles, (std::vector<std::string>{}));
+  EXPECT_EQ(status(0.15, 0, 0.21).obstacles,
+            (std::vector<std::string>{"15 % of what it sends is lost, perhaps 21 %; allowed: up to 20"}));
 }
 
 TEST_F(OneStation, StatusesSayHowGoodALineIs) {
