@@ -156,9 +156,7 @@ EnvironmentDock::Page EnvironmentDock::makePage(const QString& name, const T& of
   form->setContentsMargins(0, 0, 0, 0);
   eachKey(of, [&](const Key& key, const auto& value) {
     const std::string_view whole = key.name;
-    const bool degrees = whole.ends_with("_deg");
-    const experiment::NamedQuantity quantity =
-        degrees ? experiment::NamedQuantity{whole.substr(0, whole.size() - 4), "°"} : experiment::splitUnit(whole);
+    const experiment::NamedQuantity quantity = experiment::splitUnit(whole);
     QString words = QString::fromUtf8(quantity.name.data(), static_cast<int>(quantity.name.size()));
     words.replace(QLatin1Char('_'), QLatin1Char(' '));
     const QString unit = QString::fromUtf8(quantity.unit.data(), static_cast<int>(quantity.unit.size()));

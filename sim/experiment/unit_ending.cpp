@@ -18,6 +18,7 @@ NamedQuantity splitUnit(std::string_view key) {
                                                                                {"_years", "years"},
                                                                                {"_kg_m2", "kg m^2"},
                                                                                {"_kg", "kg"},
+                                                                               {"_deg", "°"},
                                                                                {"_hz", "Hz"},
                                                                                {"_s", "s"},
                                                                                {"_m", "m"},

@@ -30,7 +30,8 @@ namespace {
   if (fault == EFBIG)
     remedy = "its disk or a limit of this process (ulimit -f) allows no larger file: choose another disk or raise the limit";
   if (fault == ENOSPC || fault == EDQUOT) remedy = "free space on the disk or choose another folder";
-  if (fault == EROFS || fault == EACCES || fault == EPERM) remedy = "choose a folder that can be written";
+  if (fault == EACCES || fault == EPERM) remedy = "choose a folder that can be written";
+  if (fault == EROFS) remedy = "what is on it is safe: choose a folder on another disk, or mount it for writing";
   if (fault == EEXIST) remedy = "nothing is overwritten: choose another name";
   if (fault == EIO || fault == ENODEV || fault == ENXIO) remedy = "the disk has gone: what was synced before is safe on it";
   throw ResourceError(fmt::format("{}: {}: {}; {}", path, what, std::strerror(fault), remedy));
