@@ -1,6 +1,6 @@
 #!/bin/bash
 # The Debian packages in a bare Debian 12: install, first window, first recorded and analysed session, removal without traces. Builds them by
-# packaging/deb unless PACKAGES names a folder that has them. Needs root, debootstrap and a mirror (MIRROR, else deb.debian.org).
+# packaging/deb unless PACKAGES names a folder that has them. Needs what packaging/bare needs.
 set -euo pipefail
 source=$(realpath "$(dirname "$0")/../..")
 [[ $(id -u) == 0 ]] || { echo "packages: needs root for debootstrap and chroot"; exit 1; }
@@ -11,11 +11,8 @@ fi
 root=$(mktemp -d /var/tmp/reachlab-bare-XXXXXX)
 clean_up() { umount "$root/proc" 2> /dev/null || true; rm -rf --one-file-system "$root"; }
 trap clean_up EXIT
-debootstrap --variant=minbase bookworm "$root" "${MIRROR:-http://deb.debian.org/debian}" > "$root.log" 2>&1 || { tail -5 "$root.log"; exit 1; }
-rm "$root.log"
+"$source/packaging/bare" "$root"
 mount -t proc proc "$root/proc"
-cp /etc/resolv.conf "$root/etc/"
-[[ ! -d /etc/apt/apt.conf.d ]] || { grep -lsi proxy /etc/apt/apt.conf.d/* || true; } | xargs -r cp -t "$root/etc/apt/apt.conf.d/" # how this machine reaches the mirror
 mkdir "$root/packages" "$root/tmp/home" && cp "$PACKAGES"/*.deb "$root/packages/"
 inside() { DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8 HOME=/tmp/home chroot "$root" "$@"; }  # a person's settings stay, and are no traces
 quietly() { inside "$@" > "$root/last.log" 2>&1 || { echo "packages: $* failed"; tail -20 "$root/last.log"; exit 1; }; }
