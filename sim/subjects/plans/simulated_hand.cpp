@@ -10,34 +10,18 @@
 #include "base/fault.h"
 #include "base/math/elementary.h"
 #include "base/math/fused.h"
-#include "base/math/seeded.h"
 #include "base/ticks.h"
 #include "sim/subjects/plans/played_hand.h"
 #include "sim/subjects/plans/sampled_plan.h"
+#include "sim/subjects/subject_draws.h"
 
 namespace reachlab::subjects {
 namespace {
 
-/// Numbers of one trial; the same on every machine (the standard library's distributions are not).
-class TrialRandom {
- public:
-  TrialRandom(std::uint64_t seed, int trial) : state_(seededBits(seed, static_cast<std::uint64_t>(trial))) {}
-  double uniform() { return seededFraction(state_, count_++); }
-  // Box and Muller 1958; bounded, so that no trial is out of the human range.
-  double normal() {
-    const double radius = std::sqrt(-2 * elementary::log(1 - uniform()));
-    return std::clamp(radius * elementary::cos(2 * std::numbers::pi * uniform()), -kMostSigmas, kMostSigmas);
-  }
-
- private:
-  static constexpr double kMostSigmas = 3;
-  std::uint64_t state_, count_ = 0;
-};
-
 /// A smooth random function of time with unit variance: a few sinusoids of voluntary movement's frequencies, turned on from tick to tick.
 class SmoothNoise {
  public:
-  explicit SmoothNoise(TrialRandom& random) {
+  explicit SmoothNoise(SubjectDraws& random) {
     for (Wave& w : waves_) {
       const double omega = 2 * std::numbers::pi * (kLowest + (kHighest - kLowest) * random.uniform());
       const double phase = 2 * std::numbers::pi * random.uniform();
@@ -76,10 +60,10 @@ Frame frameOf(const Vec3& e) {
 }
 
 PlayedReach carryOut(const SampledPlan& plan, const SubjectSpec& subject, std::uint64_t seed, int trial) {
-  TrialRandom random(seed, trial);
-  const double stretch = 1 + subject.noise * subject.timeSd * random.normal();
+  SubjectDraws random(seed, static_cast<std::uint64_t>(trial));
+  const double stretch = 1 + subject.noise * subject.timeSd * random.boundedNormal();
   constexpr double kReactionSpread = 0.15;
-  const double reaction = subject.reaction * (1 + std::min(subject.noise, 1.0) * kReactionSpread * random.normal());
+  const double reaction = subject.reaction * (1 + std::min(subject.noise, 1.0) * kReactionSpread * random.boundedNormal());
   SmoothNoise along(random), across(random), up(random);
   const double sd = subject.noise * subject.speedSd;
 
