@@ -15,7 +15,6 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 NumberRange anyNumber() { return {-kInfinity, kInfinity, true, "any finite number"}; }
 NumberRange positive(const std::string& unit) { return {0, kInfinity, false, fmt::format("more than 0 {}", unit)}; }
-NumberRange atLeastZero(const std::string& unit) { return {0, kInfinity, true, fmt::format("0 {} or more", unit)}; }
 NumberRange wholeNumber(double lo, double hi) { return {lo, hi, true, fmt::format("a whole number from {} to {}", lo, hi), true}; }
 NumberRange positiveUpTo(double most, const std::string& unit) {
   const std::string ending = unit.empty() ? "" : " " + unit;

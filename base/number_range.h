@@ -15,7 +15,6 @@ struct NumberRange {
 };
 NumberRange anyNumber();
 NumberRange positive(const std::string& unit);
-NumberRange atLeastZero(const std::string& unit);
 NumberRange wholeNumber(double lo, double hi);
 /// (0, most].
 NumberRange positiveUpTo(double most, const std::string& unit);

@@ -25,20 +25,21 @@ double amplitudeAt(std::span<const double> x, double w) {
 
 }  // namespace
 
-double computeSparc(std::span<const double> speed, double rate, const SparcOptions& options) {
+double computeSparc(std::span<const double> speed, double rate) {
+  constexpr double kPadding = 4, kCutoff = 10, kLeastAmplitude = 0.05;  // powers of two of zeros appended, [Hz], of the largest (all 2015)
   double sum = 0;
   for (const double v : speed) sum += v;
   if (speed.size() < 2 || !(sum > 0) || !std::isfinite(sum) || !(rate > 0)) return kNone;
-  const double bins = std::pow(2.0, std::ceil(std::log2(static_cast<double>(speed.size()))) + options.padding);
+  const double bins = std::pow(2.0, std::ceil(std::log2(static_cast<double>(speed.size()))) + kPadding);
   // A speed is nowhere negative, so its spectrum is largest at 0 Hz: only the bins up to the cut-off are needed, not all of an FFT.
   std::vector<double> frequency, amplitude;
   for (int k = 0; k <= bins / 2; ++k) {
     const double f = k * rate / bins;
-    if (f > options.cutoff) break;
+    if (f > kCutoff) break;
     frequency.push_back(f);
     amplitude.push_back(k == 0 ? 1.0 : amplitudeAt(speed, 2 * std::numbers::pi * k / bins) / sum);
   }
-  const auto above = [&](double a) { return a >= options.amplitude; };
+  const auto above = [&](double a) { return a >= kLeastAmplitude; };
   const auto last = static_cast<std::size_t>(amplitude.rend() - std::find_if(amplitude.rbegin(), amplitude.rend(), above)) - 1;
   const double band = frequency[last];
   double length = 0;

@@ -5,16 +5,10 @@
 /// How smooth a movement is, from its speed alone. Pure functions for any thread.
 namespace reachlab::analysis {
 
-struct SparcOptions {
-  int padding = 4;          // powers of two of zeros appended
-  double cutoff = 10;       // [Hz] nothing above is looked at
-  double amplitude = 0.05;  // of the largest amplitude, 1 at most: what is below at the upper end of the band is left out
-};
-
 /// Spectral arc length (Balasubramanian et al. 2015, J. NeuroEng. Rehab. 12:112): minus the length of the amplitude spectrum's curve,
 /// frequency and amplitude each scaled to 1. `speed` >= 0 of the movement alone, at `rate` [Hz]. NaN for fewer than two samples
-/// or only zeros. Smoother is nearer to -1.4. No unit.
-double computeSparc(std::span<const double> speed, double rate, const SparcOptions& options = {});
+/// or only zeros. The band ends at 10 Hz, or below it where the amplitude stays under 5 % of the largest. Smoother is nearer to -1.4. No unit.
+double computeSparc(std::span<const double> speed, double rate);
 
 /// Log dimensionless jerk (same source): -ln( T^3 / v_max^2 * integral |v''|^2 dt ), T = samples / rate, second differences, no mean
 /// removed. At least three samples, NaN otherwise. Smoother is larger. No unit.

@@ -2,18 +2,13 @@
 
 #include <fmt/format.h>
 #include <hdf5.h>
-#include <unistd.h>
 
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
-#include "base/system/os.h"
 #include "sim/record/export/hdf5_file.h"
-#include "sim/record/log/append_file.h"
-
-#include <fcntl.h>
+#include "sim/record/log/atomic_file.h"
 
 namespace reachlab::study {
 namespace {
@@ -72,7 +67,9 @@ Handle plain(hid_t kind, const std::string& path) {
 }  // namespace
 
 struct Hdf5Table::Parts {
-  std::string path, temporary;
+  explicit Parts(const std::string& file_) : path(file_), out(file_) {}
+  std::string path;
+  record::ForeignFile out;  // goes after what is open in it
   std::vector<Column> columns;
   Handle file, trials, profiles;
   std::vector<Handle> data, profileData;
@@ -103,18 +100,16 @@ struct Hdf5Table::Parts {
 };
 
 Hdf5Table::Hdf5Table(const std::string& path, const std::vector<Column>& columns, const std::string& dictionary, std::size_t profileNumbers)
-    : parts_(std::make_unique<Parts>()) {
+    : parts_(std::make_unique<Parts>(path)) {
   Parts& p = *parts_;
-  p.path = path;
-  const std::size_t slash = path.rfind('/');
-  p.temporary = fmt::format("{}/.{}.{}.reachlab-tmp", path.substr(0, slash), path.substr(slash + 1), ::getpid());
   p.columns = columns;
   p.profileNumbers = profileNumbers;
   record::prepareHdf5();
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose, path);
+  H5Pset_fapl_stdio(access.id());  // the default driver looks the file's path up, and a file without a name has none
   H5Pset_libver_bounds(access.id(), H5F_LIBVER_V18, H5F_LIBVER_V18);
   const Handle making = plain(H5P_FILE_CREATE, path);
-  p.file = {H5Fcreate(p.temporary.c_str(), H5F_ACC_TRUNC, making.id(), access.id()), H5Fclose, path};
+  p.file = {H5Fcreate(p.out.temporary().c_str(), H5F_ACC_TRUNC, making.id(), access.id()), H5Fclose, path};
   const auto group = [&](const char* name) {
     const Handle how = plain(H5P_GROUP_CREATE, path);
     return Handle(H5Gcreate2(p.file.id(), name, H5P_DEFAULT, how.id(), H5P_DEFAULT), H5Gclose, path);
@@ -139,15 +134,7 @@ Hdf5Table::Hdf5Table(const std::string& path, const std::vector<Column>& columns
   }
 }
 
-Hdf5Table::~Hdf5Table() {
-  const std::string left = parts_->temporary;
-  parts_->data.clear();
-  parts_->profileData.clear();
-  parts_->trials.reset();
-  parts_->profiles.reset();
-  parts_->file.reset();
-  if (!left.empty()) ::unlink(left.c_str());
-}
+Hdf5Table::~Hdf5Table() = default;
 
 void Hdf5Table::append(const ChunkRows& rows) {
   Parts& p = *parts_;
@@ -178,12 +165,8 @@ void Hdf5Table::commit() {
   for (Handle& data : p.data) fine = data.reset() && fine;
   for (Handle& data : p.profileData) fine = data.reset() && fine;
   fine = p.trials.reset() && p.profiles.reset() && p.file.reset() && fine;
-  const int descriptor = fine ? ::open(p.temporary.c_str(), O_RDONLY | O_CLOEXEC) : -1;
-  fine = descriptor >= 0 && os::syncFile(descriptor);
-  if (descriptor >= 0) ::close(descriptor);
-  if (!fine || std::rename(p.temporary.c_str(), p.path.c_str()) != 0) fail(p.path);
-  p.temporary.clear();
-  os::syncFolder(p.path.substr(0, p.path.rfind('/')));
+  if (!fine) fail(p.path);
+  p.out.commit();
 }
 
 }  // namespace reachlab::study

@@ -25,6 +25,10 @@ constexpr double kLightestHandDamping = 1;  // [N s/m]
 using experiment::CompiledExperiment;
 using experiment::Experiment;
 
+std::string inARelaxedHand(const haptics::DeviceInfo& device) {
+  return fmt::format("{} in a relaxed hand ({:g} kg, {:g} N s/m)", device.name, kRelaxedHandMass, kRelaxedHandDamping);
+}
+
 // What the hand feels of the springs that it holds: those of parallel masses act together.
 experiment::Coupling feltCoupling(const Experiment& experiment, std::size_t hand) {
   const auto together = [](const std::vector<double>& springs) { return std::accumulate(springs.begin(), springs.end(), 0.0); };
@@ -135,8 +139,7 @@ PreflightLine stability(const Experiment& experiment, const experiment::Coupling
   loop.friction += kRelaxedHandDamping;
   line.limit = largestStableStiffness(loop);
   line.verdict = coupling.stiffness <= *line.limit ? Verdict::Fine : Verdict::Warning;
-  line.sentence = fmt::format("k_h = {:.4g} N/m; {} in a relaxed hand (0.3 kg, 3 N s/m) is stable up to {:.4g} N/m", coupling.stiffness,
-                              device.name, *line.limit);
+  line.sentence = fmt::format("k_h = {:.4g} N/m; {} is stable up to {:.4g} N/m", coupling.stiffness, inARelaxedHand(device), *line.limit);
   if (line.verdict == Verdict::Warning) line.remedy = fmt::format("a coupling of k_h <= {:.4g} N/m", *line.limit);
   return line;
 }
@@ -157,9 +160,8 @@ PreflightLine channelLine(const Experiment& experiment, const experiment::Coupli
     return line;
   }
   line.sentence = fmt::format(
-      "the hand feels {:.4g} N/m and {:.3g} N s/m in the channel; {} in a relaxed hand (0.3 kg, 3 N s/m) is stable up "
-      "to {:.4g} N/m, {:.2g} times as much; {}",
-      felt.stiffness, felt.damping, device.name, *line.limit, *line.limit / felt.stiffness, passive);
+      "the hand feels {:.4g} N/m and {:.3g} N s/m in the channel; {} is stable up to {:.4g} N/m, {:.2g} times as much; {}",
+      felt.stiffness, felt.damping, inARelaxedHand(device), *line.limit, *line.limit / felt.stiffness, passive);
   if (line.verdict != Verdict::Warning) return line;
   loop.mass += kRelaxedHandMass;
   loop.friction += kRelaxedHandDamping;

@@ -10,8 +10,8 @@
 namespace reachlab::devices::dhd {
 
 /// Errors of dhdErrorGetLast after which the device is gone. Other errors may pass.
-enum Error : int { kNone = 0, kComm = 2, kNoDevice = 5, kNotAvailable = 6, kTimeout = 7, kNotReady = 12 };
-inline constexpr int kTimeGuard = 1, kMotorSaturated = 2;  // return values of calls that are no errors
+enum Error : int { kNone = 0, kComm = 2, kNoDevice = 5, kNotAvailable = 6 };
+inline constexpr int kTimeGuard = 1;  // the return value of a call that is no error
 /// The unit of dhdSetWatchdog. Its `unsigned char` reaches to 31 ms.
 inline constexpr std::int64_t kWatchdogUnitNs = 125'000;
 

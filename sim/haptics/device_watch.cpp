@@ -13,7 +13,6 @@ namespace reachlab::haptics {
 std::string_view nameOf(DeviceHealth health) {
   switch (health) {
     case DeviceHealth::Ready: return "ready";
-    case DeviceHealth::NeedsCalibration: return "needs_calibration";
     case DeviceHealth::Warm: return "warm";
     case DeviceHealth::Lost: return "lost";
     case DeviceHealth::Failed: break;

@@ -85,7 +85,6 @@ TEST(NumberRange, EachHoldsWhatItsWordsSay) {
   };
   expect(anyNumber(), "any finite number", {-kMost, 0, kMost, 0.5}, {});
   expect(positive("kg"), "more than 0 kg", {kLeast, 0.5, kMost}, {0, -kLeast});
-  expect(atLeastZero("kg"), "0 kg or more", {0, kLeast, 0.5, kMost}, {-kLeast});
   expect(wholeNumber(2, 5), "a whole number from 2 to 5", {2, 3, 5}, {1, 6, 2.5, 4.999});
   expect(positiveUpTo(3, "s"), "more than 0 s, at most 3 s", {kLeast, 2.5, 3}, {0, 3.001});
   expect({.lo = 1, .hi = 2, .allowed = "1 to 2"}, "1 to 2", {1, 1.5, 2}, {0.999, 2.001});

@@ -59,7 +59,6 @@ TranscribedMotion solveTranscription(const TranscribedProblem& problem, int unkn
   bool settled = false;
   for (int iteration = 0; iteration < kMaxIterations && !settled; ++iteration) {
     motion.cost = cost.expand(c, gradient, hessian);
-    motion.iterations = iteration + 1;
     if (!std::isfinite(motion.cost)) break;
     problem.work->spend(std::pow(total, 3) / 6);
     const double scale = hessian.diagonal().cwiseAbs().maxCoeff();

@@ -21,7 +21,6 @@ struct TranscribedMotion {
   double duration = 0;
   double cost = 0;
   double condition = 0;  // root of the last Newton matrix's, as it is of a square, its diagonal scaled to one
-  int iterations = 0;
   double uncertainty = 0;  // likely error of the profile, of its peak, by which the number of unknowns is judged
   double errorBound = 0;   // what it is said to be; 0 where it was found from neighbours and nothing is known
 
