@@ -53,7 +53,7 @@ const std::map<std::string_view, Columns>& tables() {
         {"outcome", "How the trial was judged: success, failure, aborted or interrupted"},
         {"reason", "Which tolerance was missed, or what stopped the trial; empty for a success"},
         {"mass", "Mass that missed the tolerance, from 1; 0: none"},
-        {"by", "Excess over the tolerance: m where reason is position, m/s where velocity, s where time_short or time_long"},
+        {"by", "Excess over the tolerance: m where reason is position, m/s where velocity, s where time_short"},
         {"used", "1: the trial is in profiles and errors"},
         {"exclusion", "Why the trial is not used; empty if it is"},
         {"before_go", "1: the hand left before the go signal, so that there is no reaction time"},

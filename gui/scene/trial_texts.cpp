@@ -17,7 +17,6 @@ QString massIs(int mass, const char* verb) {
 QString outcomeText(const trial::TrialResult& result) {
   switch (result.reason) {
     case trial::Reason::TimeShort: return QStringLiteral("Too fast by %1 s").arg(number(result.by, 2));
-    case trial::Reason::TimeLong: return QStringLiteral("Too slow by %1 s").arg(number(result.by, 2));
     case trial::Reason::Position:
       return QStringLiteral("Time is up: %1%2 mm too far from the target").arg(massIs(result.mass, "is"), number(1000 * result.by, 1));
     case trial::Reason::Velocity:
@@ -44,7 +43,6 @@ QString outcomeText(const trial::TrialResult& result) {
 QString reasonText(trial::Reason reason) {
   switch (reason) {
     case trial::Reason::TimeShort: return QStringLiteral("too fast");
-    case trial::Reason::TimeLong: return QStringLiteral("too slow");
     case trial::Reason::Position: return QStringLiteral("too far from the target");
     case trial::Reason::Velocity: return QStringLiteral("still moving");
     case trial::Reason::Via: return QStringLiteral("missed a via point");

@@ -15,7 +15,6 @@ const char* const kReach = QT_TRANSLATE_NOOP("Subject", "Move to the yellow sphe
 const char* const kGo = QT_TRANSLATE_NOOP("Subject", "Go");
 const char* const kWell = QT_TRANSLATE_NOOP("Subject", "Well done");
 const char* const kTooFast = QT_TRANSLATE_NOOP("Subject", "Too fast");
-const char* const kTooSlow = QT_TRANSLATE_NOOP("Subject", "Too slow");
 const char* const kNotThere = QT_TRANSLATE_NOOP("Subject", "Not at the target in time");
 const char* const kNotAtRest = QT_TRANSLATE_NOOP("Subject", "Not at rest in time");
 const char* const kNotPassed = QT_TRANSLATE_NOOP("Subject", "Not through every ball on the way");
@@ -28,7 +27,7 @@ const char* const kThanks = QT_TRANSLATE_NOOP("Subject", "That was all: thank yo
 }  // namespace
 
 const std::vector<const char*>& subjectSentences() {
-  static const std::vector<const char*> all{kWait,     kGoToStart, kHold,  kReach,      kGo,      kWell, kTooFast, kTooSlow,
+  static const std::vector<const char*> all{kWait,     kGoToStart, kHold,  kReach,      kGo,      kWell, kTooFast,
                                             kNotThere, kNotAtRest, kNotPassed, kEarly, kNoMovement, kNoCount, kRest, kThanks};
   return all;
 }
@@ -78,7 +77,6 @@ QString SubjectWords::outcome(const trial::TrialResult& result) const {
   if (result.outcome == trial::Outcome::Success) return say(kWell);
   switch (result.reason) {
     case trial::Reason::TimeShort: return say(kTooFast);
-    case trial::Reason::TimeLong: return say(kTooSlow);
     case trial::Reason::Position: return say(kNotThere);
     case trial::Reason::Velocity: return say(kNotAtRest);
     case trial::Reason::Via: return say(kNotPassed);

@@ -32,10 +32,6 @@
         <translation>Zu schnell</translation>
     </message>
     <message>
-        <source>Too slow</source>
-        <translation>Zu langsam</translation>
-    </message>
-    <message>
         <source>Not at the target in time</source>
         <translation>Nicht rechtzeitig am Ziel</translation>
     </message>

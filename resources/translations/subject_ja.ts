@@ -32,10 +32,6 @@
         <translation>速すぎます</translation>
     </message>
     <message>
-        <source>Too slow</source>
-        <translation>遅すぎます</translation>
-    </message>
-    <message>
         <source>Not at the target in time</source>
         <translation>時間内に目標に届きませんでした</translation>
     </message>

@@ -32,10 +32,6 @@
         <translation>Слишком быстро</translation>
     </message>
     <message>
-        <source>Too slow</source>
-        <translation>Слишком медленно</translation>
-    </message>
-    <message>
         <source>Not at the target in time</source>
         <translation>Цель не достигнута вовремя</translation>
     </message>

@@ -19,7 +19,6 @@ std::string_view nameOf(Reason reason) {
     case Reason::Position: return "position";
     case Reason::Velocity: return "velocity";
     case Reason::TimeShort: return "time_short";
-    case Reason::TimeLong: return "time_long";
     case Reason::ForceLimit: return "force_limit";
     case Reason::DeviceLost: return "device_lost";
     case Reason::NoOnset: return "no_onset";

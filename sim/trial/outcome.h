@@ -11,8 +11,7 @@ enum class Reason : std::uint8_t {
   Position,
   Velocity,
   TimeShort,
-  TimeLong,
-  ForceLimit,
+  ForceLimit = 5,  // 4 is free
   DeviceLost,
   NoOnset,
   Experimenter,

@@ -315,7 +315,7 @@ RecordedTrial wholeTrial() {
   RecordedTrial t;
   t.trial = 5;
   t.planned = {3, 700, true};
-  t.result = {trial::Outcome::Failure, trial::Reason::TimeLong, 2, 0.25, 1.75, 1300, 3050};
+  t.result = {trial::Outcome::Failure, trial::Reason::TimeShort, 2, 0.25, 1.75, 1300, 3050};
   t.startTick = 100, t.armedTick = 200, t.goTick = 900, t.lastTick = 3051;
   t.peakHandSpeed = 0.5, t.handPathLength = 0.75, t.peakForce = 8.5, t.meanForce = 4.5;
   t.clampedTicks = 11, t.missedTicks = 12, t.droppedTicks = 13;

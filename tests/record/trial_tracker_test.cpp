@@ -89,7 +89,7 @@ TEST(TrialTracker, FollowsATrialFromWhereItIsPutUpToItsEnd) {
     forces += size;
     if (k == 10) {
       run.facts.phase = Phase::Done;
-      run.facts.result = {trial::Outcome::Failure, trial::Reason::TimeLong, 3, 0.5, 0.01, 190, 200};
+      run.facts.result = {trial::Outcome::Failure, trial::Reason::TimeShort, 3, 0.5, 0.01, 190, 200};
     }
     step = run.next();
   }
@@ -103,7 +103,7 @@ TEST(TrialTracker, FollowsATrialFromWhereItIsPutUpToItsEnd) {
   EXPECT_EQ(t.armedTick, 110u);
   EXPECT_EQ(t.goTick, 140u);
   EXPECT_EQ(t.lastTick, 200u);
-  EXPECT_EQ(t.result.reason, trial::Reason::TimeLong);
+  EXPECT_EQ(t.result.reason, trial::Reason::TimeShort);
   EXPECT_EQ(t.result.mass, 3);
   EXPECT_NEAR(t.handPathLength, 1.0, 1e-12);
   EXPECT_DOUBLE_EQ(t.peakHandSpeed, 0.5);

@@ -9,7 +9,7 @@
 #include "sim/record/export/bids.h"
 #include "sim/record/export/run_tables.h"
 #include "sim/record/export/tidy_csv.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
 #include "sim/record/log/trial_measures.h"
 
 namespace reachlab::record {
@@ -184,7 +184,7 @@ std::string eventsJson(const RunLog& run) {
       {"interrupted", "Cut off by a stop of the program, a lost device or a computer too busy to keep time; counts for nothing"}};
   j["reason"] = described("Which tolerance was missed or what stopped the trial");
   j["mass"] = described("Mass that missed the tolerance, from 1; 0: none");
-  j["by"] = described("Excess over the tolerance: m for position, m/s for velocity, s for time_short and time_long");
+  j["by"] = described("Excess over the tolerance: m for position, m/s for velocity, s for time_short");
   j["movement_time"] = described("From movement onset to the end of the trial", "s");
   j["reaction_time"] = described("From the go signal to movement onset", "s");
   j["go"] = described("Go signal, since the first sample of the recording", "s");

@@ -10,7 +10,7 @@
 #include "sim/record/export/column_dictionary.h"
 #include "sim/record/export/run_tables.h"
 #include "sim/record/export/trial_row.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
 
 namespace reachlab::record {
 
@@ -32,7 +32,6 @@ std::string unitOf(trial::Reason reason) {
     case trial::Reason::Position: return "m";
     case trial::Reason::Velocity: return "m/s";
     case trial::Reason::TimeShort:
-    case trial::Reason::TimeLong: return "s";
     default: return "";
   }
 }

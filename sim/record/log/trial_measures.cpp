@@ -15,7 +15,7 @@ constexpr TickMeasure kMeasures[] = {
      true},
     {"movement_time_s", "The task's own: from its onset to the end, or to where the trial was broken off",
      [](const RecordedTrial& t) { return t.result.onsetTick > 0 ? t.result.movementTime : kUnknown; }},
-    {"by", "Excess over the tolerance: m where reason is position, m/s where velocity, s where time_short or time_long",
+    {"by", "Excess over the tolerance: m where reason is position, m/s where velocity, s where time_short",
      [](const RecordedTrial& t) { return t.result.by; }},
     {"task_reaction_time_s", "From the go signal to the task's onset, where the hand has left the start by onset_m",
      [](const RecordedTrial& t) {
