@@ -13,7 +13,7 @@
 #include "base/text_file.h"
 #include "base/ticks.h"
 #include "sim/record/export/bids.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/whole_file.h"
 
 namespace reachlab::analysis {
 namespace {

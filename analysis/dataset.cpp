@@ -19,7 +19,7 @@
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/export/bids.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/whole_file.h"
 
 namespace reachlab::analysis {
 namespace {

@@ -10,6 +10,7 @@
 #include "base/table_text.h"
 #include "base/ticks.h"
 #include "sim/experiment/experiment.h"
+#include "sim/record/log/log.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -162,7 +163,7 @@ std::string handsTable(const DatasetIndex& dataset) {
   if (!several) return {};
   std::vector<record::RunLog> runs;
   for (const RunProvenance& run : dataset.runs)
-    if (run.file.ends_with("_log.reach")) runs.push_back(record::RunLog::open(run.file));  // else read from a dataset without logs
+    if (run.file.ends_with(record::kLogEnding)) runs.push_back(record::RunLog::open(run.file));  // else read from a dataset without logs
   return handsTable(runs);
 }
 

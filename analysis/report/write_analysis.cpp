@@ -6,7 +6,8 @@
 #include "analysis/hands.h"
 #include "analysis/table_columns.h"
 #include "analysis/tables.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
+#include "sim/record/log/folder_hold.h"
 #include "sim/record/export/column_dictionary.h"
 
 namespace reachlab::analysis {

@@ -13,7 +13,8 @@
 #include "analysis/study/points.h"
 #include "base/error.h"
 #include "base/math/seeded.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
+#include "sim/record/log/whole_file.h"
 
 namespace reachlab::study {
 namespace {

@@ -11,7 +11,8 @@
 #include "analysis/tables.h"
 #include "base/table_text.h"
 #include "sim/record/export/column_dictionary.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
+#include "sim/record/log/folder_hold.h"
 
 namespace reachlab::study {
 namespace {

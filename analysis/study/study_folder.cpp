@@ -16,7 +16,9 @@
 #include "analysis/study/trial_row.h"
 #include "base/fault.h"
 #include "base/text_file.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
+#include "sim/record/log/folder_hold.h"
+#include "sim/record/log/whole_file.h"
 
 namespace reachlab::study {
 namespace {

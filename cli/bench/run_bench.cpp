@@ -18,7 +18,7 @@
 #include "bench/suite.h"
 #include "sim/experiment/describe.h"
 #include "sim/haptics/tick_timing.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
 
 namespace reachlab::cli {
 namespace {

@@ -18,7 +18,7 @@
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/tested_ranges.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
 
 namespace reachlab::cli {
 namespace {

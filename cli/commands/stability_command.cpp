@@ -7,7 +7,7 @@
 #include "base/fault.h"
 #include "cli/commands/commands.h"
 #include "devices/virtual/stability_map.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
 
 namespace reachlab::cli {
 namespace {

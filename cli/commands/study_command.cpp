@@ -13,7 +13,7 @@
 #include "cli/output/study_words.h"
 #include "cli/terminal/at_option.h"
 #include "sim/experiment/experiment.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
 #include "sim/subjects/subject_parameters.h"
 
 namespace reachlab::cli {

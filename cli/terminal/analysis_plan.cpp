@@ -9,7 +9,7 @@
 #include <string_view>
 
 #include "base/json/json_reader.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/whole_file.h"
 #include "sim/session/backup.h"
 
 namespace reachlab::cli {

@@ -8,9 +8,10 @@
 #include <string_view>
 #include <vector>
 
-#include "base/terminal/command_words.h"
 #include "base/fault.h"
+#include "base/terminal/command_words.h"
 #include "sim/experiment/resources.h"
+#include "sim/record/log/log.h"
 #include "sim/session/programme.h"
 
 namespace reachlab::cli {
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 bool isLog(const fs::path& path) {
-  if (path.filename().string().ends_with("_log.reach")) return true;
+  if (path.filename().string().ends_with(record::kLogEnding)) return true;
   std::error_code error;
   if (!fs::is_regular_file(path, error)) return false;
   std::array<char, 8> start{};

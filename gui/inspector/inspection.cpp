@@ -5,6 +5,7 @@
 
 #include "analysis/report/write_analysis.h"
 #include "base/system/error_report.h"
+#include "sim/record/log/log.h"
 
 namespace reachlab::gui::inspector {
 namespace {
@@ -19,8 +20,7 @@ void goOnUnless(const std::stop_token& stop) {
 }  // namespace
 
 std::string reportFolderOf(const std::string& path) {
-  constexpr std::string_view kLog = "_log.reach";
-  if (path.ends_with(kLog)) return path.substr(0, path.size() - kLog.size()) + "_report";
+  if (path.ends_with(record::kLogEnding)) return path.substr(0, path.size() - record::kLogEnding.size()) + "_report";
   return path + "/derivatives/reachlab";
 }
 

@@ -9,7 +9,7 @@
 #include "gui/inspector/epsilon_panel.h"
 #include "gui/inspector/inspector.h"
 #include "gui/inspector/analysis_lines.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
 
 namespace reachlab::gui::inspector {
 

@@ -26,7 +26,7 @@
 #include "gui/widgets/fault_words.h"
 #include "gui/widgets/unit_spin_box.h"
 #include "sim/experiment/resources.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
 
 namespace reachlab::gui::plan {
 namespace {

@@ -9,7 +9,8 @@
 #include <map>
 
 #include "base/error.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
+#include "sim/record/log/whole_file.h"
 #include "sim/record/log/records.h"
 
 namespace reachlab::record {

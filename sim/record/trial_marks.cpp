@@ -10,7 +10,9 @@
 
 #include "base/error.h"
 #include "base/json/json_reader.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
+#include "sim/record/log/log.h"
+#include "sim/record/log/whole_file.h"
 
 namespace reachlab::record {
 namespace {
@@ -57,7 +59,7 @@ void RunMarks::set(const TrialMark& mark) {
 }
 
 std::string marksPathOf(const std::string& logPath) {
-  constexpr std::string_view kLogs[] = {"_log.reach", ".reach"};
+  constexpr std::string_view kLogs[] = {kLogEnding, ".reach"};
   for (const std::string_view ending : kLogs)
     if (logPath.ends_with(ending)) return logPath.substr(0, logPath.size() - ending.size()) + "_marks.json";
   return logPath + "_marks.json";

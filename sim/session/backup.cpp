@@ -18,7 +18,10 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
+#include "sim/record/log/log.h"
 #include "sim/record/log/run_log.h"
+#include "sim/record/log/whole_file.h"
 
 namespace reachlab::session {
 namespace {
@@ -26,7 +29,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kPiece = std::size_t{1} << 20;
-constexpr std::string_view kLogEnding = "_log.reach";
+using record::kLogEnding;
 
 class Sha256 {
  public:

@@ -16,7 +16,8 @@
 #include "constraints/constraint.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/export/exporters.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
+#include "sim/record/log/folder_hold.h"
 
 namespace reachlab::session {
 namespace {

@@ -8,12 +8,13 @@
 
 #include "base/fault.h"
 #include "sim/record/configuration/limits.h"
+#include "sim/record/log/log.h"
 
 namespace reachlab::session {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr std::string_view kEnding = "_log.reach";
+using record::kLogEnding;
 
 // The value of a `key-value` part of a BIDS name.
 std::string partOf(const std::string& name, const std::string& key) {
@@ -26,7 +27,7 @@ std::string partOf(const std::string& name, const std::string& key) {
 }  // namespace
 
 std::string logPath(const SessionPlace& place, const std::string& task, int run) {
-  return fmt::format("{}/sourcedata/sub-{}_ses-{}_task-{}_run-{:02}{}", place.data, place.subject, place.session, task, run, kEnding);
+  return fmt::format("{}/sourcedata/sub-{}_ses-{}_task-{}_run-{:02}{}", place.data, place.subject, place.session, task, run, kLogEnding);
 }
 
 std::string labelOf(const std::string& name) {
@@ -44,7 +45,7 @@ std::vector<RunOnDisk> recordedRuns(const SessionPlace& place) {
   if (!fs::exists(logs, error)) return runs;
   for (const fs::directory_entry& entry : fs::directory_iterator(logs)) {
     const std::string name = entry.path().filename().string();
-    if (!name.starts_with(prefix) || !name.ends_with(kEnding)) continue;
+    if (!name.starts_with(prefix) || !name.ends_with(kLogEnding)) continue;
     const std::string number = partOf(name, "run");
     RunOnDisk run{0, partOf(name, "task"), entry.path().string()};
     const auto [end, fault] = std::from_chars(number.data(), number.data() + number.size(), run.run);

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/folder_hold.h"
 
 namespace reachlab::session {
 

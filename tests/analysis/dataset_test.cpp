@@ -20,7 +20,7 @@
 #include "sim/experiment/resources.h"
 #include "sim/record/export/bids.h"
 #include "sim/record/export/column_dictionary.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/whole_file.h"
 #include "test_paths.h"
 #include "tests/analysis/recorded.h"
 #include "tests/analysis/whole_dataset.h"

@@ -6,7 +6,7 @@
 #include <fstream>
 
 #include "base/error.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/whole_file.h"
 #include "tests/analysis/recorded.h"
 
 namespace reachlab::record {

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "sim/experiment/experiment.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
 #include "tests/record/made_run.h"
 
 // An observer, with the test in the endpoint's place.

@@ -1,4 +1,7 @@
 #include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
+#include "sim/record/log/folder_hold.h"
+#include "sim/record/log/whole_file.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -16,7 +19,6 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "sim/record/log/foreign_file.h"
 #include "tests/record/made_run.h"
 #include "tests/refusal.h"
 

@@ -16,7 +16,8 @@
 #include "sim/record/export/hdf5_file.h"
 #include "sim/record/export/matlab_file.h"
 #include "sim/record/export/tidy_csv.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
+#include "sim/record/log/whole_file.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab::record {

@@ -16,6 +16,8 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
+#include "sim/record/log/whole_file.h"
 #include "sim/record/recover.h"
 #include "tests/record/made_run.h"
 #include "tests/refusal.h"

@@ -21,7 +21,7 @@
 #include "sim/record/export/run_tables.h"
 #include "sim/record/export/tidy_csv.h"
 #include "sim/record/export/trial_row.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/whole_file.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab::record {

@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "sim/record/log/append_file.h"
 #include "sim/record/log/records.h"
 #include "tests/record/made_run.h"
 

@@ -16,7 +16,8 @@
 
 #include "base/error.h"
 #include "sim/record/export/bids.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/folder_hold.h"
+#include "sim/record/log/whole_file.h"
 #include "sim/session/backup_worker.h"
 #include "tests/record/made_run.h"
 #include "tests/refusal.h"

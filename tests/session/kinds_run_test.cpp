@@ -7,7 +7,6 @@
 #include "sim/experiment/experiment.h"
 #include "sim/record/export/bids.h"
 #include "sim/record/export/tidy_csv.h"
-#include "sim/record/log/append_file.h"
 #include "sim/record/recover.h"
 #include "sim/record/replay.h"
 #include "sim/record/trial_index.h"

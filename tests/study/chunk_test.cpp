@@ -8,7 +8,7 @@
 
 #include "analysis/study/gzip.h"
 #include "base/error.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/whole_file.h"
 #include "tests/refusal.h"
 #include "tests/study/made_study.h"
 

@@ -9,7 +9,8 @@
 #include <sstream>
 
 #include "base/fault.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
+#include "sim/record/log/whole_file.h"
 #include "tests/study/made_study.h"
 
 namespace reachlab::study {

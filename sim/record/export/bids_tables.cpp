@@ -8,7 +8,8 @@
 #include "base/table_text.h"
 #include "sim/record/export/bids.h"
 #include "sim/record/export/tidy_csv.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
+#include "sim/record/log/whole_file.h"
 
 namespace reachlab::record {
 namespace {

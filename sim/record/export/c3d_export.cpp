@@ -8,7 +8,7 @@
 #include "base/ticks.h"
 #include "sim/record/export/run_tables.h"
 #include "sim/record/export/tidy_csv.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
 #include "sim/record/log/trial_measures.h"
 
 namespace reachlab::record {

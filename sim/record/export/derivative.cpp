@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/atomic_file.h"
 
 namespace reachlab::record {
 

@@ -8,7 +8,7 @@
 #include "base/error.h"
 #include "sim/record/export/run_tables.h"
 #include "sim/record/export/tidy_csv.h"
-#include "sim/record/log/foreign_file.h"
+#include "sim/record/log/atomic_file.h"
 
 namespace reachlab::record {
 namespace {

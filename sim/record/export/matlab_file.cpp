@@ -11,7 +11,7 @@
 
 #include "sim/record/export/run_tables.h"
 #include "sim/record/export/tidy_csv.h"
-#include "sim/record/log/foreign_file.h"
+#include "sim/record/log/atomic_file.h"
 
 namespace reachlab::record {
 namespace {

@@ -1,9 +1,7 @@
 #pragma once
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <string>
-#include <string_view>
 
 namespace reachlab::record {
 
@@ -37,57 +35,6 @@ class AppendFile {
   bool torn_ = false;       // a part of a record follows the good part
 };
 
-/// Takes a long text piece by piece.
-using TakePiece = std::function<void(std::string_view piece)>;
-
-/// Replaces `path` in one step (temporary file, fsync, rename) by text that is appended piece by piece. A reader sees the old or the new
-/// file, never a part. Makes the folders above it. Without `commit` nothing is left. One thread. Members throw ResourceError.
-class AtomicFile {
- public:
-  explicit AtomicFile(const std::string& path);
-  ~AtomicFile();
-  AtomicFile(const AtomicFile&) = delete;
-  AtomicFile& operator=(const AtomicFile&) = delete;
-
-  void append(std::string_view piece);
-  void commit();
-  /// Puts the file in place only if the name is free. False: a file has the name, and it is not changed.
-  bool commitNew();
-
- private:
-  void flush();
-  void sync();
-  [[noreturn]] void giveUp();
-  std::string path_, temporary_, waiting_;
-  int descriptor_ = -1;
-};
-/// The same with the whole text at once.
-void writeFileAtomically(const std::string& path, std::string_view text);
-/// The same for a new file: of several programs that write it at once, one program succeeds. False: the file exists already.
-bool createFileAtomically(const std::string& path, std::string_view text);
-
-/// Locks a folder against other programs as long as it lives, so that files that belong together come from one program. Waits for another
-/// holder. Makes the folder. One thread.
-class FolderHold {
- public:
-  enum class WithoutLocks { Refuse, HoldNothing };  // on a file system without locks
-  /// Throws ResourceError where `Refuse` is asked for and the folder cannot be locked.
-  FolderHold(const std::string& folder, WithoutLocks otherwise);
-  ~FolderHold();
-  FolderHold(const FolderHold&) = delete;
-  FolderHold& operator=(const FolderHold&) = delete;
-
- private:
-  int descriptor_;
-};
-/// Removes the temporary files of killed programs in a folder and the folders below it (`.….reachlab-tmp`, older than ten minutes). Throws
-/// nothing: files that cannot be removed stay.
-void removeLeftovers(const std::string& folder);
-/// The whole file. Throws ResourceError (also for a pipe or a device, which might never end), FaultError beyond kMaxBytesOfAFile.
-inline constexpr std::int64_t kMaxBytesOfAFile = 1ll << 30;
-std::string readWholeFile(const std::string& path);
-/// Makes a folder and the folders above it. Throws ResourceError.
-void makeFolders(const std::string& path);
 /// True while another program holds the file's lock (a run is being recorded into it).
 bool isBeingWritten(const std::string& path);
 /// The holder of the lock, as " (process 1234)". Empty without a holder, or when the system does not name it.

@@ -4,6 +4,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/record/log/append_file.h"
@@ -18,6 +19,7 @@
 /// cut, zeros or a repeated part can end a log early, but never change a number in it.
 namespace reachlab::record {
 
+inline constexpr std::string_view kLogEnding = "_log.reach";  // of the file's name
 inline constexpr std::uint32_t kLogSchemaVersion = 2;
 inline constexpr std::size_t kLogHeaderBytes = 16;
 inline constexpr std::size_t kRecordHeaderBytes = 12;

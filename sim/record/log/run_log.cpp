@@ -9,6 +9,7 @@
 #include "base/fault.h"
 #include "base/text_file.h"
 #include "base/ticks.h"
+#include "sim/record/log/log.h"
 #include "sim/record/log/records.h"
 
 namespace reachlab::record {
@@ -282,7 +283,6 @@ std::vector<TrialSetup> RunLog::setups() const {
 
 std::vector<std::string> findLogs(const std::string& path) {
   namespace fs = std::filesystem;
-  constexpr std::string_view kEnding = "_log.reach";
   std::error_code error;
   if (fs::is_regular_file(path, error)) return {path};
   requireSearchable(path);
@@ -305,7 +305,7 @@ std::vector<std::string> findLogs(const std::string& path) {
   std::vector<std::string> logs;
   for (const fs::directory_entry& entry : fs::directory_iterator(root)) {
     const std::string file = entry.path().filename().string();
-    if (file.ends_with(kEnding) && file.starts_with(prefix)) logs.push_back(entry.path().string());
+    if (file.ends_with(kLogEnding) && file.starts_with(prefix)) logs.push_back(entry.path().string());
   }
   if (logs.empty()) throw FaultError(Fault{{}, "no logs (…_log.reach) in this folder", {}, FilePlace{path}});
   std::sort(logs.begin(), logs.end());

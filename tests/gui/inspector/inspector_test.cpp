@@ -27,7 +27,7 @@
 #include "gui/inspector/replay_view.h"
 #include "gui/scene/scene_view.h"
 #include "sim/experiment/scene_look.h"
-#include "sim/record/log/append_file.h"
+#include "sim/record/log/whole_file.h"
 #include "tests/analysis/recorded.h"
 #include "tests/analysis/whole_dataset.h"
 

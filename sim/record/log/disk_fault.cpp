@@ -1,0 +1,45 @@
+#include "sim/record/log/disk_fault.h"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/system/os.h"
+
+namespace reachlab::record {
+
+void failByErrno(std::string_view what, const std::string& path) {
+  const int fault = errno;
+  std::string_view remedy = "check the folder and its permissions";
+  if (fault == EFBIG)
+    remedy = "its disk or a limit of this process (ulimit -f) allows no larger file: choose another disk or raise the limit";
+  if (fault == ENOSPC || fault == EDQUOT) remedy = "free space on the disk or choose another folder";
+  if (fault == EACCES || fault == EPERM) remedy = "choose a folder that can be written";
+  if (fault == EROFS) remedy = "what is on it is safe: choose a folder on another disk, or mount it for writing";
+  if (fault == EEXIST) remedy = "nothing is overwritten: choose another name";
+  if (fault == EIO || fault == ENODEV || fault == ENXIO) remedy = "the disk has gone: what was synced before is safe on it";
+  throw ResourceError(fmt::format("{}: {}: {}; {}", path, what, std::strerror(fault), remedy));
+}
+
+bool writeAll(int descriptor, const std::uint8_t* data, std::size_t size) {
+  while (size > 0) {
+    const ssize_t written = ::write(descriptor, data, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    data += written;
+    size -= static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
+void syncFolderOf(const std::string& path) {
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  // Some network file systems have no such thing and say EINVAL: there it is theirs to keep.
+  if (!os::syncFolder(folder.empty() ? "." : folder) && errno != EINVAL) failByErrno("its name cannot be synced to the disk", path);
+}
+
+}  // namespace reachlab::record

@@ -1,0 +1,16 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+namespace reachlab::record {
+
+/// Throws ResourceError of the system's last error: what failed, where, why, and what to do.
+[[noreturn]] void failByErrno(std::string_view what, const std::string& path);
+/// True if every byte was written. The reason is in errno otherwise.
+bool writeAll(int descriptor, const std::uint8_t* data, std::size_t size);
+/// After a rename or a creation the folder itself must reach the disk, or the name may be lost with the power. Throws ResourceError.
+void syncFolderOf(const std::string& path);
+
+}  // namespace reachlab::record

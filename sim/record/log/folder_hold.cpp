@@ -1,0 +1,47 @@
+#include "sim/record/log/folder_hold.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <sys/file.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+#include "base/error.h"
+#include "base/system/os.h"
+#include "sim/record/log/disk_fault.h"
+
+namespace reachlab::record {
+
+void makeFolders(const std::string& path) {
+  if (path.empty()) return;
+  std::error_code error;
+  std::filesystem::create_directories(path, error);
+  if (!error) return;
+  errno = error.value();
+  failByErrno("cannot be made", path);
+}
+
+FolderHold::FolderHold(const std::string& folder, WithoutLocks otherwise) {
+  makeFolders(folder);
+  descriptor_ = os::aboveStandardDescriptors(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  const bool refuse = otherwise == WithoutLocks::Refuse;
+  if (descriptor_ < 0 && refuse) throw ResourceError(fmt::format("{}: cannot be opened: {}", folder, std::strerror(errno)));
+  while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) != 0) {
+    if (errno == EINTR) continue;
+    const int fault = errno;
+    ::close(descriptor_);
+    descriptor_ = -1;
+    if (refuse)
+      throw ResourceError(fmt::format("{}: cannot be locked against a second program: {}; choose a folder on a disk with locks", folder,
+                                      std::strerror(fault)));
+  }
+}
+
+FolderHold::~FolderHold() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+}  // namespace reachlab::record
