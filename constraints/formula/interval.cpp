@@ -15,11 +15,6 @@ constexpr Interval kEverything{-kInf, kInf};
 
 Interval hull(std::initializer_list<double> values) { return {std::min(values), std::max(values)}; }
 
-Interval product(Interval a, Interval b) {
-  const auto times = [](double x, double y) { return x == 0 || y == 0 ? 0.0 : x * y; };
-  return hull({times(a.lo, b.lo), times(a.lo, b.hi), times(a.hi, b.lo), times(a.hi, b.hi)});
-}
-
 bool contains(Interval a, double x) { return a.lo <= x && x <= a.hi; }
 
 // Powers of an interval with a whole exponent > 0.
@@ -67,27 +62,19 @@ Interval powerOver(const Interval& a, const Interval& b, Finiteness& finiteness)
 
 }  // namespace
 
-IntervalEvaluator::IntervalEvaluator(const ExpressionGraph& graph, std::span<const int> roots, const double* shape)
-    : graph_(graph), roots_(roots.begin(), roots.end()), shape_(shape), bounds_(static_cast<std::size_t>(graph.size())) {
-  const std::vector<bool> needed = graph.reachableFrom(roots);
-  for (std::size_t id = 0; id < needed.size(); ++id)
-    if (needed[id]) order_.push_back(static_cast<int>(id));
+Interval product(Interval a, Interval b) {
+  const auto times = [](double x, double y) { return x == 0 || y == 0 ? 0.0 : x * y; };
+  return hull({times(a.lo, b.lo), times(a.lo, b.hi), times(a.hi, b.lo), times(a.hi, b.hi)});
 }
 
-IntervalEvaluator::Bound IntervalEvaluator::boundOf(const ExpressionNode& n, const std::array<Interval, 2>& box) const {
-  const int operands = operandCount(n.op);
-  const Bound none;
-  const Bound& left = operands >= 1 ? bounds_[static_cast<std::size_t>(n.a)] : none;
-  const Bound& right = operands == 2 ? bounds_[static_cast<std::size_t>(n.b)] : none;
-  const Interval a = left.range, b = right.range;
-  Finiteness f = std::max(left.finiteness, right.finiteness);
-  const auto raise = [&](Finiteness to) { f = std::max(f, to); };
+Interval applyOver(Op op, Interval a, Interval b, int exponent, Finiteness& finiteness) {
+  const auto raise = [&](Finiteness to) { finiteness = std::max(finiteness, to); };
   const auto monotone = [&](double (*function)(double)) { return Interval{function(a.lo), function(a.hi)}; };
   Interval r;
-  switch (n.op) {
-    case Op::Constant: r = {n.value, n.value}; break;
-    case Op::Variable: r = box[static_cast<std::size_t>(n.a)]; break;
-    case Op::Parameter: r = {shape_[n.a], shape_[n.a]}; break;
+  switch (op) {
+    case Op::Constant:
+    case Op::Variable:
+    case Op::Parameter: r = a; break;
     case Op::Add: r = {a.lo + b.lo, a.hi + b.hi}; break;
     case Op::Sub: r = {a.lo - b.hi, a.hi - b.lo}; break;
     case Op::Mul: r = product(a, b); break;
@@ -100,8 +87,8 @@ IntervalEvaluator::Bound IntervalEvaluator::boundOf(const ExpressionNode& n, con
         r = product(a, {1 / b.hi, 1 / b.lo});
       }
       break;
-    case Op::PowInt: r = wholePower(a, n.b); break;
-    case Op::Pow: r = powerOver(a, b, f); break;
+    case Op::PowInt: r = wholePower(a, exponent); break;
+    case Op::Pow: r = powerOver(a, b, finiteness); break;
     case Op::Sin: r = waveOver(elementary::sin, std::numbers::pi / 2, a); break;
     case Op::Cos: r = waveOver(elementary::cos, 0, a); break;
     case Op::Tan: {
@@ -119,7 +106,7 @@ IntervalEvaluator::Bound IntervalEvaluator::boundOf(const ExpressionNode& n, con
       if (a.lo > 1 || a.hi < -1) raise(Finiteness::Nowhere);
       else if (a.lo < -1 || a.hi > 1) raise(Finiteness::Touching);
       const double lo = std::clamp(a.lo, -1.0, 1.0), hi = std::clamp(a.hi, -1.0, 1.0);
-      r = n.op == Op::Asin ? Interval{elementary::asin(lo), elementary::asin(hi)} : Interval{elementary::acos(hi), elementary::acos(lo)};
+      r = op == Op::Asin ? Interval{elementary::asin(lo), elementary::asin(hi)} : Interval{elementary::acos(hi), elementary::acos(lo)};
       break;
     }
     case Op::Atan: r = monotone(elementary::atan); break;
@@ -149,7 +136,27 @@ IntervalEvaluator::Bound IntervalEvaluator::boundOf(const ExpressionNode& n, con
     if (std::isnan(r.lo) || std::isnan(r.hi)) r = kEverything;
     if (r.lo == r.hi) raise(Finiteness::Nowhere);  // infinite for sure
   }
-  return {r, f};
+  return r;
+}
+
+IntervalEvaluator::IntervalEvaluator(const ExpressionGraph& graph, std::span<const int> roots, const double* shape)
+    : graph_(graph), roots_(roots.begin(), roots.end()), shape_(shape), bounds_(static_cast<std::size_t>(graph.size())) {
+  const std::vector<bool> needed = graph.reachableFrom(roots);
+  for (std::size_t id = 0; id < needed.size(); ++id)
+    if (needed[id]) order_.push_back(static_cast<int>(id));
+}
+
+IntervalEvaluator::Bound IntervalEvaluator::boundOf(const ExpressionNode& n, const std::array<Interval, 2>& box) const {
+  const auto applied = [&](const Bound& a, const Bound& b) {
+    Bound result{{}, std::max(a.finiteness, b.finiteness)};
+    result.range = applyOver(n.op, a.range, b.range, n.b, result.finiteness);
+    return result;
+  };
+  const auto known = [&](Interval range) { return applied({range, Finiteness::Finite}, {}); };
+  if (n.op == Op::Constant) return known({n.value, n.value});
+  if (n.op == Op::Variable) return known(box[static_cast<std::size_t>(n.a)]);
+  if (n.op == Op::Parameter) return known({shape_[n.a], shape_[n.a]});
+  return applied(bounds_[static_cast<std::size_t>(n.a)], operandCount(n.op) == 2 ? bounds_[static_cast<std::size_t>(n.b)] : Bound{});
 }
 
 const std::vector<Finiteness>& IntervalEvaluator::evaluate(const std::array<Interval, 2>& box) {

@@ -16,6 +16,11 @@ struct Interval {
 /// The known properties of a node on a box. Touching: a root or an arc function reaches the end of its domain there (finite itself).
 enum class Finiteness { Finite, Touching, Unknown, Nowhere };
 
+/// One operation over intervals. `exponent` belongs to PowInt. A Constant, Variable or Parameter is `a` itself. Raises `finiteness` to what is
+/// known of the result.
+Interval applyOver(Op op, Interval a, Interval b, int exponent, Finiteness& finiteness);
+Interval product(Interval a, Interval b);
+
 class IntervalEvaluator {
  public:
   IntervalEvaluator(const ExpressionGraph& graph, std::span<const int> roots, const double* shape);

@@ -1,0 +1,34 @@
+#pragma once
+#include <array>
+#include <span>
+#include <vector>
+
+#include "constraints/formula/interval.h"
+
+namespace reachlab::constraints {
+
+/// Bounds of Taylor coefficients of expressions along a line u = u0 + u1 s, v = v0 + v1 s, for all u0, v0 of a box and all rates u1, v1 of
+/// another (Moore 1966; Griewank and Walther, Evaluating Derivatives, ch. 13). abs and sign are bounded on both sides of their places, as if
+/// each side ran on. An instance may be used by one thread at a time. Only the constructor allocates.
+class IntervalSeries {
+ public:
+  static constexpr int kOrder = 8;
+  IntervalSeries(const ExpressionGraph& graph, std::span<const int> roots, const double* shape);
+  /// Bound of |(c_1, c_2, …)| over the roots, c being the coefficient of s^kOrder. Infinite where none is known.
+  double bound(const std::array<Interval, 2>& box, const std::array<Interval, 2>& rate) noexcept;
+
+ private:
+  using Series = std::array<Interval, kOrder + 1>;
+  struct Operation {
+    Op op = Op::Constant;
+    int a = -1, b = -1;  // earlier operations; Variable: which; PowInt: b is the exponent
+    double value = 0;    // of a Constant or a Parameter
+  };
+  static void apply(const Operation& operation, const Series& a, const Series& b, Series& to) noexcept;
+
+  std::vector<Operation> operations_;
+  std::vector<Series> values_;
+  std::vector<int> roots_;
+};
+
+}  // namespace reachlab::constraints
