@@ -9,6 +9,7 @@
 #include "constraints/formula/roots.h"
 #include "constraints/regularity/branch_curve.h"
 #include "constraints/regularity/curve_search.h"
+#include "constraints/regularity/period.h"
 #include "constraints/regularity/places.h"
 
 namespace reachlab::constraints {
@@ -18,7 +19,6 @@ constexpr double kTurns = 64 * 2 * std::numbers::pi;
 constexpr double kReach = 10;              // [m] that are examined at least either way
 constexpr double kLargestPhi = 1e12;       // at most
 constexpr double kProvedShare = 1.0 / 16;  // of that, for still places of a formula that is analytic everywhere: others are met in the motion
-constexpr double kNarrowShare = 1.0 / 4;   // of that, for narrow stretches
 constexpr std::size_t kMaxPlaces = 2000;
 constexpr int kMaxBoxes = 100000;   // stretches looked at: tenths of a second
 constexpr double kTouching = 1e-7;  // a root or an arc that touches the end of its domain has lost half its digits there
@@ -212,7 +212,7 @@ class Examiner {
     result_.pieces = {{result_.lo, result_.hi, c_.curve}};
     result_.owner = c_.owner;
     addStillPlaces({r_, c_.curve, from, to});
-    cutNarrowPieces({r_});
+    addNarrowPlaces({r_});
     if (!c_.domain[0].periodic) {
       if (!std::isfinite(result_.lo)) addFarEnd(-1);
       if (!std::isfinite(result_.hi)) addFarEnd(1);
@@ -235,7 +235,7 @@ class Examiner {
     }
     result_.whole = false;
     result_.pieces = std::move(alive);
-    cutNarrowPieces(formulas);
+    addNarrowPlaces(formulas);
     sortPlaces();
     result_.smooth = result_.places.empty();
   }
@@ -349,13 +349,22 @@ class Examiner {
     for (Place& place : findStillPlaces(graph_, shape_, stretch, boxes_, kMaxPlaces - result_.places.size()))
       result_.places.push_back(std::move(place));
   }
-  void cutNarrowPieces(const std::vector<std::vector<int>>& formulas) {
+  /// What lies beyond the range in which narrow places are known is cut off where it matters: on curves that are passed piece by piece.
+  void addNarrowPlaces(const std::vector<std::vector<int>>& formulas) {
     if (!stillPlaces_ || c_.curve.function != evaluateCurveProgram) return;  // a definition of the catalogue is known
-    const auto [from, to] = window(lo_, hi_, kNarrowShare);
-    std::vector<CurvePiece> parts = cutAtNarrow(graph_, shape_, result_.pieces, formulas, from, to, about_);
-    if (parts.size() == result_.pieces.size()) return;
-    result_.pieces = std::move(parts);
-    result_.whole = false;
+    if (result_.pieces.empty()) return;
+    const auto [from, to] = window(lo_, hi_, 1);
+    NarrowSearch found = findNarrowPlaces(graph_, shape_, result_.pieces, formulas, {from, to}, about_, findPeriod(c_).turn);
+    result_.narrow = std::move(found.places);
+    result_.seenLo = found.lo;
+    result_.seenHi = found.hi;
+    result_.whole = result_.whole && result_.narrow.empty();
+    if (result_.whole) return;
+    std::erase_if(result_.pieces, [&](const CurvePiece& piece) { return piece.hi <= found.lo || piece.lo >= found.hi; });
+    if (result_.pieces.empty()) return;
+    CurvePiece &first = result_.pieces.front(), &last = result_.pieces.back();
+    if (first.lo < found.lo) first.lo = found.lo, first.placeAtLo = -1, first.passedAtLo = false;
+    if (last.hi > found.hi) last.hi = found.hi, last.placeAtHi = -1, last.passedAtHi = false;
   }
   /// In order of phi, and the pieces' indices with them: still places were added behind.
   void sortPlaces() {

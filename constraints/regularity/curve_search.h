@@ -16,11 +16,14 @@ struct CurveStretch {
 /// Places of a stretch where r_phi vanishes, at most `most`: cusps, folds and standstills. `boxes` as of findRoots. Adds nodes.
 std::vector<Place> findStillPlaces(ExpressionGraph& graph, const double* shape, const CurveStretch& stretch, int& boxes, std::size_t most);
 
-/// The pieces, with short stretches cut out on which the curve bends much more than elsewhere. Such a stretch is shorter than the distance
-/// of one tick. It becomes a separate piece, so that a step ends on its boundary and crosses it in small parts. The search covers phi =
-/// `from` to `to`, and the usual bend is taken from a turn about `about`. `formulas` holds r of each piece. The pieces are returned
-/// unchanged if there is no such stretch, or if there are too many. Adds nodes.
-std::vector<CurvePiece> cutAtNarrow(ExpressionGraph& graph, const double* shape, const std::vector<CurvePiece>& pieces,
-                                    const std::vector<std::vector<int>>& formulas, double from, double to, double about);
+struct NarrowSearch {
+  std::vector<NarrowPlace> places;  // in order
+  double lo = 0, hi = 0;            // all of them between these are known
+};
+/// The places where a curve turns within less than the way of a tick, by interval arithmetic on Taylor series: from `about` outwards through
+/// `window`, and beyond it where a single look shows that there are none. `formulas` holds r of each piece. `period` is that of the whole
+/// formula, or 0.
+NarrowSearch findNarrowPlaces(const ExpressionGraph& graph, const double* shape, const std::vector<CurvePiece>& pieces,
+                              const std::vector<std::vector<int>>& formulas, const Domain& window, double about, double period);
 
 }  // namespace reachlab::constraints

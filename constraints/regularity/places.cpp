@@ -27,6 +27,20 @@ int CurveRegularity::pieceAt(double phi) const {
   return -1;
 }
 
+double CurveRegularity::reachFrom(double phi, bool upwards) const noexcept {
+  // A step may end within a place, if it leads into it no farther than the place allows.
+  double reach = std::numeric_limits<double>::infinity();
+  const auto above = std::upper_bound(narrow.begin(), narrow.end(), phi, [](double value, const NarrowPlace& place) { return value < place.lo; });
+  if (upwards) {
+    for (auto place = above == narrow.begin() ? above : above - 1; place != narrow.end() && place->lo - phi < reach; ++place)
+      if (place->hi > phi) reach = std::min(reach, std::max(place->lo - phi, 0.0) + place->reach);
+  } else {
+    for (auto place = above; place != narrow.begin() && phi - (place - 1)->hi < reach; --place)
+      reach = std::min(reach, std::max(phi - (place - 1)->hi, 0.0) + (place - 1)->reach);
+  }
+  return reach;
+}
+
 std::vector<Place> placesBetween(const CurveRegularity& regularity, double from, double to) {
   std::vector<Place> between;
   for (const Place& place : regularity.places)

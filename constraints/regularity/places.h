@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -40,7 +41,12 @@ struct CurvePiece {
   Curve curve;                         // runs on smoothly a little beyond both ends, for what a step looks at
   int placeAtLo = -1, placeAtHi = -1;  // index in CurveRegularity::places; -1: none (end of the domain, or of what was examined; a seam)
   bool passedAtLo = false, passedAtHi = false;  // a mass goes on into the neighbouring piece
-  bool narrow = false;                          // smooth, but a tick could step over what is there (a bump of a micrometre)
+};
+
+/// A stretch on which a curve turns within less than the way of a tick.
+struct NarrowPlace {
+  double lo = 0, hi = 0;
+  double reach = 0;  // of phi, that a step may cover there and still see all of it
 };
 
 /// The result of interval analysis of a curve's formula graph.
@@ -49,6 +55,9 @@ struct CurveRegularity {
   std::vector<Place> places;          // in order of phi
   std::vector<CurvePiece> pieces;     // in order; one where the formula is analytic throughout
   std::shared_ptr<const void> owner;  // keeps the pieces' programs alive
+  /// The narrow places of a typed formula, in order, all those between phi = seenLo and seenHi. A definition of the catalogue has none.
+  std::vector<NarrowPlace> narrow;
+  double seenLo = -std::numeric_limits<double>::infinity(), seenHi = std::numeric_limits<double>::infinity();
   /// No place was found: smooth, and nowhere still.
   bool smooth = false;
   /// One piece, which is the whole domain.
@@ -56,6 +65,9 @@ struct CurveRegularity {
 
   /// The piece that holds phi, and on a boundary the upper piece. It is -1 where the formula has no value or was not examined.
   int pieceAt(double phi) const;
+  /// How far a step may lead from phi, upwards or downwards, so that it steps over nothing of a narrow place. Infinite where no narrow place
+  /// lies ahead.
+  double reachFrom(double phi, bool upwards) const noexcept;
 };
 
 /// Examines the domain. Where it has no end, everything is examined if the formula can be proved analytic everywhere. Otherwise a stretch

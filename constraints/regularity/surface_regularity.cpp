@@ -15,7 +15,7 @@ namespace reachlab::constraints {
 namespace {
 
 constexpr int kMaxBoxes = 20000;
-constexpr double kLeaf = 1.0 / (1 << 20);
+constexpr double kSmallestBox = 1.0 / (1 << 20);
 
 /// Interval arithmetic on boxes shows `holds(bounds)` of the roots everywhere in the domain.
 template <class Holds>
@@ -39,7 +39,7 @@ bool isProved(const ExpressionGraph& graph, const std::vector<int>& roots, const
     std::array<double, 2> width{};
     for (std::size_t k = 0; k < 2; ++k) width[k] = (box[k].hi - box[k].lo) / std::max(whole[k].hi - whole[k].lo, 1e-300);
     const std::size_t k = width[1] > width[0] ? 1 : 0;
-    if (width[k] < kLeaf) return false;
+    if (width[k] < kSmallestBox) return false;
     const double middle = box[k].lo + (box[k].hi - box[k].lo) / 2;
     auto left = box, right = box;
     left[k].hi = right[k].lo = middle;

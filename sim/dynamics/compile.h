@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <memory>
 #include <string>
 
@@ -30,6 +31,7 @@ std::unique_ptr<Plant> makeBodyPlant(const ObjectModel& model, const experiment:
 struct CurveForm {
   bool tangential = false;
   double largestSpeed = 1;  // [m] |r_phi|
+  double seenLo = -std::numeric_limits<double>::infinity(), seenHi = std::numeric_limits<double>::infinity();  // short bends are known between
 };
 std::unique_ptr<Plant> makeCurvePlant(const ObjectModel& model, const constraints::Constraint& constraint, const CurveForm& form,
                                       const MethodRequest& request);

@@ -20,27 +20,34 @@ std::unique_ptr<Plant> makeExplicit(const ObjectModel& model, const System& syst
   return std::make_unique<SystemPlant<System, Multistep>>(model, system, request.tolerance);
 }
 
+template <class System>
+System makeSystem(const ObjectModel& model, const constraints::Constraint& constraint, const CurveForm& form) {
+  System system(model, constraint, form.largestSpeed);
+  system.seenLo = form.seenLo;
+  system.seenHi = form.seenHi;
+  return system;
+}
+
 template <bool Parallel, bool Tangential>
-std::unique_ptr<Plant> make(const ObjectModel& model, const constraints::Constraint& constraint, double speedScale,
+std::unique_ptr<Plant> make(const ObjectModel& model, const constraints::Constraint& constraint, const CurveForm& form,
                             const MethodRequest& request) {
   if (request.method == "stiff") {
     using System = CurveSystem<0, Parallel, Tangential>;
-    return std::make_unique<SystemPlant<System, Stiff>>(model, System(model, constraint, speedScale), request.tolerance);
+    return std::make_unique<SystemPlant<System, Stiff>>(model, makeSystem<System>(model, constraint, form), request.tolerance);
   }
-  if (model.count() == 1) return makeExplicit(model, CurveSystem<1, Parallel, Tangential>(model, constraint, speedScale), request);
+  if (model.count() == 1) return makeExplicit(model, makeSystem<CurveSystem<1, Parallel, Tangential>>(model, constraint, form), request);
   if (model.count() <= kBatchLanes)
-    return makeExplicit(model, BatchSystem<1, Parallel, Tangential>(model, constraint, speedScale), request);
-  return makeExplicit(model, BatchSystem<0, Parallel, Tangential>(model, constraint, speedScale), request);
+    return makeExplicit(model, makeSystem<BatchSystem<1, Parallel, Tangential>>(model, constraint, form), request);
+  return makeExplicit(model, makeSystem<BatchSystem<0, Parallel, Tangential>>(model, constraint, form), request);
 }
 
 }  // namespace
 
 std::unique_ptr<Plant> makeCurvePlant(const ObjectModel& model, const constraints::Constraint& constraint, const CurveForm& form,
                                       const MethodRequest& request) {
-  const double scale = form.largestSpeed;
   if (model.kind == experiment::ObjectKind::Parallel)
-    return form.tangential ? make<true, true>(model, constraint, scale, request) : make<true, false>(model, constraint, scale, request);
-  return form.tangential ? make<false, true>(model, constraint, scale, request) : make<false, false>(model, constraint, scale, request);
+    return form.tangential ? make<true, true>(model, constraint, form, request) : make<true, false>(model, constraint, form, request);
+  return form.tangential ? make<false, true>(model, constraint, form, request) : make<false, false>(model, constraint, form, request);
 }
 
 }  // namespace reachlab::dynamics

@@ -8,7 +8,6 @@
 #include "base/error.h"
 #include "constraints/constraint.h"
 #include "constraints/regularity/analysis.h"
-#include "constraints/regularity/narrow_band.h"
 #include "constraints/regularity/period.h"
 #include "constraints/regularity/places.h"
 #include "constraints/regularity/rounding.h"
@@ -176,6 +175,19 @@ void requireNearZero(const constraints::Constraint& c, const constraints::Curve&
                     start, roundingOfPhi(p, start)));
 }
 
+/// Warns of a start so far from the origin that the last digit of a position is more than what is stated.
+void warnOfFarStart(Scene& scene, const std::vector<double>& start) {
+  constexpr double kShown = 1e-9;  // [m]
+  const constraints::Constraint& c = *scene.constraint;
+  const Vec3 r = c.kind == constraints::ConstraintKind::Free    ? Vec3{start[0], start[1], start[2]}
+                 : c.kind == constraints::ConstraintKind::Curve ? evaluate(c.curve, start[0]).r
+                                                                : evaluate(c.surface, start[0], start[1]).r;
+  if (const double digit = 0x1p-52 * norm(r); digit > kShown)
+    scene.choice.warnings.push_back(fmt::format(
+        "the start lies {:.2g} m from the origin, where the last digit of a position is {:.2g} m; shift the constraint to the origin",
+        norm(r), digit));
+}
+
 /// The modes' estimate knows nothing of a curve's or a surface's bends: where there is a task its reach is measured.
 void estimateRk4(Scene& scene, const experiment::Experiment& experiment, double step) {
   constexpr double kAccurate = 1e-6;  // [m] a predicted error above it is worth a warning
@@ -253,7 +265,10 @@ CurveFacts examineCurve(const experiment::Experiment& experiment, const constrai
   if (experiment.task) requireNearZero(constraint, piece.curve, start);
   const SpeedRange speeds = findSpeedRange(constraint, piece, start);
   facts.speedRatio = speeds.most > 0 ? speeds.least / speeds.most : 0;
-  facts.form = {facts.speedRatio < kHardSpeedRatio || !facts.regularity->whole, speeds.most};
+  constexpr double kAhead = 0.1;  // [m] that a mass covers between two looks for the end of what was seen
+  const double ahead = speeds.most > 0 ? kAhead / speeds.most : 0;
+  facts.form = {facts.speedRatio < kHardSpeedRatio || !facts.regularity->whole, speeds.most, facts.regularity->seenLo + ahead,
+                facts.regularity->seenHi - ahead};
   for (const constraints::Place& place : facts.regularity->places)
     if (experiment.task && isStill(place.kind) && std::abs(start - place.at) < 1e-9 * std::max(1.0, std::abs(place.at)))
       throw RefusedError(fmt::format("the start phi = {} is a {}: from rest there the mass could go either way; choose another start", start,
@@ -299,11 +314,6 @@ void compileOnSurface(Scene& scene, const ObjectModel& model, const std::array<d
   const auto branches = constraints::computeBranches(constraint);
   if (!isFinite(evaluate(constraint.surface, start[0], start[1]).r))
     throw RefusedError(fmt::format("the surface has no value at the start u = {}, v = {}; choose another start", start[0], start[1]));
-  if (const auto band = branches->smooth() ? constraints::findNarrowBand(constraint, start) : std::nullopt)
-    throw RefusedError(
-        fmt::format("about {} = {:.6g} the surface turns within {:.2g} of it, less than the way of a tick, and a mass would be "
-                    "carried across unseen; write a wider place",
-                    band->parameter == 0 ? "u" : "v", band->at, band->width));
   const auto quadric = branches->smooth() ? fitQuadric(constraint.surface, constraint.domain, start) : std::nullopt;
   if (quadric && provesQuadric(constraint, *quadric)) {
     scene.choice.form = "surface of second degree in world coordinates, 6 states";
@@ -363,7 +373,10 @@ Scene compile(const experiment::Experiment& experiment, const constraints::Const
     compileOnSurface(scene, model, {start[0], start[1]}, request);
   }
   if (scene.choice.method == "rk4" && scene.shared == nullptr) estimateRk4(scene, experiment, options.step);
-  if (experiment.task) scene.plant->placeAtRest(start);
+  if (experiment.task) {
+    warnOfFarStart(scene, start);
+    scene.plant->placeAtRest(start);
+  }
   return scene;
 }
 

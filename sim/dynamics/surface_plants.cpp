@@ -8,6 +8,7 @@ std::unique_ptr<Plant> makeChartPlant(const ObjectModel& model, const constraint
                                       std::shared_ptr<const constraints::SurfaceBranches> branches, const MethodRequest& request) {
   SurfaceSystem system(model, constraint);
   system.branches = std::move(branches);
+  system.watch = constraints::SurfaceWatch::make(constraint);
   return makePlant(model, system, request);
 }
 

@@ -1,11 +1,12 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "constraints/curve_batch.h"
 #include "constraints/regularity/hidden_bend.h"
-#include "constraints/regularity/narrow_band.h"
 #include "constraints/regularity/places.h"
+#include "constraints/regularity/surface_watch.h"
 
 /// What is so narrow on a curve or a surface that a movement could step over it.
 namespace reachlab::constraints {
@@ -16,33 +17,41 @@ Constraint surface(const std::string& z, const std::string& x = "u", const std::
 }
 Constraint named(const char* name) { return makeConstraint({.name = name, .curve = {}, .surface = {}, .shape = {}}); }
 
-// 1e-5 wide about 0.31: seen along the parameter line through the start, and along no other.
-TEST(NarrowBand, IsFoundOnTheLinesThroughTheStart) {
-  for (const int k : {0, 1}) {
-    const std::string q = k == 0 ? "u" : "v";
-    const auto band = findNarrowBand(surface(std::string("1e-6*exp(-((").append(q).append(" - 0.31)/1e-5)^2)")), {0.1, -0.2});
-    ASSERT_TRUE(band) << q;
-    EXPECT_EQ(band->parameter, k);
-    EXPECT_NEAR(band->at, 0.31, 2e-5);
-    EXPECT_GT(band->width, 1e-6);
-    EXPECT_LT(band->width, 1e-4);
-  }
-  for (const char* near : {"-7.8", "8.0"}) {
-    const std::string bump = std::string("1e-6*exp(-((u - (") + near + "))/1e-5)^2)";
-    EXPECT_TRUE(findNarrowBand(surface(bump), {0.1, -0.2})) << near << ": within eight units";
-  }
-  for (const char* far : {"-8.0", "8.2"}) {
-    const std::string bump = std::string("1e-6*exp(-((u - (") + far + "))/1e-5)^2)";
-    EXPECT_FALSE(findNarrowBand(surface(bump), {0.1, -0.2})) << far;
-  }
+SurfaceWatch::Motion motion(double u, double v, double uRate, double vRate) {
+  return {{u, v}, {uRate, vRate}, {}, {1, 1}, std::hypot(uRate, vRate)};
 }
 
-TEST(NarrowBand, IsNoneOnWhatBendsAsItDoesElsewhere) {
-  EXPECT_FALSE(findNarrowBand(surface("u*v"), {0, 0}));
-  EXPECT_FALSE(findNarrowBand(surface("sin(3*u) + cos(2*v)"), {0.1, 0.2}));
-  EXPECT_FALSE(findNarrowBand(surface("0.01*exp(-((u - 0.3)/0.02)^2)"), {0, 0})) << "wide enough to be seen";
-  EXPECT_FALSE(findNarrowBand(named("gaussian-hill"), {0, 0})) << "the catalogue is known";
-  EXPECT_FALSE(findNarrowBand(surface("sqrt(-1 - u^2)"), {0, 0})) << "nothing is there";
+// A ridge 1e-5 wide, in a surface of metres: no step of a millisecond may lead across it, however it is met.
+TEST(SurfaceWatch, SeesARidgeOnTheWayWhereverItLies) {
+  for (const double ridge : {0.31, -7.8, 120.0})
+    for (const char* q : {"u", "v", "u + v"}) {
+      const auto watch = SurfaceWatch::make(surface(fmt::format("1e-6*exp(-(({} - {})/1e-5)^2)", q, ridge)));
+      const double u = q == std::string("v") ? 0 : ridge - 1.0003e-4, v = q == std::string("v") ? ridge - 1.0003e-4 : 0;
+      const SurfaceWatch::Motion towards = motion(u, v, 0.4, 0.4), away = motion(u, v, -0.4, -0.4);
+      EXPECT_FALSE(watch->allows(towards, 1e-3)) << q << " " << ridge;
+      EXPECT_TRUE(watch->allows(away, 1e-3)) << q << " " << ridge;
+      const double reach = watch->reach(towards, 1e-3);
+      EXPECT_GT(reach, 0.3e-4);
+      EXPECT_LT(0.4 * reach, 1.2e-4) << "it ends in the ridge at the latest";
+    }
+}
+
+TEST(SurfaceWatch, AllowsStepsOverWhatBendsGently) {
+  for (const char* z : {"u*v", "sin(3*u) + cos(2*v)", "0.01*exp(-((u - 0.3)/0.05)^2)", "sqrt(1 + u^2)", "0.1*abs(u)"}) {
+    const auto watch = SurfaceWatch::make(surface(z));
+    for (double u = -1; u < 1; u += 0.0137) EXPECT_TRUE(watch->allows(motion(u, 0.2, 0.4, -0.3), 1e-3)) << z << " " << u;
+  }
+  EXPECT_EQ(SurfaceWatch::make(named("gaussian-hill")), nullptr) << "the catalogue is known";
+}
+
+// What was learnt about some ticks ahead holds for no other place and no faster motion.
+TEST(SurfaceWatch, KnowsOnlyWhereItLooked) {
+  const auto watch = SurfaceWatch::make(surface("1e-6*exp(-((u - 0.31)/1e-5)^2)"));
+  ASSERT_TRUE(watch->allows(motion(0, 0, 0.4, 0), 1e-3));
+  EXPECT_TRUE(watch->knows({0.001, 0}, {0.4, 0}, 1e-3));
+  EXPECT_FALSE(watch->knows({0.31, 0}, {0.4, 0}, 1e-3));
+  EXPECT_FALSE(watch->knows({0.001, 0}, {4, 0}, 1e-3));
+  EXPECT_FALSE(watch->knows({0.001, 0}, {0.4, 0}, 2e-3));
 }
 
 /// A straight way over u = share, v = 0.2 + 0.5 share.
@@ -93,33 +102,56 @@ TEST(CurveBatch, HoldsEachPointInItsLane) {
   }
 }
 
-// 30 times the usual bend on less than 2 mm: a piece of its own, a quarter wider either way, that a mass goes through.
-TEST(NarrowPiece, OfACurveStandsOnItsOwn) {
-  const Constraint bumped =
-      makeConstraint({.name = {}, .curve = {"phi/10", "1e-5*exp(-((phi - 1)/1e-3)^2)", "0"}, .surface = {}, .shape = {}});
-  const CurveRegularity r = computeRegularity(bumped, 0.5);
+CurveRegularity bumpsOn(const std::string& y) {
+  return computeRegularity(makeConstraint({.name = {}, .curve = {"phi/10", y, "0"}, .surface = {}, .shape = {}}), 0.5);
+}
+
+// Narrow is what a step of 4 mm could miss. A step may lead up to the place, and into it by a part of its width.
+TEST(NarrowPlace, OfACurveIsSeenFromBothSides) {
+  const CurveRegularity r = bumpsOn("1e-5*exp(-((phi - 1)/1e-3)^2)");
   EXPECT_TRUE(r.smooth);
   EXPECT_FALSE(r.whole);
-  ASSERT_EQ(r.pieces.size(), 3u);
-  EXPECT_FALSE(r.pieces[0].narrow || r.pieces[2].narrow);
-  EXPECT_TRUE(r.pieces[1].narrow);
-  EXPECT_LT(r.pieces[1].lo, 1 - 5e-4);
-  EXPECT_GT(r.pieces[1].lo, 1 - 1e-2);
-  EXPECT_NEAR(r.pieces[1].lo + r.pieces[1].hi, 2, 1e-6) << "even about its middle";
-  for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_EQ(r.pieces[i].hi, r.pieces[i + 1].lo);
-    EXPECT_TRUE(r.pieces[i].passedAtHi && r.pieces[i + 1].passedAtLo);
-    EXPECT_EQ(r.pieces[i].placeAtHi, -1);
-    EXPECT_EQ(r.pieces[i + 1].placeAtLo, -1);
+  EXPECT_EQ(r.pieces.size(), 1u);
+  ASSERT_FALSE(r.narrow.empty());
+  for (const NarrowPlace& place : r.narrow) {
+    EXPECT_GT(place.lo, 1 - 0.02);
+    EXPECT_LT(place.hi, 1 + 0.02);
+    EXPECT_LT(place.reach, 0.04);
   }
-  EXPECT_EQ(r.pieceAt(1), 1);
-  EXPECT_EQ(evaluate(r.pieces[1].curve, 1.0003).r.y, evaluate(bumped.curve, 1.0003).r.y);
-  const Constraint two = makeConstraint(
-      {.name = {}, .curve = {"phi/10", "1e-5*exp(-((phi - 1)/1e-3)^2) + 1e-5*exp(-((phi - 2)/1e-3)^2)", "0"}, .surface = {}, .shape = {}});
-  EXPECT_EQ(computeRegularity(two, 0.5).pieces.size(), 5u);
-  const Constraint wide =
-      makeConstraint({.name = {}, .curve = {"phi/10", "1e-2*exp(-((phi - 1)/0.1)^2)", "0"}, .surface = {}, .shape = {}});
-  EXPECT_TRUE(computeRegularity(wide, 0.5).whole);
+  EXPECT_LT(r.reachFrom(1, true), 1e-3);
+  EXPECT_LT(r.reachFrom(1, false), 1e-3);
+  EXPECT_GT(r.reachFrom(1, true), 1e-5);
+  EXPECT_LT(r.reachFrom(0.5, true), 0.505);
+  EXPECT_GT(r.reachFrom(0.5, true), 0.49);
+  EXPECT_TRUE(std::isinf(r.reachFrom(0.5, false)));
+  EXPECT_TRUE(std::isinf(r.reachFrom(1.5, true)));
+  EXPECT_TRUE(bumpsOn("1e-2*exp(-((phi - 1)/0.1)^2)").whole) << "wide";
+}
+
+// There is no largest number of them, and none is hidden among others, in a cosine or behind many turns.
+TEST(NarrowPlace, IsFoundInACosineAmongManyAndFarAway) {
+  const CurveRegularity cosine = bumpsOn("1e-6/(1 + 1e10*(cos(phi) - 0.5)^2)");
+  for (const double turn : {-40.0, 0.0, 1.0, 40.0}) {
+    const double at = std::acos(0.5) + turn * 2 * std::acos(-1.0);
+    EXPECT_LT(cosine.reachFrom(at, true), 1e-4) << turn;
+  }
+  EXPECT_LT(bumpsOn("1e-6*exp(-(1e5*(phi - 300))^2)").reachFrom(300, true), 1e-4);
+  const CurveRegularity ripples = bumpsOn("1e-5*sin(1e5*phi)");
+  for (const double at : {-200.0, -0.3, 0.0, 7.123, 399.0}) {
+    EXPECT_LT(ripples.reachFrom(at, true), 2e-5) << at;
+    EXPECT_GT(ripples.reachFrom(at, true), 1e-6) << at;
+  }
+}
+
+// Where the search ends, motion ends: infinitely many wiggles are not called smooth.
+TEST(NarrowPlace, NothingIsSaidOfWhatWasNotSearched) {
+  EXPECT_TRUE(std::isinf(bumpsOn("0.1*cos(phi) + 0.02*sin(7*phi)").seenHi)) << "repeats itself";
+  EXPECT_TRUE(std::isinf(bumpsOn("0.01*phi^3").seenHi)) << "bends nowhere shortly";
+  const CurveRegularity chirp = bumpsOn("1e-3*sin(exp(phi/10))");
+  EXPECT_TRUE(std::isfinite(chirp.seenHi));
+  EXPECT_EQ(chirp.pieces.back().hi, chirp.seenHi);
+  EXPECT_FALSE(chirp.pieces.back().passedAtHi);
+  EXPECT_TRUE(std::isinf(chirp.seenLo));
 }
 
 }  // namespace

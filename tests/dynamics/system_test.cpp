@@ -49,7 +49,7 @@ static_assert(!Equations<OtherResult>);
 
 struct HalfOfAGroup : Resting {
   static constexpr Hooks kHas{.care = true};
-  bool wantsSubSteps(const State&) const noexcept { return true; }
+  bool wantsSubSteps(const State&, double) const noexcept { return true; }
 };
 static_assert(!Equations<HalfOfAGroup>);
 

@@ -83,7 +83,7 @@ class AbmWith {
     if (count_ == 0 || dt != dt_) begin(system, hand, dt, y, report);
     if (count_ < adams::kHistory) return stepOtherwise(system, hand, y, next, report);
     if constexpr (System::kHas.care)
-      if (system.wantsSubSteps(y)) return stepOtherwise(system, hand, y, next, report);
+      if (system.wantsSubSteps(y, dt)) return stepOtherwise(system, hand, y, next, report);
     const auto end = system.handOf(endOf(hand));
     const int n = system.states();
     State predicted(n), f(n);

@@ -161,14 +161,17 @@ class Adaptive {
     Allowance allowed(system, tolerance_);
     y = y0;
     rate(0, y, k[0]);
-    int rhs = 1;
+    int rhs = 1, looks = 0;  // right-hand sides, and what looking ahead cost in their unit
     double h = last_ > 0 ? std::min(last_, dt) : dt, growth = kGrowth;
     t = 0;
     report.error = 0;
     StepStatus status = StepStatus::Ok;
     bool stopped = false;
     while (t < dt && !stopped) {
-      if constexpr (System::kHas.pieces) h = std::min(h, system.reach(y, k[0]));
+      if constexpr (System::kHas.sight) {
+        h = system.reach(y, k[0], h);
+        looks += system.sightCost();
+      }
       const bool lastPart = t + kNearlyLast * h >= dt;
       if (lastPart) h = dt - t;
       allowed.lookAt(y);
@@ -195,7 +198,7 @@ class Adaptive {
         if (t + h * factor == t) break;
       }
       h *= factor;
-      if (t < dt && rhs + dop853::kStages > kMaxRhsPerTick) {
+      if (t < dt && rhs + looks + dop853::kStages > kMaxRhsPerTick) {
         if (!(status == StepStatus::NotFinite && error > 1)) status = StepStatus::Capped;
         break;
       }

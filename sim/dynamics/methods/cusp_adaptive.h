@@ -24,13 +24,17 @@ class CuspAdaptive {
   }
 
   StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next, StepReport& report) noexcept {
-    bool timeAlone = false;  // where |r_phi| is large: phi is smooth in time there, and sub-steps in time resolve narrow places
-    if constexpr (System::kHas.care) timeAlone = system.wantsSubSteps(y);
+    bool timeAlone = false;  // where |r_phi| is large: phi is smooth in time there
+    bool narrow = false;     // many sub-steps are regular there
+    if constexpr (System::kHas.pieces) {
+      timeAlone = system.isSteep(y);
+      narrow = system.meetsNarrow(y, dt);
+    }
     if (timeAlone || nearest(system, y).speed > kFar * system.speedScale) {
       StepReport tried;
       const StepStatus status = regular_.step(system, hand, dt, y, next, tried);
       report.rhs += tried.rhs;
-      if (timeAlone || (status == StepStatus::Ok && tried.rhs < kSuspicious)) {
+      if (timeAlone || (status == StepStatus::Ok && (narrow || tried.rhs < kSuspicious))) {
         report.error = tried.error;
         return status;
       }
@@ -112,6 +116,11 @@ class CuspAdaptive {
     double limit(double h) const noexcept {
       const double speed = std::abs(y[system.rates() + lead.mass]);
       h = std::min(h, kLongest * c / std::max(speed, kLeast));
+      if constexpr (System::kHas.sight) {
+        State at(n), slope(n);
+        for (int i = 0; i < n; ++i) at[i] = y[i], slope[i] = k[0][i];
+        h = system.reach(at, slope, h);
+      }
       return std::min(h, aim(system, lead.mass, y[lead.mass], k[0][lead.mass], k[0][system.rates() + lead.mass] / c, dt - y[n]));
     }
 

@@ -1,6 +1,7 @@
 #pragma once
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 
@@ -22,7 +23,7 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N, Parallel>> {
   static constexpr int kStates = 2 * N;
   static constexpr bool kTangential = true;
   static constexpr bool kSecondOrder = false;
-  static constexpr Hooks kHas{.ends = true, .branches = true, .holding = true, .care = true, .pieces = true, .leadRate = true};
+  static constexpr Hooks kHas{.ends = true, .branches = true, .holding = true, .care = true, .pieces = true, .sight = true, .leadRate = true};
   static constexpr double kSwing = 1.0 / 30;
   using State = Numbers<kStates>;
   std::shared_ptr<const constraints::CurveRegularity> regularity;
@@ -48,21 +49,33 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N, Parallel>> {
   const constraints::Curve& curveOf(int i) const noexcept { return pieceOf(i).curve; }
   double speedAt(int i, double phi) const noexcept { return norm(evaluate(curveOf(i), phi).rPhi); }
   double scale(int) const noexcept { return kTypicalPlace; }
-  /// The time [s] in which no mass crosses more than a part of a narrow piece, so that sub-steps see the piece.
-  double reach(const State&, const State& rates) const noexcept {
-    constexpr double kParts = 24;
-    double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < n(); ++i)
-      if (const constraints::CurvePiece& piece = pieceOf(i); piece.narrow)
-        least = std::fmin(least, (piece.hi - piece.lo) / (kParts * std::abs(rates[i])));
+  /// The longest sub-step, at most `most` [s], in which no mass moves farther than its narrow places allow.
+  double reach(const State& y, const State& rates, double most) const noexcept {
+    double least = most;
+    if (regularity->narrow.empty()) return least;
+    for (int i = 0; i < n(); ++i) {
+      const double rate = rates[i], speed = y[n() + i], slope = speed != 0 ? rates[n() + i] * (rate / speed) : 0;
+      double way = regularity->reachFrom(y[i], rate > 0);
+      if (!(rate * slope > 0)) way = std::fmin(way, regularity->reachFrom(y[i], !(rate > 0)));  // it may turn round
+      least = std::fmin(least, 2 * way / (std::abs(rate) + std::sqrt(rate * rate + 2 * std::abs(slope) * way)));
+    }
     return least;
   }
-  /// True where only sub-steps can continue: phi is needed more exactly than usual, or a mass passes a narrow piece.
-  bool wantsSubSteps(const State& y) const noexcept {
+  static constexpr int sightCost() noexcept { return 0; }
+  /// True where only sub-steps can continue: phi is needed more exactly than usual, or a narrow place lies within the way of a step.
+  bool wantsSubSteps(const State& y, double dt) const noexcept { return isSteep(y) || meetsNarrow(y, dt); }
+  bool isSteep(const State& y) const noexcept {
     constexpr double kSteep = 4;
-    for (int i = 0; i < n(); ++i)
-      if (pieceOf(i).narrow) return true;
     return steepness(y) > kSteep;
+  }
+  bool meetsNarrow(const State& y, double dt) const noexcept {
+    constexpr double kFaster = 0.05;  // [m/s] that a mass may become within a step
+    if (regularity->narrow.empty()) return false;
+    for (int i = 0; i < n(); ++i) {
+      const double way = (std::abs(y[n() + i]) + kFaster) * dt / std::fmax(speedAt(i, y[i]), 1e-290);
+      if (way > std::fmin(regularity->reachFrom(y[i], true), regularity->reachFrom(y[i], false))) return true;
+    }
+    return false;
   }
   double tightening() const noexcept { return 1; }
   /// The distance that a unit of phi moves a mass, relative to the usual distance. It has no bound towards the end of an arc, a root or a
@@ -225,8 +238,10 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N, Parallel>> {
              describe(regularity->places[static_cast<std::size_t>(place)], constraints::ConstraintKind::Curve);
     const double end = stoppedLow ? piece.lo : piece.hi;
     if (end == domain.lo || end == domain.hi) return mass + " reached the end of the constraint's domain";
-    return mass + fmt::format(" left what was examined: kinks and jumps of the formula were looked for from {:.6g} to {:.6g} only",
-                              regularity->lo, regularity->hi);
+    const bool unseen = end == regularity->seenLo || end == regularity->seenHi;
+    return mass + fmt::format(" left what was examined: {} of the formula were looked for from {:.6g} to {:.6g} only",
+                              unseen ? "bends too short for a step" : "kinks and jumps", unseen ? regularity->seenLo : regularity->lo,
+                              unseen ? regularity->seenHi : regularity->hi);
   }
   /// The positions of the masses when no step can continue, relative to the nearest place of the curve.
   std::string troubleReason(const State& y) const {
@@ -240,11 +255,10 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N, Parallel>> {
                              describe(place, constraints::ConstraintKind::Curve));
         }
     for (int i = 0; i < n(); ++i)
-      for (const constraints::CurvePiece& piece : regularity->pieces)
-        if (const double at = piece.lo + 0.5 * (piece.hi - piece.lo); piece.narrow && std::abs(at - y[i]) < nearest) {
+      for (const constraints::NarrowPlace& place : regularity->narrow)
+        if (const double at = std::clamp(y[i], place.lo, place.hi); std::abs(at - y[i]) < nearest) {
           nearest = std::abs(at - y[i]);
-          told = fmt::format("mass {} at phi = {:.9g}, before phi = {:.9g}, about which the curve turns within {:.2g}", i + 1, y[i], at,
-                             piece.hi - piece.lo);
+          told = fmt::format("mass {} at phi = {:.9g}, by phi = {:.9g}, where the curve turns within {:.2g}", i + 1, y[i], at, place.reach);
         }
     return told;
   }

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 #include <span>
 #include <string>
 
@@ -32,6 +33,7 @@ struct CurvePlaces {
   constraints::Period period;  // whole turns of it are taken off phi, where it has become large, and counted here
   std::array<double, kMassCapacity<N>> turns{};
   int ticks = 0;
+  double seenLo = -std::numeric_limits<double>::infinity(), seenHi = std::numeric_limits<double>::infinity();  // short bends are known between
 
   CurvePlaces(const ObjectModel& model, const constraints::Constraint& constraint, double typicalSpeed, int roomForPhi)
       : curve(constraint.curve), domain(constraint.domain[0]), speedScale(typicalSpeed), count(model.count()), room(roomForPhi),
@@ -64,12 +66,14 @@ struct CurvePlaces {
   double phiOf(int i, double phi) const noexcept {
     return turns[i] == 0 ? phi : std::fma(turns[i], period.turn, std::fma(turns[i], period.rest, phi));
   }
+  bool isUnseen(double phi) const noexcept { return phi < seenLo || phi > seenHi; }
   /// A phi that has grown large loses digits of the position. Whole turns are taken off, or the motion ends.
   template <class State>
   Settled settle(const State&, State& y) noexcept {
     constexpr int kLookEvery = 64;  // ticks
     if (++ticks % kLookEvery != 0) return Settled::Same;
     for (int i = 0; i < n(); ++i) {
+      if (isUnseen(phiOf(i, y[i]))) return Settled::Lost;
       if (!(std::abs(y[i]) > kFarPhi)) continue;
       if (period.turn > 0) takeTurnsOff(i, y);
       else if (const constraints::CurvePoint p = evaluate(curve, y[i]); roundingOfPhi(p, y[i]) > allowedRounding(p)) return Settled::Lost;
@@ -83,6 +87,10 @@ struct CurvePlaces {
   }
   template <class State>
   std::string lostReason(const State& y) const {
+    for (int i = 0; i < n(); ++i)
+      if (const double phi = phiOf(i, y[i]); isUnseen(phi))
+        return fmt::format("mass {} at phi = {:.9g} left what was examined: bends too short for a step were looked for from {:.6g} to {:.6g} only",
+                           i + 1, phi, seenLo, seenHi);
     for (int i = 0; i < n(); ++i)
       if (const constraints::CurvePoint p = evaluate(curve, y[i]); roundingOfPhi(p, y[i]) > allowedRounding(p))
         return fmt::format("mass {} at phi = {:.6g}, so far from 0 that a rounding of phi moves it by {:.2g} m, in every tick", i + 1, y[i],

@@ -221,6 +221,47 @@ bool SurfaceSystem::roundingShows(const State& y) const noexcept {
   return !(kRounded * (std::abs(y[0]) * byU + std::abs(y[1]) * byV) <= kShows);
 }
 
+constraints::SurfaceWatch::Motion SurfaceSystem::motionOf(const State& y) const noexcept {
+  constraints::SurfaceWatch::Motion motion;
+  motion.q = inBase(y);
+  const constraints::SurfacePoint here = evaluate(active, y[0], y[1]);
+  const Vec3 velocity = y[2] * here.rU + y[3] * here.rV;
+  motion.speed = norm(velocity);
+  const constraints::SurfacePoint p = inPolar ? evaluate(surface, motion.q[0], motion.q[1]) : here;
+  motion.rate = inPolar ? solveRates(p, velocity) : std::array{y[2], y[3]};
+  motion.length = {norm(p.rU), norm(p.rV)};
+  return motion;
+}
+
+bool SurfaceSystem::meetsPole(const constraints::SurfaceWatch::Motion& motion, double dt) const noexcept {
+  constexpr double kSteps = 4;  // from the pole, in its parameter
+  if (!inPolar) return false;
+  const std::size_t across = polar.fixed == 1 ? 1 : 0;
+  return !(std::abs(motion.q[across] - polar.pole) * motion.length[across] > kSteps * dt * motion.speed);
+}
+
+bool SurfaceSystem::seesWayOf(const State& y, double dt) const noexcept {
+  if (!inPolar && watch->knows({y[0], y[1]}, {y[2], y[3]}, dt)) return true;
+  if (endingLine(y) >= 0) return true;  // what is there has its own rules
+  const constraints::SurfaceWatch::Motion motion = motionOf(y);
+  return meetsPole(motion, dt) || watch->allows(motion, dt);
+}
+
+double SurfaceSystem::reachSeen(const State& y, const State& dy, double most) const noexcept {
+  constexpr double kToApex = 0.4;  // of the way to a place where r_u or r_v vanishes
+  if (endingLine(y) >= 0) return most;
+  constraints::SurfaceWatch::Motion motion = motionOf(y);
+  if (inPolar) return meetsPole(motion, most) ? most : watch->reach(motion, most);
+  motion.acceleration = {dy[2], dy[3]};
+  const constraints::SurfacePoint p = evaluate(active, y[0], y[1]);
+  const double area = dot(cross(p.rU, p.rV), cross(p.rU, p.rV));
+  if (area < kThin * largestArea) {
+    const double u = norm(y[2] * p.rUu + y[3] * p.rUv), v = norm(y[2] * p.rUv + y[3] * p.rVv);
+    most = std::min({most, u > 0 ? kToApex * norm(p.rU) / u : most, v > 0 ? kToApex * norm(p.rV) / v : most});
+  }
+  return watch->reach(motion, most);
+}
+
 int SurfaceSystem::endingLine(const State& y) const noexcept {
   if (branches == nullptr) return -1;
   const std::array<double, 2> q = inBase(y);
@@ -258,7 +299,7 @@ std::string SurfaceSystem::lostReason(const State& y) const {
           "the surface's parameter lines run into each other here: r_u and r_v are {:.2g} degrees apart, too little for a "
           "velocity to be told from its rates; write the surface in other parameters",
           std::sqrt(dot(area, area) / (dot(p.rU, p.rU) * dot(p.rV, p.rV))) * 180 / std::numbers::pi);
-    if (roundingShows(y))
+    if (rounded || roundingShows(y))
       return fmt::format(
           "the surface is so steep in its parameters here (|r_u| {:.2g} m, |r_v| {:.2g} m) that their rounding shows in the speed; write the "
           "surface in other parameters",

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "constraints/regularity/surface_branches.h"
+#include "constraints/regularity/surface_watch.h"
 #include "sim/dynamics/systems/polar_chart.h"
 #include "sim/dynamics/systems/surface_rates.h"
 #include "sim/dynamics/systems/system.h"
@@ -16,10 +17,11 @@ namespace reachlab::dynamics {
 struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
   static constexpr int kStates = 4;
   static constexpr bool kSecondOrder = true;
-  static constexpr Hooks kHas{.ends = true, .branches = true, .settling = true, .losing = true, .care = true};
+  static constexpr Hooks kHas{.ends = true, .branches = true, .settling = true, .losing = true, .care = true, .sight = true};
   /// Squared sine of the angle between r_u and r_v. Below it the tolerance of the rates, and their rounding, would show in the speed.
   static constexpr double kOblique = 1e-3, kParallel = 1e-6;
   static constexpr double kDegenerate = 1e-7;  // of the largest |r_u x r_v|^2: below, r_u and r_v span no plane
+  static constexpr double kThin = 1e-3;        // of the same: below, a typed surface may come to an apex within the next steps
   static constexpr double kLong = 1;           // [m^2] |r_u|^2 or |r_v|^2 above which the rates' tolerance would show in the speed
   static constexpr double kShows = 5e-11;      // of the speed: what a rounding of u or v may change
   static constexpr double kTightening = 0.01;  // of the tolerance, where the rates nearly cancel in the velocity
@@ -37,6 +39,7 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
   /// velocity along the crease stays. The part across it turns into the tangent plane of the new side. Jumps, poles and ends are never
   /// crossed.
   std::shared_ptr<const constraints::SurfaceBranches> branches;
+  std::shared_ptr<constraints::SurfaceWatch> watch;  // null on a definition of the catalogue
   struct Where {
     int branch = 0;
     std::array<signed char, constraints::SurfaceBranches::kMaxGuards> side{};  // sign of each line's argument - level
@@ -49,12 +52,14 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
     bool oblique = false;  // r_u and r_v came near each other, see kOblique and kParallel
     bool parallel = false;
     bool longRate = false;   // |r_u|^2 or |r_v|^2 was above kLong
+    bool thin = false;       // an apex may be near
     bool besideEnd = false;  // a line at which the formula ends was near
   };
   mutable Met met;
   /// True where parameters and rates are needed more exactly. Where the parameter lines are oblique the rates nearly cancel in the
   /// velocity. Where r_u is long an error of the parameter is an error of many metres. Beside an end r_u grows without bound.
   bool careful = false;
+  bool rounded = false;  // a step was lost to the rounding of u and v
   /// The smallest distance of a mass from a line at which the formula ends, in the argument of the line. Nearer, the rounding of the
   /// argument shows in the speed.
   std::array<double, constraints::SurfaceBranches::kMaxGuards> margin{};
@@ -78,9 +83,10 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
     const double a = fusedDot(p.rU, drive), b = fusedDot(p.rV, drive), inverse = 1 / determinant;
     // If the lines are less oblique than the limit of flatness, they are neither flat nor parallel. One comparison decides this in nearly
     // all cases.
-    const double awayFromOblique = mulAdd(-kOblique * e, g, determinant), flatBelow = kDegenerate * largestArea;
+    const double awayFromOblique = mulAdd(-kOblique * e, g, determinant), flatBelow = (watch == nullptr ? kDegenerate : kThin) * largestArea;
     if (!(awayFromOblique > flatBelow && std::max(e, g) <= kLong)) [[unlikely]] {
-      met.flat |= determinant < flatBelow;
+      met.flat |= determinant < kDegenerate * largestArea;
+      met.thin |= determinant < flatBelow;
       met.oblique |= awayFromOblique < 0;
       met.parallel |= mulAdd(-kParallel * e, g, determinant) < 0;
       met.longRate |= e > kLong || g > kLong;
@@ -122,9 +128,10 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
   Settled settle(const State&, State& y) noexcept {
     // Across a place where r_u and r_v span no plane the parameters carry no velocity, and such a step has no valid result.
     const bool degenerate = met.flat || met.parallel;
-    careful = met.oblique || met.longRate || met.besideEnd;
+    careful = met.oblique || met.longRate || met.besideEnd || (met.thin && !inPolar);
     met = {};
-    if (degenerate || (careful && roundingShows(y))) return Settled::Lost;
+    rounded = !degenerate && careful && roundingShows(y);
+    if (degenerate || rounded) return Settled::Lost;
     constexpr int kLookEvery = 4;
     return ++ticks % kLookEvery != 0 ? Settled::Same : chooseChart(y);
   }
@@ -153,7 +160,10 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
   /// it. A check round the whole line confirms it.
   enum class Pole { None, Far, Found };
   Pole findPole(const State& y, int fixed) noexcept;
-  bool wantsSubSteps(const State&) const noexcept { return careful; }
+  bool wantsSubSteps(const State& y, double dt) const noexcept { return careful || (watch != nullptr && !seesWayOf(y, dt)); }
+  /// The longest sub-step, at most `most` [s], that misses nothing of the surface.
+  double reach(const State& y, const State& dy, double most) const noexcept { return watch == nullptr ? most : reachSeen(y, dy, most); }
+  int sightCost() const noexcept { return watch == nullptr ? 0 : kLook; }
   double tightening() const noexcept { return careful ? kTightening : 1; }
   void accelerate(const State& y, const State& dy, std::span<MassState> masses) const noexcept {
     const constraints::SurfacePoint p = constraints::evaluate(active, y[0], y[1]);
@@ -213,6 +223,13 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
   /// Carries the mass over line k, a crease. The velocity along the crease stays. The part across it turns into the tangent plane of the
   /// new side. False where r jumps there, or the new side carries no velocity.
   bool crossLine(std::size_t k, const std::array<double, 2>& behind, State& y) noexcept;
+  static constexpr int kLook = 24;  // right-hand sides that take the time of a look ahead
+  bool seesWayOf(const State& y, double dt) const noexcept;
+  double reachSeen(const State& y, const State& dy, double most) const noexcept;
+  /// The motion in the parameters of the surface.
+  constraints::SurfaceWatch::Motion motionOf(const State& y) const noexcept;
+  /// True where a step of dt may pass the pole of the polar chart, at which the parameters of the surface have no rates.
+  bool meetsPole(const constraints::SurfaceWatch::Motion& motion, double dt) const noexcept;
   std::string endReason() const;
   std::string lostReason(const State& y) const;
 };

@@ -27,7 +27,8 @@ struct Hooks {
   bool losing = false;         // lost: tells where the motion has no continuation
   bool parametrising = false;  // parametrise: finding q and q' costs, and only an observer asks for them
   bool care = false;           // wantsSubSteps, tightening: some places need sub-steps, and smaller errors
-  bool pieces = false;         // steepness, reach: a formula by pieces, steep or narrow in some
+  bool pieces = false;         // steepness, isSteep, meetsNarrow: a formula by pieces, steep or narrow in some
+  bool sight = false;          // reach, sightCost: how long a sub-step may be that misses nothing
   bool leadRate = false;       // rate(hand, y, dy, lead, speed): |r_phi| of one mass comes with the rates
   bool gliding = false;        // glide: some steps have a closed form
 };
@@ -61,10 +62,13 @@ concept HooksAgree =
           }}) &&
     agree(S::kHas.losing, {requires(const S s, const typename S::State y) { { s.lost(y) } -> std::same_as<bool>; }}) &&
     agree(S::kHas.parametrising, {requires(const S s, std::span<MassState> masses) { s.parametrise(masses); }}) &&
-    agree(S::kHas.care, {requires(const S s, const typename S::State y) { { s.wantsSubSteps(y) } -> std::same_as<bool>; },
+    agree(S::kHas.care, {requires(const S s, const typename S::State y) { { s.wantsSubSteps(y, 1e-3) } -> std::same_as<bool>; },
                          requires(const S s) { { s.tightening() } -> std::same_as<double>; }}) &&
     agree(S::kHas.pieces, {requires(const S s, const typename S::State y) { { s.steepness(y) } -> std::same_as<double>; },
-                           requires(const S s, const typename S::State y) { { s.reach(y, y) } -> std::same_as<double>; }}) &&
+                           requires(const S s, const typename S::State y) { { s.isSteep(y) } -> std::same_as<bool>; },
+                           requires(const S s, const typename S::State y) { { s.meetsNarrow(y, 1e-3) } -> std::same_as<bool>; }}) &&
+    agree(S::kHas.sight, {requires(const S s, const typename S::State y) { { s.reach(y, y, 1e-3) } -> std::same_as<double>; },
+                          requires(const S s) { { s.sightCost() } -> std::same_as<int>; }}) &&
     agree(S::kHas.leadRate, {requires(const S s, const typename S::Hand hand, const typename S::State y, typename S::State dy, double speed) {
             s.rate(hand, y, dy, 0, speed);
           }}) &&
