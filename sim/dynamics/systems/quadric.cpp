@@ -21,6 +21,27 @@ double sampleAt(const constraints::Domain& domain, double start, double fraction
 }
 
 constexpr double kRound = 1e-13;  // of A: as round as ten fitted coefficients can be
+constexpr double kNone = 1e-6, kOn = 1e-9;  // of the gradient, which is of order one; [m] from the surface
+
+/// The place d where the gradient vanishes, or comes nearest to it.
+Eigen::Vector3d flattest(const Quadric& q, Eigen::Matrix3d& a, Eigen::Vector3d& b) {
+  a << q.a[0], q.a[3], q.a[4], q.a[3], q.a[1], q.a[5], q.a[4], q.a[5], q.a[2];
+  b << q.b.x, q.b.y, q.b.z;
+  return (2 * a).completeOrthogonalDecomposition().solve(-b);
+}
+
+/// A cone about its apex: b = 0 and c = 0. A fitted b and c would make it a hyperboloid with a waist of 1e-13 m, round which a mass turns.
+void putApexFirst(Quadric& q, double size) {
+  constexpr double kRounding = 1e-13;  // of the size
+  Eigen::Matrix3d a;
+  Eigen::Vector3d b;
+  const Eigen::Vector3d d = flattest(q, a, b);
+  q.centre += Vec3{d.x(), d.y(), d.z()};
+  for (double* x : {&q.centre.x, &q.centre.y, &q.centre.z})
+    if (std::abs(*x) < kRounding * size) *x = 0;
+  q.b = {};
+  q.c = 0;
+}
 
 }  // namespace
 
@@ -76,6 +97,7 @@ std::optional<Quadric> fitQuadric(const constraints::Surface& surface, const std
   for (double& value : q.a) value /= slope;
   q.b = q.b / slope;
   q.c /= slope;
+  if (hasApex(q)) putApexFirst(q, size);
   return q;
 }
 
@@ -113,10 +135,9 @@ bool provesQuadric(const constraints::Constraint& surface, const Quadric& q) {
 }
 
 bool hasApex(const Quadric& q) {
-  constexpr double kNone = 1e-6, kOn = 1e-9;  // of the gradient, which is of order one; [m] from the surface
   Eigen::Matrix3d a;
-  a << q.a[0], q.a[3], q.a[4], q.a[3], q.a[1], q.a[5], q.a[4], q.a[5], q.a[2];
-  const Eigen::Vector3d b(q.b.x, q.b.y, q.b.z), d = (2 * a).completeOrthogonalDecomposition().solve(-b);
+  Eigen::Vector3d b;
+  const Eigen::Vector3d d = flattest(q, a, b);
   return !((2 * a * d + b).norm() > kNone) && !(std::abs(d.dot(a * d) + b.dot(d) + q.c) > kOn);
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+
 #include "sim/dynamics/systems/quadric.h"
 #include "sim/dynamics/systems/surface_rates.h"
 #include "sim/dynamics/systems/system.h"
@@ -11,8 +13,10 @@ namespace reachlab::dynamics {
 struct QuadricSystem : SpaceSystem<Springs<1, true>> {
   static constexpr int kStates = 6;
   static constexpr bool kSecondOrder = true;
-  static constexpr Hooks kHas{.ends = true, .settling = true, .losing = true, .parametrising = true, .gliding = true};
-  static constexpr int kProjectEvery = 8;  // ticks
+  static constexpr Hooks kHas{.ends = true, .settling = true, .losing = true, .parametrising = true, .care = true, .sight = true, .gliding = true};
+  static constexpr int kProjectEvery = 8;   // ticks
+  static constexpr double kBeside = 1e-2;   // [m] from an apex, within which places are computed more exactly
+  static constexpr double kNearest = 1e-9;  // [m] from an apex, within which rounding decides where a mass leaves it
   using State = Numbers<6>;
 
   Quadric quadric;
@@ -22,6 +26,8 @@ struct QuadricSystem : SpaceSystem<Springs<1, true>> {
   bool edges = false;  // the domain has an edge that is not a pole: parameters are followed
   int ticks = 0;
   mutable std::array<double, 2> parameters{};  // last known u, v: where the search for the next begins
+  mutable double nearness = 1;   // the distance from an apex over kBeside, at most 1
+  mutable bool atApex = false;   // a step came nearer than kNearest
   std::optional<Sphere> sphere;
   bool gliding = false;  // on a sphere without forces
 
@@ -48,7 +54,28 @@ struct QuadricSystem : SpaceSystem<Springs<1, true>> {
     const Vec3 a = mulAdd(-(mulAdd(2, fusedDot(v, quadric.times(v)), fusedDot(n, f)) / fusedDot(n, n)), n, f);
     dy.assign(v.x, v.y, v.z, a.x, a.y, a.z);
   }
-  double scale(int i) const noexcept { return i < 3 ? kTypicalPlace : 1.0; }
+  double scale(int i) const noexcept { return i < 3 ? kTypicalPlace * nearness : 1.0; }
+
+  /// The time [s] in which a mass would come to an apex, if it moved straight towards it. Its distance is that times |v|.
+  double timeToApex(const State& y) const noexcept {
+    const Vec3 turn = 2.0 * quadric.times({y[3], y[4], y[5]});
+    return norm(quadric.gradient({y[0], y[1], y[2]})) / std::fmax(norm(turn), 1e-300);
+  }
+  bool wantsSubSteps(const State& y, double dt) const noexcept {
+    constexpr double kSteps = 4;
+    return apex && timeToApex(y) < kSteps * dt;
+  }
+  static constexpr double tightening() noexcept { return 1; }
+  /// The longest sub-step, at most `most` [s]: the force of the surface turns round beside an apex.
+  double reach(const State& y, const State&, double most) const noexcept {
+    constexpr double kPart = 0.4;
+    if (!apex) return most;
+    const double time = timeToApex(y), distance = time * norm(Vec3{y[3], y[4], y[5]});
+    nearness = std::fmin(1, std::fmax(distance, kNearest) / kBeside);
+    atApex = atApex || distance < kNearest;
+    return std::fmin(most, kPart * time);
+  }
+  static constexpr int sightCost() noexcept { return 0; }
 
   /// One step along the great circle: d and v turn by |v| dt / R in the plane that they span. False where a force acts, or where the turn
   /// is too large for the series.
@@ -69,6 +96,9 @@ struct QuadricSystem : SpaceSystem<Springs<1, true>> {
   /// Projects the state onto the surface every few ticks. This removes the drift of rounding, far below the errors that a multistep history
   /// notices. Lost where the normal turned round within the step, at the apex of a cone, because the continuation is undetermined there.
   Settled settle(const State& before, State& y) noexcept {
+    const bool met = atApex;
+    atApex = false;
+    if (met) return Settled::Lost;
     const bool project = ++ticks % kProjectEvery == 0;
     if (!project && !apex) return Settled::Same;
     Vec3 r{y[0], y[1], y[2]}, v{y[3], y[4], y[5]};
@@ -92,6 +122,7 @@ struct QuadricSystem : SpaceSystem<Springs<1, true>> {
     y.assign(p.r.x, p.r.y, p.r.z, v.x, v.y, v.z);
     parameters = {q[0], q[1]};
     ticks = 0;
+    atApex = false;
   }
   void locate(const State& y, std::span<MassState> masses) const noexcept {
     masses[0].r = {y[0], y[1], y[2]};
