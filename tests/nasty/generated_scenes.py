@@ -2,7 +2,7 @@
 """Random scenes of a fixed seed, each beside an independent solution: kinks, bends, needles, steps, ripples, combs, poles, ends, jumps,
 cusps, seams, apexes and windings, in all scales of metres and of the parameters.
 
-    python3 tests/nasty/generated_scenes.py build/dev/cli/reach [--count 240] [--seed 1] [--show] > generated.tsv
+    python3 tests/nasty/generated_scenes.py build/dev/cli/reach [--count 240] [--seed 1] [--only NAME,…] [--show] > generated.tsv
 
 A mass of 1 kg is let go without a hand, on a curve with or without gravity, or on a surface without forces. The reference never uses the
 program or its equations. On a curve it is the time along the arc, dt = ds/v with v^2 = v0^2 - 2 g (y - y0). A surface is a cylinder over
@@ -497,10 +497,14 @@ def cusp_scene(r):
 MAKERS = [curve_scene] * 8 + [cylinder_scene] * 5 + [polar_scene] * 2 + [cone_scene] * 2 + [revolution_scene] + [cusp_scene]
 
 
-def scenes(seed, count):
-    made, number_ = [], 0
-    while len(made) < count:
+def scenes(seed, count, only):
+    """One after the other, so that each is judged as soon as it is made."""
+    made, number_ = 0, 0
+    while made < count:
         number_ += 1
+        if only and f"{seed}/{number_}" not in only:
+            made += number_ >= 4 * count
+            continue
         r = random.Random(f"{seed}/{number_}")
         try:
             with np.errstate(all="ignore"):
@@ -510,8 +514,8 @@ def scenes(seed, count):
         if not all(np.isfinite(c) for c in scene.place):
             continue
         scene.name = f"{seed}/{number_}"
-        made.append(scene)
-    return made
+        made += 1
+        yield scene
 
 
 # --- the program ---------------------------------------------------------------------------------------------------------------------
@@ -560,16 +564,18 @@ def main():
     options.add_argument("program")
     options.add_argument("--count", type=int, default=240)
     options.add_argument("--seed", type=int, default=1)
+    options.add_argument("--only", default="", help="names of scenes, such as 1/3,1/29")
     options.add_argument("--show", action="store_true", help="only print the scenes and their references")
     given = options.parse_args()
     counts, out = {}, csv.writer(sys.stdout, delimiter="\t", lineterminator="\n")
     out.writerow(["scene", "kind", "x", "y", "z", "at", "rate", "gravity_y", "seconds", "x_m", "y_m", "z_m", "stop_s", "verdict", "detail"])
     with tempfile.TemporaryDirectory() as folder:
-        for scene in scenes(given.seed, given.count):
+        for scene in scenes(given.seed, given.count, [name for name in given.only.split(",") if name]):
             verdict, detail = ("", "") if given.show else judge(scene, *run(given.program, scene, folder))
             counts[verdict] = counts.get(verdict, 0) + 1
             out.writerow([scene.name, scene.kind, *scene.lines, ",".join(map(number, scene.at)), ",".join(map(number, scene.rate)), scene.gravity,
                           scene.seconds, *[np.format_float_positional(c, 18) for c in scene.place], scene.stop or "", verdict, detail])
+            sys.stdout.flush()
     print(", ".join(f"{n} {verdict}" for verdict, n in sorted(counts.items())), file=sys.stderr)
     return counts.get("WRONG", 0) > 0 or counts.get("needless", 0) > NEEDLESS * given.count
 
