@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <type_traits>
+
+#include "base/math/lanes.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -10,25 +13,50 @@ namespace {
 constexpr double kSmallStep = 1e-10;  // of the duration: the fit has arrived
 
 /// Sums over the window that both the cost and the normal equations are made of. a: d phi / d s, b: phi's change with ln T at a held
-/// centre, p: phi, v: the data.
-struct Sums {
-  double aa = 0, ab = 0, ap = 0, av = 0, bb = 0, bp = 0, bv = 0, pp = 0, pv = 0;
+/// centre, p: phi, v: the data. Of one sample after another, or of several side by side.
+template <class Number>
+struct SumsOf {
+  Number aa{}, ab{}, ap{}, av{}, bb{}, bp{}, bv{}, pp{}, pv{};
+  void add(const Number& slope, const Number& b, const Number& value, const Number& w, const Number& v) {
+    const Number wa = w * slope, wb = w * b, wp = w * value;
+    aa += wa * slope, ab += wa * b, ap += wa * value, av += wa * v;
+    bb += wb * b, bp += wb * value, bv += wb * v;
+    pp += wp * value, pv += wp * v;
+  }
 };
+using Sums = SumsOf<double>;
 
-/// The cubic between sample i and i + 1, slopes of fourth order: c0 + d (c1 + d (c2 + d c3)).
-inline std::array<double, 4> cubicOf(const double* f) {
+using Cubic = std::array<double, 4>;  // c0 + d (c1 + d (c2 + d c3))
+
+/// The cubic between sample i and i + 1, slopes of fourth order.
+inline Cubic cubicOf(const double* f) {
   const double m0 = (8 * (f[1] - f[-1]) - (f[2] - f[-2])) / 12, m1 = (8 * (f[2] - f[0]) - (f[3] - f[-1])) / 12;
   return {f[0], m0, 3 * (f[1] - f[0]) - 2 * m0 - m1, 2 * (f[0] - f[1]) + m0 + m1};
 }
-inline double valueOf(const std::array<double, 4>& c, double d) { return c[0] + d * (c[1] + d * (c[2] + d * c[3])); }
-inline double slopeOf(const std::array<double, 4>& c, double d) { return c[1] + d * (2 * c[2] + d * 3 * c[3]); }
+template <class Number, class Coefficients>
+Number valueOf(const Coefficients& c, const Number& d) {
+  return c[0] + d * (c[1] + d * (c[2] + d * c[3]));
+}
+template <class Number, class Coefficients>
+Number slopeOf(const Coefficients& c, const Number& d) {
+  return c[1] + d * (2.0 * c[2] + d * 3.0 * c[3]);
+}
 
 constexpr std::ptrdiff_t kAside = 2;  // samples that a piece needs on either side
+constexpr int kSamplesAtOnce = 4;     // samples side by side
+using FourSamples = Lanes<kSamplesAtOnce>;
 
-/// `pieceAt(i)`: the cubic between samples i and i + 1 of phi; `changeAt(i, d)`: d phi / d ln T there.
+/// Each coefficient of four cubics.
+std::array<FourSamples, 4> sideBySide(const Cubic& a, const Cubic& b, const Cubic& c, const Cubic& d) {
+  return {FourSamples{a[0], b[0], c[0], d[0]}, FourSamples{a[1], b[1], c[1], d[1]}, FourSamples{a[2], b[2], c[2], d[2]},
+          FourSamples{a[3], b[3], c[3], d[3]}};
+}
+
+/// `pieceAt(i)`: the cubic between samples i and i + 1 of phi. `changeAt(i)`: that of d phi / d ln T, or nothing for a plan that is held.
 template <typename PieceAt, typename ChangeAt>
 Sums sumOver(const FitWindow& window, double first, double spacing, std::ptrdiff_t cells, double centre, double duration, PieceAt&& pieceAt,
              ChangeAt&& changeAt) {
+  constexpr bool kChanges = !std::is_same_v<std::decay_t<ChangeAt>, std::nullptr_t>;
   Sums s;
   if (cells < 6) return s;
   const double perStep = 1 / spacing;
@@ -39,20 +67,36 @@ Sums sumOver(const FitWindow& window, double first, double spacing, std::ptrdiff
   const auto n = static_cast<double>(window.velocity.size());
   const auto from = static_cast<std::ptrdiff_t>(std::clamp(std::ceil((lowest - x0) / dx), 0.0, n));
   const auto to = static_cast<std::ptrdiff_t>(std::clamp(std::floor((highest - x0) / dx) + 1, 0.0, n));
-  for (std::ptrdiff_t k = from; k < to; ++k) {
-    const double x = x0 + static_cast<double>(k) * dx;
+  const double* const weight = window.weight.data();
+  const double* const velocity = window.velocity.data();
+  const auto placeOf = [&](std::ptrdiff_t k) { return x0 + static_cast<double>(k) * dx; };
+  SumsOf<FourSamples> four;
+  std::ptrdiff_t k = from;
+  for (; k + kSamplesAtOnce <= to; k += kSamplesAtOnce) {
+    const double x[] = {placeOf(k), placeOf(k + 1), placeOf(k + 2), placeOf(k + 3)};
+    const std::ptrdiff_t i[] = {static_cast<std::ptrdiff_t>(x[0]), static_cast<std::ptrdiff_t>(x[1]), static_cast<std::ptrdiff_t>(x[2]),
+                                static_cast<std::ptrdiff_t>(x[3])};
+    const auto apart = [&](int lane) { return x[lane] - static_cast<double>(i[lane]); };
+    const FourSamples d{apart(0), apart(1), apart(2), apart(3)}, place{x[0], x[1], x[2], x[3]};
+    const std::array<FourSamples, 4> piece = sideBySide(pieceAt(i[0]), pieceAt(i[1]), pieceAt(i[2]), pieceAt(i[3]));
+    const FourSamples slope = perStep * slopeOf(piece, d), fromMiddle = first + place * spacing - 0.5;
+    FourSamples b = -slope * fromMiddle;
+    if constexpr (kChanges) b += valueOf(sideBySide(changeAt(i[0]), changeAt(i[1]), changeAt(i[2]), changeAt(i[3])), d);
+    four.add(slope, b, valueOf(piece, d), loadLanes<FourSamples>(weight + k), loadLanes<FourSamples>(velocity + k));
+  }
+  for (; k < to; ++k) {
+    const double x = placeOf(k);
     const auto i = static_cast<std::ptrdiff_t>(x);
     const double d = x - static_cast<double>(i);
-    const std::array<double, 4>& piece = pieceAt(i);
-    const double value = valueOf(piece, d), slope = perStep * slopeOf(piece, d);
-    const double fromMiddle = first + x * spacing - 0.5;
-    const double b = changeAt(i, d) - slope * fromMiddle;
-    const double w = window.weight[static_cast<std::size_t>(k)], v = window.velocity[static_cast<std::size_t>(k)];
-    const double wa = w * slope, wb = w * b, wp = w * value;
-    s.aa += wa * slope, s.ab += wa * b, s.ap += wa * value, s.av += wa * v;
-    s.bb += wb * b, s.bp += wb * value, s.bv += wb * v;
-    s.pp += wp * value, s.pv += wp * v;
+    const Cubic& piece = pieceAt(i);
+    const double slope = perStep * slopeOf(piece, d), fromMiddle = first + x * spacing - 0.5;
+    double b = -slope * fromMiddle;
+    if constexpr (kChanges) b += valueOf(changeAt(i), d);
+    s.add(slope, b, valueOf(piece, d), weight[k], velocity[k]);
   }
+  const auto join = [](double& sum, const FourSamples& lanes) { sum += (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]); };
+  join(s.aa, four.aa), join(s.ab, four.ab), join(s.ap, four.ap), join(s.av, four.av);
+  join(s.bb, four.bb), join(s.bp, four.bp), join(s.bv, four.bv), join(s.pp, four.pp), join(s.pv, four.pv);
   return s;
 }
 
@@ -170,8 +214,7 @@ MovementFit fitMovement(const FitWindow& window, const ProfilePieces& pieces, co
   return descend(window, start, effort, [&](double centre, double duration, Sums& sums) {
     sums = sumOver(
         window, pieces.first, pieces.step, cells, centre, duration,
-        [&](std::ptrdiff_t i) -> const std::array<double, 4>& { return pieces.c[static_cast<std::size_t>(i - kAside)]; },
-        [](std::ptrdiff_t, double) { return 0.0; });
+        [&](std::ptrdiff_t i) -> const Cubic& { return pieces.c[static_cast<std::size_t>(i - kAside)]; }, nullptr);
     return true;
   });
 }
@@ -187,7 +230,7 @@ MovementFit fitMovement(const FitWindow& window, const ProfileFamily& family, co
     sums = sumOver(
         window, scratch.first, scratch.step, static_cast<std::ptrdiff_t>(scratch.value.size()), centre, duration,
         [&](std::ptrdiff_t i) { return cubicOf(scratch.value.data() + i); },
-        [&](std::ptrdiff_t i, double d) { return valueOf(cubicOf(scratch.change.data() + i), d); });
+        [&](std::ptrdiff_t i) { return cubicOf(scratch.change.data() + i); });
     return true;
   });
   if (fit.found) family.at(fit.duration, scratch);
