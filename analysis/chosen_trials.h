@@ -20,3 +20,8 @@ struct ChosenTrials {
 AnalysisInput readChosen(std::span<const ChosenTrials> chosen, const std::function<bool()>& goOn = {});
 
 }  // namespace reachlab::analysis
+/// Called before each trial that is read and after each that is fitted. An exception from it ends the analysis.
+using ChosenProgress = std::function<void()>;
+/// What `analyzeTrials` gives for `readChosen`, but each trial's samples are forgotten before the next trial is read.
+Analysis analyzeChosen(std::span<const ChosenTrials> chosen, const AnalysisOptions& options, const ChosenProgress& progress = {});
+

@@ -31,7 +31,6 @@
 #include "gui/docks/stations_dock.h"
 #include "gui/docks/trials_dock.h"
 #include "gui/docks/velocity_dock.h"
-#include "gui/inspector/epsilon_panel.h"
 #include "gui/inspector/inspector.h"
 #include "gui/plot/criterion_style.h"
 #include "gui/plot/signal_point.h"
@@ -188,12 +187,8 @@ void MainWindow::wireSession() {
     predictions().addErrors(errors, succeeded);
     docks_.trials->setErrors(errors);
   });
-  connect(&runFits_, &inspector::Inspector::judged, this, [this](const std::shared_ptr<const inspector::Inspection>& run) {
-    std::vector<std::optional<double>> fitted;
-    for (int i = 0; i < predict::kCriterionCount; ++i)
-      fitted.push_back(inspector::fittedEpsilon(*run->analysis, 0, static_cast<predict::Criterion>(i)));
-    predictions().setFitted(fitted);
-  });
+  connect(&runFits_, &inspector::Inspector::fitted, this,
+          [this](const std::vector<std::optional<double>>& epsilons) { predictions().setFitted(epsilons); });
   session_.setOwnPause([this] {
     const docks::SessionDock& dock = *docks_.session;
     return dock.repeatsByItself() ? std::optional(dock.pauseSeconds()) : std::nullopt;
@@ -359,7 +354,7 @@ void MainWindow::trialEnded() {
 void MainWindow::fitRun() {
   succeeded_.push_back(session_.run()->numberOf(*session_.lastTrial()));
   if (succeeded_.size() < analysis::kFewestTrials || session_.run()->configuration().practice) return;
-  runFits_.begin({{session_.run()->logPath(), succeeded_}});
+  runFits_.fit({{session_.run()->logPath(), succeeded_}});
 }
 
 void MainWindow::oneFrame() {

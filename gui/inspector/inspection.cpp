@@ -2,9 +2,11 @@
 
 #include <QMetaObject>
 #include <exception>
+#include <malloc.h>
 
 #include "analysis/report/write_analysis.h"
 #include "base/system/error_report.h"
+#include "gui/inspector/epsilon_panel.h"
 #include "sim/record/log/log.h"
 
 namespace reachlab::gui::inspector {
@@ -67,7 +69,7 @@ void Inspector::cancel() { thread_.request_stop(); }
 
 void Inspector::begin(std::vector<analysis::ChosenTrials> chosen) {
   start([this, chosen = std::move(chosen)](int turn, const std::stop_token& stop) {
-    std::shared_ptr<Inspection> found = measure(analysis::readChosen(chosen, [&] { return !stop.stop_requested(); }));
+    const std::shared_ptr<Inspection> found = measure(analysis::readChosen(chosen, [&] { return !stop.stop_requested(); }));
     goOnUnless(stop);
     tell(turn, [this, found = std::shared_ptr<const Inspection>(std::make_shared<Inspection>(*found))] { Q_EMIT read(found); });
     if (found->input.trials.empty()) return;
@@ -78,6 +80,19 @@ void Inspector::begin(std::vector<analysis::ChosenTrials> chosen) {
     }));
     goOnUnless(stop);
     tell(turn, [this, found = std::shared_ptr<const Inspection>(found)] { Q_EMIT judged(found); });
+  });
+}
+
+void Inspector::fit(std::vector<analysis::ChosenTrials> chosen) {
+  start([this, chosen = std::move(chosen)](int turn, const std::stop_token& stop) {
+    std::vector<std::optional<double>> epsilons;
+    {
+      const analysis::Analysis analysis = analysis::analyzeChosen(chosen, {}, [&] { goOnUnless(stop); });
+      for (int i = 0; !analysis.results.empty() && i < predict::kCriterionCount; ++i)
+        epsilons.push_back(fittedEpsilon(analysis, 0, static_cast<predict::Criterion>(i)));
+    }
+    malloc_trim(0);  // a day has hundreds of fits, each on another thread, whose heap would keep what it no longer needs
+    tell(turn, [this, epsilons] { Q_EMIT fitted(epsilons); });
   });
 }
 

@@ -2,6 +2,7 @@
 #include <QObject>
 #include <QString>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <thread>
 #include <vector>
@@ -27,6 +28,8 @@ class Inspector : public QObject {
 
   /// `read` follows, then `judged`. The numbers are `reach analyze`'s for a dataset of just these trials.
   void begin(std::vector<analysis::ChosenTrials> chosen);
+  /// `fitted` follows, if the trials can be fitted. No sample of them stays in memory.
+  void fit(std::vector<analysis::ChosenTrials> chosen);
   /// Analyses the dataset at `path` as `reach analyze` does and writes report, tables and figures into its folder. `reported` follows.
   void report(const QString& path);
   /// Stops the work under way. `idle` follows.
@@ -36,6 +39,8 @@ class Inspector : public QObject {
  Q_SIGNALS:
   void read(const std::shared_ptr<const reachlab::gui::inspector::Inspection>& inspection);
   void judged(const std::shared_ptr<const reachlab::gui::inspector::Inspection>& inspection);
+  /// The fitted epsilon of each criterion over the chosen trials. [m/s]
+  void fitted(const std::vector<std::optional<double>>& epsilons);
   void reported(const QString& file);
   void progressed(const QString& what, int done, int of);
   void failed(const QString& sentence);

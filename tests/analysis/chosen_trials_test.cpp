@@ -40,6 +40,15 @@ TEST(ChosenTrials, AreTheTrialsOfTheDatasetAsTheAnalysisReadsThem) {
     EXPECT_EQ(a.results[0].handEpsilon[i].epsilon, b.results[0].handEpsilon[i].epsilon);
   for (std::size_t k = 0; k < a.people[0].fit.candidates.size(); ++k)
     EXPECT_EQ(a.people[0].fit.candidates[k].epsilonOfAll, b.people[0].fit.candidates[k].epsilonOfAll);
+  // Trial by trial, with no sample kept, they are the same again. An exception of the progress ends it.
+  int told = 0;
+  const Analysis c = analyzeChosen(std::vector{every}, {}, [&] { ++told; });
+  EXPECT_GE(told, 24) << "each trial is read and fitted";
+  ASSERT_EQ(c.people.size(), 1u);
+  for (std::size_t k = 0; k < c.people[0].fit.candidates.size(); ++k)
+    EXPECT_EQ(c.people[0].fit.candidates[k].epsilonOfAll, b.people[0].fit.candidates[k].epsilonOfAll);
+  struct Enough {};
+  EXPECT_THROW((void)analyzeChosen(std::vector{every}, {}, [] { throw Enough{}; }), Enough);
 }
 
 TEST(Marks, ExcludeATrialWithItsReasonAndMoveOnsetAndEnd) {

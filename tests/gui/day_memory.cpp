@@ -1,10 +1,13 @@
 // A day at the window: hours of trials of a simulated hand, on the virtual clock, and what the program's memory does.
-//   tests/gui/under_xvfb build/dev/tests/gui/day_memory [HOURS [MOST_MB]]   exits 1 when more than MOST_MB come to the first hour's
+//   tests/gui/under_xvfb build/dev/tests/gui/day_memory [HOURS [TRIALS]]
+// TRIALS are those of each run. Exits 1 when more than 20 MB come to the first hour's, or when a long run's anonymous memory grows by more
+// than 10 kB a trial.
 #include <QApplication>
 #include <QTemporaryDir>
 #include <QTest>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <unistd.h>
 
 #include "base/ticks.h"
@@ -16,6 +19,9 @@ namespace {
 
 using namespace reachlab;
 
+constexpr double kMostMegabytes = 20, kMostKilobytes = 10;
+constexpr int kLongRun = 500;  // trials: what is taken once, by the first picture or the first fit, counts little
+
 double residentMegabytes() {
   long pages = 0, resident = 0;
   std::FILE* file = std::fopen("/proc/self/statm", "r");
@@ -24,10 +30,23 @@ double residentMegabytes() {
   return 1e-6 * static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
+// What no file backs. From the first trial's end on: the run's file and its plots are there.
+double anonymousKilobytes() {
+  std::FILE* file = std::fopen("/proc/self/status", "r");
+  char line[256];
+  double found = -1;
+  while (file != nullptr && std::fgets(line, sizeof line, file) != nullptr)
+    if (std::strncmp(line, "RssAnon:", 8) == 0) found = 1.024 * std::atof(line + 8);
+  if (file == nullptr || found < 0) std::abort();
+  std::fclose(file);
+  return found;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
-  const double hours = argc > 1 ? std::atof(argv[1]) : 8, most = argc > 2 ? std::atof(argv[2]) : 20;
+  const double hours = argc > 1 ? std::atof(argv[1]) : 8;
+  const int perRun = argc > 2 ? std::atoi(argv[2]) : 200;
   const QTemporaryDir folder;
   qputenv("XDG_CONFIG_HOME", folder.path().toUtf8());
   gui::scene::applySurfaceFormat();
@@ -38,20 +57,25 @@ int main(int argc, char** argv) {
   request.device = "simulated";
   request.fast = true;
   request.seed = 1;
-  request.trials = 200;
+  request.trials = perRun;
   request.place.data = folder.filePath(QStringLiteral("data")).toStdString();
   gui::app::MainWindow window(request);
   window.show();
   if (!QTest::qWaitForWindowExposed(&window)) return 1;
   double seconds = 0, firstHour = 0, largest = 0;
-  int trials = 0, told = 0;
+  double atFirst = 0, perTrial = 0;  // [kB] of the run
+  int trials = 0, told = 0, runs = 0;
   while (seconds < 3600 * hours) {
     window.nextTrial();
     if (window.session().run() == nullptr) return std::fprintf(stderr, "day_memory: %s\n", window.message().toUtf8().constData()), 1;
     if (!QTest::qWaitFor([&] { return !window.session().underWay(); }, 600'000))
       return std::fprintf(stderr, "day_memory: a trial does not end\n"), 1;
-    ++trials;
+    if (trials++ % perRun == 0) atFirst = anonymousKilobytes();
+    if (std::getenv("REACHLAB_EACH") != nullptr && trials % 50 == 0) std::printf("  trial %d: %.0f kB\n", trials, anonymousKilobytes());
     if (window.session().run()->trialsLeft() > 0) continue;
+    const double growth = (anonymousKilobytes() - atFirst) / std::max(perRun - 1, 1);
+    std::printf("run %d: %d trials, %.1f kB of anonymous memory a trial\n", ++runs, perRun, growth);
+    if (perRun >= kLongRun) perTrial = std::max(perTrial, growth);
     seconds += secondsOf(window.session().run()->latest().tick);
     window.endRun();
     const double now = residentMegabytes();
@@ -63,5 +87,5 @@ int main(int argc, char** argv) {
     std::fflush(stdout);
   }
   std::printf("%.1f MB more than after the first hour\n", largest - firstHour);
-  return largest - firstHour > most ? 1 : 0;
+  return largest - firstHour > kMostMegabytes || perTrial > kMostKilobytes ? 1 : 0;
 }
