@@ -6,7 +6,6 @@
 #include "base/ticks.h"
 #include "constraints/constraint.h"
 #include "sim/dynamics/scene.h"
-#include "sim/experiment/checked_experiment.h"
 #include "sim/haptics/blind_hand.h"
 #include "sim/haptics/tick_order.h"
 
@@ -20,20 +19,10 @@ std::unique_ptr<haptics::HapticDevice> checked(std::unique_ptr<haptics::HapticDe
   return hand;
 }
 
-// A scene moves without a task, a trial does not.
-std::vector<dynamics::Scene> compileWithTask(std::span<const experiment::CompiledExperiment> experiments) {
-  std::vector<dynamics::Scene> scenes;
-  for (const experiment::CompiledExperiment& one : experiments) {
-    (void)experiment::requiredTask(one.experiment());
-    scenes.push_back(dynamics::compileScene(one));
-  }
-  return scenes;
-}
-
 }  // namespace
 
 BlockRun::BlockRun(std::span<const experiment::CompiledExperiment> experiments, bool withSamples)
-    : experiments_(experiments), scenes_(compileWithTask(experiments)), withSamples_(withSamples) {
+    : experiments_(experiments), scenes_(dynamics::compileScenes(experiments)), withSamples_(withSamples) {
   if (withSamples_)
     table_ = record::makeChannelTable(record::channelsOfAll(experiments), experiments.front().constraint().parameterCount(), false);
   rows_.columns = table_.size();

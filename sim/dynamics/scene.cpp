@@ -19,6 +19,7 @@
 #include "sim/dynamics/shared_plant.h"
 #include "sim/dynamics/systems/curve_places.h"
 #include "sim/dynamics/systems/quadric.h"
+#include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 
@@ -384,6 +385,15 @@ Scene compile(const experiment::Experiment& experiment, const constraints::Const
 
 Scene compileScene(const experiment::CompiledExperiment& experiment, const SceneOptions& options) {
   return compile(experiment.experiment(), experiment.constraint(), options);
+}
+
+std::vector<Scene> compileScenes(std::span<const experiment::CompiledExperiment> experiments) {
+  std::vector<Scene> scenes;
+  for (const experiment::CompiledExperiment& one : experiments) {
+    (void)experiment::requiredTask(one.experiment());
+    scenes.push_back(compileScene(one));
+  }
+  return scenes;
 }
 
 Scene compileScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const SceneOptions& options) {

@@ -32,15 +32,6 @@ void requireHands(const experiment::Experiment& experiment, std::size_t devices)
         "a device for each of the experiment's hands"});
 }
 
-std::vector<dynamics::Scene> compileAll(std::span<const experiment::CompiledExperiment> experiments) {
-  std::vector<dynamics::Scene> scenes;
-  for (const experiment::CompiledExperiment& one : experiments) {
-    (void)experiment::requiredTask(one.experiment());
-    scenes.push_back(dynamics::compileScene(one));
-  }
-  return scenes;
-}
-
 ForceLimits limitsFor(const experiment::Experiment& experiment, const HandOptions& options) {
   double most = experiment.forceLimit.value_or(options.deviceMaxForce);
   if (options.rendersForce) most = std::min(most, options.deviceMaxForce);
@@ -72,7 +63,7 @@ TickEngine::TickEngine(const experiment::CompiledExperiment& experiment, const E
                  options) {}
 
 TickEngine::TickEngine(std::span<const experiment::CompiledExperiment> scenes, const EngineOptions& options)
-    : TickEngine(scenes, compileAll(scenes), options) {}
+    : TickEngine(scenes, dynamics::compileScenes(scenes), options) {}
 
 TickEngine::TickEngine(const experiment::Experiment& experiment, dynamics::Scene scene, const EngineOptions& options) {
   stages_.emplace_back(experiment, std::move(scene));

@@ -107,7 +107,7 @@ void writeList(const std::string& backup, const List& list) {
 
 std::string inDataset(const fs::path& file, const fs::path& dataset) { return file.lexically_relative(dataset).generic_string(); }
 
-// "sub-01_ses-01_task-reach" and 3, of a log's or a dataset file's name.
+// "sub-01_ses-01_task-reach" and "_run-03", of a log's or a dataset file's name.
 struct RunName {
   std::string stem;
   std::string run;
