@@ -2,13 +2,13 @@
 
 #include <list>
 
-#include "analysis/report/alternatives.h"
 #include "analysis/hands.h"
+#include "analysis/report/alternatives.h"
 #include "analysis/table_columns.h"
 #include "analysis/tables.h"
+#include "sim/record/export/column_dictionary.h"
 #include "sim/record/log/atomic_file.h"
 #include "sim/record/log/folder_hold.h"
-#include "sim/record/export/column_dictionary.h"
 
 namespace reachlab::analysis {
 namespace {

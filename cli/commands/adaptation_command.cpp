@@ -1,14 +1,13 @@
-#include "cli/commands/commands.h"
-#include "cli/output/json_text.h"
-
+#include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <CLI/CLI.hpp>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "analysis/adaptation/state_space.h"
+#include "cli/commands/commands.h"
+#include "cli/output/json_text.h"
 
 namespace reachlab::cli {
 namespace {

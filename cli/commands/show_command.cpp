@@ -6,12 +6,12 @@
 #include <nlohmann/json.hpp>
 
 #include "base/fault.h"
-#include "cli/terminal/at_option.h"
 #include "cli/commands/commands.h"
+#include "cli/output/json_text.h"
 #include "cli/output/readable_logs.h"
 #include "cli/output/success_table.h"
 #include "cli/output/trial_profile.h"
-#include "cli/output/json_text.h"
+#include "cli/terminal/at_option.h"
 #include "sim/record/export/tidy_csv.h"
 #include "sim/record/log/run_log.h"
 #include "sim/record/log/trial_measures.h"
