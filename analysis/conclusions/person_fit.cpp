@@ -12,6 +12,9 @@ namespace {
 
 constexpr double kSameMass = 0.01;  // [kg], above 1 kg a share of the mass
 constexpr int kMassRounds = 6;
+constexpr double kFineMass = 0.05;  // of the mass's interval
+constexpr int kFineRounds = 3;
+constexpr double kNearValley = 1;  // of ln S: valleys of the cost that are searched too are not higher than the best mass by more
 
 /// The fits with one mass of the hand, or with the only shape of a candidate that knows no mass.
 struct MassFits {
@@ -73,15 +76,16 @@ std::size_t bestOf(const std::vector<MassScore>& scores) {
   return static_cast<std::size_t>(std::min_element(scores.begin(), scores.end(), less) - scores.begin());
 }
 
-/// The next mass to try near the best: the least of the parabola through the costs of the best mass and its neighbours. If the parabola has
-/// none, or puts it at a mass that was tried, the middle of the wider gap beside the best. nullopt: the gaps are narrow enough.
-std::optional<double> nextMass(const std::vector<MassScore>& scores) {
-  const std::size_t best = bestOf(scores), n = scores.size();
-  const double here = scores[best].mass, same = kSameMass * std::max(1.0, here);
-  const double below = best > 0 ? here - scores[best - 1].mass : 0, above = best + 1 < n ? scores[best + 1].mass - here : 0;
-  if (std::max(below, above) <= 2 * same) return std::nullopt;
-  const double middle = below > above ? here - below / 2 : here + above / 2;
-  if (n < 3) return middle;
+/// The gaps below and above a mass, 0 at an end.
+std::pair<double, double> gapsAt(const std::vector<MassScore>& scores, std::size_t k) {
+  const double here = scores[k].mass;
+  return {k > 0 ? here - scores[k - 1].mass : 0, k + 1 < scores.size() ? scores[k + 1].mass - here : 0};
+}
+
+/// The least of the parabola through the costs of mass number `best` and its neighbours, between these. nullopt: there is none.
+std::optional<double> leastOfParabola(const std::vector<MassScore>& scores, std::size_t best) {
+  const std::size_t n = scores.size();
+  if (n < 3) return std::nullopt;
   const std::size_t centre = std::clamp<std::size_t>(best, 1, n - 2);
   double mass[3], cost[3] = {};
   for (std::size_t k = 0; k < 3; ++k) {
@@ -91,11 +95,22 @@ std::optional<double> nextMass(const std::vector<MassScore>& scores) {
   }
   const double rise = (cost[2] - cost[1]) / (mass[2] - mass[1]), fall = (cost[1] - cost[0]) / (mass[1] - mass[0]);
   const double curvature = (rise - fall) / (mass[2] - mass[0]);
-  if (!(curvature > 0)) return middle;
-  const double least = std::clamp((mass[0] + mass[1]) / 2 - fall / (2 * curvature), here - below, here + above);
-  for (const MassScore& at : scores)
-    if (std::abs(at.mass - least) <= same) return middle;
-  return least;
+  if (!(curvature > 0)) return std::nullopt;
+  const auto [below, above] = gapsAt(scores, best);
+  return std::clamp((mass[0] + mass[1]) / 2 - fall / (2 * curvature), scores[best].mass - below, scores[best].mass + above);
+}
+
+/// The next mass to try near the best: the least of the parabola. If there is none, or a mass near it was tried, the middle of the wider gap
+/// beside the best. nullopt: the gaps are narrow enough.
+std::optional<double> nextMass(const std::vector<MassScore>& scores) {
+  const std::size_t best = bestOf(scores);
+  const double here = scores[best].mass, same = kSameMass * std::max(1.0, here);
+  const auto [below, above] = gapsAt(scores, best);
+  if (std::max(below, above) <= 2 * same) return std::nullopt;
+  const double middle = below > above ? here - below / 2 : here + above / 2;
+  const std::optional<double> least = leastOfParabola(scores, best);
+  const auto near = [&](const MassScore& at) { return std::abs(at.mass - *least) <= same; };
+  return least && std::none_of(scores.begin(), scores.end(), near) ? *least : middle;
 }
 
 /// The interval of the masses whose scores are not above the best by more than chance. The mean difference of the scores grows with the square
@@ -138,19 +153,36 @@ MassFit fitMass(const Candidate& candidate, const ShapeFitter& fitter, const std
   const std::size_t best = bestOf(coarse);
   if (best > 0) addAt((coarse[best - 1].mass + coarse[best].mass) / 2);
   if (best + 1 < coarse.size()) addAt((coarse[best].mass + coarse[best + 1].mass) / 2);
+  // Valleys are narrow where the hand is light.
+  if (best <= 1 && coarse.size() > 1)
+    for (const double part : {0.125, 0.25, 0.375}) addAt(coarse[0].mass + part * (coarse[1].mass - coarse[0].mass));
+  const std::vector<MassScore> fine = scoresByMass(masses, everyTrial);
+  for (std::size_t k = 1; k + 1 < fine.size(); ++k) {
+    const bool valley = k != bestOf(fine) && fine[k].sum < fine[k - 1].sum && fine[k].sum < fine[k + 1].sum;
+    if (!valley || fine[k].sum > fine[bestOf(fine)].sum + kNearValley * static_cast<double>(everyTrial.size())) continue;
+    if (const std::optional<double> least = leastOfParabola(fine, k)) addAt(*least);
+  }
   for (int round = 0; round < kMassRounds; ++round) {
     const std::optional<double> next = nextMass(scoresByMass(masses, everyTrial));
     if (!next) break;
     addAt(*next);
   }
-  const Bounds rough = intervalOf(scoresByMass(masses, everyTrial));
+  Bounds rough = intervalOf(scoresByMass(masses, everyTrial));
+  for (int round = 0; round < kFineRounds; ++round) {  // where the scatter is small, narrow gaps are not near enough
+    const std::vector<MassScore> scores = scoresByMass(masses, everyTrial);
+    const std::optional<double> least = leastOfParabola(scores, bestOf(scores));
+    const auto near = [&](const MassScore& at) { return std::abs(at.mass - *least) <= kFineMass * (rough.high - rough.low); };
+    if (!least || std::any_of(scores.begin(), scores.end(), near)) break;
+    addAt(*least);
+    rough = intervalOf(scoresByMass(masses, everyTrial));
+  }
   for (const double end : {rough.low, rough.high})
     if (std::none_of(masses.begin(), masses.end(), [&](const MassFits& m) { return std::abs(m.mass - end) <= kSameMass; })) addAt(end);
   const std::vector<MassScore> scores = scoresByMass(masses, everyTrial);
   MassFit out;
   out.mass = scores[bestOf(scores)].mass;
   out.interval = intervalOf(scores);
-  out.atEdge = out.mass >= candidate.masses.back() || (out.mass <= candidate.masses.front() && candidate.masses.front() > 0);
+  out.atEdge = out.interval.high >= candidate.masses.back() || (out.interval.low <= candidate.masses.front() && candidate.masses.front() > 0);
   return out;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 namespace reachlab::analysis {
 namespace {
@@ -13,6 +15,8 @@ constexpr int kPlansAside = 3;          // steps to either side of a centre: 5 %
 constexpr double kPlanNearTime = 0.07;  // P lies within that of the median fitted T
 constexpr int kMaxSteps = 45;           // P between 0.44 and 2.25 times its first value
 constexpr int kPlanRounds = 12;         // of the search for the consistent plan
+constexpr int kPlanFineRounds = 4;      // of the parabolas about the best plan
+constexpr double kLeastGain = 0.002;    // of the mean score: a smaller gain ends them
 // Durations from which a fit starts, times the duration by the moments of v^2. A hand with two humps has several minima.
 constexpr std::array kStarts{1.0, 0.82, 1.22};
 
@@ -46,6 +50,26 @@ double leastCost(const std::map<int, ShapeFits>& plans, double centre) {
   const double b = static_cast<double>(best->second.score.size()), curvature = a - 2 * b + c;
   if (!(curvature > 0)) return 0;
   return centre * std::exp(kPlanStep * (best->first + std::clamp(0.5 * (a - c) / curvature, -0.5, 0.5)));
+}
+
+/// The least of the parabola in ln P through the costs of a plan and of one on either side, and how far the mean score would fall to it.
+/// nullopt: there is none between them.
+struct NearerPlan {
+  double plan = 0, gain = 0;
+};
+std::optional<NearerPlan> nearerPlan(const ShapeFits& before, const ShapeFits& middle, const ShapeFits& after) {
+  if (before.score.size() != middle.score.size() || after.score.size() != middle.score.size() || middle.score.empty()) return std::nullopt;
+  double below = 0, above = 0;  // costs less that of the middle, which is 1 in each trial
+  for (std::size_t i = 0; i < middle.score.size(); ++i) {
+    below += std::exp(std::min(60.0, before.score[i] - middle.score[i])) - 1;
+    above += std::exp(std::min(60.0, after.score[i] - middle.score[i])) - 1;
+  }
+  const double left = std::log(before.plan / middle.plan), right = std::log(after.plan / middle.plan);
+  const double curvature = (above / right - below / left) / (right - left), slope = above / right - curvature * right;
+  if (!(curvature > 0)) return std::nullopt;
+  const double x = -slope / (2 * curvature);
+  if (!(x > left && x < right)) return std::nullopt;
+  return NearerPlan{middle.plan * std::exp(x), slope * slope / (4 * curvature) / static_cast<double>(middle.score.size())};
 }
 
 /// The best plan, refined by the parabola through its neighbours in ln P.
@@ -192,7 +216,31 @@ void ShapeFitter::fitPlans(const ProfileFamily& family, FamilyFits& out, Starts 
   for (int k = 0; k <= kPlansAside; ++k)
     for (const int step : {k, -k, consistent + k, consistent - k}) at(step);
   std::erase_if(out.plans, [](const auto& entry) { return entry.second.trials.empty(); });
-  if (const double plan = leastCost(out.plans, centre); plan > 0) out.between = fitPlan(family, plan, out.anew.trials, thorough);
+  const double plan = leastCost(out.plans, centre);
+  if (!(plan > 0)) return;
+  out.between = fitPlan(family, plan, out.anew.trials, thorough);
+  // Where the scatter is small, the steps are wide beside the valley of the cost.
+  const auto beside = [&](double sign) -> const ShapeFits* {
+    const ShapeFits* nearest = nullptr;
+    for (const auto& [step, fits] : out.plans) {
+      const double way = sign * std::log(fits.plan / plan);
+      if (way > 0 && (nearest == nullptr || way < sign * std::log(nearest->plan / plan))) nearest = &fits;
+    }
+    return nearest;
+  };
+  const ShapeFits *least = beside(-1), *largest = beside(1);
+  if (least == nullptr || largest == nullptr) return;
+  ShapeFits before = *least, after = *largest;
+  for (int round = 0; round < kPlanFineRounds; ++round) {
+    const std::optional<NearerPlan> next = nearerPlan(before, out.between, after);
+    if (!next || next->gain < kLeastGain) break;
+    ShapeFits fresh = fitPlan(family, next->plan, out.between.trials, Starts::Nearby);
+    if (!(std::accumulate(fresh.score.begin(), fresh.score.end(), 0.0) <
+          std::accumulate(out.between.score.begin(), out.between.score.end(), 0.0)))
+      break;
+    ShapeFits& end = fresh.plan > out.between.plan ? before : after;
+    end = std::exchange(out.between, std::move(fresh));
+  }
 }
 
 JudgedShape chooseShape(const FamilyFits& fits, const std::vector<std::size_t>& by) {
