@@ -245,10 +245,14 @@ std::string describeGroup(const std::string& training, bool rotated, const std::
                                                                        : " to the left");
   };
   std::string text = fmt::format("In {}, {} ", training, plural(people.size(), "subject"));
-  if (const auto plateau = known(&Learning::plateau); !plateau.empty())
-    text += fmt::format("learned to cancel {} of it ({} of the last quarter of the training).", meanText(plateau, "%", 1),
-                        rotated ? "rotated trials" : "channel trials");
-  else
+  if (const auto plateau = known(&Learning::plateau); !plateau.empty()) {
+    const TTest test = computeTTest(plateau);
+    const Bounds interval = intervalOf(test);
+    const bool shown = test.mean > 0 && (!interval.finite() || interval.low > 0);
+    text += fmt::format("{} {} of it ({} of the last quarter of the training).{}", shown ? "learned to cancel" : "cancelled",
+                        meanText(plateau, "%", 1), rotated ? "rotated trials" : "channel trials",
+                        shown ? "" : " It is not shown that they learned.");
+  } else
     text += fmt::format("deviated by {} at first and by {} in the last quarter of the training.", sided(&Learning::first),
                         sided(&Learning::last));
   const auto after = known(&Learning::afterEffect), first = known(&Learning::first);

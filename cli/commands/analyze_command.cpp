@@ -7,17 +7,17 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "cli/terminal/analysis_plan.h"
-#include "cli/terminal/at_option.h"
-#include "cli/commands/commands.h"
-#include "cli/terminal/criterion_option.h"
-#include "cli/output/json_text.h"
-#include "base/error.h"
-#include "base/fault.h"
 #include "analysis/report/alternatives.h"
-#include "analysis/tables.h"
 #include "analysis/report/wording.h"
 #include "analysis/report/write_analysis.h"
+#include "analysis/tables.h"
+#include "base/error.h"
+#include "base/fault.h"
+#include "cli/commands/commands.h"
+#include "cli/output/json_text.h"
+#include "cli/terminal/analysis_plan.h"
+#include "cli/terminal/at_option.h"
+#include "cli/terminal/criterion_option.h"
 #include "sim/record/export/derivative.h"
 
 namespace reachlab::cli {
@@ -184,7 +184,8 @@ Json jsonOf(const analysis::Analysis& analysis, const analysis::Effect& e) {
 }
 
 std::string summaryJson(const analysis::Analysis& analysis, const analysis::DatasetIndex& dataset, const analysis::AnalysisFiles& files,
-                        const std::optional<analysis::TruthRecovery>& recovery, const std::optional<AnalysisPlan>& plan) {
+                        const std::optional<analysis::TruthRecovery>& recovery, const std::optional<AnalysisPlan>& plan,
+                        const std::string& learning) {
   Json j = Json::object();
   if (plan) j["plan"] = {{"file", plan->file}, {"date", plan->date}, {"sha256", plan->sha256}, {"departures", plan->departures}};
   j["report"] = files.report;
@@ -192,7 +193,7 @@ std::string summaryJson(const analysis::Analysis& analysis, const analysis::Data
   j["figures"] = files.figures;
   j["runs"] = dataset.runs.size();
   j["notes"] = dataset.notes;
-  if (const std::string learning = analysis::describeLearning(analysis); !learning.empty()) j["adaptation"] = learning;
+  if (!learning.empty()) j["adaptation"] = learning;
   std::vector<double> masses;
   for (const analysis::ConditionResult& r : analysis.results)
     if (masses.empty()) masses = r.candidates.masses;
@@ -258,9 +259,9 @@ void printRecovery(const analysis::TruthRecovery& recovery) {
 }
 
 void printSummary(const analysis::Analysis& analysis, const analysis::DatasetIndex& dataset, const analysis::AnalysisFiles& files,
-                  const std::optional<analysis::TruthRecovery>& recovery) {
+                  const std::optional<analysis::TruthRecovery>& recovery, const std::string& learning) {
   for (const std::string& note : dataset.notes) fmt::print(stderr, "note: {}\n", note);
-  if (const std::string learning = analysis::describeLearning(analysis); !learning.empty()) fmt::print("{}\n", learning);
+  if (!learning.empty()) fmt::print("{}\n", learning);
   fmt::print("{}\n", analysis::describeConclusion(analysis.overall, analysis.common));
   if (const std::string evidence = analysis::describeEvidence(analysis.overall, analysis.common); !evidence.empty())
     fmt::print("{}\n", evidence);
@@ -298,6 +299,7 @@ std::string commandOf(const AnalyzeOptions& o) {
   add(o.speed != usual.speed, fmt::format("--onset-speed {}", o.speed));
   add(o.cutoff != usual.cutoff, fmt::format("--cutoff {}", o.cutoff));
   add(o.bin != usual.bin, fmt::format("--learning-bin {}", o.bin));
+  add(o.residuals, "--residuals");
   add(o.alternatives, "--alternatives");
   add(o.recovery > 0, fmt::format("--recovery {}", o.recovery));
   add(o.recovery > 0 && o.seed != usual.seed, fmt::format("--seed {}", o.seed));
@@ -359,10 +361,10 @@ void run(CLI::App& command, const AnalyzeOptions& o) {
   const analysis::AnalysisFiles files =
       atOption("--out", [&] { return analysis::writeAnalysis(analysis, dataset, header, out, recovery); });
   if (o.out.empty()) record::describeDerivative(out, "Analysis of reaching movements", "reachlab " REACHLAB_VERSION);
-  if (o.json) fmt::print("{}", summaryJson(analysis, dataset, files, recovery, plan));
+  if (o.json) fmt::print("{}", summaryJson(analysis, dataset, files, recovery, plan, header.learning));
   else
     for (const std::string& sentence : header.plan) fmt::print("{}\n", sentence);
-  if (!o.json) printSummary(analysis, dataset, files, recovery);
+  if (!o.json) printSummary(analysis, dataset, files, recovery, header.learning);
   if (!dataset.unreadable.empty())
     throw ResourceError(fmt::format("{} of {} runs could not be read and are not in these results: {}", dataset.unreadable.size(),
                                     dataset.unreadable.size() + dataset.runs.size(), fmt::join(dataset.unreadable, "; ")));

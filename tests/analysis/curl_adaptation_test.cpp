@@ -6,6 +6,7 @@
 #include "analysis/dataset.h"
 #include "analysis/measures/measures.h"
 #include "analysis/report/report.h"
+#include "analysis/report/wording.h"
 #include "sim/subjects/subject_kinds.h"
 #include "sim/record/replay.h"
 #include "tests/session/recorded_runs.h"
@@ -45,7 +46,7 @@ class AdaptationPlans : public session::test::Recorded {
     for (const Condition& condition : index.conditions) conditions_.insert(condition.name);
     const Analysis analysis = builder.finish(index.conditions);
     figures_ = makeFigures(analysis, {}).size();
-    report_ = makeReport({}, analysis, {}, {}, {});
+    report_ = makeReport({.dataset = {}, .version = {}, .command = {}, .learning = describeLearning(analysis)}, analysis, {}, {}, {});
     return series;
   }
   static double mean(const std::vector<TrialMeasures>& of, double TrialMeasures::*value, std::size_t from, std::size_t to) {

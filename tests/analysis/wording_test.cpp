@@ -168,6 +168,8 @@ TEST(Wording, OfLearningGivesPlateauAfterEffectAndItsSide) {
   // t(0.975; 2) sd / sqrt(3) = 4.3027 * 10 / 1.7321 = 24.8.
   expectIn(describeLearning(madeAdaptation({50, 60, 70}, 0.02)),
            {"3 subjects learned to cancel 60 [35.2, 84.8] % of it", "by 10 mm to the left, against the"});
+  expectIn(describeLearning(madeAdaptation({10, 60, -20}, 0.02)),
+           {"3 subjects cancelled 16.7 [−83.7, 117] % of it", "It is not shown that they learned."});
   Analysis without = madeAdaptation({60}, -0.02);
   std::erase_if(without.trials, [](const AnalyzedTrial& t) { return t.scene.channel || t.key.trial > 18; });
   expectIn(describeLearning(without),
