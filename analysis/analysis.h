@@ -117,7 +117,9 @@ struct ConditionResult {
   double endLevel = 0;                                            // mean of the used trials
   std::vector<PredictedSignal> signals;                           // one a prediction of the paper's epsilon
   std::vector<std::unique_ptr<predict::Prediction>> predictions;  // parallel
-  std::vector<std::string> refusals;                              // criteria that cannot be predicted here, and why
+  PredictedSignal movedSignal;                                    // of `moved`
+  std::unique_ptr<predict::Prediction> moved;  // (1) for the T whose movement lasts as long as the trials did; null where `predictions` have it
+  std::vector<std::string> refusals;           // criteria that cannot be predicted here, and why
   EpsilonTable handEpsilon, objectEpsilon;
   CandidateSet candidates;              // of the fits
   Conclusion conclusion;                // indexes `candidates`

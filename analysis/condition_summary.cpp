@@ -15,6 +15,13 @@ std::vector<predict::Criterion> drawnCriteria(const AnalysisOptions& options) {
   return options.drawn.empty() ? comparedCriteria(options) : options.drawn;
 }
 
+predict::PredictOptions howOf(const AnalysisOptions& options) {
+  predict::PredictOptions how;
+  how.handMass = options.handMass;
+  how.handDamping = options.handDamping;
+  return how;
+}
+
 /// The prediction whose movement, measured like a trial's, lasts `measured`: fixed-point steps on its duration.
 std::unique_ptr<predict::Prediction> predictLasting(const Condition& condition, predict::Criterion criterion, predict::PredictOptions how,
                                                     const AnalysisOptions& options, const ConditionResult& result) {
@@ -35,9 +42,7 @@ void addPredictions(const Condition& condition, const AnalysisOptions& options, 
     result.refusals.push_back("the experiment has no task to predict");
     return;
   }
-  predict::PredictOptions how;
-  how.handMass = options.handMass;
-  how.handDamping = options.handDamping;
+  const predict::PredictOptions how = howOf(options);
   for (const predict::Criterion criterion : drawnCriteria(options)) {
     if (!holdsFor(condition, criterion)) {
       result.refusals.push_back(
@@ -54,6 +59,21 @@ void addPredictions(const Condition& condition, const AnalysisOptions& options, 
       const std::string what = error.what();
       result.refusals.push_back(what.starts_with(nameOf(criterion)) ? what : fmt::format("{}: {}", nameOf(criterion), what));
     }
+  }
+}
+
+/// The paper's Figs. 9 and 10 are also shown with criterion (1) for the duration that was moved.
+void addMoved(const Condition& condition, const AnalysisOptions& options, ConditionResult& result) {
+  constexpr predict::Criterion kShown = predict::Criterion::MinHandJerk;
+  const bool predicted =
+      std::any_of(result.signals.begin(), result.signals.end(), [](const PredictedSignal& s) { return s.criterion == kShown; });
+  if (!predicted || result.used == 0 || options.predictFor == PredictionDuration::Moved) return;
+  try {
+    result.moved = predictLasting(condition, kShown, howOf(options), options, result);
+    result.movedSignal = recordPrediction(*result.moved, options.measure, *condition.experiment().task);
+  } catch (const Error& error) {
+    result.moved = nullptr;
+    result.refusals.push_back(fmt::format("{} for the duration that was moved: {}", nameOf(kShown), error.what()));
   }
 }
 
@@ -96,6 +116,7 @@ void summarise(Analysis& analysis, std::size_t condition) {
   result.movementTime = computeMeanSd(times);
   if (!times.empty()) result.movementRange = {*std::min_element(times.begin(), times.end()), *std::max_element(times.begin(), times.end())};
   addPredictions(analysis.conditions[condition], analysis.options, result);
+  addMoved(analysis.conditions[condition], analysis.options, result);
   RunningProfile hand, object;
   for (AnalyzedTrial& trial : trials) {
     if (!trial.used()) continue;

@@ -24,15 +24,17 @@ void predictionsTable(const Analysis& analysis, const TableWriter& write) {
   Sheet table(write, "predictions.csv");
   for (std::size_t c = 0; c < analysis.results.size(); ++c) {
     const ConditionResult& r = analysis.results[c];
-    for (std::size_t k = 0; k < r.signals.size(); ++k) {
-      const PredictedCurve curve = curveOf(r, k);
+    const auto add = [&](const predict::Prediction& prediction, const PredictedSignal& signal) {
+      const PredictedCurve curve = curveOf(prediction, signal);
       for (std::size_t i = 0; i < curve.time.size(); ++i) {
-        table.cell(analysis.conditions[c].name).cell(predict::nameOf(r.signals[k].criterion)).number(r.signals[k].plannedDuration);
+        table.cell(analysis.conditions[c].name).cell(predict::nameOf(signal.criterion)).number(signal.plannedDuration);
         table.number(100.0 * static_cast<double>(i) / static_cast<double>(curve.time.size() - 1)).number(curve.time[i]);
         table.number(curve.hand[i]).number(curve.object[i]);
         table.endRow();
       }
-    }
+    };
+    for (std::size_t k = 0; k < r.signals.size(); ++k) add(*r.predictions[k], r.signals[k]);
+    if (r.moved) add(*r.moved, r.movedSignal);
   }
   table.flush();
 }

@@ -43,10 +43,8 @@ std::vector<FitRow> fitRows(const Analysis& analysis) {
   return rows;
 }
 
-PredictedCurve curveOf(const ConditionResult& result, std::size_t criterion) {
+PredictedCurve curveOf(const predict::Prediction& p, const PredictedSignal& signal) {
   constexpr std::size_t kPoints = 201;
-  const predict::Prediction& p = *result.predictions[criterion];
-  const PredictedSignal& signal = result.signals[criterion];
   PredictedCurve curve;
   curve.hand.resize(kPoints);
   curve.object.resize(kPoints);
@@ -54,6 +52,10 @@ PredictedCurve curveOf(const ConditionResult& result, std::size_t criterion) {
   for (std::size_t i = 0; i < kPoints; ++i)
     curve.time.push_back(p.duration * static_cast<double>(i) / static_cast<double>(kPoints - 1) - (signal.onset - signal.begin));
   return curve;
+}
+
+PredictedCurve curveOf(const ConditionResult& result, std::size_t criterion) {
+  return curveOf(*result.predictions[criterion], result.signals[criterion]);
 }
 
 void writeTables(const Analysis& analysis, const TableWriter& write) {

@@ -40,6 +40,7 @@ std::vector<FitRow> fitRows(const Analysis& analysis);
 struct PredictedCurve {
   std::vector<double> time, hand, object;  // [s], [m/s]
 };
+PredictedCurve curveOf(const predict::Prediction& prediction, const PredictedSignal& signal);
 PredictedCurve curveOf(const ConditionResult& result, std::size_t criterion);
 
 /// "(1) min-hand-jerk", with the paper's number. "(3h)" is the literal hand-crackle variant.

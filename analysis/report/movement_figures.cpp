@@ -56,19 +56,27 @@ void addThin(Panel& panel, const Analysis& analysis, const std::vector<const Ana
   }
 }
 
-void addPrediction(Panel& panel, const ConditionResult& r, Criterion criterion, bool object, const figure::Color& color, Dash dash,
-                   double width) {
-  const auto k = placeOf(r, criterion);
-  if (!k) return;
-  PredictedCurve curve = curveOf(r, *k);
+/// What a prediction's time is counted from.
+enum class Zero { Onset, Start };
+
+void addPrediction(Panel& panel, const predict::Prediction& prediction, const PredictedSignal& signal, bool object,
+                   const figure::Color& color, Dash dash, double width, Zero zero) {
+  PredictedCurve curve = curveOf(prediction, signal);
+  if (zero == Zero::Start)
+    for (double& t : curve.time) t += signal.onset - signal.begin;
   Series s;
-  s.label = fmt::format("{}, T = {} s", numberedName(criterion), shortNumber(r.signals[*k].plannedDuration));
+  s.label = fmt::format("{}, T = {} s", numberedName(signal.criterion), shortNumber(signal.plannedDuration));
   s.x = std::move(curve.time);
   s.y = object ? std::move(curve.object) : std::move(curve.hand);
   s.color = color;
   s.dash = dash;
   s.width = width;
   panel.series.push_back(std::move(s));
+}
+
+void addPrediction(Panel& panel, const ConditionResult& r, Criterion criterion, bool object, const figure::Color& color, Dash dash,
+                   double width, Zero zero = Zero::Onset) {
+  if (const auto k = placeOf(r, criterion)) addPrediction(panel, *r.predictions[*k], r.signals[*k], object, color, dash, width, zero);
 }
 
 std::vector<const AnalyzedTrial*> usedTrials(const Analysis& analysis, std::size_t condition) {
@@ -97,10 +105,11 @@ bool isHandAlone(const Analysis& analysis, std::size_t condition) {
   return analysis.conditions[condition].experiment().object.kind == experiment::ObjectKind::None;
 }
 
+/// A row of panels.
 void showPanels(NamedFigure& out, const Analysis& analysis, std::size_t condition, const Panel& hand, const Panel& object) {
-  out.figure.panels = {hand};
+  out.figure.panels.push_back(hand);
   if (!isHandAlone(analysis, condition)) out.figure.panels.push_back(object);
-  out.figure.columns = static_cast<int>(out.figure.panels.size());
+  out.figure.columns = isHandAlone(analysis, condition) ? 1 : 2;
 }
 
 }  // namespace
@@ -109,34 +118,42 @@ NamedFigure paperFigure(const Analysis& analysis, std::size_t condition) {
   const ConditionResult& r = analysis.results[condition];
   NamedFigure out;
   out.name = "velocity_" + fileNameOf(analysis.conditions[condition].name);
-  Panel hand = velocityPanel("(a) Hand", "Hand velocity (m/s)"), object = velocityPanel("(b) Object (last mass)", "Object velocity (m/s)");
   const std::vector<const AnalyzedTrial*> used = usedTrials(analysis, condition);
   const std::size_t shown = std::min(used.size(), kMaxTrialsDrawn);
   std::vector<const AnalyzedTrial*> some;
   for (std::size_t i = 0; i < shown; ++i) some.push_back(used[i * used.size() / shown]);
   const std::string what = fmt::format("{}trial{}", r.onlyFailures ? "failed " : "", used.size() == 1 ? "" : "s");
   const std::string label = shown == used.size() ? fmt::format("{} {}", shown, what) : fmt::format("{} of {} {}", shown, used.size(), what);
-  for (Panel* panel : {&hand, &object}) {
-    const bool isObject = panel == &object;
-    addThin(*panel, analysis, some, r.duration.mean, isObject, label);
-    addPrediction(*panel, r, Criterion::MinHandJerk, isObject, palette::kBlack, Dash::Solid, figure::kThick);
-    addPrediction(*panel, r, Criterion::MinCrackle, isObject, palette::kVermilion, Dash::Dashed, figure::kThick);
+  for (const Zero zero : {Zero::Onset, Zero::Start}) {
+    const bool start = zero == Zero::Start;
+    Panel hand = velocityPanel(!start                             ? "(a) Hand"
+                               : isHandAlone(analysis, condition) ? "(b) Hand, predictions from t = 0"
+                                                                  : "(c) Hand, predictions from t = 0",
+                               "Hand velocity (m/s)");
+    Panel object = velocityPanel(start ? "(d) Object, predictions from t = 0" : "(b) Object (last mass)", "Object velocity (m/s)");
+    for (Panel* panel : {&hand, &object}) {
+      const bool isObject = panel == &object;
+      addThin(*panel, analysis, some, r.duration.mean, isObject, label);
+      addPrediction(*panel, r, Criterion::MinHandJerk, isObject, palette::kBlack, Dash::Solid, figure::kThick, zero);
+      addPrediction(*panel, r, Criterion::MinCrackle, isObject, palette::kVermilion, Dash::Dashed, figure::kThick, zero);
+    }
+    showPanels(out, analysis, condition, hand, object);
   }
-  showPanels(out, analysis, condition, hand, object);
   const std::string shownVelocity = isHandAlone(analysis, condition) ? "velocity of the hand" : "velocity of hand and object";
-  out.caption = r.used > 0
-                    ? fmt::format(
-                          "{}, as in Figs. 5 and 6: {}. Thin: {} {}trial{}, time-scaled to their average of {:.3f} "
-                          "s. Thick: "
-                          "criterion (1) solid, (3) dashed, for the task's T, neither cut nor stretched; they begin before the onset by as "
-                          "much as the onset rule would leave out of them.",
-                          analysis.conditions[condition].name, shownVelocity, r.used, r.onlyFailures ? "failed " : "",
-                          r.used == 1 ? "" : "s", r.duration.mean)
-                    : fmt::format("{}: no movement to show; predictions only.", analysis.conditions[condition].name);
+  out.caption =
+      r.used > 0
+          ? fmt::format(
+                "{}, as in Figs. 5 and 6: {}. Thin: {} {}trial{}, time-scaled to their average of {:.3f} "
+                "s. Thick: "
+                "criterion (1) solid, (3) dashed, for the task's T, neither cut nor stretched; above they begin before the onset by as "
+                "much as the onset rule would leave out of them, below their t = 0 is put on the trials' onset.",
+                analysis.conditions[condition].name, shownVelocity, r.used, r.onlyFailures ? "failed " : "", r.used == 1 ? "" : "s",
+                r.duration.mean)
+          : fmt::format("{}: no movement to show; predictions only.", analysis.conditions[condition].name);
   if (r.used > 0 && analysis.options.predictFor == PredictionDuration::Moved)
     out.caption = fmt::format(
         "{}: {}. Thin: {} trials, time-scaled to their average of {:.3f} s. Thick: criterion (1) solid, (3) "
-        "dashed, for the T whose movement lasts as long.",
+        "dashed, for the T whose movement lasts as long; above aligned at the onset, below with their t = 0 on the trials' onset.",
         analysis.conditions[condition].name, shownVelocity, r.used, r.duration.mean);
   return out;
 }
@@ -159,6 +176,7 @@ NamedFigure lastFiveFigure(const Analysis& analysis, std::size_t condition) {
     addThin(*panel, analysis, last, duration, isObject, fmt::format("last {} successful", last.size()));
     for (Series& s : panel->series) s.color = palette::kGrey, s.width = 0.7;
     addPrediction(*panel, r, Criterion::MinHandJerk, isObject, {0.62, 0.62, 0.62}, Dash::Solid, 2.8);
+    if (r.moved) addPrediction(*panel, *r.moved, r.movedSignal, isObject, {0.62, 0.62, 0.62}, Dash::Dashed, 1.4, Zero::Onset);
     Series mean;
     mean.label = fmt::format("average of {}", used.size());
     mean.x = timeAxis(duration);
@@ -173,9 +191,11 @@ NamedFigure lastFiveFigure(const Analysis& analysis, std::size_t condition) {
   }
   showPanels(out, analysis, condition, hand, object);
   out.caption = fmt::format(
-      "{}, subject {}, as in Figs. 9 and 10: the last {} successful trials (thin), criterion (1) for the task's T (thick grey) and the "
+      "{}, subject {}, as in Figs. 9 and 10: the last {} successful trials (thin), criterion (1) for {} (thick grey){} and the "
       "average of all {} successful trials (thick black), time-scaled to their average.",
-      analysis.conditions[condition].name, subject, last.size(), used.size());
+      analysis.conditions[condition].name, subject, last.size(),
+      analysis.options.predictFor == PredictionDuration::Moved ? "the T whose movement lasts as long as the trials did" : "the task's T",
+      r.moved ? " and for the T whose movement lasts as long as the trials did (dashed grey)" : "", used.size());
   return out;
 }
 
