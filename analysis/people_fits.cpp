@@ -5,7 +5,6 @@
 #include "analysis/steps.h"
 
 namespace reachlab::analysis {
-namespace {
 
 FitWindow windowOf(const Analysis& analysis, const AnalyzedTrial& trial) {
   FitWindow window;
@@ -16,7 +15,12 @@ FitWindow windowOf(const Analysis& analysis, const AnalyzedTrial& trial) {
   return window;
 }
 
-}  // namespace
+std::vector<const AnalyzedTrial*> fittedTrials(const Analysis& analysis, const PersonResult& person) {
+  std::vector<const AnalyzedTrial*> out;
+  for (std::size_t i = person.firstTrial; out.size() < person.trials; ++i)
+    if (const AnalyzedTrial& trial = analysis.trials[i]; trial.used() && trial.window.size > 0) out.push_back(&trial);
+  return out;
+}
 
 void fitPeople(Analysis& analysis, std::size_t condition, const FittingProgress& progress) {
   ConditionResult& result = analysis.results[condition];

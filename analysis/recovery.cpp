@@ -1,6 +1,7 @@
 #include "analysis/recovery.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
 #include <mutex>
@@ -8,15 +9,26 @@
 #include <optional>
 #include <thread>
 
-#include "analysis/tables.h"
-#include "base/math/seeded.h"
+#include "analysis/steps.h"
 #include "analysis/table_columns.h"
+#include "analysis/tables.h"
+#include "base/math/minimum_jerk.h"
+#include "base/math/seeded.h"
 #include "base/table_text.h"
 
 namespace reachlab::analysis {
 namespace {
 
-constexpr std::string_view kOtherMasses = "other-hand-masses", kOwnWarp = "own-warp", kMeanOfTwo = "mean-of-two";
+enum class Kind { Candidate, OtherMasses, OwnSkew, OwnWarp, MeanOfTwo, TwoInTurn, HandSnap, TwoSubmovements };
+constexpr std::array<std::pair<Kind, std::string_view>, 7> kOthers{{{Kind::OtherMasses, "other-hand-masses"},
+                                                                    {Kind::OwnSkew, "own-skew"},
+                                                                    {Kind::OwnWarp, "own-warp"},
+                                                                    {Kind::MeanOfTwo, "mean-of-two"},
+                                                                    {Kind::TwoInTurn, "two-in-turn"},
+                                                                    {Kind::HandSnap, "hand-snap"},
+                                                                    {Kind::TwoSubmovements, "two-submovements"}}};
+bool followsCandidate(Kind kind) { return kind <= Kind::OwnWarp; }
+bool needsTwo(Kind kind) { return kind == Kind::MeanOfTwo || kind == Kind::TwoInTurn; }
 
 /// Draws that are the same on every machine.
 class Draws {
@@ -29,13 +41,34 @@ class Draws {
   std::uint64_t state_, count_ = 0;
 };
 
-/// How a person moves: one plan, or the mean of two.
+/// How a person moves.
 struct Mover {
+  Kind kind = Kind::Candidate;
   std::size_t first = 0, second = 0;  // indices into Analysis::common, equal for one plan
-  bool otherMass = false;             // with a mass of the hand drawn from the range
-  bool ownWarp = false;               // along a warp of time
   double warp = 0, waves = 1;         // s becomes s + warp sin(pi waves s) / waves
 };
+
+/// Hand velocities over the part of the movement that know no object, each for one person.
+ProfileFamily::Sampler samplerOf(Kind kind, Draws& draws) {
+  if (kind == Kind::HandSnap)
+    return [](double, std::span<double> phi) {
+      for (std::size_t i = 0; i < phi.size(); ++i) {
+        const double s = static_cast<double>(i) / static_cast<double>(phi.size() - 1);
+        phi[i] = 140 * std::pow(s * (1 - s), 3);
+      }
+      return true;
+    };
+  const double part = 0.55 + 0.2 * draws.fraction(), delay = 0.25 + 0.15 * draws.fraction();
+  return [part, delay](double, std::span<double> phi) {
+    const double length = 1 - delay;
+    const auto bell = [&](double s) { return s > 0 && s < 1 ? minimumJerkRate(s) / length : 0; };
+    for (std::size_t i = 0; i < phi.size(); ++i) {
+      const double s = static_cast<double>(i) / static_cast<double>(phi.size() - 1);
+      phi[i] = part * bell(s / length) + (1 - part) * bell((s - delay) / length);
+    }
+    return true;
+  };
+}
 
 /// The velocity of the hand [m/s] at the instants of `window` when a trial that was fitted so is moved by `family`.
 void addPlanned(FitWindow& window, const ProfileFamily& family, const ShapeChoice& choice, const MovementFit& fit, const Mover& mover,
@@ -60,13 +93,11 @@ std::vector<FitWindow> simulatePerson(const Analysis& analysis, const PersonResu
   std::vector<FitWindow> windows;
   const PersonTemplate& own = person.fit.own;
   std::size_t place = 0;
-  for (std::size_t i = person.firstTrial; place < person.trials; ++i) {
-    const AnalyzedTrial& trial = analysis.trials[i];
-    if (!trial.used() || trial.window.size == 0) continue;
+  for (const AnalyzedTrial* trial : fittedTrials(analysis, person)) {
     FitWindow window;
-    window.rate = trial.windowRate;
-    window.begin = trial.windowBegin;
-    window.velocity.assign(trial.window.size, 0.0);
+    window.rate = trial->windowRate;
+    window.begin = trial->windowBegin;
+    window.velocity.assign(trial->window.size, 0.0);
     window.weight.assign(window.velocity.size(), 1.0);
     const MovementFit& laid = own.place[place];
     const std::vector<float>& apart = own.apart[draws.below(own.apart.size())];
@@ -112,20 +143,32 @@ TruthRecovery recover(const Analysis& analysis, int studies, std::uint64_t seed,
     std::map<std::string, std::size_t> index;
     for (const PersonResult* person : people) {
       const CandidateSet& set = analysis.results[person->condition].candidates;
-      if (mover.ownWarp)
-        mover.warp = (0.02 + 0.08 * draws.fraction()) * (draws.fraction() < 0.5 ? -1 : 1), mover.waves = draws.fraction() < 0.5 ? 1 : 2;
+      if (mover.kind == Kind::OwnSkew || mover.kind == Kind::OwnWarp) {
+        mover.warp = (0.02 + 0.08 * draws.fraction()) * (draws.fraction() < 0.5 ? -1 : 1);
+        mover.waves = mover.kind == Kind::OwnSkew ? 1 : 2;
+      }
       const auto planOf = [&](std::size_t truth) {
         const Candidate& candidate = set.candidates[candidateOf(person->condition, truth)];
         const CandidateFit& fit = person->fit.candidates[candidateOf(person->condition, truth)];
-        if (!mover.otherMass || !candidate.familyOf) return std::pair(&fit, fit.family);
+        if (mover.kind != Kind::OtherMasses || !candidate.familyOf) return std::pair(&fit, fit.family);
         const double mass = candidate.masses.front() + draws.fraction() * (candidate.masses.back() - candidate.masses.front());
         return std::pair(&fit, candidate.familyOf(mass));
       };
-      const auto first = planOf(mover.first), second = mover.second == mover.first ? first : planOf(mover.second);
+      auto first = planOf(mover.first);
+      if (mover.kind == Kind::HandSnap || mover.kind == Kind::TwoSubmovements) {  // where and how long the reference moves
+        const double rate = analysis.trials[person->firstTrial].windowRate;
+        first.first = &person->fit.candidates.back();
+        first.second = std::make_shared<ProfileFamily>(samplerOf(mover.kind, draws), RecordingFilter(analysis.options.measure.cutoff, rate),
+                                                       first.second->grid());
+      }
+      const auto second = mover.second == mover.first ? first : planOf(mover.second);
       std::vector<FitWindow> windows = simulatePerson(
           analysis, *person,
           [&](FitWindow& window, std::size_t place) {
-            for (const auto& [fit, family] : {first, second}) addPlanned(window, *family, fit->choice, fit->trials[place], mover, 0.5);
+            const bool turn = mover.kind == Kind::TwoInTurn, other = turn && draws.fraction() < 0.5;
+            const auto& [fit, family] = other ? second : first;
+            addPlanned(window, *family, fit->choice, fit->trials[place], mover, turn ? 1 : 0.5);
+            if (!turn) addPlanned(window, *second.second, second.first->choice, second.first->trials[place], mover, 0.5);
           },
           draws);
       std::vector<double> durations;
@@ -143,7 +186,7 @@ TruthRecovery recover(const Analysis& analysis, int studies, std::uint64_t seed,
   };
   const auto nameOne = [&](std::size_t truth, int number) {
     Draws draws(seededBits(seededBits(seed, truth), static_cast<std::uint64_t>(number)));
-    return judge({truth, truth}, draws);
+    return judge({Kind::Candidate, truth, truth}, draws);
   };
   std::vector<std::size_t> withMass, named;  // candidates
   for (std::size_t t = 0; t < truths; ++t) {
@@ -154,22 +197,21 @@ TruthRecovery recover(const Analysis& analysis, int studies, std::uint64_t seed,
         }))
       withMass.push_back(t);
   }
-  const auto judgeOther = [&](std::size_t kind, int number) -> std::optional<bool> {  // was the name right? nullopt: undecided
-    Draws draws(seededBits(seededBits(seed, truths + kind), static_cast<std::uint64_t>(number)));
-    Mover mover;
-    mover.otherMass = out.others[kind].name == kOtherMasses, mover.ownWarp = out.others[kind].name == kOwnWarp;
-    const std::vector<std::size_t>& from = mover.otherMass ? withMass : named;
+  std::vector<Kind> kinds;                                                             // parallel to out.others
+  const auto judgeOther = [&](std::size_t other, int number) -> std::optional<bool> {  // was the name right? nullopt: undecided
+    const Kind kind = kinds[other];
+    Draws draws(seededBits(seededBits(seed, truths + static_cast<std::size_t>(kind)), static_cast<std::uint64_t>(number)));
+    const std::vector<std::size_t>& from = kind == Kind::OtherMasses ? withMass : named;
     const std::size_t drawn = draws.below(from.size());
-    mover.first = mover.second = from[drawn];
-    const bool mean = out.others[kind].name == kMeanOfTwo;
-    if (mean) mover.second = from[(drawn + 1 + draws.below(from.size() - 1)) % from.size()];
+    Mover mover{kind, from[drawn], from[drawn]};
+    if (needsTwo(kind)) mover.second = from[(drawn + 1 + draws.below(from.size() - 1)) % from.size()];
     const std::size_t follows = judge(mover, draws);
     if (follows == truths) return std::nullopt;
-    return !mean && follows == mover.first;
+    return followsCandidate(kind) && follows == mover.first;
   };
-  if (!withMass.empty()) out.others.push_back({kOtherMasses});
-  if (!named.empty()) out.others.push_back({kOwnWarp});
-  if (named.size() > 1) out.others.push_back({kMeanOfTwo});
+  for (const auto& [kind, name] : kOthers)
+    if ((kind == Kind::OtherMasses ? withMass : named).size() > (needsTwo(kind) ? 1 : 0))
+      kinds.push_back(kind), out.others.push_back({name});
 
   const std::size_t inside = truths * static_cast<std::size_t>(studies);
   const std::size_t jobs = inside + out.others.size() * static_cast<std::size_t>(studies);

@@ -8,22 +8,25 @@
 
 namespace reachlab::analysis {
 
-/// How often this very design names the truth. Simulated people follow a candidate. Their number, trials, durations and scatter are those
-/// of the recorded people, and the same code judges both.
 /// Studies whose people move otherwise than the fits assume.
 struct OtherTruth {
   std::string_view name;
   std::size_t right = 0, wrong = 0, undecided = 0;  // studies
+  std::size_t studies() const { return right + wrong + undecided; }
 };
 
+/// How often this very design names the truth. Simulated people follow a candidate. Their number, trials, durations and scatter are those
+/// of the recorded people, and the same code judges both.
 struct TruthRecovery {
   std::size_t trials = 0;  // recorded ones whose count, durations and scatter were taken
   int studies = 0;         // simulated for each truth
   std::uint64_t seed = 1;
   std::vector<std::vector<predict::Criterion>> candidates;  // truths, in this order; the reference is the last
   std::vector<std::vector<std::size_t>> counts;             // [truth][named], the last column undecided
-  /// "other-hand-masses": a candidate with a mass drawn from the range. "own-warp": a candidate, moved along a warp of time of 2 to 10 % of each
-  /// person. "mean-of-two": the mean of two candidates, for which every name is wrong.
+  /// A candidate is right for "other-hand-masses" (a mass drawn from the range), "own-skew" (each person is ahead of the plan or behind it by up
+  /// to 2 to 10 % of the duration) and "own-warp" (ahead in one half and behind in the other). Every name is wrong for "mean-of-two" (the mean of
+  /// two candidates), "two-in-turn" (each trial by one of two candidates), "hand-snap" (a minimum snap of the hand, which ignores the object) and
+  /// "two-submovements".
   std::vector<OtherTruth> others;
 };
 

@@ -308,8 +308,9 @@ const std::map<std::string_view, Columns>& tables() {
         {"changed", "1: another criterion is named than in the analysis as asked, or none in place of one, or one in place of none"}}},
       {"recovery.csv",
        {{"truth",
-         "Candidate by which the simulated subjects planned, or reference. Other truths: other-hand-masses, with a mass drawn from the range; own-warp, "
-         "along a warp of time of 2 to 10 %; mean-of-two, the mean of two candidates"},
+         "Candidate by which the simulated subjects planned, or reference. Other truths by a candidate: other-hand-masses, with a mass drawn from the "
+         "range; own-skew and own-warp, ahead of the plan or behind it by 2 to 10 % of the duration, in the whole movement or in each half. Truths that "
+         "are no candidate: mean-of-two and two-in-turn, of two candidates; hand-snap, a minimum snap of the hand; two-submovements"},
         {"named", "What the rule named: a candidate, or undecided; of other truths right, wrong or undecided"},
         {"studies", "Simulated studies of this truth that were named so"}}}};
   static const bool kComplete = [] {

@@ -233,9 +233,10 @@ void addRecovery(Html& html, const TruthRecovery& recovery, const std::vector<Na
                   right, wrong, all - right - wrong));
   if (recovery.others.empty()) return;
   html.add(
-      "<table><thead><tr><th>People who move otherwise</th><th>named right</th><th>named wrong</th><th>undecided</th></tr></thead><tbody>");
+      "<table><thead><tr><th>People who move otherwise</th><th>named right</th><th>named wrong</th><th>share of wrong names</th><th>undecided</th></tr></thead><tbody>");
   for (const OtherTruth& o : recovery.others)
-    html.add(fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>", o.name, o.right, o.wrong, o.undecided));
+    html.add(fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>", o.name, o.right, o.wrong,
+                         shareText(o.wrong, o.studies()), o.undecided));
   html.add("</tbody></table>");
 }
 

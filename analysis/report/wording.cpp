@@ -55,6 +55,12 @@ std::string shortNumber(double value) {
   return text;
 }
 
+std::string shareText(std::size_t part, std::size_t of) {
+  const Bounds share = computeBinomialInterval(part, of);
+  return fmt::format("{} % {}", shortNumber(100 * static_cast<double>(part) / static_cast<double>(of)),
+                     intervalText({100 * share.low, 100 * share.high}));
+}
+
 std::string plural(std::size_t n, const std::string& noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
 
 std::string pText(double p) { return p < 1e-4 ? "p < 0.0001" : fmt::format("p = {:.2g}", p); }

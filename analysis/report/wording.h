@@ -40,6 +40,8 @@ std::string describeSlope(const Analysis& analysis, const LearningSlope& slope);
 
 /// A number with three significant digits and a real minus sign.
 std::string shortNumber(double value);
+/// A share with Clopper and Pearson's interval: "4 % [0.1, 20]".
+std::string shareText(std::size_t part, std::size_t of);
 /// "1 trial", "2 trials".
 std::string plural(std::size_t n, const std::string& noun);
 /// p as text: "p = 0.012", "p < 0.0001".

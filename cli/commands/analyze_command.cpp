@@ -165,7 +165,11 @@ Json jsonOf(const analysis::TruthRecovery& r) {
   named.push_back("undecided");
   auto others = Json::array();
   for (const analysis::OtherTruth& o : r.others)
-    others.push_back({{"truth", o.name}, {"right", o.right}, {"wrong", o.wrong}, {"undecided", o.undecided}});
+    others.push_back({{"truth", o.name},
+                      {"right", o.right},
+                      {"wrong", o.wrong},
+                      {"undecided", o.undecided},
+                      {"wrong_percent", 100 * static_cast<double>(o.wrong) / static_cast<double>(std::max<std::size_t>(1, o.studies()))}});
   return {{"trials", r.trials}, {"seeds", r.studies}, {"truths", names}, {"named", named}, {"counts", r.counts}, {"others", others}};
 }
 
@@ -255,7 +259,8 @@ void printRecovery(const analysis::TruthRecovery& recovery) {
     fmt::print("\n");
   }
   for (const analysis::OtherTruth& o : recovery.others)
-    fmt::print("  people with {}: {} named right, {} wrong, {} undecided\n", o.name, o.right, o.wrong, o.undecided);
+    fmt::print("  people with {}: {} named right, {} wrong ({}), {} undecided\n", o.name, o.right, o.wrong,
+               analysis::shareText(o.wrong, o.studies()), o.undecided);
 }
 
 void printSummary(const analysis::Analysis& analysis, const analysis::DatasetIndex& dataset, const analysis::AnalysisFiles& files,
