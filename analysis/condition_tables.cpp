@@ -85,6 +85,8 @@ void fitsTable(const Analysis& analysis, const TableWriter& write) {
     table.cell(others).number(f.epsilon).number(f.r2).number(f.score).number(f.ceiling).number(f.duration).cell(f.timeLaw);
     table.number(f.plan.value_or(kNotMeasured)).number(f.handMass.value_or(kNotMeasured)).bounds(f.massInterval);
     table.cell(f.massInterval ? f.massAtEdge ? "1" : "0" : "").number(f.misfit);
+    table.number(f.systematic.share).number(f.systematic.p()).cell(f.toward);
+    table.number(f.toward.empty() ? kNotMeasured : f.towardShare).number(f.toward.empty() ? kNotMeasured : f.towardP);
     table.count(f.trials).whole(f.decided).cell(f.reason);
     table.endRow();
   }
@@ -103,6 +105,10 @@ void addConclusion(Sheet& table, const std::string& condition, const Conclusion&
     table.cell(c.decided() ? "" : nameOf(c.reason)).number(c.level);
     table.whole(std::find(c.atEdge.begin(), c.atEdge.end(), k) != c.atEdge.end());
     table.number(best ? c.misfit.mean : kNotMeasured).number(best ? c.misfit.p : kNotMeasured);
+    table.number(best ? c.systematic.share : kNotMeasured).number(best ? c.systematic.p() : kNotMeasured);
+    const bool mixed = best && c.mixedWith;
+    table.cell(mixed ? nameOfCandidate(candidates[*c.mixedWith]) : "").number(mixed ? c.mixture.mean : kNotMeasured);
+    table.bounds(mixed ? std::optional(intervalOf(c.mixture)) : std::nullopt).number(mixed ? c.mixtureP : kNotMeasured);
     table.count(c.subjects);
     table.count(c.trials);
     table.endRow();

@@ -112,19 +112,28 @@ PersonScores scoresOf(const PersonResult& person) {
   scores.ceiling = person.fit.own.ceiling;
   scores.own = person.fit.own.score;
   for (const CandidateFit& fit : person.fit.candidates)
-    scores.score.push_back(fit.score), scores.r2.push_back(fit.r2), scores.beyond.push_back(fit.beyond);
+    scores.score.push_back(fit.score), scores.r2.push_back(fit.r2), scores.beyond.push_back(fit.beyond),
+        scores.systematic.push_back(fit.systematic), scores.toward.push_back(fit.toward);
   out.conditions.push_back(std::move(scores));
   return out;
 }
 
 ConditionScores scoresOf(const PersonResult& person, const CandidateSet& set, const std::vector<std::vector<predict::Criterion>>& common) {
   const ConditionScores all = scoresOf(person).conditions.front();
-  ConditionScores out = all;
-  out.score.clear(), out.r2.clear(), out.beyond.clear();
+  std::vector<std::size_t> places;
   for (const auto& criteria : common)
     for (std::size_t k = 0; k < set.candidates.size(); ++k)
-      if (set.candidates[k].criteria == criteria)
-        out.score.push_back(all.score[k]), out.r2.push_back(all.r2[k]), out.beyond.push_back(all.beyond[k]);
+      if (set.candidates[k].criteria == criteria) places.push_back(k);
+  const auto chosen = [&](const auto& of) {
+    std::remove_cvref_t<decltype(of)> some;
+    for (const std::size_t k : places) some.push_back(of[k]);
+    return some;
+  };
+  ConditionScores out = all;
+  out.score = chosen(all.score), out.r2 = chosen(all.r2), out.beyond = chosen(all.beyond), out.systematic = chosen(all.systematic);
+  out.toward = chosen(all.toward);
+  for (auto& others : out.toward)
+    if (!others.empty()) others = chosen(others);
   return out;
 }
 

@@ -34,6 +34,9 @@ std::vector<FitRow> fitRows(const Analysis& analysis) {
       if (!candidates[k].masses.empty()) row.handMass = fit.choice.mass;
       if (fit.mass) row.massInterval = fit.mass->interval, row.massAtEdge = fit.mass->atEdge;
       row.misfit = fit.meanScore - person.fit.own.ceilingScore;
+      row.systematic = fit.systematic;
+      if (const Conclusion& c = person.conclusion; c.best == k && c.mixedWith)
+        row.toward = nameOfCandidate(candidates[*c.mixedWith].criteria), row.towardShare = c.mixture.mean, row.towardP = c.mixtureP;
       row.trials = person.trials;
       row.decided = person.conclusion.follows == k;
       row.reason = nameOf(person.conclusion.reason);

@@ -67,7 +67,10 @@ bool isToldFromAll(const Conclusion& c) {
 bool referenceStands(const Conclusion& c, std::size_t reference) { return c.referenceFirst || !c.told(reference); }
 bool describesPoorly(const Conclusion& c) {
   const bool misfits = c.misfit.p < kMisfitLevel && c.misfit.mean >= kLeastMisfit;
-  return misfits || 1 - c.r2 > kMostUnexplained * (1 - c.ceiling);
+  const bool systematic = c.systematic.p() < kSystematicLevel && c.systematic.share >= kLeastSystematic &&
+                          c.systematic.share * (1 - c.r2) >= kLeastSystematicSpeed * kLeastSystematicSpeed;
+  const bool mixed = c.mixtureP < kMixtureLevel && c.mixture.mean >= kLeastMixture;
+  return misfits || systematic || mixed || 1 - c.r2 > kMostUnexplained * (1 - c.ceiling);
 }
 
 /// One person with the scores of candidates at the edge of the range of masses replaced by those outside it.
@@ -108,6 +111,33 @@ TTest misfitInPerson(const PersonScores& person, std::size_t best) {
   for (const ConditionScores& c : person.conditions)
     if (!c.own.empty()) meanDifference(c, best, difference), tests.push_back(computeSerialTTest(difference));
   return tests.empty() ? TTest{} : combineTTests(tests);
+}
+/// Of each condition of each person.
+SystematicRest systematicRest(const std::vector<PersonScores>& people, std::size_t best) {
+  std::vector<SystematicRest> rests;
+  for (const PersonScores& person : people)
+    for (const ConditionScores& c : person.conditions)
+      if (!c.systematic.empty()) rests.push_back(c.systematic[best]);
+  return meanOf(rests);
+}
+/// `towards(k)` tests how far the movements go from the best towards candidate k.
+template <typename Towards>
+void findMixture(Conclusion& out, Towards&& towards) {
+  for (std::size_t k = 0; k < out.score.size(); ++k) {
+    if (k == *out.best) continue;
+    const TTest test = towards(k);
+    const double p = std::min(1.0, (test.t > 0 ? test.p / 2 : 1 - test.p / 2) * static_cast<double>(out.score.size() - 1));
+    if (!out.mixedWith || p < out.mixtureP) out.mixedWith = k, out.mixture = test, out.mixtureP = p;
+  }
+}
+/// Of each condition; empty where one was not tested.
+std::vector<TTest> towardsInPerson(const PersonScores& person, std::size_t best, std::size_t other) {
+  std::vector<TTest> tests;
+  for (const ConditionScores& c : person.conditions) {
+    if (c.toward.empty() || c.toward[best].empty()) return {};
+    tests.push_back(computeSerialTTest(c.toward[best][other]));
+  }
+  return tests;
 }
 double meanMisfit(const PersonScores& person, std::size_t best) {
   double sum = 0;
@@ -153,6 +183,11 @@ Conclusion concludePerson(const PersonScores& person, std::size_t candidates, st
     out.ceiling += c.ceiling / static_cast<double>(person.conditions.size());
   }
   out.misfit = misfitInPerson(person, *out.best);
+  out.systematic = systematicRest({person}, *out.best);
+  findMixture(out, [&](std::size_t k) {
+    const std::vector<TTest> tests = towardsInPerson(person, *out.best, k);
+    return tests.empty() ? TTest{} : combineTTests(tests);
+  });
   const PersonScores outside = outsideTheRange(person);
   findMassesAtEdge(out, {person}, limits, [&](std::size_t a, std::size_t b) { return compareInPerson(outside, a, b); });
   if (candidates < 3) out.reason = Obstacle::NothingToCompare;
@@ -211,6 +246,13 @@ Conclusion concludePeople(const std::vector<PersonScores>& everyone, std::size_t
     if (std::none_of(person.conditions.begin(), person.conditions.end(), [](const ConditionScores& c) { return c.own.empty(); }))
       misfits.push_back(meanMisfit(person, *out.best));
   out.misfit = computeTTest(misfits);
+  out.systematic = systematicRest(people, *out.best);
+  findMixture(out, [&](std::size_t k) {
+    std::vector<double> shares;
+    for (const PersonScores& person : people)
+      if (const std::vector<TTest> tests = towardsInPerson(person, *out.best, k); !tests.empty()) shares.push_back(combineTTests(tests).mean);
+    return computeTTest(shares);
+  });
   std::vector<std::vector<double>> outside;
   for (const PersonScores& person : people) outside.push_back(scoresOf(outsideTheRange(person), candidates));
   findMassesAtEdge(out, people, limits, [&](std::size_t a, std::size_t b) {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/conclusions/comparison.h"
+#include "analysis/conclusions/systematic_rest.h"
 
 /// The rule that names the candidate that one person's or several people's movements follow, or refuses to. Pure functions for any thread.
 namespace reachlab::analysis {
@@ -16,7 +17,10 @@ struct ConditionScores {
   // The same with hand masses outside the range [candidate][trial], empty for a candidate whose mass is not at the edge of the range. The
   // whole vector may be empty.
   std::vector<std::vector<double>> beyond;
-  std::vector<double> own;       // ln S of each trial for the mean of the person's other trials. Empty: the lack of fit is not tested
+  std::vector<double> own;  // ln S of each trial for the mean of the person's other trials. Empty: not compared with it
+  std::vector<SystematicRest> systematic;  // one a candidate. Empty: residuals are not tested
+  // How far each trial goes from a candidate towards another [candidate][other][trial]. May be empty.
+  std::vector<std::vector<std::vector<double>>> toward;
   double effectiveSamples = 10;  // of a trial
   std::vector<double> r2;        // one a candidate
   double ceiling = 1;            // R^2 of the person's own mean
@@ -44,6 +48,11 @@ inline constexpr double kLeastDifference = 0.1;
 inline constexpr double kTrialsLevel = 0.01, kSubjectsLevel = 0.05, kMinExceedance = 0.85;
 /// Of ln S: a candidate whose squared errors are this much above those of the person's own mean does not describe the movements.
 inline constexpr double kLeastMisfit = 0.05, kMisfitLevel = 0.05;
+/// Nor does a candidate whose residuals are systematic, or go towards another candidate: the chances of rejecting a right one. Smaller parts of
+/// the mean square, and of the way to the other candidate, do not count, however many trials show them. Nor does a systematic rest below half a
+/// percent of the speed (RMS): the fits of one plan are no more exact, since they know the recording's filter for the plan's duration alone.
+inline constexpr double kLeastSystematicSpeed = 0.005;
+inline constexpr double kSystematicLevel = 0.02, kMixtureLevel = 0.01, kLeastSystematic = 0.03, kLeastMixture = 0.125;
 /// Of (1 - R^2) / (1 - ceiling): with more unexplained squares than this, a candidate does not describe all trials, whatever its mean score.
 inline constexpr double kMostUnexplained = 1.2;
 inline constexpr std::size_t kFewestSubjects = 5, kFewestForSignFlip = 6;
@@ -66,7 +75,13 @@ struct Conclusion {
   // pairs with p above the level after Holm's correction, or too small a difference
   std::vector<std::pair<std::size_t, std::size_t>> notToldApart;
   double r2 = 0, ceiling = 0;  // of the best candidate; of people's own means
-  TTest misfit;                // best's score - that of the person's own mean: the lack of fit. p = 1 if it was not tested
+  TTest misfit;                // best's score - that of the person's own mean. p = 1 if it was not compared with it
+  SystematicRest systematic;   // of the best candidate
+  // The other candidate towards which the movements go most surely, and how far: 0 at the best, 1 at the other. `mixtureP` is one-sided and
+  // corrected for the number of others (Bonferroni). 1 if it was not tested.
+  std::optional<std::size_t> mixedWith;
+  TTest mixture;
+  double mixtureP = 1;
   // Candidates with a hand mass at the edge of the range that might be nearer with a mass outside it.
   std::vector<std::size_t> atEdge;
   std::vector<std::optional<std::size_t>> each;  // what each person was decided for; parallel to the people given

@@ -188,10 +188,10 @@ MassFit fitMass(const Candidate& candidate, const ShapeFitter& fitter, const std
 
 }  // namespace
 
-double computeFittedEpsilon(const FitWindow& window, const Profile& profile, const MovementFit& fit) {
+double computeFittedEpsilon(std::span<const double> residual) {
   double sum = 0;
-  for (const double r : residualsOf(window, profile, fit)) sum += r * r;
-  return std::sqrt(sum / static_cast<double>(window.velocity.size()));
+  for (const double r : residual) sum += r * r;
+  return std::sqrt(sum / static_cast<double>(residual.size()));
 }
 
 PersonFit fitPerson(std::span<FitWindow> windows, std::span<const double> durations, const CandidateSet& set, bool keepApart) {
@@ -207,6 +207,7 @@ PersonFit fitPerson(std::span<FitWindow> windows, std::span<const double> durati
   std::vector<std::size_t> everyTrial(n);
   std::iota(everyTrial.begin(), everyTrial.end(), std::size_t{0});
 
+  std::vector<LaidResiduals> allLaid;
   for (const Candidate& candidate : set.candidates) {
     CandidateFit fit;
     Masses masses;
@@ -235,11 +236,15 @@ PersonFit fitPerson(std::span<FitWindow> windows, std::span<const double> durati
     fit.trials.resize(n);
     if (all.choice.law == TimeLaw::OnePlan) fit.family->at(all.choice.plan, profile);
     double cost = 0, squares = 0, time = 0;
+    LaidResiduals& laid = allLaid.emplace_back();
+    std::vector<double> lasted;
     for (std::size_t i = 0; i < n; ++i) {
       const MovementFit& best = fit.trials[i];
       if (all.choice.law == TimeLaw::Anew && best.found) fit.family->at(best.duration, profile);
-      const double epsilon = best.found ? computeFittedEpsilon(windows[i], profile, best)
-                                        : std::sqrt(rest[i] / static_cast<double>(windows[i].velocity.size()));
+      const std::vector<double> residual = best.found ? residualsOf(windows[i], profile, best) : windows[i].velocity;
+      const double epsilon = best.found ? computeFittedEpsilon(residual) : std::sqrt(rest[i] / static_cast<double>(residual.size()));
+      laid.push_back(layResidual(windows[i], residual, out.own.place[i]));
+      lasted.push_back(best.found ? best.duration : out.own.place[i].duration);
       fit.mean.resize(out.own.mean.value.size());
       const MovementFit& place = out.own.place[i];
       for (std::size_t k = 0; best.found && k < fit.mean.size(); ++k) {
@@ -255,8 +260,10 @@ PersonFit fitPerson(std::span<FitWindow> windows, std::span<const double> durati
     fit.r2 = wholeRest > 0 ? 1 - cost / wholeRest : 0;
     fit.epsilonOfAll = std::sqrt(squares / static_cast<double>(samples));
     fit.duration = time / static_cast<double>(n);
+    fit.systematic = computeSystematicRest(laid, std::move(lasted));
     out.candidates.push_back(std::move(fit));
   }
+  for (std::size_t k = 0; k < allLaid.size(); ++k) out.candidates[k].toward = computeSharesOfOthers(allLaid, k);
   return out;
 }
 

@@ -7,6 +7,7 @@
 #include "analysis/conclusions/candidates.h"
 #include "analysis/conclusions/person_template.h"
 #include "analysis/conclusions/shape_fits.h"
+#include "analysis/conclusions/systematic_rest.h"
 #include "analysis/measures/statistics.h"
 
 namespace reachlab::analysis {
@@ -23,7 +24,7 @@ struct ShapeChoice {
 struct MassFit {
   double mass = 0;      // [kg]
   Bounds interval;      // [kg] 95 %, cut at the range of masses
-  bool atEdge = false;  // the mass is an end of the range, so that a mass outside may fit better. 0 kg is no such end
+  bool atEdge = false;  // the interval reaches an end of the range, so that a mass outside may fit as well. 0 kg is no such end
 };
 
 /// One candidate against one person's trials in one condition.
@@ -40,6 +41,8 @@ struct CandidateFit {
   double epsilonOfAll = 0;   // [m/s] the same over all samples: fitted epsilon
   double r2 = 0;             // 1 - sum S / sum w^2 v^2
   double duration = 0;       // [s] mean of the fitted ones
+  SystematicRest systematic;
+  std::vector<std::vector<double>> toward;  // [candidate][trial] computeSharesOfOthers
   std::vector<double> mean;  // [m/s] mean of the fitted movements, laid over one another as the trials are in PersonTemplate::mean
 };
 
@@ -57,7 +60,7 @@ struct PersonFit {
 /// written into the windows. At least kFewestTrials. `keepApart`: see makeTemplate.
 PersonFit fitPerson(std::span<FitWindow> windows, std::span<const double> durations, const CandidateSet& set, bool keepApart = false);
 
-/// Fitted epsilon of one trial: sqrt(sum r^2 / N) over the window.   [m/s]
-double computeFittedEpsilon(const FitWindow& window, const Profile& profile, const MovementFit& fit);
+/// Fitted epsilon of one trial, of its residuals at the samples of the window: sqrt(sum r^2 / N).   [m/s]
+double computeFittedEpsilon(std::span<const double> residual);
 
 }  // namespace reachlab::analysis

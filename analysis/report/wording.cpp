@@ -76,6 +76,20 @@ Names candidatesOf(const ConditionResult& result) { return namesOf(result.candid
 
 namespace {
 
+/// What the residuals say of the best candidate's fit, with a space behind. Empty if they were not tested.
+std::string fitText(const Conclusion& c, const Names& names) {
+  std::string text;
+  if (c.systematic.variance > 0)
+    text += fmt::format("{} % of what it leaves is the same in every trial or grows with the duration ({}). ",
+                        shortNumber(100 * c.systematic.share), pText(c.systematic.p()));
+  if (c.mixedWith) {
+    const Bounds interval = intervalOf(c.mixture);
+    text += fmt::format("The movements go {} % {} of the way towards {} ({}). ", shortNumber(100 * c.mixture.mean),
+                        intervalText({100 * interval.low, 100 * interval.high}), describeCandidate(names[*c.mixedWith]), pText(c.mixtureP));
+  }
+  return text;
+}
+
 std::string describeOutcome(const Conclusion& c, const Names& names) {
   const std::string best = c.best && *c.best < names.size() ? describeCandidate(names[*c.best]) : "";
   if (c.decided())
@@ -113,9 +127,9 @@ std::string describeOutcome(const Conclusion& c, const Names& names) {
     }
     case Obstacle::Poor:
       return nothing(fmt::format(
-          "{} is the closest of these, but does not fit. Its squared errors are {:.0f} % {} those of the person's other trials ({}), and it leaves "
-          "{:.2f} times the squares that their mean leaves",
-          best, 100 * std::abs(std::expm1(c.misfit.mean)), c.misfit.mean > 0 ? "above" : "below", pText(c.misfit.p),
+          "{} is the closest of these, but does not fit. {}Its squared errors are {:.0f} % {} those of the person's other trials ({}), and it "
+          "leaves {:.2f} times the squares that their mean leaves",
+          best, fitText(c, names), 100 * std::abs(std::expm1(c.misfit.mean)), c.misfit.mean > 0 ? "above" : "below", pText(c.misfit.p),
           (1 - c.r2) / (1 - c.ceiling)));
     case Obstacle::NothingToCompare:
       return nothing("fewer than two candidates were asked for or can be predicted here, so there is nothing to compare");
@@ -155,6 +169,7 @@ std::string describeEvidence(const Conclusion& c, const Names& names) {
   if (c.misfit.mean != 0)
     text += fmt::format(" Lack of fit: held-out squared errors are {:.0f} % {} those of that mean ({}).",
                         100 * std::abs(std::expm1(c.misfit.mean)), c.misfit.mean > 0 ? "above" : "below", pText(c.misfit.p));
+  if (const std::string fit = fitText(c, names); !fit.empty()) text += " " + fit.substr(0, fit.size() - 1);
   return text;
 }
 
@@ -327,7 +342,8 @@ std::string describeMethods(const Analysis& analysis) {
       "reference (two-sided t over trials, the number of trials reduced by their serial correlation) and their scores are {} or more above "
       "its own: squared errors that differ by less are not told apart, however many trials there are. Nobody is decided for a criterion "
       "that fits worse than the person's other trials do, by their mean or by a line over the duration (score {} or more above theirs with p < {}, "
-      "or 1 - R² more than {} times what the ceiling leaves), or while a hand mass outside the range might be nearer. "
+      "or 1 - R² more than {} times what the ceiling leaves), whose residuals are the same in every trial or grow with the duration ({} of their mean square and {} of the speed or more, p < {} by the exchange of signs) "
+      "or go towards another candidate ({} of the way or more, one-sided p < {}, corrected for their number), or while a hand mass outside the range might be nearer. "
       "People are decided for one from {} "
       "on if p "
       "< {} against every other and the reference (paired t over subjects), the same least difference, the protected exceedance probability of random-effects model "
@@ -345,7 +361,8 @@ std::string describeMethods(const Analysis& analysis) {
       "corrected by "
       "Holm's method.",
       filter, rule, mass, o.handDamping > 0 ? fmt::format(" Damping of the hand: {} N s/m.", shortNumber(o.handDamping)) : "", kTrialsLevel,
-      kLeastDifference, kLeastMisfit, kMisfitLevel, kMostUnexplained, kFewestSubjects, kSubjectsLevel, kMinExceedance, kFewestTrials,
+      kLeastDifference, kLeastMisfit, kMisfitLevel, kMostUnexplained, kLeastSystematic, kLeastSystematicSpeed, kSystematicLevel,
+      kLeastMixture, kMixtureLevel, kFewestSubjects, kSubjectsLevel, kMinExceedance, kFewestTrials,
       o.predictFor == PredictionDuration::Task ? "the task's duration" : "the duration that was moved");
 }
 

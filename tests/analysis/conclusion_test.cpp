@@ -202,6 +202,53 @@ TEST(Conclusion, OfACandidateThatFitsWorseThanThePersonsOwnMeanIsPoor) {
   }
 }
 
+// Shares of 2.3 and 1.9 standard deviations: p = 0.011 and 0.029, normally distributed. People's shares are averaged.
+TEST(Conclusion, OfACandidateWithSystematicResidualsIsPoor) {
+  for (const double deviations : {2.3, 1.9}) {
+    PersonScores one;
+    one.conditions = {levels({-3, 0, 0, 0})};
+    one.conditions[0].systematic.assign(kCandidates, {0.1 * deviations, 0.01, 0});
+    const Obstacle expected = deviations > 2 ? Obstacle::Poor : Obstacle::None;
+    EXPECT_EQ(concludePerson(one, kCandidates, kReference).reason, expected) << deviations;
+    for (SystematicRest& rest : one.conditions[0].systematic) rest.share /= std::sqrt(5.0);
+    EXPECT_EQ(concludePerson(one, kCandidates, kReference).reason, Obstacle::None);
+    const Conclusion five = concludePeople(std::vector<PersonScores>(5, one), kCandidates, kReference);
+    EXPECT_EQ(five.reason, expected) << deviations;
+    EXPECT_NEAR(five.systematic.share / std::sqrt(five.systematic.variance), deviations, 1e-9);
+    one.conditions[0].systematic.assign(kCandidates, {0.029, 1e-6, 0});
+    EXPECT_EQ(concludePerson(one, kCandidates, kReference).reason, Obstacle::None) << "a small part does not count";
+    one.conditions[0].systematic.assign(kCandidates, {0.24, 1e-6, 0});
+    for (const double r2 : {0.9998, 0.99999}) {  // 0.7 and 0.15 % of the speed
+      one.conditions[0].r2[0] = one.conditions[0].ceiling = r2;
+      EXPECT_EQ(concludePerson(one, kCandidates, kReference).reason, r2 < 0.9999 ? Obstacle::Poor : Obstacle::None) << r2;
+    }
+  }
+}
+
+// The way towards a candidate is one-sided: away from it is no sign of a mixture. Three others are tested.
+TEST(Conclusion, OfMovementsThatGoTowardsAnotherCandidateIsPoor) {
+  for (const double share : {0.3, -0.3}) {
+    PersonScores one;
+    one.conditions = {levels({-3, 0, 0, 0}, 20)};
+    std::vector<double> way;
+    for (int i = 0; i < 20; ++i) way.push_back(share + (i % 2 == 0 ? 0.2 : -0.2) + 0.01 * i);
+    std::vector<std::vector<double>> none(kCandidates, std::vector<double>(20, 0.0));
+    one.conditions[0].toward.assign(kCandidates, none);
+    one.conditions[0].toward[0][2] = way;
+    const Conclusion alone = concludePerson(one, kCandidates, kReference);
+    EXPECT_EQ(alone.reason, share > 0 ? Obstacle::Poor : Obstacle::None);
+    if (share < 0) continue;
+    EXPECT_EQ(alone.mixedWith, 2u);
+    EXPECT_NEAR(alone.mixture.mean, 0.395, 1e-12);
+    EXPECT_NEAR(alone.mixtureP, 3 * computeSerialTTest(way).p / 2, 1e-15);
+    std::vector<PersonScores> five(5, one);
+    for (std::size_t i = 0; i < five.size(); ++i)
+      for (double& x : five[i].conditions[0].toward[0][2]) x += 0.02 * static_cast<double>(i);
+    EXPECT_EQ(concludePeople(five, kCandidates, kReference).reason, Obstacle::Poor);
+    EXPECT_NEAR(concludePeople(five, kCandidates, kReference).mixture.mean, 0.435, 1e-12);
+  }
+}
+
 TEST(Conclusion, OfACandidateThatLeavesMoreSquaresThanThePersonsOwnMeanIsPoor) {
   PersonScores one;
   one.conditions = {levels({-3, 0, 0, 0})};

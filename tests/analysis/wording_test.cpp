@@ -78,10 +78,12 @@ TEST(Wording, OfNoConclusionSaysWhy) {
   c.reason = Obstacle::Poor;
   c.best = 0;
   c.misfit.mean = 0.5, c.misfit.p = 0.0021;
+  c.systematic = {0.25, 1e-4, 0};
   EXPECT_EQ(
       told(c),
-      "Nothing can be concluded: (1) min-hand-jerk is the closest of these, but does not fit. Its squared errors are 65 % above those of the "
-      "person's other trials (p = 0.0021), and it leaves 3.92 times the squares that their mean leaves.");
+      "Nothing can be concluded: (1) min-hand-jerk is the closest of these, but does not fit. 25 % of what it leaves is the same in "
+      "every trial or grows with the duration (p < 0.0001). Its squared errors are 65 % above those of the person's other trials (p = 0.0021), and "
+      "it leaves 3.92 times the squares that their mean leaves.");
   c.reason = Obstacle::MassAtEdge;
   c.atEdge = {2};
   expectIn(told(c), {"(1) min-hand-jerk is the closest candidate, but the hand's mass of (3) min-crackle", "at the edge of the range",
