@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """Does `reach analyze` name the right criterion for hands that Reachlab did not make?
 
-`foreign_hands.py BUILD [--seed S] [--experiments NAME…] [--alone] [--keep FOLDER]` plans movements with the optimal control of this file (numpy, nothing of the
+`foreign_hands.py BUILD [--seed S] [--experiments NAME…] [--alone] [--keep FOLDER [--resume]]` plans movements with the optimal control of this file (numpy, nothing of the
 program), adds the scatter of a person, and writes the hands as BIDS datasets. `reach analyze` then judges every person alone, and groups of
 five. Prints a table of right, undecided and wrong names for each stratum:
 
@@ -309,10 +309,15 @@ def write(folder, experiment, plant, person):
     (base / f"{name}_motion.json").write_text(json.dumps(about))
 
 
-def analyze(reach, data, experiment):
+def analyze(reach, data, experiment, resume):
+    """The summary of `reach analyze`, kept beside the data. With `resume` the summary that is there counts."""
+    kept = data.with_suffix(".json")
+    if resume and kept.exists():
+        return json.loads(kept.read_text())
     done = subprocess.run([reach, "analyze", data, "--experiment", experiment, "--json"], capture_output=True, text=True)
     if done.returncode:
         sys.exit(f"reach analyze {data}: {done.stderr}")
+    kept.write_text(done.stdout)
     return json.loads(done.stdout)
 
 
@@ -330,6 +335,7 @@ def main():
     parser.add_argument("--experiments", nargs="*", default=list(EXPERIMENTS), choices=EXPERIMENTS, help="[default: all]")
     parser.add_argument("--alone", action="store_true", help="no groups of five")
     parser.add_argument("--keep", type=pathlib.Path, help="folder that keeps datasets and tables")
+    parser.add_argument("--resume", action="store_true", help="judge only the datasets of that folder that are not yet judged")
     o = parser.parse_args()
     reach = o.build.resolve() / "cli/reach"
     work = o.keep or pathlib.Path(tempfile.mkdtemp(prefix="foreign_hands"))
@@ -349,10 +355,13 @@ def main():
                     draw = np.random.default_rng([o.seed, e, s, k, i])
                     persons.append(Person(f"{stratum}{kind}x{i}", stratum, kind, plant, draw))
         if not data.exists():
+            part = work / f"{experiment}-part"  # renamed when it is whole
+            shutil.rmtree(part, ignore_errors=True)
             for person in persons:
-                write(data, experiment, plant, person)
+                write(part, experiment, plant, person)
+            part.rename(data)
         print(f"{experiment}: {len(persons)} persons written", file=sys.stderr, flush=True)
-        study = analyze(reach, data, experiment)
+        study = analyze(reach, data, experiment, o.resume)
         print(f"{experiment}: judged alone", file=sys.stderr, flush=True)
         named = {f["subject"]: [f["criterion"], *f["equivalent"]] for f in study["fits"] if f["decided"]}
         for fit in study["fits"]:
@@ -379,7 +388,7 @@ def main():
                 if not group.exists():
                     for p in members:
                         shutil.copytree(data / f"sub-{p.label}", group / f"sub-{p.label}")
-                c = analyze(reach, group, experiment)["conclusion"]
+                c = analyze(reach, group, experiment, o.resume)["conclusion"]
                 v = verdict(members[0], [c["criterion"], *c["equivalent"]] if c["decided"] else [])
                 table.setdefault((stratum, kind, "five"), []).append(v)
                 if v == "wrong":
