@@ -67,7 +67,7 @@ void writeAdaptationTable(const Analysis& analysis, const TableWriter& write) {
       blocks[trial->key.block].push_back(all.back());
     }
     for (const auto& [block, series] : blocks) row(table, subject, std::to_string(block), series, person.rotated);
-    row(table, subject, "all", all, person.rotated, learningOf(person));
+    row(table, subject, kAllTogether, all, person.rotated, learningOf(person));
   }
   table.flush();
 }

@@ -34,6 +34,7 @@ struct AnalysisOptions {
   PredictionDuration predictFor = PredictionDuration::Task;
   int learningBin = 10;      // trials a point of the learning curve
   bool keepScatter = false;  // of people's movements, for recovery
+  bool residuals = false;    // residuals.csv is written, about 40 kB per trial
 };
 
 /// A condition's name, and the experiment that it was recorded with.
@@ -140,6 +141,8 @@ struct AlternativeConclusion {
   std::string best;               // closest candidate; empty where nothing could be compared
   std::optional<double> p;        // of its nearest rival
   bool changed = false;
+  Conclusion conclusion;
+  std::vector<std::vector<predict::Criterion>> candidates;  // that `conclusion` indexes
 };
 
 struct Analysis {

@@ -1,7 +1,7 @@
-#include "analysis/sheet.h"
-
+#include <algorithm>
 #include <utility>
 
+#include "analysis/sheet.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::analysis {
@@ -94,13 +94,18 @@ void fitsTable(const Analysis& analysis, const TableWriter& write) {
 }
 
 void addConclusion(Sheet& table, const std::string& condition, const Conclusion& c,
-                   const std::vector<std::vector<predict::Criterion>>& candidates) {
+                   const std::vector<std::vector<predict::Criterion>>& candidates, const std::optional<std::string>& choice = {}) {
   for (std::size_t k = 0; k < c.score.size(); ++k) {
+    if (choice) table.cell(*choice);
     table.cell(condition).cell(c.overSubjects ? "subjects" : "trials").cell(nameOfCandidate(candidates[k])).number(c.score[k]);
     const bool best = k == *c.best;
     table.number(best ? 0 : c.against[k].mean);
     table.bounds(best ? std::nullopt : std::optional(intervalOf(c.against[k]))).number(best ? kNotMeasured : c.against[k].p);
     table.number(best ? kNotMeasured : computeBayesFactor(c.against[k]));
+    const Bounds share = computeBinomialInterval(c.closest[k], c.subjects);
+    table.count(c.closest[k]).number(100 * static_cast<double>(c.closest[k]) / static_cast<double>(c.subjects));
+    table.number(100 * share.low).number(100 * share.high);
+    table.count(static_cast<std::size_t>(std::count(c.each.begin(), c.each.end(), std::optional(k))));
     table.number(c.posterior.empty() ? kNotMeasured : c.posterior[k]).cell(best ? "yes" : "no").whole(c.follows && *c.follows == k);
     table.cell(c.decided() ? "" : nameOf(c.reason)).number(c.level);
     table.whole(std::find(c.atEdge.begin(), c.atEdge.end(), k) != c.atEdge.end());
@@ -122,7 +127,14 @@ void conclusionsTable(const Analysis& analysis, const TableWriter& write) {
     for (const Candidate& candidate : analysis.results[c].candidates.candidates) names.push_back(candidate.criteria);
     addConclusion(table, analysis.conditions[c].name, analysis.results[c].conclusion, names);
   }
-  addConclusion(table, "all", analysis.overall, analysis.common);
+  addConclusion(table, kAllTogether, analysis.overall, analysis.common);
+  table.flush();
+}
+
+void alternativeScoresTable(const Analysis& analysis, const TableWriter& write) {
+  Sheet table(write, "alternative_scores.csv");
+  for (const AlternativeConclusion& row : analysis.alternatives)
+    addConclusion(table, row.condition, row.conclusion, row.candidates, row.choice);
   table.flush();
 }
 
@@ -161,6 +173,7 @@ void writeConditionTables(const Analysis& analysis, const TableWriter& write) {
   seriesTable(analysis, write);
   fitsTable(analysis, write);
   conclusionsTable(analysis, write);
+  if (!analysis.alternatives.empty()) alternativeScoresTable(analysis, write);
   conditionsTable(analysis, write);
 }
 

@@ -33,7 +33,9 @@ constexpr record::ColumnMeaning kShared[] = {
     {"mean_movement_time_s", "Mean of the task's own movement time over the used trials"},
     {"sd_movement_time_s", "Standard deviation (n - 1) of that time"}};
 
-constexpr std::string_view kMeasures = "MEASURES";  // all of `measures`, here
+constexpr std::string_view kMeasures = "MEASURES";        // all of `measures`, here
+constexpr std::string_view kConclusions = "CONCLUSIONS";  // all columns of conclusions.csv, here
+constexpr std::string_view kChoice = "Choice of the analysis that differs from the asked ones; as asked: none";
 
 const std::map<std::string_view, Columns>& tables() {
   static std::map<std::string_view, Columns> kTables{
@@ -156,6 +158,17 @@ const std::map<std::string_view, Columns>& tables() {
         {"r2", "1 less the weighted sum of squared residuals over that of the velocity"},
         {"score", "ln S, held out; lower is nearer"},
         {"own_score", "ln S of the trial for the mean of the person's other trials"}}},
+      {"residuals.csv",
+       {{"condition"},
+        {"subject"},
+        {"session"},
+        {"run"},
+        {"trial"},
+        {"time_s", "Time of the sample since arming"},
+        {"phase", "The same from 0 at the onset to 1 at the end of the person's own mean movement, laid over the trial"},
+        {"weight", "Weight of the squared residual in S, inverse of the squared scatter of the person's own trials at that phase"},
+        {"velocity_m_per_s", "Hand's velocity along the path, filtered"},
+        {"residual_*", "Velocity less the fit of the candidate that the column names; empty where it was not compared"}}},
       {"conclusions.csv",
        {{"condition", "Condition; all: every condition together"},
         {"unit", "What the test is over: subjects, or one subject's trials"},
@@ -167,6 +180,11 @@ const std::map<std::string_view, Columns>& tables() {
         {"p", "Two-sided p of that difference; empty for the best"},
         {"bayes_factor",
          "Evidence for a difference over evidence for none: JZS Bayes factor of that test with scale 0.707; empty for the best"},
+        {"closest_subjects", "Subjects whose own score of this candidate is the least"},
+        {"closest_percent", "Share of these subjects among all that were judged"},
+        {"closest_low_percent", "Lower end of Clopper and Pearson's exact 95 % interval of that share"},
+        {"closest_high_percent", "Upper end of that interval"},
+        {"decided_subjects", "Subjects whose own movements, judged alone, are decided for this candidate"},
         {"posterior", "Protected exceedance probability: that it is the most frequent among people; empty for one subject"},
         {"best", "yes for the candidate that is closest"},
         {"decided", "1: the movements follow it, by the rule of docs/analysis.md"},
@@ -312,7 +330,7 @@ const std::map<std::string_view, Columns>& tables() {
          "RMS over samples of the force that cancels between hands: half of the sum of sizes less the size of the sum"},
         {"internal_force_peak_n", "Largest of that force"}}},
       {"alternatives.csv",
-       {{"choice", "Choice of the analysis that differs from the asked ones; as asked: none"},
+       {{"choice", kChoice},
         {"condition", "Condition; all: every condition together"},
         {"criterion", "Criterion that the movements follow by this analysis; empty where none is named"},
         {"reason", "Why none is named; empty where one is"},
@@ -327,13 +345,15 @@ const std::map<std::string_view, Columns>& tables() {
         {"named", "What the rule named: a candidate, or undecided; of other truths right, wrong or undecided"},
         {"studies", "Simulated studies of this truth that were named so"}}}};
   static const bool kComplete = [] {
+    Columns allMeasures;
+    for (const Measure& measure : measures()) allMeasures.push_back({measure.name, measure.sentence});
+    const Columns conclusions = kTables.at("conclusions.csv");
     for (auto& [file, columns] : kTables) {
-      if (const auto at = std::find_if(columns.begin(), columns.end(), [](const auto& c) { return c.column == kMeasures; });
-          at != columns.end()) {
-        Columns all;
-        for (const Measure& measure : measures()) all.push_back({measure.name, measure.sentence});
-        columns.insert(columns.erase(at), all.begin(), all.end());
-      }
+      const auto replace = [&](std::string_view name, const Columns& by) {
+        const auto at = std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.column == name; });
+        if (at != columns.end()) columns.insert(columns.erase(at), by.begin(), by.end());
+      };
+      replace(kMeasures, allMeasures), replace(kConclusions, conclusions);
       for (record::ColumnMeaning& column : columns)
         for (const record::ColumnMeaning& shared : kShared)
           if (column.meaning.empty() && column.column == shared.column) column = shared;

@@ -12,6 +12,9 @@ namespace reachlab::analysis {
 /// Takes a piece of the file of that name. The pieces of a file come in order.
 using TableWriter = std::function<void(const std::string& name, std::string_view piece)>;
 
+/// Names the rows over all conditions, or over all blocks.
+inline constexpr const char* kAllTogether = "all";
+
 /// The analysis as tidy CSV files, with the columns of tableColumns. Every number of a figure or of the report is in a table. Numbers
 /// read back equal. An empty cell is a value that could not be measured.
 void writeTables(const Analysis& analysis, const TableWriter& write);

@@ -1,9 +1,9 @@
+#include <algorithm>
 #include <map>
 #include <tuple>
 
 #include "analysis/sheet.h"
-
-#include <algorithm>
+#include "analysis/steps.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -85,9 +85,8 @@ void fitTrialsTable(const Analysis& analysis, const TableWriter& write) {
     if (!person.fitted) continue;
     const auto& candidates = analysis.results[person.condition].candidates.candidates;
     std::size_t place = 0;
-    for (std::size_t i = person.firstTrial; place < person.trials; ++i) {
-      const AnalyzedTrial& t = analysis.trials[i];
-      if (!t.used() || t.window.size == 0) continue;
+    for (const AnalyzedTrial* trial : fittedTrials(analysis, person)) {
+      const AnalyzedTrial& t = *trial;
       for (std::size_t k = 0; k < candidates.size(); ++k) {
         const CandidateFit& fit = person.fit.candidates[k];
         const MovementFit& at = fit.trials[place];
@@ -105,6 +104,58 @@ void fitTrialsTable(const Analysis& analysis, const TableWriter& write) {
   table.flush();
 }
 
+/// Names of the candidates that any condition has, the reference last.
+std::vector<std::string> allCandidates(const Analysis& analysis) {
+  std::vector<std::string> out;
+  for (const ConditionResult& result : analysis.results)
+    for (const Candidate& candidate : result.candidates.candidates)
+      if (const std::string name = nameOfCandidate(candidate.criteria);
+          !candidate.reference() && std::find(out.begin(), out.end(), name) == out.end())
+        out.push_back(name);
+  out.push_back(nameOfCandidate({}));
+  return out;
+}
+
+/// What one candidate leaves of a person's trial, at every sample of its window.
+std::vector<double> residualsOf(const FitWindow& window, const CandidateFit& fit, std::size_t place) {
+  const MovementFit& at = fit.trials[place];
+  Profile profile;
+  if (!at.found || !fit.family->at(fit.choice.law == TimeLaw::OnePlan ? fit.choice.plan : at.duration, profile)) return window.velocity;
+  return residualsOf(window, profile, at);
+}
+
+void residualsTable(const Analysis& analysis, const TableWriter& write) {
+  const std::vector<std::string> names = allCandidates(analysis);
+  std::vector<std::string> columns;
+  for (std::string name : names) {
+    std::replace(name.begin(), name.end(), '-', '_');
+    columns.push_back("residual_" + name + "_m_per_s");
+  }
+  Sheet table(write, "residuals.csv", columns);
+  for (const PersonResult& person : analysis.people) {
+    if (!person.fitted) continue;
+    const auto& candidates = analysis.results[person.condition].candidates.candidates;
+    std::size_t place = 0;
+    for (const AnalyzedTrial* t : fittedTrials(analysis, person)) {
+      FitWindow window = windowOf(analysis, *t);
+      weigh(window, person.fit.own, place);
+      std::map<std::string, std::vector<double>> residuals;
+      for (std::size_t k = 0; k < candidates.size(); ++k)
+        residuals[nameOfCandidate(candidates[k].criteria)] = residualsOf(window, person.fit.candidates[k], place);
+      const MovementFit& own = person.fit.own.place[place];
+      for (std::size_t i = 0; i < window.velocity.size(); ++i) {
+        const double time = window.begin + static_cast<double>(i) / window.rate;
+        table.cell(analysis.conditions[t->condition].name).cell(t->key.subject).cell(t->key.session).whole(t->key.run).whole(t->key.trial);
+        table.number(time).number((time - own.onset) / own.duration).number(window.weight[i]).number(window.velocity[i]);
+        for (const std::string& name : names) table.number(residuals.contains(name) ? residuals[name][i] : kNotMeasured);
+        table.endRow();
+      }
+      ++place;
+    }
+  }
+  table.flush();
+}
+
 }  // namespace
 
 void writeTrialTables(const Analysis& analysis, const TableWriter& write) {
@@ -112,6 +163,7 @@ void writeTrialTables(const Analysis& analysis, const TableWriter& write) {
   profilesTable(analysis, write);
   exclusionsTable(analysis, write);
   fitTrialsTable(analysis, write);
+  if (analysis.options.residuals) residualsTable(analysis, write);
 }
 
 }  // namespace reachlab::analysis

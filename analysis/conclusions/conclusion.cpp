@@ -177,6 +177,8 @@ Conclusion concludePerson(const PersonScores& person, std::size_t candidates, st
   out.trials = person.trials();
   if (person.conditions.empty()) return out;
   out.score = scoresOf(person, candidates);
+  out.closest.assign(candidates, 0);
+  ++out.closest[leastOf(out.score)];
   compareAll(out, reference, [&](std::size_t a, std::size_t b) { return compareInPerson(person, a, b); });
   for (const ConditionScores& c : person.conditions) {
     out.r2 += c.r2[*out.best] / static_cast<double>(person.conditions.size());
@@ -216,8 +218,10 @@ Conclusion concludePeople(const std::vector<PersonScores>& everyone, std::size_t
   out.subjects = people.size();
   std::vector<std::vector<double>> table, evidence;
   out.score.assign(candidates, 0.0);
+  out.closest.assign(candidates, 0);
   for (const PersonScores& person : people) {
     table.push_back(scoresOf(person, candidates));
+    ++out.closest[leastOf(table.back())];
     for (std::size_t c = 0; c < candidates; ++c) out.score[c] += table.back()[c] / static_cast<double>(people.size());
     std::vector<double> log(candidates, 0.0);
     for (const ConditionScores& condition : person.conditions)

@@ -68,7 +68,8 @@ struct Conclusion {
   double referenceP = 1;  // best against the reference
   bool referenceFirst = false;
   std::size_t subjects = 0, trials = 0;
-  std::vector<double> posterior;    // protected exceedance probability of each candidate; empty for one person
+  std::vector<std::size_t> closest;  // people whose own least score each candidate has
+  std::vector<double> posterior;     // protected exceedance probability of each candidate; empty for one person
   std::optional<double> signFlipP;  // of the nearest rival, from six people on
   std::vector<double> score;        // Y of each candidate: mean over conditions of the mean over trials, over people
   std::vector<TTest> against;       // of each candidate: score - best's score

@@ -141,19 +141,6 @@ std::vector<double> scatterOf(std::vector<double> variance, std::size_t n, const
   return sigma;
 }
 
-void weigh(FitWindow& window, const MovementFit& place, const std::vector<double>& sigma) {
-  const double largest = *std::max_element(sigma.begin(), sigma.end());
-  const double last = static_cast<double>(sigma.size() - 1);
-  for (std::size_t k = 0; k < window.weight.size(); ++k) {
-    const double s = (window.begin + static_cast<double>(k) / window.rate - place.onset) / place.duration;
-    const double x = std::clamp((s - kFirst) / kStep, 0.0, last);
-    const auto i = std::min(static_cast<std::size_t>(x), sigma.size() - 2);
-    const double here = sigma[i] + (x - static_cast<double>(i)) * (sigma[i + 1] - sigma[i]);
-    const double least = std::max(here, kMinScatter * largest);
-    window.weight[k] = least > 0 ? 1 / (least * least) : 1;  // no scatter at all: every sample counts alike
-  }
-}
-
 /// Samples / sum of squared autocorrelations, pooled over the trials, of the weighted residuals.
 double effectiveSamplesOf(std::span<const FitWindow> windows, const Profile& mean, const std::vector<MovementFit>& places) {
   std::vector<std::vector<double>> residuals;
@@ -179,6 +166,21 @@ double effectiveSamplesOf(std::span<const FitWindow> windows, const Profile& mea
 }
 
 }  // namespace
+
+void weigh(FitWindow& window, const PersonTemplate& own, std::size_t trial) {
+  const std::vector<double>& sigma = own.scatter;
+  const MovementFit& place = own.place[trial];
+  const double largest = *std::max_element(sigma.begin(), sigma.end());
+  const double last = static_cast<double>(sigma.size() - 1);
+  for (std::size_t k = 0; k < window.weight.size(); ++k) {
+    const double s = (window.begin + static_cast<double>(k) / window.rate - place.onset) / place.duration;
+    const double x = std::clamp((s - kFirst) / kStep, 0.0, last);
+    const auto i = std::min(static_cast<std::size_t>(x), sigma.size() - 2);
+    const double here = sigma[i] + (x - static_cast<double>(i)) * (sigma[i + 1] - sigma[i]);
+    const double least = std::max(here, kMinScatter * largest);
+    window.weight[k] = least > 0 ? 1 / (least * least) : 1;  // no scatter at all: every sample counts alike
+  }
+}
 
 PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double> durations, bool keepApart) {
   PersonTemplate out;
@@ -230,7 +232,7 @@ PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double
     if (keepApart) out.apart.push_back(apart);
   }
   out.scatter = scatterOf(std::move(squares), n, mean);
-  for (std::size_t i = 0; i < n; ++i) weigh(windows[i], out.place[i], out.scatter);
+  for (std::size_t i = 0; i < n; ++i) weigh(windows[i], out, i);
 
   double left = 0, whole = 0;
   const std::vector<double> x = centredLogDurations(out.place);

@@ -27,4 +27,7 @@ struct PersonTemplate {
 /// or more. `apart`, 2 kB per trial, is filled only if `keepApart` is true.
 PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double> durations, bool keepApart = false);
 
+/// Writes those weights into the window of trial number `trial` again.
+void weigh(FitWindow& window, const PersonTemplate& own, std::size_t trial);
+
 }  // namespace reachlab::analysis

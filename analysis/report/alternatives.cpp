@@ -14,11 +14,10 @@ namespace reachlab::analysis {
 namespace {
 
 constexpr const char* kAsAsked = "as asked";
-constexpr const char* kAll = "all";
 
 AlternativeConclusion rowOf(const std::string& choice, const std::string& condition, const Conclusion& conclusion,
                             const std::vector<std::vector<predict::Criterion>>& names) {
-  AlternativeConclusion row{choice, condition, "", std::string(nameOf(conclusion.reason)), {}, {}, false};
+  AlternativeConclusion row{choice, condition, "", std::string(nameOf(conclusion.reason)), {}, {}, false, conclusion, names};
   if (conclusion.follows) row.criterion = nameOfCandidate(names[*conclusion.follows]);
   if (conclusion.best) {
     row.best = nameOfCandidate(names[*conclusion.best]);
@@ -62,7 +61,7 @@ std::vector<Alternative> alternativesTo(const AnalysisOptions& asked) {
 }
 
 std::vector<AlternativeConclusion> conclusionsOf(const Analysis& analysis, const std::string& choice) {
-  std::vector<AlternativeConclusion> rows{rowOf(choice, kAll, analysis.overall, analysis.common)};
+  std::vector<AlternativeConclusion> rows{rowOf(choice, kAllTogether, analysis.overall, analysis.common)};
   if (analysis.conditions.size() > 1)
     for (std::size_t c = 0; c < analysis.conditions.size(); ++c)
       rows.push_back(rowOf(choice, analysis.conditions[c].name, analysis.results[c].conclusion, candidatesOf(analysis.results[c])));
@@ -80,20 +79,18 @@ void addAlternatives(Analysis& analysis, std::vector<AlternativeConclusion> othe
 }
 
 std::string describeAlternatives(const Analysis& analysis) {
-  std::size_t all = 0;
+  std::size_t all = 0, changed = 0;
   std::string differ;
   for (const AlternativeConclusion& row : analysis.alternatives) {
-    if (row.condition != kAll || row.choice == kAsAsked) continue;
+    if (row.condition != kAllTogether || row.choice == kAsAsked) continue;
     ++all;
+    changed += row.changed;
     if (row.changed)
       differ += fmt::format("{}{}: {}", differ.empty() ? " The others are: " : "; ", row.choice,
                             row.criterion.empty() ? "undecided (" + row.reason + ")" : row.criterion);
   }
   if (all == 0) return {};
-  const auto same = static_cast<std::size_t>(std::count_if(analysis.alternatives.begin(), analysis.alternatives.end(), [](const auto& row) {
-    return row.condition == kAll && row.choice != kAsAsked && !row.changed;
-  }));
-  return fmt::format("The conclusion is the same in {} of {} analyses with another choice.{}", same, all, differ.empty() ? "" : differ + ".");
+  return fmt::format("The conclusion is the same in {} of {} analyses with another choice.{}", all - changed, all, differ.empty() ? "" : differ + ".");
 }
 
 std::string alternativesTable(const Analysis& analysis) {

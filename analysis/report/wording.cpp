@@ -161,6 +161,9 @@ std::string describeEvidence(const Conclusion& c, const Names& names) {
     text += fmt::format(" Its squared errors are {:.0f} % larger {}.", 100 * std::expm1(c.against[*c.rival].mean),
                         intervalText({100 * std::expm1(interval.low), 100 * std::expm1(interval.high)}));
   if (!c.told(*c.rival)) text += fmt::format(" Bayes factor for a difference: {}.", shortNumber(computeBayesFactor(c.against[*c.rival])));
+  if (c.overSubjects)
+    text += fmt::format(" It is the closest for {} of {} ({}).", c.closest[*c.best], plural(c.subjects, "subject"),
+                        shareText(c.closest[*c.best], c.subjects));
   if (c.signFlipP) text += fmt::format(" The same by exchange of signs: {}.", pText(*c.signFlipP));
   if (!c.posterior.empty())
     text += fmt::format(" Probability that it is the most frequent among people: {:.2f} (protected exceedance; {:.2f} is asked for).",

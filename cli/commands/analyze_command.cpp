@@ -29,7 +29,7 @@ struct AnalyzeOptions {
   double percent = 5, speed = 0.01, cutoff = 10, handMass = -1, handDamping = 0;
   int bin = 10, recovery = 0, jobs = 0;
   std::uint64_t seed = 1;
-  bool includePractice = false, alternatives = false, json = false;
+  bool includePractice = false, alternatives = false, residuals = false, json = false;
 };
 
 std::vector<double> parseMasses(const std::string& text) {
@@ -62,6 +62,7 @@ analysis::AnalysisOptions analysisOptions(const AnalyzeOptions& o) {
   if (!o.masses.empty()) s.handMasses = parseMasses(o.masses);
   s.handDamping = o.handDamping;
   s.keepScatter = o.recovery > 0;
+  s.residuals = o.residuals;
   for (const std::string& name : o.criteria) s.drawn.push_back(parseCriterion(name));
   return s;
 }
@@ -97,6 +98,8 @@ Json jsonOf(const analysis::Conclusion& c, const Names& names, const std::vector
   auto equivalent = Json::array();
   if (c.best)
     for (std::size_t i = 1; i < names[*c.best].size(); ++i) equivalent.push_back(predict::nameOf(names[*c.best][i]));
+  auto closest = Json::object();
+  for (std::size_t k = 0; k < c.closest.size(); ++k) closest[analysis::nameOfCandidate(names[k])] = c.closest[k];
   auto posterior = Json::object();
   for (std::size_t k = 0; k < c.posterior.size(); ++k) posterior[analysis::nameOfCandidate(names[k])] = c.posterior[k];
   auto together = Json::array();
@@ -121,6 +124,7 @@ Json jsonOf(const analysis::Conclusion& c, const Names& names, const std::vector
           {"least_difference", analysis::kLeastDifference},
           {"subjects", c.subjects},
           {"trials", c.trials},
+          {"closest_subjects", closest},
           {"posterior", posterior},
           {"sign_flip_p", c.signFlipP ? Json(*c.signFlipP) : Json(nullptr)},
           {"not_told_apart", together},
@@ -373,7 +377,8 @@ void run(CLI::App& command, const AnalyzeOptions& o) {
     for (const analysis::RunProvenance& r : dataset.runs) starts.push_back(r.startedUtc);
     checkDate(*plan, starts);
   }
-  const analysis::ReportHeader header{folder, REACHLAB_VERSION, commandOf(o), plan ? describePlan(*plan) : std::vector<std::string>{}};
+  const analysis::ReportHeader header{folder, REACHLAB_VERSION, commandOf(o), plan ? describePlan(*plan) : std::vector<std::string>{},
+                                      analysis::describeLearning(analysis)};
   const std::string out = o.out.empty() ? folder + "/derivatives/reachlab" : o.out;
   const analysis::AnalysisFiles files =
       atOption("--out", [&] { return analysis::writeAnalysis(analysis, dataset, header, out, recovery); });
@@ -416,6 +421,8 @@ void addAnalyzeCommand(CLI::App& app, int&) {
   command->add_option("--onset-percent", o->percent, "Share of the trial's peak speed [%]")->capture_default_str();
   command->add_option("--onset-speed", o->speed, "Speed for --onset absolute [m/s]")->capture_default_str();
   command->add_option("--cutoff", o->cutoff, "Zero-lag Butterworth on the hand's velocity [Hz], 0: none")->capture_default_str();
+  command->add_flag("--residuals", o->residuals,
+                    "Write residuals.csv too: velocity, weight and the residual of every candidate at every sample of the fits");
   command->add_flag("--alternatives", o->alternatives,
                     "Analyse again with each of some other choices (cut-off, onset, hand masses, failed trials, criteria), and say which "
                     "conclusions change. Takes about 15 times as long");

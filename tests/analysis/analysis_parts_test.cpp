@@ -3,12 +3,15 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <map>
+#include <sstream>
 
-#include "analysis/report/alternatives.h"
 #include "analysis/conclusions/candidates.h"
 #include "analysis/counts.h"
 #include "analysis/measures/paper_error.h"
 #include "analysis/recovery.h"
+#include "analysis/report/alternatives.h"
+#include "analysis/tables.h"
 #include "analysis/trials/experiment_difference.h"
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
@@ -284,6 +287,21 @@ TEST(Alternatives, ChangeTheConclusionOnlyWhereTheTruthIsLeftOut) {
   EXPECT_GE(analysis.alternatives.size(), 10u);
   for (const AlternativeConclusion& row : analysis.alternatives) EXPECT_EQ(row.changed, row.choice == "without min-hand-jerk") << row.choice;
   EXPECT_NE(describeAlternatives(analysis).find(" The others are: without min-hand-jerk: "), std::string::npos);
+  // Each choice has the scores of its candidates; those as asked are the conclusions'.
+  std::map<std::string, std::string> files;
+  writeTables(analysis, [&](const std::string& name, std::string_view piece) { files[name] += piece; });
+  const auto rowsOf = [&](const std::string& file, const std::string& start) {
+    std::vector<std::string> out;
+    std::istringstream lines(files[file]);
+    for (std::string line; std::getline(lines, line);)
+      if (line.starts_with(start)) out.push_back(line.substr(start.size()));
+    return out;
+  };
+  const std::vector<std::string> asAsked = rowsOf("alternative_scores.csv", "as asked,all,");
+  EXPECT_EQ(asAsked, rowsOf("conclusions.csv", "all,"));
+  EXPECT_EQ(asAsked.size(), 4u);
+  EXPECT_EQ(rowsOf("alternative_scores.csv", "with failed trials,all,").size(), 4u);
+  EXPECT_EQ(rowsOf("alternative_scores.csv", "without min-crackle,all,").size(), 3u);
 }
 
 // What the fits try is what the options say, and each condition tells it.

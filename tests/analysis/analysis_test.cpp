@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <sstream>
 
@@ -160,6 +162,70 @@ TEST(Study, OfAClosedCurveTravelledTheOtherWayScoresTheWayThatTheHandWent) {
   const Analysis backwards = analyzeTrials(std::move(input), quickOptions()), forwards = analyzeTrials(straight, quickOptions());
   EXPECT_EQ(backwards.results[0].counts.otherWay, 4u);
   EXPECT_EQ(backwards.trials[0].paperError, forwards.trials[0].paperError);
+}
+
+// (1) for the duration that was moved lasts, measured like the trials, as long as they did.
+TEST(Study, PredictsForTheDurationThatWasMoved) {
+  AnalysisOptions options = quickOptions();
+  const AnalysisInput input = simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 12, 3);
+  const Analysis analysis = analyzeTrials(input, options);
+  const ConditionResult& r = analysis.results.at(0);
+  ASSERT_TRUE(r.moved);
+  EXPECT_EQ(r.movedSignal.criterion, predict::Criterion::MinHandJerk);
+  EXPECT_NEAR(durationUntil(r.movedSignal, r.endLevel), r.duration.mean, 1e-5);
+  options.predictFor = PredictionDuration::Moved;
+  EXPECT_FALSE(analyzeTrials(input, options).results[0].moved) << "the prediction itself is for it";
+  options = quickOptions();
+  options.drawn = {predict::Criterion::MinHandForce};
+  EXPECT_FALSE(analyzeTrials(input, options).results[0].moved) << "(1) is not drawn";
+}
+
+// The residuals of a trial are those that its fitted epsilon and its R^2 are made of.
+TEST(Study, WritesResidualsThatGiveEpsilonAndR2OfEachTrial) {
+  AnalysisOptions options = quickOptions();
+  options.residuals = true;
+  const Analysis analysis =
+      analyzeTrials(simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandForceChange, 1, 1, 1, 12, 3), options);
+  std::map<std::string, std::string> files;
+  writeTables(analysis, [&](const std::string& name, std::string_view piece) { files[name] += piece; });
+  const auto rowsOf = [&](const std::string& file) {
+    std::vector<std::map<std::string, std::string>> rows;
+    std::istringstream lines(files.at(file));
+    std::string header, line;
+    std::getline(lines, header);
+    while (std::getline(lines, line)) {
+      std::istringstream names(header), cells(line);
+      rows.emplace_back();
+      for (std::string name, cell; std::getline(names, name, ',') && std::getline(cells, cell, ',');) rows.back()[name] = cell;
+    }
+    return rows;
+  };
+  struct Sums {
+    double samples = 0, squares = 0, weighted = 0, whole = 0;
+  };
+  std::map<std::pair<std::string, std::string>, Sums> sums;  // of trial and column
+  for (const auto& row : rowsOf("residuals.csv"))
+    for (const auto& [column, cell] : row) {
+      if (!column.starts_with("residual_")) continue;
+      const double r = std::stod(cell), w = std::stod(row.at("weight")), v = std::stod(row.at("velocity_m_per_s"));
+      Sums& s = sums[{row.at("trial"), column}];
+      s.samples += 1, s.squares += r * r, s.weighted += w * r * r, s.whole += w * v * v;
+    }
+  const auto fits = rowsOf("fit_trials.csv");
+  EXPECT_EQ(sums.size(), fits.size());
+  for (const auto& fit : fits) {
+    std::string column = "residual_" + fit.at("criterion") + "_m_per_s";
+    std::replace(column.begin(), column.end(), '-', '_');
+    const Sums& s = sums.at({fit.at("trial"), column});
+    const double epsilon = std::stod(fit.at("epsilon_fit_m_per_s")), unexplained = 1 - std::stod(fit.at("r2"));
+    EXPECT_NEAR(std::sqrt(s.squares / s.samples), epsilon, 1e-9 * epsilon) << column;
+    EXPECT_NEAR(s.weighted / s.whole, unexplained, 1e-4 * unexplained) << column;  // cost and residuals interpolate differently
+  }
+  options.residuals = false;
+  files.clear();
+  writeTables(analyzeTrials(simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 12, 3), options),
+              [&](const std::string& name, std::string_view piece) { files[name] += piece; });
+  EXPECT_FALSE(files.contains("residuals.csv")) << "it was not asked for";
 }
 
 }  // namespace

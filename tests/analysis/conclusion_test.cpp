@@ -339,6 +339,13 @@ TEST(Conclusion, WeighsEvidenceByTheSamplesThatATrialIsWorth) {
   EXPECT_GT(posteriorWith(80)[0], given[0]);
 }
 
+TEST(Conclusion, CountsThePeopleWhomEachCandidateIsClosestTo) {
+  std::vector<PersonScores> all(5);
+  for (std::size_t i = 0; i < all.size(); ++i) all[i].conditions = {i < 3 ? levels({-5, -1, 0, 0}) : levels({-1, -2, 0, 0})};
+  EXPECT_EQ(concludePeople(all, kCandidates, kReference).closest, (std::vector<std::size_t>{3, 2, 0, 0}));
+  EXPECT_EQ(concludePerson(all[4], kCandidates, kReference).closest, (std::vector<std::size_t>{0, 1, 0, 0}));
+}
+
 TEST(Conclusion, OfPeopleDecidedForOtherThanTheBestIsNone) {
   std::vector<PersonScores> all;
   for (int i = 0; i < 6; ++i) {

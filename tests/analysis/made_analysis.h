@@ -81,6 +81,8 @@ inline Analysis madeStudy() {
   c.against = {{}, {1.25, 0.1, 12.5, 1, 0.03}, {2, 0.2, 10, 1, 0.02}};
   c.best = 0, c.rival = 1, c.follows = 0;
   c.reason = Obstacle::None;
+  c.closest = {2, 0, 0};
+  c.each = {0, {}};
   c.posterior = {0.91, 0.06, 0.03};
   c.level = 0.05, c.p = 0.03, c.referenceP = 0.02, c.subjects = 2, c.trials = 31;
   c.r2 = 0.962, c.ceiling = 0.981;
@@ -145,6 +147,7 @@ inline Analysis madeStudy() {
   analysis.overall.follows.reset();
   analysis.overall.reason = Obstacle::Poor;
   analysis.overall.misfit.mean = 0.5, analysis.overall.misfit.p = 0.004;
+  analysis.overall.closest = {1, 1};
   analysis.overall.score = {-1.5, -2.5};
   analysis.overall.against = {{1, 0.2, 5, 1, 0.04}, {}};
   analysis.overall.best = 1, analysis.overall.rival = 0;

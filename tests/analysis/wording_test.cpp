@@ -30,6 +30,7 @@ Conclusion decided() {
   c.p = 0.0123, c.level = 0.05;
   c.r2 = 0.9514, c.ceiling = 0.9876;
   c.against.resize(4);
+  c.closest = {1, 5, 0, 0};
   return c;
 }
 
