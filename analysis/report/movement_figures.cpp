@@ -176,7 +176,7 @@ NamedFigure lastFiveFigure(const Analysis& analysis, std::size_t condition) {
     addThin(*panel, analysis, last, duration, isObject, fmt::format("last {} successful", last.size()));
     for (Series& s : panel->series) s.color = palette::kGrey, s.width = 0.7;
     addPrediction(*panel, r, Criterion::MinHandJerk, isObject, {0.62, 0.62, 0.62}, Dash::Solid, 2.8);
-    if (r.moved) addPrediction(*panel, *r.moved, r.movedSignal, isObject, {0.62, 0.62, 0.62}, Dash::Dashed, 1.4, Zero::Onset);
+    if (r.moved) addPrediction(*panel, *r.moved, r.movedSignal, isObject, palette::kBlue, Dash::Dashed, 1.4, Zero::Onset);
     Series mean;
     mean.label = fmt::format("average of {}", used.size());
     mean.x = timeAxis(duration);
@@ -195,7 +195,7 @@ NamedFigure lastFiveFigure(const Analysis& analysis, std::size_t condition) {
       "average of all {} successful trials (thick black), time-scaled to their average.",
       analysis.conditions[condition].name, subject, last.size(),
       analysis.options.predictFor == PredictionDuration::Moved ? "the T whose movement lasts as long as the trials did" : "the task's T",
-      r.moved ? " and for the T whose movement lasts as long as the trials did (dashed grey)" : "", used.size());
+      r.moved ? " and for the T whose movement lasts as long as the trials did (dashed blue)" : "", used.size());
   return out;
 }
 

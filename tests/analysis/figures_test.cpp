@@ -112,7 +112,7 @@ TEST(LastFiveFigure, HasALineForTheDurationThatWasMoved) {
     EXPECT_EQ(line->label, "(1) min-hand-jerk, T = 1.5 s");
     EXPECT_NEAR(line->x.back() - line->x.front(), 1.5, 1e-12);
   }
-  EXPECT_NE(lastFiveFigure(analysis, 0).caption.find("lasts as long as the trials did (dashed grey)"), std::string::npos);
+  EXPECT_NE(lastFiveFigure(analysis, 0).caption.find("lasts as long as the trials did (dashed blue)"), std::string::npos);
 }
 
 TEST(Shortened, KeepsWhatFitsAndSaysThatItIsCut) {
