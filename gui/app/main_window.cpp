@@ -190,6 +190,10 @@ void MainWindow::wireSession() {
   connect(&runFits_, &inspector::Inspector::fitted, this,
           [this](const std::vector<std::optional<double>>& epsilons) { predictions().setFitted(epsilons); });
   session_.setOwnPause([this] {
+  // One fit after the other: that of a long run takes longer than a trial, and many under way at once would take memory for each.
+  connect(&runFits_, &inspector::Inspector::idle, this, [this] {
+    if (std::exchange(fitAgain_, false)) runFits_.fit({{fitted_, succeeded_}});
+  });
     const docks::SessionDock& dock = *docks_.session;
     return dock.repeatsByItself() ? std::optional(dock.pauseSeconds()) : std::nullopt;
   });
@@ -307,6 +311,7 @@ void MainWindow::runOpened() {
   strip_->showRun(run.configuration());
   predictions().clearErrors();
   docks_.trials->clear();
+  fitAgain_ = false;
   trace_.beginRun();
   status_->runOpened(run);
   if (session_.station() == nullptr) {
@@ -354,7 +359,9 @@ void MainWindow::trialEnded() {
 void MainWindow::fitRun() {
   succeeded_.push_back(session_.run()->numberOf(*session_.lastTrial()));
   if (succeeded_.size() < analysis::kFewestTrials || session_.run()->configuration().practice) return;
-  runFits_.fit({{session_.run()->logPath(), succeeded_}});
+  fitted_ = session_.run()->logPath();
+  if (runFits_.busy()) fitAgain_ = true;
+  else runFits_.fit({{fitted_, succeeded_}});
 }
 
 void MainWindow::oneFrame() {

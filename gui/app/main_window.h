@@ -164,6 +164,8 @@ class MainWindow : public QMainWindow {
   inspector::Inspector runFits_;  // of the run's trials, from their rows on the disk
   std::vector<int> succeeded_;    // trials of the run, as recorded
   SoundCues sounds_;
+  std::string fitted_;            // log of the run that is fitted
+  bool fitAgain_ = false;         // trials have come since the fit under way began
   subject::SubjectWords words_;  // of the subject's screen
   std::int64_t lastNs_ = 0;      // of the trace: when its last point was made
   int score_ = 0;                // successes of the run

@@ -91,6 +91,7 @@ void Inspector::fit(std::vector<analysis::ChosenTrials> chosen) {
       for (int i = 0; !analysis.results.empty() && i < predict::kCriterionCount; ++i)
         epsilons.push_back(fittedEpsilon(analysis, 0, static_cast<predict::Criterion>(i)));
     }
+    goOnUnless(stop);
     malloc_trim(0);  // a day has hundreds of fits, each on another thread, whose heap would keep what it no longer needs
     tell(turn, [this, epsilons] { Q_EMIT fitted(epsilons); });
   });

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <ctime>
 #include <unistd.h>
 
 #include "base/ticks.h"
@@ -30,8 +31,18 @@ double residentMegabytes() {
   return 1e-6 * static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE));
 }
 
-// What no file backs. From the first trial's end on: the run's file and its plots are there.
+// The fits after a trial go on beside the window, and give back what they took when they are done.
+void awaitRest() {
+  const auto processorSeconds = [] { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; };
+  for (double before = processorSeconds(), used = 1; used > 0.25; before += used) {
+    QTest::qWait(1000);
+    used = processorSeconds() - before;
+  }
+}
+
+// What no file backs.
 double anonymousKilobytes() {
+  awaitRest();
   std::FILE* file = std::fopen("/proc/self/status", "r");
   char line[256];
   double found = -1;
@@ -71,10 +82,11 @@ int main(int argc, char** argv) {
     if (!QTest::qWaitFor([&] { return !window.session().underWay(); }, 600'000))
       return std::fprintf(stderr, "day_memory: a trial does not end\n"), 1;
     if (trials++ % perRun == 0) atFirst = anonymousKilobytes();
-    if (std::getenv("REACHLAB_EACH") != nullptr && trials % 50 == 0) std::printf("  trial %d: %.0f kB\n", trials, anonymousKilobytes());
     if (window.session().run()->trialsLeft() > 0) continue;
     const double growth = (anonymousKilobytes() - atFirst) / std::max(perRun - 1, 1);
-    std::printf("run %d: %d trials, %.1f kB of anonymous memory a trial\n", ++runs, perRun, growth);
+    std::printf("run %d: %d trials, %.1f kB of anonymous memory a trial, from %.1f to %.1f MB\n", ++runs, perRun, growth, 1e-3 * atFirst,
+                1e-3 * (atFirst + growth * (perRun - 1)));
+    std::fflush(stdout);
     if (perRun >= kLongRun) perTrial = std::max(perTrial, growth);
     seconds += secondsOf(window.session().run()->latest().tick);
     window.endRun();
