@@ -93,6 +93,7 @@ record::ChannelTable readChannels(const fs::path& path) {
     if (channel.name.starts_with("mass1_q") && !channel.name.ends_with("_rate")) ++table.parameterCount;
     if (channel.name == "environment_force_x") table.environment = true;
     if (channel.name == "cursor_pos_x") table.cursor = true;
+    if (channel.name == "body_quat_w") table.body = true;
     table.channels.push_back(channel);
   }
   checkChannels(table, path);

@@ -1,11 +1,95 @@
 #include "analysis/chosen_trials.h"
 
-#include <algorithm>
-#include <map>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "analysis/dataset.h"
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <set>
+
+#include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab::analysis {
+namespace {
+
+namespace fs = std::filesystem;
+
+// The dataset's folder: above those of the subject, the session and the kind of data.
+std::string datasetOf(const std::string& motionFile) {
+  fs::path folder = fs::absolute(motionFile).parent_path();
+  while (folder.has_relative_path()) {
+    const std::string name = folder.filename().string();
+    folder = folder.parent_path();
+    if (name.starts_with("sub-")) break;
+  }
+  return folder.string();
+}
+
+}  // namespace
+
+bool isMotionFile(const std::string& path) { return path.ends_with("_motion.tsv"); }
+
+Recording openRecording(const std::string& path, ScenesOfRuns& known) {
+  if (isMotionFile(path)) {
+    RunSource run = readBidsRun(path);
+    std::vector<experiment::CompiledExperiment> scenes = readBidsExperiments(run, datasetOf(path)).scenes;
+    return {std::move(run), std::move(scenes)};
+  }
+  const auto log = std::make_shared<const record::RunLog>(record::RunLog::open(path, record::LogCheck::Trials));
+  return {{log->configuration(), log->trials(), [log](std::uint64_t first, std::uint64_t last) { return log->rows(first, last); },
+           record::readMarks(*log)},
+          known.of(log->configuration())};
+}
+
+record::TrialIndex indexMotionFiles(const std::string& folder, const record::IndexProgress& progress) {
+  std::vector<std::string> files;
+  try {
+    files = findBidsRuns(folder);
+  } catch (const FaultError&) {
+    // Another program's recordings have no trials, forces or masses that could be shown.
+    std::set<std::string> systems;
+    std::error_code error;
+    for (fs::recursive_directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+      const std::string name = entry->path().filename().string(), key = "tracksys-";
+      if (const std::size_t at = name.find(key); isMotionFile(name) && at != std::string::npos)
+        systems.insert(name.substr(at, name.find('_', at) - at));
+    }
+    if (systems.empty()) throw;
+    throw FaultError(Fault{.what = fmt::format("has no logs, and its motion files are not of Reachlab: {}", fmt::join(systems, ", ")),
+                           .allowed = "a dataset with logs in sourcedata, or with motion files named …_tracksys-haptic_…_motion.tsv",
+                           .place = FilePlace{folder}});
+  }
+  record::TrialIndex index;
+  for (const std::string& file : files) {
+    if (progress && !progress(index.read, files.size())) break;
+    ++index.read;
+    try {
+      const RunSource source = readBidsRun(file);
+      const record::RunConfiguration& c = source.configuration;
+      record::IndexedRun run;
+      run.path = file;
+      run.subject = c.subject;
+      run.session = c.session;
+      run.condition = record::conditionOf(c);
+      run.experiment = c.experimentName;
+      run.device = c.device;
+      run.run = c.run;
+      run.block = c.block;
+      run.day = c.day;
+      run.practice = c.practice;
+      run.trials = source.trials;
+      for (record::RecordedTrial& trial : run.trials) trial.peakHandSpeed = trial.handPathLength = kNotMeasured;  // not in the tables
+      if (c.scenes)
+        for (const record::RunScene& scene : *c.scenes) run.scenes.push_back({scene.kind, scene.target, scene.condition});
+      index.runs.push_back(std::move(run));
+    } catch (const Error& error) {
+      index.unreadable.emplace_back(error.what());
+    }
+  }
+  return index;
+}
 
 namespace {
 
@@ -13,17 +97,18 @@ namespace {
 std::vector<Condition> readInto(std::span<const ChosenTrials> chosen, const std::function<bool()>& goOn,
                                 const std::function<void(TrialData&& trial, std::size_t condition)>& add) {
   DatasetIndex index;
-  ScenesOfRuns parsed;
+  ScenesOfRuns known;
   for (const ChosenTrials& some : chosen) {
     if (goOn && !goOn()) break;
-    const record::RunLog log = record::RunLog::open(some.log, record::LogCheck::Trials);
-    const record::RunConfiguration& c = log.configuration();
-    RunSource run{c, {}, [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, record::readMarks(log)};
+    Recording recording = openRecording(some.log, known);
+    std::vector<record::RecordedTrial> wanted;
     for (const int number : some.trials) {
-      const auto trial = std::find_if(log.trials().begin(), log.trials().end(), [&](const auto& t) { return t.trial == number; });
-      if (trial != log.trials().end()) run.trials.push_back(*trial);
+      const auto& all = recording.run.trials;
+      const auto trial = std::find_if(all.begin(), all.end(), [&](const auto& t) { return t.trial == number; });
+      if (trial != all.end()) wanted.push_back(*trial);
     }
-    addRun(run, parsed.of(c), index, {add, {}});
+    recording.run.trials = std::move(wanted);
+    addRun(recording.run, recording.scenes, index, {add, {}});
   }
   return std::move(index.conditions);
 }

@@ -20,6 +20,7 @@
 #include "sim/experiment/experiment.h"
 #include "sim/record/export/bids.h"
 #include "sim/record/log/whole_file.h"
+#include "sim/record/recover.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -183,6 +184,16 @@ void addRun(const RunSource& run, std::span<const experiment::CompiledExperiment
   }
 }
 
+BidsExperiments readBidsExperiments(const RunSource& run, const std::string& folder, const std::string& experimentFile) {
+  const record::RunConfiguration& c = run.configuration;
+  const std::string own = folder + "/" + record::experimentPath(c);
+  std::error_code error;
+  if (experimentFile.empty() && std::filesystem::exists(own, error))
+    return {record::experimentsFromJson(record::readWholeFile(own), own, c), true};
+  const std::size_t scenes = c.scenes ? c.scenes->size() : 1;
+  return {std::vector(scenes, experiment::openExperiment(experimentFile.empty() ? c.experimentName : experimentFile)), false};
+}
+
 namespace {
 
 /// A run that fails half-way is taken back: its trials, and what the index says because of it.
@@ -245,7 +256,8 @@ void readLogs(const std::vector<std::string>& logs, DatasetIndex& dataset, const
       whole.add({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, marks}, scenes);
       dataset.runs.back().file = logs[i];
       dataset.runs.back().healthy = log.healthy();
-      if (!log.healthy()) dataset.notes.push_back(logs[i] + ": not closed in order or damaged; read to its last good record");
+      if (const std::string loss = record::lossOf(log); !loss.empty()) dataset.notes.push_back(loss);
+      else if (!log.healthy()) dataset.notes.push_back(logs[i] + ": is being recorded into; read to its last record");
     } catch (const ResourceError& error) {
       if (whole.refused()) throw;
       leaveOut(error);
@@ -264,16 +276,9 @@ void readExported(const std::string& folder, DatasetIndex& dataset, const TrialS
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (progress) progress(i, runs.size(), runs[i]);
     const RunSource run = readBidsRun(runs[i]);
-    const std::string own = folder + "/" + record::experimentPath(run.configuration);
-    std::error_code error;
-    const bool hasOwn = experimentFile.empty() && std::filesystem::exists(own, error);
-    if (!hasOwn) foreign = true;
-    const std::size_t scenes = run.configuration.scenes ? run.configuration.scenes->size() : 1;
-    addRun(run,
-           hasOwn ? record::experimentsFromJson(record::readWholeFile(own), own, run.configuration)
-                  : std::vector(scenes,
-                                experiment::openExperiment(experimentFile.empty() ? run.configuration.experimentName : experimentFile)),
-           dataset, sink);
+    const BidsExperiments recorded = readBidsExperiments(run, folder, experimentFile);
+    if (!recorded.own) foreign = true;
+    addRun(run, recorded.scenes, dataset, sink);
     dataset.runs.back().file = runs[i];
   }
   dataset.notes.push_back(std::string("no logs in sourcedata/: read from the BIDS files, with the experiments ") +

@@ -66,6 +66,14 @@ class ScenesOfRuns {
 /// Passes the run's trials to `sink`. The day of a run without a day is 0. `scenes` are the experiments of the configuration's scenes.
 void addRun(const RunSource& run, std::span<const experiment::CompiledExperiment> scenes, DatasetIndex& index, const TrialSink& sink);
 
+/// What a dataset without logs was recorded with: the experiments in its code/experiments/, or else the experiment of that name that is
+/// shipped now. Throws FaultError where there is neither.
+struct BidsExperiments {
+  std::vector<experiment::CompiledExperiment> scenes;
+  bool own = false;  // of the dataset
+};
+BidsExperiments readBidsExperiments(const RunSource& run, const std::string& folder, const std::string& experimentFile = "");
+
 /// The motion files of a dataset without logs, in order. Each file is a run.
 std::vector<std::string> findBidsRuns(const std::string& folder);
 /// Reads such a run from its motion, channels and events files.

@@ -8,6 +8,7 @@
 #include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QScrollBar>
 #include <QShortcut>
 #include <QSignalBlocker>
 #include <QSplitter>
@@ -60,15 +61,16 @@ InspectorPage::InspectorPage(QWidget* parent) : QWidget(parent) {
   column->addWidget(view_, 1);
   marks_ = new MarksPanel;
   column->addWidget(marks_);
-  auto* both = new QSplitter(Qt::Horizontal);
-  both->setObjectName(QStringLiteral("inspectorHalves"));
-  both->addWidget(left);
-  both->addWidget(makeRight());
-  both->setStretchFactor(0, 4);
-  both->setStretchFactor(1, 6);
-  both->setSizes({700, 860});
-  both->setChildrenCollapsible(false);
-  layout->addWidget(both, 1);
+  halves_ = new QSplitter(Qt::Horizontal);
+  halves_->setObjectName(QStringLiteral("inspectorHalves"));
+  halves_->addWidget(left);
+  halves_->addWidget(makeRight());
+  halves_->setStretchFactor(0, 4);
+  halves_->setStretchFactor(1, 6);
+  halves_->setSizes({700, 860});
+  halves_->setChildrenCollapsible(false);
+  connect(halves_, &QSplitter::splitterMoved, this, [this] { halvesMoved_ = true; });
+  layout->addWidget(halves_, 1);
   soon_ = new QTimer(this);
   soon_->setSingleShot(true);
   soon_->setInterval(kSoonMs);
@@ -80,6 +82,39 @@ InspectorPage::InspectorPage(QWidget* parent) : QWidget(parent) {
 
 InspectorPage::~InspectorPage() {
   if (openingStop_) *openingStop_ = true;
+}
+
+void InspectorPage::resizeEvent(QResizeEvent* event) {
+  QWidget::resizeEvent(event);
+  QTimer::singleShot(0, this, &InspectorPage::fitHalves);  // when the halves have their new size
+}
+
+// As wide as what is in them, and as what will be computed for them.
+void InspectorPage::fitColumns() {
+  constexpr int kMargins = 14, kMostRows = 1000;
+  const QFontMetrics heading(view_->horizontalHeader()->font()), words(view_->font());
+  for (int column = 0; column < TrialTable::kMark; ++column) {
+    int width = heading.horizontalAdvance(table_->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString());
+    for (int row = 0; row < std::min(table_->rowCount(), kMostRows); ++row)
+      width = std::max(width, words.horizontalAdvance(table_->index(row, column).data().toString()));
+    if (column == TrialTable::kPaper || column == TrialTable::kFitted) width = std::max(width, words.horizontalAdvance(QStringLiteral("0.0000")));
+    view_->setColumnWidth(column, width + kMargins);
+    if (column == TrialTable::kOutcome) outcomeWidth_ = width + kMargins;
+  }
+  fitHalves();
+}
+
+// The table has the room of its columns, until somebody moves the border. On a small screen the reasons of failures are shortened first.
+void InspectorPage::fitHalves() {
+  if (halvesMoved_ || table_->rowCount() == 0) return;
+  const QFontMetrics words(view_->font());
+  int others = words.horizontalAdvance(QStringLiteral("marks")) + view_->verticalScrollBar()->sizeHint().width() + 2 * view_->frameWidth() + 16;
+  for (int column = 0; column < TrialTable::kMark; ++column)
+    if (column != TrialTable::kOutcome) others += view_->columnWidth(column);
+  const int room = halves_->width() - halves_->handleWidth() - halves_->widget(1)->minimumSizeHint().width();
+  const int outcome = std::clamp(room - others, std::min(outcomeWidth_, words.horizontalAdvance(QStringLiteral("✗ still moving"))), outcomeWidth_);
+  view_->setColumnWidth(TrialTable::kOutcome, outcome);
+  halves_->setSizes({others + outcome, std::max(1, halves_->width() - others - outcome)});
 }
 
 void InspectorPage::wire() {

@@ -15,6 +15,7 @@ class QLabel;
 class QLineEdit;
 class QProgressBar;
 class QPushButton;
+class QSplitter;
 class QTableView;
 class QTimer;
 class QVBoxLayout;
@@ -59,6 +60,9 @@ class InspectorPage : public QWidget {
   /// A report that was asked for is written, and to be shown.
   void reported(const QString& file);
 
+ protected:
+  void resizeEvent(QResizeEvent* event) override;
+
  private:
   void addTop(QVBoxLayout& layout);
   QWidget* makeRight();
@@ -66,6 +70,8 @@ class InspectorPage : public QWidget {
   void addKeys();
   void pollOpening();
   void opened(record::TrialIndex index);
+  void fitColumns();
+  void fitHalves();
   void chosenChanged();
   void inspect();
   void showRead();
@@ -81,8 +87,7 @@ class InspectorPage : public QWidget {
   std::vector<int> chosenRows() const;
   std::size_t condition() const;
   std::optional<std::size_t> lineOf(int row) const;
-  const record::RunLog& logOf(const std::string& path);
-  const experiment::CompiledExperiment& experimentOf(const record::RunLog& log, const record::RecordedTrial& trial);
+  const analysis::Recording& recordingOf(const std::string& path);
 
   QString path_;
   std::shared_ptr<const Inspection> inspection_;
@@ -93,11 +98,14 @@ class InspectorPage : public QWidget {
   std::shared_ptr<std::atomic<int>> openingDone_;  // logs of openingOf_
   std::shared_ptr<std::atomic<int>> openingOf_;
   std::shared_ptr<std::atomic<bool>> openingStop_;
-  std::map<std::string, record::RunLog> logs_;                         // that are being looked at
-  std::map<std::string, experiment::CompiledExperiment> experiments_;  // by their text
+  std::map<std::string, analysis::Recording> recordings_;  // that are being looked at
+  analysis::ScenesOfRuns scenes_;
   TrialTable* table_;
   TrialFilter* filter_;
   QTableView* view_;
+  QSplitter* halves_;        // the table and what is drawn of it
+  bool halvesMoved_ = false;  // by hand
+  int outcomeWidth_ = 0;      // [px] of all of its words
   QLineEdit* words_;
   QLabel *title_, *count_;
   QComboBox *signal_, *axis_;

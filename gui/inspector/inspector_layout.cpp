@@ -16,6 +16,7 @@
 #include "gui/inspector/inspector.h"
 #include "gui/inspector/profile_plot.h"
 #include "gui/inspector/replay_view.h"
+#include "gui/widgets/elided_label.h"
 
 namespace reachlab::gui::inspector {
 
@@ -38,19 +39,20 @@ void InspectorPage::addTop(QVBoxLayout& layout) {
     if (!path_.isEmpty()) open(path_);
   });
   openButton->setMenu(menu);
-  title_ = new QLabel(tr("No recording is open. Use File, Inspect to open a dataset or a session."));
+  title_ = new widgets::ElidedLabel;
+  title_->setText(tr("No recording is open. Use File, Inspect to open a dataset or a session."));
   title_->setStyleSheet(QStringLiteral("font-weight: 600;"));
   words_ = new QLineEdit;
   words_->setObjectName(QStringLiteral("inspectorFilter"));
   words_->setPlaceholderText(tr("filter: words of a row, e.g. sub-03 fast success"));
   words_->setClearButtonEnabled(true);
-  words_->setMinimumWidth(260);
+  words_->setMinimumWidth(160);
   count_ = new QLabel;
   count_->setObjectName(QStringLiteral("inspectorCount"));
   count_->setProperty("role", "quiet");
   progress_ = new QProgressBar;
   progress_->setObjectName(QStringLiteral("inspectorProgress"));
-  progress_->setMaximumWidth(230);
+  progress_->setFixedWidth(progress_->fontMetrics().horizontalAdvance(tr("fitting trial") + QStringLiteral(" 88888 / 88888")) + 24);
   progress_->hide();
   cancel_ = new QPushButton(tr("Cancel"));
   cancel_->setObjectName(QStringLiteral("inspectorCancel"));

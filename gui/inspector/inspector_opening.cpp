@@ -7,6 +7,7 @@
 #include <QTableView>
 #include <QTimer>
 
+#include "base/fault.h"
 #include "base/system/error_report.h"
 #include "gui/inspector/inspector.h"
 #include "gui/inspector/marks_panel.h"
@@ -16,6 +17,15 @@ namespace reachlab::gui::inspector {
 namespace {
 
 QString indexFolder() { return QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation) + QStringLiteral("/reachlab"); }
+
+// A folder without logs may hold what was exported from them.
+bool hasLogs(const std::string& path) {
+  try {
+    return !record::findLogs(path).empty();
+  } catch (const FaultError&) {
+    return !QFileInfo(QString::fromStdString(path)).isDir();
+  }
+}
 
 }  // namespace
 
@@ -29,11 +39,13 @@ void InspectorPage::open(const QString& path) {
   openingStop_ = std::make_shared<std::atomic<bool>>(false);
   opening_ = std::async(std::launch::async, [path = path.toStdString(), folder = indexFolder().toStdString(), done = openingDone_,
                                              of = openingOf_, stop = openingStop_] {
-    return record::openTrialIndex(path, record::indexFileFor(path, folder), [&](std::size_t now, std::size_t all) {
+    const record::IndexProgress progress = [&](std::size_t now, std::size_t all) {
       *done = static_cast<int>(now);
       *of = static_cast<int>(all);
       return !*stop;
-    });
+    };
+    return hasLogs(path) ? record::openTrialIndex(path, record::indexFileFor(path, folder), progress)
+                         : analysis::indexMotionFiles(path, progress);
   });
   opener_->start();
   pollOpening();
@@ -60,20 +72,27 @@ void InspectorPage::pollOpening() {
 }
 
 void InspectorPage::opened(record::TrialIndex index) {
-  logs_.clear();
-  experiments_.clear();
+  recordings_.clear();
+  scenes_ = {};
   inspection_.reset();
   inspectedRows_.clear();
   picked_ = -1;
-  QStringList unread;
-  for (const std::string& sentence : index.unreadable) unread << QString::fromStdString(sentence);
+  QStringList sentences, losses;
+  for (const std::string& sentence : index.unreadable) sentences << QString::fromStdString(sentence);
+  for (const record::IndexedRun& run : index.runs)
+    if (!run.loss.empty()) losses << QString::fromStdString(run.loss);
+  sentences << losses;
+  const bool exported = !index.runs.empty() && analysis::isMotionFile(index.runs.front().path);
+  if (exported) Q_EMIT told(tr("This dataset has no logs. Its Motion-BIDS files are shown, without marks and notes."));
   table_->setIndex(std::move(index));
-  if (!unread.isEmpty()) Q_EMIT said(unread.join(QLatin1Char('\n')));
+  if (!sentences.isEmpty()) Q_EMIT said(sentences.join(QLatin1Char('\n')));
   title_->setText(QFileInfo(path_).fileName().isEmpty() ? path_ : QFileInfo(path_).fileName());
   title_->setToolTip(path_);
-  count_->setText(tr("%1 trials, %2 runs").arg(table_->rowCount()).arg(table_->recordings().runs.size()));
-  const int widths[] = {58, 58, 124, 36, 42, 126, 54, 78, 66, 66, 80};
-  for (int column = 0; column < TrialTable::kColumns; ++column) view_->setColumnWidth(column, widths[column]);
+  QString count = tr("%1 trials, %2 runs").arg(table_->rowCount()).arg(table_->recordings().runs.size());
+  if (!losses.isEmpty()) count += tr(", %1 with losses").arg(losses.size());
+  count_->setText(count);
+  count_->setToolTip(losses.join(QLatin1Char('\n')));
+  fitColumns();
   report_->setEnabled(table_->rowCount() > 0);
   marks_->clear();
   replay_->clear();

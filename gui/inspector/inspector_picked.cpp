@@ -24,21 +24,11 @@ void InspectorPage::pick(int row) {
   showPicked();
 }
 
-const record::RunLog& InspectorPage::logOf(const std::string& path) {
-  const auto known = logs_.find(path);
-  if (known != logs_.end()) return known->second;
-  if (logs_.size() > 8) logs_.clear();
-  return logs_.emplace(path, record::RunLog::open(path, record::LogCheck::Trials)).first->second;
-}
-
-const experiment::CompiledExperiment& InspectorPage::experimentOf(const record::RunLog& log, const record::RecordedTrial& trial) {
-  const record::RunConfiguration& c = log.configuration();
-  const record::RunScene* scene = record::sceneOf(c, trial.planned);
-  const std::string& text = scene != nullptr ? scene->experimentText : c.experimentText;
-  const std::string key = text + '\0' + c.definitionText;
-  const auto known = experiments_.find(key);
-  if (known != experiments_.end()) return known->second;
-  return experiments_.emplace(key, experiment::openExperimentText(text, log.path(), c.definitionText)).first->second;
+const analysis::Recording& InspectorPage::recordingOf(const std::string& path) {
+  const auto known = recordings_.find(path);
+  if (known != recordings_.end()) return known->second;
+  if (recordings_.size() > 8) recordings_.clear();
+  return recordings_.emplace(path, analysis::openRecording(path, scenes_)).first->second;
 }
 
 void InspectorPage::showPicked() {
@@ -53,15 +43,15 @@ void InspectorPage::showPicked() {
     const auto conditionAt = [this](int at) { return table_->run(at).conditionOf(table_->trial(at)); };
     const auto trackOf = [&](std::size_t i) {
       const int row = inspectedRows_[i];
-      return ReplayView::Track{TrialReplay(logOf(table_->run(row).path), table_->trial(row)), zeroOf(*inspection_, i)};
+      return ReplayView::Track{TrialReplay(recordingOf(table_->run(row).path).run, table_->trial(row)), zeroOf(*inspection_, i)};
     };
-    const record::RunLog& log = logOf(table_->run(picked_).path);
     std::vector<ReplayView::Track> ghosts;
     for (std::size_t i = 0; i < inspectedRows_.size() && static_cast<int>(ghosts.size()) < kMostGhosts; ++i)
       if (i != *line && inspectedRows_[i] >= 0 && conditionAt(inspectedRows_[i]) == conditionAt(picked_)) ghosts.push_back(trackOf(i));
-    replay_->show(experimentOf(log, table_->trial(picked_)), QFileInfo(QString::fromStdString(log.path())).path(), trackOf(*line),
-                  std::move(ghosts));
     const record::IndexedRun& run = table_->run(picked_);
+    ReplayView::Track track = trackOf(*line);
+    replay_->show(recordingOf(run.path).scenes.at(static_cast<std::size_t>(table_->trial(picked_).planned.scene)),
+                  QFileInfo(QString::fromStdString(run.path)).path(), std::move(track), std::move(ghosts));
     const analysis::Movement& move = inspection_->signals[*line].movement;
     const double first = inspection_->input.trials[*line].first;
     const bool asMoved = axis_->currentIndex() == 0;
@@ -96,6 +86,11 @@ void InspectorPage::marksDragged(double onset, double end, bool done) {
 
 void InspectorPage::setMark(const record::TrialMark& mark) {
   if (picked_ < 0) return;
+  if (analysis::isMotionFile(table_->run(picked_).path)) {  // a mark in the dataset would be no part of BIDS
+    showPicked();
+    Q_EMIT said(tr("Marks are kept beside a recording's log, and this dataset has no logs. Add the dataset's sourcedata to mark trials."));
+    return;
+  }
   try {
     const record::TrialMark before = table_->mark(picked_);
     table_->setMark(picked_, mark);

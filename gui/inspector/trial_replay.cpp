@@ -7,10 +7,10 @@
 
 namespace reachlab::gui::inspector {
 
-TrialReplay::TrialReplay(const record::RunLog& log, const record::RecordedTrial& trial) {
-  const record::ChannelTable& table = log.configuration().table;
+TrialReplay::TrialReplay(const analysis::RunSource& run, const record::RecordedTrial& trial) {
+  const record::ChannelTable& table = run.configuration.table;
   zero_ = trial.armedTick > 0 ? trial.armedTick : trial.startTick;
-  rows_ = log.rows(zero_, std::max(zero_, trial.result.endTick > 0 ? trial.result.endTick : trial.lastTick));
+  rows_ = run.rowsOf(zero_, std::max(zero_, trial.result.endTick > 0 ? trial.result.endTick : trial.lastTick));
   hand_ = table.indexOf("hand_pos_x");
   // Without an object nothing is coupled, and the hand feels the environment alone.
   force_ = table.indexOf(table.massCount == 0 && table.environment ? "environment_force_x" : "coupling_force_x");

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 
+#include "analysis/dataset.h"
 #include "gui/scene_plan/scene_plan.h"
 #include "sim/record/log/run_log.h"
 
@@ -10,8 +11,8 @@ namespace reachlab::gui::inspector {
 class TrialReplay {
  public:
   TrialReplay() = default;
-  /// Reads the trial's rows from its arming to its end. Throws the errors of RunLog::rows.
-  TrialReplay(const record::RunLog& log, const record::RecordedTrial& trial);
+  /// Reads the trial's rows from its arming to its end. Throws the errors of reading rows.
+  TrialReplay(const analysis::RunSource& run, const record::RecordedTrial& trial);
   bool empty() const { return rows_.size() == 0; }
   /// Of the first and the last row. [s] since arming
   double begin() const { return empty() ? 0 : timeOf(0); }

@@ -1,13 +1,18 @@
 #include "sim/record/recover.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
+#include <vector>
 
 #include "base/error.h"
 #include "sim/record/configuration/limits.h"
+#include "sim/record/log/append_file.h"
 #include "sim/record/log/records.h"
 
 namespace reachlab::record {
@@ -129,6 +134,39 @@ Recovery recoverLog(const std::string& path) {
   recovery.damagedOriginal = replaceLog(path, mended);
   recovery.mended = true;
   return recovery;
+}
+
+namespace {
+
+// "8, 11 and 13 to 20", of ascending numbers.
+std::string inWords(const std::vector<int>& numbers) {
+  std::vector<std::string> parts;
+  for (std::size_t i = 0; i < numbers.size();) {
+    std::size_t last = i;
+    while (last + 1 < numbers.size() && numbers[last + 1] == numbers[last] + 1) ++last;
+    if (last == i) parts.push_back(fmt::format("{}", numbers[i]));
+    else parts.push_back(fmt::format("{} {} {}", numbers[i], last == i + 1 ? "and" : "to", numbers[last]));
+    i = last + 1;
+  }
+  if (parts.size() == 1) return parts.front();
+  return fmt::format("{} and {}", fmt::join(parts.begin(), parts.end() - 1, ", "), parts.back());
+}
+
+}  // namespace
+
+std::string lossOf(const RunLog& log) {
+  if (log.healthy() || isBeingWritten(log.path())) return {};
+  std::string words = log.path() + (log.goodBytes() < log.fileBytes() ? ": the log is damaged." : ": the log was not closed in order.");
+  std::set<int> there;
+  for (const RecordedTrial& trial : log.trials()) there.insert(trial.planned.index);
+  if (!log.trials().empty() && !log.trials().back().complete) words += fmt::format(" Trial {} broke off.", log.trials().back().trial);
+  std::vector<int> missing;
+  for (const trial::PlannedTrial& planned : log.configuration().trials)
+    if (!there.contains(planned.index)) missing.push_back(planned.index + 1);
+  std::sort(missing.begin(), missing.end());
+  if (missing.size() == 1) words += fmt::format(" The planned trial {} is not in it.", missing.front());
+  else if (!missing.empty()) words += fmt::format(" The planned trials {} are not in it.", inWords(missing));
+  return words + " Close it in order with: reach recover " + log.path();
 }
 
 }  // namespace reachlab::record

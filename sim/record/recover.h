@@ -2,6 +2,8 @@
 #include <cstdint>
 #include <string>
 
+#include "sim/record/log/run_log.h"
+
 namespace reachlab::record {
 
 struct Recovery {
@@ -16,5 +18,9 @@ struct Recovery {
 /// `interrupted`, and the log is ended in order. The log as found is kept beside it (`….damaged`). A healthy log is not changed. Throws
 /// FaultError (no log, configuration damaged) or ResourceError (disk, or the log is being written).
 Recovery recoverLog(const std::string& path);
+
+/// What is not in a log that was not closed in order or is damaged, in a sentence that names the trials: the one that broke off, and the
+/// planned ones that it does not have. Empty for a healthy log, and for one that is being recorded into.
+std::string lossOf(const RunLog& log);
 
 }  // namespace reachlab::record

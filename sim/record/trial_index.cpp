@@ -12,6 +12,7 @@
 #include "sim/record/log/atomic_file.h"
 #include "sim/record/log/whole_file.h"
 #include "sim/record/log/records.h"
+#include "sim/record/recover.h"
 
 namespace reachlab::record {
 namespace {
@@ -19,7 +20,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kMagic = "REACHIDX";
-constexpr std::uint32_t kVersion = 2;
+constexpr std::uint32_t kVersion = 3;
 
 std::uint32_t checksum(std::string_view text) {
   return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
@@ -28,7 +29,8 @@ std::uint32_t checksum(std::string_view text) {
 std::string_view asText(std::span<const std::uint8_t> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
 void encode(const IndexedRun& run, ByteWriter& out) {
-  for (const std::string* text : {&run.path, &run.subject, &run.session, &run.condition, &run.experiment, &run.device, &run.startedUtc})
+  for (const std::string* text :
+       {&run.path, &run.subject, &run.session, &run.condition, &run.experiment, &run.device, &run.startedUtc, &run.loss})
     out.putText(*text);
   out.put(run.bytes);
   out.put(run.changedNs);
@@ -50,7 +52,8 @@ void encode(const IndexedRun& run, ByteWriter& out) {
 }
 
 bool decode(ByteReader& in, std::span<const std::uint8_t> all, IndexedRun& run) {
-  for (std::string* text : {&run.path, &run.subject, &run.session, &run.condition, &run.experiment, &run.device, &run.startedUtc})
+  for (std::string* text :
+       {&run.path, &run.subject, &run.session, &run.condition, &run.experiment, &run.device, &run.startedUtc, &run.loss})
     *text = in.getText();
   run.bytes = in.get<std::uint64_t>();
   run.changedNs = in.get<std::int64_t>();
@@ -153,6 +156,7 @@ IndexedRun readRun(const std::string& path, const FileStamp& stamp) {
   run.day = c.day;
   run.practice = c.practice;
   run.healthy = log.healthy();
+  run.loss = lossOf(log);
   run.trials = log.trials();
   if (c.scenes)
     for (const RunScene& scene : *c.scenes) run.scenes.push_back({scene.kind, scene.target, scene.condition});
@@ -175,7 +179,8 @@ TrialIndex openTrialIndex(const std::string& path, const std::string& indexFile,
   for (std::size_t i = 0; i < logs.size(); ++i) {
     const FileStamp stamp = stampOf(logs[i]);
     const auto found = known.find(logs[i]);
-    if (found != known.end() && found->second.bytes == stamp.bytes && found->second.changedNs == stamp.changedNs) {
+    const auto isOver = [](const IndexedRun& run) { return run.healthy || !run.loss.empty(); };  // else it was being recorded into
+    if (found != known.end() && isOver(found->second) && found->second.bytes == stamp.bytes && found->second.changedNs == stamp.changedNs) {
       index.runs.push_back(std::move(found->second));
       continue;
     }

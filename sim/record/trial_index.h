@@ -21,6 +21,7 @@ struct IndexedRun {
   std::string subject, session, condition, experiment, device, startedUtc;
   int run = 0, block = 0, day = 0;
   bool practice = false, healthy = true;
+  std::string loss;                  // lossOf its log
   std::vector<IndexedScene> scenes;  // empty: the run has only one
   std::vector<RecordedTrial> trials;
   const IndexedScene* sceneOf(const RecordedTrial& trial) const {

@@ -2,9 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <filesystem>
 #include <fstream>
 
 #include "analysis/dataset.h"
+#include "base/fault.h"
+#include "sim/record/export/bids.h"
 #include "sim/record/trial_marks.h"
 #include "tests/analysis/recorded.h"
 #include "tests/analysis/whole_dataset.h"
@@ -49,6 +53,42 @@ TEST(ChosenTrials, AreTheTrialsOfTheDatasetAsTheAnalysisReadsThem) {
     EXPECT_EQ(c.people[0].fit.candidates[k].epsilonOfAll, b.people[0].fit.candidates[k].epsilonOfAll);
   struct Enough {};
   EXPECT_THROW((void)analyzeChosen(std::vector{every}, {}, [] { throw Enough{}; }), Enough);
+}
+
+TEST(ChosenTrials, OfADatasetWithoutLogsAreThoseOfItsLogs) {
+  const TemporaryFolder folder;
+  const std::string log = recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 3});
+  const AnalysisInput before = readChosen(std::vector<ChosenTrials>{{log, {1, 3}}});
+  {
+    std::vector<record::RunLog> runs;
+    runs.push_back(record::RunLog::open(log));
+    record::writeBids(runs, folder.path());
+  }
+  std::filesystem::remove_all(folder.path() + "/sourcedata");
+  const record::TrialIndex index = indexMotionFiles(folder.path());
+  ASSERT_EQ(index.runs.size(), 1u) << (index.unreadable.empty() ? "" : index.unreadable.front());
+  EXPECT_EQ(index.runs[0].subject, "01");
+  ASSERT_EQ(index.runs[0].trials.size(), 3u);
+  EXPECT_TRUE(std::isnan(index.runs[0].trials[0].peakHandSpeed)) << "not known, and not 0";
+  const AnalysisInput after = readChosen(std::vector<ChosenTrials>{{index.runs[0].path, {1, 3}}});
+  ASSERT_EQ(after.trials.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_EQ(after.trials[i].hand, before.trials[i].hand);
+    EXPECT_EQ(after.trials[i].key.trial, before.trials[i].key.trial);
+    EXPECT_EQ(after.trials[i].result.outcome, before.trials[i].result.outcome);
+  }
+}
+
+TEST(ChosenTrials, OfAnotherProgramsMotionFilesAreRefusedByTheName) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() + "/sub-01/motion");
+  std::ofstream(folder.path() + "/sub-01/motion/sub-01_task-walk_tracksys-imu_motion.tsv") << "0\t1\n";
+  try {
+    (void)indexMotionFiles(folder.path());
+    FAIL();
+  } catch (const FaultError& error) {
+    EXPECT_NE(std::string(error.what()).find("not of Reachlab: tracksys-imu"), std::string::npos) << error.what();
+  }
 }
 
 TEST(Marks, ExcludeATrialWithItsReasonAndMoveOnsetAndEnd) {

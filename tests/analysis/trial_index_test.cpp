@@ -86,5 +86,27 @@ TEST(TrialIndex, ALogThatCannotBeReadIsLeftOutWithASentenceAndGivingUpKeepsTheFi
   EXPECT_THROW(openTrialIndex(folder.path() + "/nothing", file), Error);
 }
 
+// Cut off in the fourth of six, as a power cut or a copy that was not finished leaves it.
+TEST(TrialIndex, NamesTheTrialsThatACutLogHasLost) {
+  const TemporaryFolder folder;
+  const std::string data = folder.path() + "/data", file = folder.path() + "/an.index";
+  const std::string log = analysis::recordRun(data, {.experiment = "chain-moderate", .trials = 6});
+  const std::vector<RecordedTrial> trials = RunLog::open(log).trials();
+  EXPECT_EQ(openTrialIndex(data, file).runs.at(0).loss, "") << "a whole log has lost nothing";
+  std::filesystem::resize_file(log, (trials[3].offset + trials[4].offset) / 2);
+  for (int again = 0; again < 2; ++again) {  // the second time with the index file
+    const TrialIndex index = openTrialIndex(data, file);
+    ASSERT_EQ(index.runs.size(), 1u);
+    ASSERT_EQ(index.runs[0].trials.size(), 4u);
+    EXPECT_FALSE(index.runs[0].trials[3].complete);
+    const std::string& loss = index.runs[0].loss;
+    EXPECT_NE(loss.find("Trial 4 broke off. The planned trials 5 and 6 are not in it."), std::string::npos) << loss;
+    EXPECT_NE(loss.find("reach recover " + log), std::string::npos) << loss;
+  }
+  std::filesystem::resize_file(log, trials[1].offset - 1);
+  EXPECT_NE(openTrialIndex(data, file).runs.at(0).loss.find("The planned trials 2 to 6 are not in it."), std::string::npos)
+      << openTrialIndex(data, file).runs.at(0).loss;
+}
+
 }  // namespace
 }  // namespace reachlab::record

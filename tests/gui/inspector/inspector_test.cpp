@@ -7,10 +7,13 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFile>
+#include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMouseEvent>
+#include <QProgressBar>
 #include <QPushButton>
+#include <QScrollBar>
 #include <QSlider>
 #include <QTableView>
 #include <QTableWidget>
@@ -27,6 +30,7 @@
 #include "gui/inspector/replay_view.h"
 #include "gui/scene/scene_view.h"
 #include "sim/experiment/scene_look.h"
+#include "sim/record/export/bids.h"
 #include "sim/record/log/whole_file.h"
 #include "tests/analysis/recorded.h"
 #include "tests/analysis/whole_dataset.h"
@@ -80,6 +84,10 @@ class Inspecting : public ::testing::Test {
     QTest::mouseClick(page_.view().viewport(), Qt::LeftButton, {}, cell(first));
     QTest::mouseClick(page_.view().viewport(), Qt::LeftButton, Qt::ShiftModifier, cell(last));
     settle();
+  }
+  void keepPicture(const char* name) {
+    if (const QByteArray folder = qgetenv("REACHLAB_TEST_PICTURES"); !folder.isEmpty())
+      page_.grab().save(QString::fromLocal8Bit(folder + '/' + name));
   }
   mutable InspectorPage page_;
   QString said_;
@@ -290,6 +298,77 @@ TEST_F(Inspecting, WhatIsNoRecordingIsSaid) {
   ASSERT_TRUE(QTest::qWaitFor([this] { return !page_.busy(); }, 10000));
   QTest::qWait(40);
   EXPECT_TRUE(said_.contains(QStringLiteral("no logs"))) << said_.toStdString();
+}
+
+TEST_F(Inspecting, ADatasetWithoutLogsShowsItsMotionFiles) {
+  const std::string copy = folder_->path() + "/exported";
+  std::vector<record::RunLog> runs;
+  for (const std::string& path : record::findLogs(data())) runs.push_back(record::RunLog::open(path));
+  record::writeBids(runs, copy);
+  page_.open(QString::fromStdString(copy));
+  ASSERT_TRUE(QTest::qWaitFor([this] { return !page_.busy() && page_.table().rowCount() == 26; }, 20000)) << said_.toStdString();
+  settle();
+  EXPECT_TRUE(said_.contains(QStringLiteral("no logs"))) << said_.toStdString();
+  choose(0, 4);
+  ASSERT_NE(page_.inspection(), nullptr) << said_.toStdString();
+  EXPECT_EQ(page_.plot().lineCount(), 5);
+  EXPECT_FALSE(page_.replay().view().frame().masses.empty());
+  page_.replay().goTo(0.4);
+  const Vec3 hand = ownHand(page_.replay().view().frame());
+  EXPECT_GT(norm(hand - page_.replay().view().plan().start), 1e-3) << "it moves";
+  QTest::mouseClick(find<QCheckBox>("flag"), Qt::LeftButton, {}, QPoint(8, 8));
+  EXPECT_TRUE(said_.contains(QStringLiteral("Marks are kept beside a recording's log"))) << said_.toStdString();
+  EXPECT_FALSE(find<QCheckBox>("flag")->isChecked());
+  keepPicture("inspector-exported.png");
+}
+
+TEST_F(Inspecting, ALogThatIsCutOffNamesWhatItLost) {
+  const std::string copy = folder_->path() + "/cut/sourcedata/" + std::filesystem::path(log()).filename().string();
+  std::filesystem::create_directories(std::filesystem::path(copy).parent_path());
+  std::filesystem::copy_file(log(), copy, std::filesystem::copy_options::overwrite_existing);
+  const std::vector<record::RecordedTrial> trials = record::RunLog::open(log()).trials();
+  std::filesystem::resize_file(copy, (trials[6].offset + trials[7].offset) / 2);
+  page_.open(QString::fromStdString(folder_->path() + "/cut"));
+  ASSERT_TRUE(QTest::qWaitFor([this] { return !page_.busy() && page_.table().rowCount() == 7; }, 20000)) << said_.toStdString();
+  EXPECT_TRUE(said_.contains(QStringLiteral("Trial 7 broke off. The planned trials 8 to 24 are not in it."))) << said_.toStdString();
+  EXPECT_TRUE(find<QLabel>("inspectorCount")->text().contains(QStringLiteral("1 with losses")));
+  settle();
+  keepPicture("inspector-cut.png");
+}
+
+// At the size of a small laptop: every column shows its numbers, and what is under way has its room.
+TEST_F(Inspecting, ColumnsAndProgressFit) {
+  for (const QSize& size : {QSize(1340, 640), QSize(1900, 960)}) {
+    page_.resize(size);
+    QTest::qWait(50);
+    EXPECT_EQ(page_.size(), size) << "its content asks for no more";
+    choose(0, 23);
+    for (int column = 0; column < TrialTable::kMark; ++column) {
+      const int room = page_.view().columnWidth(column);
+      const auto* model = page_.view().model();
+      const QFontMetrics metrics(page_.view().font());
+      const int heading = QFontMetrics(page_.view().horizontalHeader()->font())
+                              .horizontalAdvance(model->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString());
+      EXPECT_GE(room, heading + 6) << "heading of column " << column;
+      for (int row = 0; row < 24 && column != TrialTable::kOutcome; ++row)  // its tool tip has all of the reason
+        EXPECT_GE(room, metrics.horizontalAdvance(model->index(row, column).data().toString()) + 6) << "row " << row << ", column " << column;
+    }
+    EXPECT_EQ(page_.view().horizontalScrollBar()->maximum(), 0) << "all columns are seen";
+    auto* progress = find<QProgressBar>("inspectorProgress");
+    progress->setRange(0, 88'888);
+    progress->setValue(88'888);
+    progress->setFormat(QStringLiteral("fitting trial %v / %m"));
+    progress->show();
+    find<QPushButton>("inspectorCancel")->show();
+    QTest::qWait(50);
+    EXPECT_EQ(page_.size(), size);
+    EXPECT_GE(progress->width(), QFontMetrics(progress->font()).horizontalAdvance(progress->text()) + 8) << progress->text().toStdString();
+    keepPicture(size.width() < 1500 ? "inspector-small.png" : "inspector-large.png");
+    for (QWidget* button : page_.findChildren<QPushButton*>())
+      if (button->isVisible()) EXPECT_GE(button->width(), button->minimumSizeHint().width());
+    progress->hide();
+    find<QPushButton>("inspectorCancel")->hide();
+  }
 }
 
 TEST(Replay, ShowsTheSceneFileOfItsExperiment) {
