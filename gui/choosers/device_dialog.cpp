@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "devices/driver/registry.h"
 #include "gui/choosers/device_view.h"
+#include "gui/widgets/inks.h"
 #include "gui/widgets/wait_cursor.h"
 
 namespace reachlab::gui::docks {
@@ -88,7 +89,7 @@ void DeviceDialog::showButtons() {
 }
 
 void DeviceDialog::tell(const QString& sentence, bool isFault) {
-  hint_->setStyleSheet(isFault ? QStringLiteral("color: #ff9d8c;") : QString());
+  hint_->setStyleSheet(isFault ? QStringLiteral("color: %1;").arg(widgets::faultInk().name()) : QString());
   hint_->setText(sentence);
 }
 

@@ -19,6 +19,7 @@
 #include "devices/hot_plug.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/fault_words.h"
+#include "gui/widgets/inks.h"
 #include "gui/widgets/unit_spin_box.h"
 #include "sim/record/configuration/run_configuration.h"
 
@@ -149,8 +150,9 @@ void SessionDock::offerPlugged() {
 
 void SessionDock::check() {
   const auto mark = [](QLineEdit* field, const QString& fault) {
-    field->setStyleSheet(fault.isEmpty() ? QString() : QStringLiteral("color: #ff9d8c; border: 1px solid #c0564a;"));
-    field->setToolTip(fault);
+    field->setStyleSheet(fault.isEmpty() ? QString() : widgets::faultyField());
+    if (field->property("usualTip").isNull()) field->setProperty("usualTip", field->toolTip());
+    field->setToolTip(fault.isEmpty() ? field->property("usualTip").toString() : fault);
     return fault;
   };
   const auto labelFault = [](QLineEdit* field, const char* name) {

@@ -6,6 +6,7 @@
 #include <QVBoxLayout>
 
 #include "gui/scene_plan/hand_colours.h"
+#include "gui/widgets/inks.h"
 #include "gui/widgets/theme.h"
 #include "gui/widgets/themes.h"
 
@@ -33,7 +34,7 @@ QColor lightInk(Light light) {
   switch (light) {
     case Light::Good: return toQColor(themed(colours::kGreen));
     case Light::Fair: return toQColor(themed(colours::kTarget));
-    case Light::Stop: return QColor(255, 157, 140);
+    case Light::Stop: return widgets::faultInk();
     case Light::Absent: break;
   }
   return toQColor(themed(colours::kFaintText));

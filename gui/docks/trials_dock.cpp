@@ -7,7 +7,7 @@
 #include <QVBoxLayout>
 
 #include "gui/scene/trial_texts.h"
-#include "gui/widgets/theme.h"
+#include "gui/widgets/inks.h"
 
 namespace reachlab::gui::docks {
 namespace {
@@ -18,7 +18,7 @@ QColor inkOf(trial::Outcome outcome) {
   using namespace widgets;
   switch (outcome) {
     case trial::Outcome::Success: return toQColor(colours::kGreen);
-    case trial::Outcome::Failure: return QColor(255, 157, 140);
+    case trial::Outcome::Failure: return widgets::faultInk();
     default: return toQColor(colours::kFaintText);
   }
 }

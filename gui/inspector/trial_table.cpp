@@ -6,7 +6,7 @@
 
 #include "base/table_text.h"
 #include "gui/scene/trial_texts.h"
-#include "gui/widgets/theme.h"
+#include "gui/widgets/inks.h"
 #include "sim/record/log/trial_measures.h"
 
 namespace reachlab::gui::inspector {
@@ -156,7 +156,7 @@ QVariant TrialTable::data(const QModelIndex& at, int role) const {
     case Qt::ForegroundRole:
       if (at.column() != kOutcome) return {};
       return QBrush(trial(at.row()).result.outcome == trial::Outcome::Success ? widgets::toQColor(widgets::colours::kGreen)
-                                                                              : QColor(255, 157, 140));
+                                                                              : widgets::faultInk());
     case Qt::ToolTipRole:
       if (at.column() == kOutcome) return scene::outcomeText(trial(at.row()).result);
       if (at.column() == kMark) return text(at.row(), kMark);

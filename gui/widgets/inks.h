@@ -1,5 +1,6 @@
 #pragma once
 #include <QColor>
+#include <QString>
 
 #include "gui/widgets/theme.h"
 
@@ -11,5 +12,9 @@ inline QColor ink(int opacity) {
   colour.setAlpha(opacity);
   return colour;
 }
+
+/// The theme's ink for what is wrong, and a field with a fault in that ink.
+inline QColor faultInk() { return toQColor(colours::kBadText); }
+inline QString faultyField() { return QStringLiteral("color: %1; border: 1px solid #c0564a;").arg(faultInk().name()); }
 
 }  // namespace reachlab::gui::widgets

@@ -6,6 +6,7 @@
 #include <QStyleFactory>
 #include <clocale>
 
+#include "gui/widgets/inks.h"
 #include "gui/widgets/themes.h"
 
 namespace reachlab::gui::widgets {
@@ -71,7 +72,7 @@ void applyTheme(QApplication& application) {
   palette.setColor(QPalette::HighlightedText, Qt::white);
   palette.setColor(QPalette::ToolTipBase, toQColor(kButton));
   palette.setColor(QPalette::ToolTipText, toQColor(kText));
-  palette.setColor(QPalette::PlaceholderText, toQColor(kNeutral));
+  palette.setColor(QPalette::PlaceholderText, ink(155));
   palette.setColor(QPalette::Link, toQColor(kAccent));
   for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
     palette.setColor(QPalette::Disabled, role, toQColor(kNeutral));
@@ -93,8 +94,11 @@ void applyTheme(QApplication& application) {
           "QCheckBox::indicator:unchecked, QTableView::indicator:unchecked { width: 11px; height: 11px; border: 1px solid #6b7788;"
           " border-radius: 2px; background: %5; }"
           "QPushButton { padding: 5px 14px; }"
-          "QPushButton[role=\"go\"] { background: #2463a8; color: white; font-weight: 600; }"
-          "QPushButton[role=\"go\"]:disabled { background: %6; color: %8; }"
+          // With a border of its own, or Fusion would draw a lighter blue, on which white words are hard to read.
+          "QPushButton[role=\"go\"] { background: #2463a8; color: white; font-weight: 600; border: 1px solid #1b4b80; border-radius: 3px; }"
+          "QPushButton[role=\"go\"]:hover { background: #2a6fba; } QPushButton[role=\"go\"]:pressed { background: #1b4b80; }"
+          "QPushButton[role=\"go\"]:focus { border: 2px solid %9; }"
+          "QPushButton[role=\"go\"]:disabled { background: %6; color: %8; border: 1px solid %2; }"
           "*:focus { outline: 2px solid %9; }"
           "QFrame[role=\"card\"] { background: %7; border: 1px solid %2; border-radius: 8px; }"
           "QToolBar { background: %7; border: none; }"

@@ -5,6 +5,8 @@
 #include <QSignalBlocker>
 #include <utility>
 
+#include "gui/widgets/inks.h"
+
 namespace reachlab::gui::widgets {
 
 UnitSpinBox::UnitSpinBox(double low, double high, const QString& unit, QWidget* parent) : QDoubleSpinBox(parent) {
@@ -70,7 +72,7 @@ void UnitSpinBox::check() {
                                        : QStringLiteral("\"%1\" is no number").arg(bare),
                       textFromValue(minimum()), withUnit(maximum()));
   }
-  setStyleSheet(wrong_ ? QStringLiteral("color: #ff9d8c;") : QString());
+  setStyleSheet(wrong_ ? QStringLiteral("color: %1;").arg(faultInk().name()) : QString());
   Q_EMIT checked();
 }
 
