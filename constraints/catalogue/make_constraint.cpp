@@ -12,6 +12,7 @@
 #include "constraints/regularity/analysis.h"
 #include "constraints/regularity/places.h"
 #include "constraints/regularity/surface_branches.h"
+#include "constraints/regularity/undefined.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -54,6 +55,10 @@ void requireMoving(const Constraint& c, const std::array<Domain, 2>& range, cons
 }
 
 void requireUsable(const Constraint& c, const std::array<Domain, 2>& range, bool watched, const std::string& key) {
+  if (std::optional<Fault> fault = undefinedFault(c, range)) {
+    fault->key = key;
+    throw FaultError(std::move(*fault));
+  }
   if (const std::string place = findBarrier(c, range); !place.empty())
     throw FaultError(Fault{key, place + ", which no mass can cross", "a range (from start to target, or the domain) without such a place"});
   // Places with a limit, and a surface's ends, are met as a mass moves.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/error.h"
 #include "base/math/gauss_legendre.h"
@@ -68,6 +69,26 @@ double ArcLength::parameterAt(double s) const {
     if (step < 1e-15) break;
   }
   return piece.begin + piece.half * (x + 1);
+}
+
+std::optional<double> parameterAfter(const Constraint& curve, double from, double s) {
+  if (!(std::abs(s) > 0)) return from;
+  const Domain& domain = curve.domain[0];
+  const double end = domain.periodic ? std::copysign(std::numeric_limits<double>::infinity(), s) : s > 0 ? domain.hi : domain.lo;
+  // A piece that is longer than s: twice as much of the parameter each time.
+  double part = 2 * std::abs(s) / std::max(norm(evaluate(curve.curve, from).rPhi), 1e-6);
+  constexpr int kMostDoublings = 40;
+  for (int i = 0; i < kMostDoublings; ++i, part *= 2) {
+    const double to = s > 0 ? std::min(from + part, end) : std::max(from - part, end);
+    try {
+      const ArcLength way(curve, from, to);
+      if (way.length() >= std::abs(s)) return way.parameterAt(std::abs(s));
+    } catch (const RefusedError&) {
+      if (to == end && i > 0) return std::nullopt;  // no value, or no end to its length, there
+    }
+    if (to == end) return std::nullopt;
+  }
+  return std::nullopt;
 }
 
 }  // namespace reachlab::constraints

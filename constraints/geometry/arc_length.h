@@ -1,4 +1,5 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "base/math/legendre_series.h"
@@ -31,5 +32,8 @@ class ArcLength {
   std::vector<Piece> pieces_;
   double length_ = 0, rough_ = 0;
 };
+
+/// The parameter that lies `s` [m] of the curve behind `from`, towards higher parameters for s > 0. nullopt if the curve ends before.
+std::optional<double> parameterAfter(const Constraint& curve, double from, double s);
 
 }  // namespace reachlab::constraints

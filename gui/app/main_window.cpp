@@ -97,6 +97,7 @@ MainWindow::MainWindow(const session::SessionRequest& request, const std::option
   plans_ = new PlanPages(session_, *docks_.session, *view_);
   if (!file_.isEmpty()) screens_->lookIn(QFileInfo(file_).path());
   connect(screens_, &Screens::said, this, &MainWindow::say);
+  connect(screens_, &Screens::placeChosen, this, &MainWindow::movePlace);
   auto* reading = new widgets::WorkStrip(QStringLiteral("readingScene"), tr("Cancel"));
   statusBar()->addPermanentWidget(reading);
   model::ModelReader& reader = screens_->modelReader();
@@ -189,11 +190,11 @@ void MainWindow::wireSession() {
   });
   connect(&runFits_, &inspector::Inspector::fitted, this,
           [this](const std::vector<std::optional<double>>& epsilons) { predictions().setFitted(epsilons); });
-  session_.setOwnPause([this] {
   // One fit after the other: that of a long run takes longer than a trial, and many under way at once would take memory for each.
   connect(&runFits_, &inspector::Inspector::idle, this, [this] {
     if (std::exchange(fitAgain_, false)) runFits_.fit({{fitted_, succeeded_}});
   });
+  session_.setOwnPause([this] {
     const docks::SessionDock& dock = *docks_.session;
     return dock.repeatsByItself() ? std::optional(dock.pauseSeconds()) : std::nullopt;
   });
@@ -250,6 +251,7 @@ void MainWindow::showExperiment() {
   showOverlay();
   plans_->refresh();
   forecast_.setExperiment(compiled);
+  showStage();  // a plan's places are not moved
   showTitle(*this, QString::fromStdString(compiled.experiment().name));
 }
 
@@ -271,6 +273,7 @@ void MainWindow::showStage() {
     action->setEnabled(stage != Stage::UnderWay && stage != Stage::Closed && !inspecting());
   if (stage == Stage::Following) actions_.repeat->setEnabled(false);
   actions_.nextSubject->setEnabled(stage == Stage::Closed && !inspecting());
+  screens_->setPlacesMovable(stage == Stage::Closed && !session_.isPlan());
 }
 
 // What a run ends with: its counts, its folder, and what can follow.
@@ -308,10 +311,10 @@ void MainWindow::runOpened() {
   score_ = 0;
   succeeded_.clear();
   runFits_.cancel();
+  fitAgain_ = false;
   strip_->showRun(run.configuration());
   predictions().clearErrors();
   docks_.trials->clear();
-  fitAgain_ = false;
   trace_.beginRun();
   status_->runOpened(run);
   if (session_.station() == nullptr) {

@@ -30,7 +30,8 @@ class InspectorPage;
 }
 namespace reachlab::gui::scene {
 class SceneView;
-}
+enum class TaskPlace;
+}  // namespace reachlab::gui::scene
 namespace reachlab::gui::widgets {
 class Card;
 class Messages;
@@ -141,6 +142,7 @@ class MainWindow : public QMainWindow {
   void showStage();
   void showEnd();
   bool mayUseDevice();
+  void movePlace(scene::TaskPlace place, const std::vector<double>& q);
   QString dataFolder() const;  // where the session records
   void drawPredictions();
   void runOpened();
@@ -162,10 +164,10 @@ class MainWindow : public QMainWindow {
   plot::LiveForecast forecast_;
   plot::LiveTrace trace_;
   inspector::Inspector runFits_;  // of the run's trials, from their rows on the disk
-  std::vector<int> succeeded_;    // trials of the run, as recorded
-  SoundCues sounds_;
   std::string fitted_;            // log of the run that is fitted
   bool fitAgain_ = false;         // trials have come since the fit under way began
+  std::vector<int> succeeded_;    // trials of the run, as recorded
+  SoundCues sounds_;
   subject::SubjectWords words_;  // of the subject's screen
   std::int64_t lastNs_ = 0;      // of the trace: when its last point was made
   int score_ = 0;                // successes of the run

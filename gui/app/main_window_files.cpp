@@ -108,6 +108,20 @@ void MainWindow::tryEdit(docks::Dock& dock, const experiment::Experiment& change
   dock.showFaults(edits_.tryEdit(changed, what));
 }
 
+// The camera stays where it is, so that the place stays under the pointer.
+void MainWindow::movePlace(scene::TaskPlace place, const std::vector<double>& q) {
+  experiment::Experiment changed = session_.experiment();
+  const bool start = place == scene::TaskPlace::Start;
+  (start ? changed.task->start : changed.task->target) = q;
+  const scene::Camera kept = view_->camera();
+  const QStringList faults = edits_.tryEdit(changed, start ? tr("start") : tr("target"));
+  if (!faults.isEmpty()) {
+    say(faults.join(QLatin1Char('\n')));
+    screens_->showExperiment(session_.compiled(), session_.blockPlaces());  // back where it was
+  }
+  view_->setCamera(kept);
+}
+
 bool MainWindow::mayEndRun(const QString& doing) {
   session::RecordedRun* run = session_.run();
   if (run == nullptr || (!run->underWay() && (run->trialsLeft() == 0 || run->latest().trial == 0))) return true;

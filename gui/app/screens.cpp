@@ -3,9 +3,14 @@
 #include <QLabel>
 #include <QTimer>
 #include <algorithm>
+#include <utility>
 
+#include "constraints/constraint.h"
+#include "constraints/formula/formula.h"
+#include "constraints/geometry/task_path.h"
 #include "gui/scene/scene_view.h"
 #include "gui/scene/trial_texts.h"
+#include "gui/scene_plan/place_under.h"
 #include "gui/subject/subject_window.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/scene_look.h"
@@ -19,6 +24,9 @@ constexpr int kMirrorMs = 250, kMirrorWidth = 220;  // no wider than a fifth of 
 
 Screens::Screens(scene::SceneView& main) : main_(main), mirror_(new QLabel(&main)), mirrorTimer_(new QTimer(this)) {
   connect(&main, &scene::SceneView::handDragged, this, &Screens::handDragged);
+  connect(&main, &scene::SceneView::placeDragged, this, &Screens::dragPlace);
+  connect(&main, &scene::SceneView::placeDropped, this, &Screens::dropPlace);
+  connect(&main, &scene::SceneView::placeLeft, this, &Screens::leavePlace);
   mirror_->setObjectName(QStringLiteral("subjectMirror"));
   mirror_->setStyleSheet(QStringLiteral("border: 1px solid #6b7788; background: black;"));
   mirror_->setAttribute(Qt::WA_TransparentForMouseEvents);
@@ -99,6 +107,36 @@ void Screens::showOverlay(const scene::OverlayState& experimenters, const scene:
   subjectsOverlay_ = subjects;
   main_.setOverlay(overlay_);
   if (subject_) subject_->view().setOverlay(subjects);
+}
+
+void Screens::setPlacesMovable(bool movable) { main_.setPlacesMovable(movable); }
+
+// The point of the constraint under the pointer, shown at once with its numbers. The drawn range stays as it was when the drag began.
+void Screens::dragPlace(scene::TaskPlace place, const QPointF& pixel) {
+  const experiment::Task& task = *experiment_->experiment().task;
+  const constraints::Constraint& constraint = experiment_->constraint();
+  const std::vector<double>& before = dragged_ ? *dragged_ : place == scene::TaskPlace::Start ? task.start : task.target;
+  const auto q = scene::placeUnder({main_.camera(), pixel.x(), pixel.y(), double(main_.width()), double(main_.height())}, constraint,
+                                   scene::drawnDomain(constraint, task.start, task.target), before);
+  if (!q) return;
+  dragged_ = q;
+  const std::vector<std::string> names = constraint.kind == constraints::ConstraintKind::Free
+                                             ? std::vector<std::string>{"x", "y", "z"}
+                                             : constraints::variablesOf(constraint.kind);
+  QStringList words;
+  for (std::size_t i = 0; i < q->size(); ++i)
+    words << QStringLiteral("%1 = %2").arg(QString::fromStdString(names[i])).arg((*q)[i], 0, 'g', 5);
+  main_.showPlace(place, placeOn(constraint, *q), words.join(QStringLiteral(", ")));
+}
+
+void Screens::dropPlace(scene::TaskPlace place) {
+  if (const auto q = std::exchange(dragged_, {})) Q_EMIT placeChosen(place, *q);
+}
+
+void Screens::leavePlace(scene::TaskPlace place) {
+  dragged_.reset();
+  const experiment::Task& task = *experiment_->experiment().task;
+  main_.showPlace(place, placeOn(experiment_->constraint(), place == scene::TaskPlace::Start ? task.start : task.target), {});
 }
 
 void Screens::setSideBySide(bool on) {

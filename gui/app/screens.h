@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "gui/model/model_reader.h"
 #include "gui/scene/scene_overlay.h"
@@ -19,7 +20,8 @@ class QTimer;
 
 namespace reachlab::gui::scene {
 class SceneView;
-}
+enum class TaskPlace;
+}  // namespace reachlab::gui::scene
 namespace reachlab::gui::subject {
 class SubjectWindow;
 }
@@ -47,6 +49,8 @@ class Screens : public QObject {
   void showOverlay(const scene::OverlayState& experimenters, const scene::OverlayState& subjects);
   /// The keys that work on the subject's screen as they do in the main window.
   void setSubjectsActions(const QList<QAction*>& actions) { actions_ = actions; }
+  /// Whether start and target can be dragged in the experimenter's picture.
+  void setPlacesMovable(bool movable);
   /// Draws masses beside one another, for the eye only, as seen from the present camera.
   void setSideBySide(bool on);
   /// Draws the forces on the hand for the experimenter. On by default.
@@ -64,6 +68,8 @@ class Screens : public QObject {
  Q_SIGNALS:
   /// As SceneView::handDragged, from whichever picture.
   void handDragged(double x, double y, double z, qint64 eventMs);
+  /// Start or target was dragged to this place: constraint parameters, or metres without a constraint.
+  void placeChosen(reachlab::gui::scene::TaskPlace place, const std::vector<double>& q);
   /// Faults of a scene file.
   void said(const QString& sentence);
 
@@ -73,6 +79,9 @@ class Screens : public QObject {
   void showSubjectsFrame(trial::Phase phase);
   void openSubject(const QString& screen);
   void mirror();
+  void dragPlace(scene::TaskPlace place, const QPointF& pixel);
+  void dropPlace(scene::TaskPlace place);
+  void leavePlace(scene::TaskPlace place);
 
   scene::SceneView& main_;
   QPointer<subject::SubjectWindow> subject_;
@@ -81,6 +90,7 @@ class Screens : public QObject {
   scene::SceneFrame frame_;
   scene::LateCursor cursor_;
   scene::OverlayState overlay_, subjectsOverlay_;
+  std::optional<std::vector<double>> dragged_;  // where start or target is being dragged
   QList<QAction*> actions_;
   QString folder_;
   model::ModelReader model_;

@@ -16,6 +16,7 @@
 #include "base/fault.h"
 #include "base/system/error_report.h"
 #include "constraints/constraint.h"
+#include "constraints/regularity/undefined.h"
 #include "gui/choosers/formula_editor.h"
 #include "gui/scene/scene_view.h"
 #include "gui/scene/thumbnail.h"
@@ -334,6 +335,8 @@ void ConstraintChooser::rebuild(bool resetCamera) {
       choice.start = current_.start;
       choice.target = current_.target;
     }
+    if (std::optional<Fault> fault = constraints::undefinedFault(constraint, scene::drawnDomain(constraint, choice.start, choice.target)))
+      throw FaultError(std::move(*fault));
     probe_.constraint = choice.spec;
     probe_.task->start = choice.start;
     probe_.task->target = choice.target;

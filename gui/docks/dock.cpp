@@ -50,7 +50,10 @@ void Dock::showExperiment(const experiment::CompiledExperiment& experiment, bool
   shown_ = experiment.experiment();
   display(experiment, editable);
 }
+  showEntryFaults();  // a refusal was that of an experiment that is no longer shown
 
 void Dock::showFaults(const QStringList& faults) { faults_->setFaults(faults); }
+void Dock::showEntryFaults() { faults_->setFaults({}); }
+
 
 }  // namespace reachlab::gui::docks

@@ -30,6 +30,8 @@ class Dock : public QDockWidget {
 
  protected:
   virtual void display(const experiment::CompiledExperiment& experiment, bool editable) = 0;
+  /// Shows the faults of the entries alone, after another experiment is displayed. For docks that check their entries themselves.
+  virtual void showEntryFaults();
   /// `scrolls`: on a small screen the dock may be lower than its content.
   void setBody(QWidget* body, bool scrolls = true);
   QWidget* body() const { return body_; }

@@ -46,6 +46,7 @@ class SessionDock : public Dock {
   void devicesRequested();
 
  protected:
+  void showEntryFaults() override { check(); }
   /// A plan has its own numbers of trials.
   void display(const experiment::CompiledExperiment& experiment, bool editable) override;
 

@@ -25,7 +25,7 @@ class TaskDock : public Dock {
   experiment::Task task_;
   widgets::NumberListEdit *start_, *target_, *via_;
   widgets::UnitSpinBox *duration_, *time_, *position_, *velocity_, *viaRadius_;
-  QLabel *startLabel_, *targetLabel_;
+  QLabel *startLabel_, *targetLabel_, *length_;
 };
 
 }  // namespace reachlab::gui::docks

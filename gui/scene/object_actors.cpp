@@ -56,6 +56,12 @@ struct ObjectActors::Impl {
   vtkRenderer& renderer;
   ScenePlan plan;  // without its meshes
   std::vector<Actor> all, masses, springs, hands, via;
+  struct Mark {
+    Actor actor;
+    bool atTarget;
+    Vec3 shift;  // [m] beside it
+  };
+  std::vector<Mark> marks;
   std::unique_ptr<CueActors> cues;
   std::unique_ptr<ModelActors> model;
   bool handWasValid = true;
@@ -97,28 +103,29 @@ struct ObjectActors::Impl {
       via.back()->SetScale(from.viaRadius);
       place(*via.back(), at);
     }
-    const auto mark = [&](const Vec3& at, const widgets::Colour& colour, double radius, double opacity) {
-      Actor ball = add(makeBall({colour, opacity, 0.2}));
+    const auto mark = [&](bool atTarget, const Vec3& shift, double radius, double opacity) {
+      Actor ball = add(makeBall({atTarget ? from.look.colours.target : from.look.colours.start, opacity, 0.2}));
       if (opacity < 0.5) makeShell(*ball);
       ball->SetScale(radius);
-      place(*ball, at);
+      place(*ball, (atTarget ? from.target : from.start) + shift);
+      marks.push_back({ball, atTarget, shift});
     };
     // Each place where a mass begins and ends, and the hand's own on the constraint. The shell at the target is the tolerance dx.
     const double ball = from.massRadius.empty() ? 0 : *std::max_element(from.massRadius.begin(), from.massRadius.end());
     for (const Vec3& shift : from.massShift) {
       if (norm(shift) == 0) continue;
-      mark(from.start + shift, from.look.colours.start, 0.55 * from.markRadius, 0.8);
+      mark(false, shift, 0.55 * from.markRadius, 0.8);
       if (!from.targetShown) continue;
-      mark(from.target + shift, from.look.colours.target, 0.55 * from.markRadius, 0.8);
-      if (from.tolerance > 0.55 * from.markRadius) mark(from.target + shift, from.look.colours.target, from.tolerance, 0.13);
+      mark(true, shift, 0.55 * from.markRadius, 0.8);
+      if (from.tolerance > 0.55 * from.markRadius) mark(true, shift, from.tolerance, 0.13);
     }
-    mark(from.start, from.look.colours.start, from.markRadius, 1);
-    mark(from.start, from.look.colours.start, 1.45 * std::max(ball, from.markRadius), 0.25);  // seen around the mass that stands there
+    mark(false, {}, from.markRadius, 1);
+    mark(false, {}, 1.45 * std::max(ball, from.markRadius), 0.25);  // seen around the mass that stands there
     if (!from.targetShown) return;
-    mark(from.target, from.look.colours.target, from.markRadius, 1);
+    mark(true, {}, from.markRadius, 1);
     const bool massOnRail = from.massShift.empty() ||
                             std::any_of(from.massShift.begin(), from.massShift.end(), [](const Vec3& shift) { return norm(shift) == 0; });
-    if (from.tolerance > from.markRadius && massOnRail) mark(from.target, from.look.colours.target, from.tolerance, 0.13);
+    if (from.tolerance > from.markRadius && massOnRail) mark(true, {}, from.tolerance, 0.13);
   }
   // The forces on the hand, and the places of the block's other trials.
   void addForces(const ScenePlan& from) {
@@ -155,7 +162,7 @@ struct ObjectActors::Impl {
 };
 
 ObjectActors::ObjectActors(vtkRenderer& renderer, const ScenePlan& plan, SurfaceStyle style)
-    : impl_(new Impl{renderer, plan, {}, {}, {}, {}, {}, nullptr, nullptr}) {
+    : impl_(new Impl{renderer, plan, {}, {}, {}, {}, {}, {}, nullptr, nullptr}) {
   impl_->plan.curve = {};
   impl_->plan.surface = {};
   impl_->model = std::make_unique<ModelActors>(renderer, plan);
@@ -169,6 +176,10 @@ ObjectActors::ObjectActors(vtkRenderer& renderer, const ScenePlan& plan, Surface
 
 ObjectActors::~ObjectActors() {
   for (const Actor& actor : impl_->all) impl_->renderer.RemoveActor(actor);
+}
+
+void ObjectActors::movePlaces(const Vec3& start, const Vec3& target) {
+  for (const Impl::Mark& mark : impl_->marks) place(*mark.actor, (mark.atTarget ? target : start) + mark.shift);
 }
 
 void ObjectActors::show(const SceneFrame& frame) {

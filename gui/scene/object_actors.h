@@ -18,6 +18,8 @@ class ObjectActors {
   ObjectActors& operator=(const ObjectActors&) = delete;
 
   void show(const SceneFrame& frame);
+  /// Moves the marks of start and target.
+  void movePlaces(const Vec3& start, const Vec3& target);
 
  private:
   struct Impl;

@@ -1,5 +1,6 @@
 #include "gui/scene/scene_view.h"
 
+#include <QKeyEvent>
 #include <QMouseEvent>
 #include <QSurfaceFormat>
 #include <QTimer>
@@ -25,6 +26,8 @@
 #include <QElapsedTimer>
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "gui/scene/ghost_actors.h"
 #include "gui/scene/renderer_name.h"
@@ -35,6 +38,8 @@
 namespace reachlab::gui::scene {
 namespace {
 
+constexpr double kGrip = 11;  // pixels about a place in which the pointer takes hold of it
+constexpr int kClick = 3;     // pixels that a click may move
 constexpr int kRestMs = 250;  // a picture that has not moved for so long rests
 // Where the processor draws and pictures of a movement come slower than this, so many times in a row, they are drawn coarser.
 constexpr int kSlowMs = 33, kSlowPictures = 4;  // 30 pictures per second look smooth
@@ -101,6 +106,10 @@ struct SceneView::Impl {
   QPoint pressedAt, lastAt;
   Vec3 handAtPress;
   bool reaching = false;
+  bool movable = false;             // start and target
+  std::optional<TaskPlace> dragged;
+  bool moved = false;               // since it was taken hold of: a click moves nothing
+  QString placeWords;
 
   double width() const { return std::max(widget->width(), 1); }
   double height() const { return std::max(widget->height(), 1); }
@@ -137,8 +146,27 @@ struct SceneView::Impl {
            !movedBeyond(0.1 * metresPerPixel(camera, plan.centre, height()) / std::max(1.0, widget->devicePixelRatioF()), frame, next);
   }
 
+  std::optional<TaskPlace> placeAt(const QPoint& pixel) const {
+    if (!movable || !plan.hasTask) return std::nullopt;
+    std::optional<TaskPlace> nearest;
+    double least = 0;
+    for (const TaskPlace place : {TaskPlace::Target, TaskPlace::Start}) {
+      const Vec3& r = place == TaskPlace::Start ? plan.start : plan.target;
+      const auto [x, y] = reachlab::gui::scene::pixelOf(camera, r, width(), height());
+      const double apart = std::hypot(x - pixel.x(), y - pixel.y());
+      if (apart > std::max(kGrip, 1.5 * plan.markRadius / metresPerPixel(camera, r, height())) || (nearest && apart >= least)) continue;
+      nearest = place;
+      least = apart;
+    }
+    return nearest;
+  }
+
   // Masses over one another look like one.
   void label() {
+    if (!placeWords.isEmpty() && dragged) {
+      const auto [x, y] = reachlab::gui::scene::pixelOf(camera, *dragged == TaskPlace::Start ? plan.start : plan.target, width(), height());
+      return overlay->setLabel(placeWords, {x, y + kGrip});
+    }
     const int count = massesAtOnePlace(plan, frame);
     if (count == 0) return overlay->setLabel({}, {});
     const Vec3 at = frame.masses.back() + plan.massShift.back();
@@ -219,6 +247,7 @@ SceneView::~SceneView() {
 
 void SceneView::setPlan(const ScenePlan& plan, bool resetView) {
   impl_->plan = plan;
+  impl_->dragged.reset();
   impl_->ghosts.reset();
   impl_->actors.reset();
   impl_->actors = std::make_unique<ObjectActors>(*impl_->renderer, plan, impl_->style);
@@ -315,6 +344,26 @@ std::int64_t SceneView::picturesDrawn() const { return impl_->pictures; }
 const ScenePlan& SceneView::plan() const { return impl_->plan; }
 SceneFrame SceneView::frame() const { return impl_->frame; }
 
+void SceneView::setPlacesMovable(bool movable) {
+  if (impl_->movable == movable) return;
+  impl_->movable = movable;
+  impl_->widget->setMouseTracking(movable);
+  impl_->widget->unsetCursor();
+  if (!movable && impl_->dragged) Q_EMIT placeLeft(*std::exchange(impl_->dragged, {}));
+}
+
+void SceneView::showPlace(TaskPlace place, const Vec3& r, const QString& words) {
+  Impl& d = *impl_;
+  (place == TaskPlace::Start ? d.plan.start : d.plan.target) = r;
+  d.placeWords = words;
+  d.frame = restingFrame(d.plan);
+  if (!d.actors) return;
+  d.actors->movePlaces(d.plan.start, d.plan.target);
+  d.actors->show(d.frame);
+  d.label();
+  d.render(true);
+}
+
 bool SceneView::drawsInSoftware() const { return impl_->software != nullptr; }
 
 QPointF SceneView::pixelOf(const Vec3& world) const {
@@ -337,6 +386,13 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
     case QEvent::MouseButtonPress: {
       const auto* mouse = static_cast<QMouseEvent*>(event);
       d.lastAt = d.pressedAt = mouse->pos();
+      if (const auto place = d.placeAt(mouse->pos());
+          place && mouse->button() == Qt::LeftButton && !mouse->modifiers().testFlag(Qt::ShiftModifier)) {
+        d.dragged = place;
+        d.moved = false;
+        d.widget->setCursor(Qt::ClosedHandCursor);
+        return true;
+      }
       if (mouse->button() == Qt::LeftButton && !mouse->modifiers().testFlag(Qt::ShiftModifier)) {
         d.reaching = true;
         d.handAtPress = ownHand(d.frame);
@@ -347,6 +403,15 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
       const auto* mouse = static_cast<QMouseEvent*>(event);
       const QPoint now = mouse->pos(), moved = now - d.lastAt;
       d.lastAt = now;
+      if (d.dragged) {
+        d.moved = d.moved || (now - d.pressedAt).manhattanLength() > kClick;
+        if (d.moved && mouse->buttons().testFlag(Qt::LeftButton)) Q_EMIT placeDragged(*d.dragged, now);
+        return true;
+      }
+      if (d.movable && mouse->buttons() == Qt::NoButton) {
+        if (d.placeAt(now)) d.widget->setCursor(Qt::OpenHandCursor);
+        else d.widget->unsetCursor();
+      }
       if (d.reaching && mouse->buttons().testFlag(Qt::LeftButton)) {
         // Relative to where the hand was taken hold of, so that pressing beside it does not make it jump.
         const Vec3 from = pointUnder(d.camera, d.handAtPress, d.pressedAt.x(), d.pressedAt.y(), d.width(), d.height());
@@ -362,7 +427,18 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
       setCamera(d.camera);
       return true;
     }
+    case QEvent::KeyPress:
+      if (!d.dragged || static_cast<QKeyEvent*>(event)->key() != Qt::Key_Escape) return QWidget::eventFilter(watched, event);
+      d.widget->unsetCursor();
+      Q_EMIT placeLeft(*std::exchange(d.dragged, {}));
+      return true;
     case QEvent::MouseButtonRelease:
+      if (d.dragged && static_cast<QMouseEvent*>(event)->button() == Qt::LeftButton) {
+        d.widget->unsetCursor();
+        const TaskPlace place = *std::exchange(d.dragged, {});
+        if (d.moved) Q_EMIT placeDropped(place);
+        return true;
+      }
       if (static_cast<QMouseEvent*>(event)->button() == Qt::LeftButton) d.reaching = false;
       return true;
     case QEvent::MouseButtonDblClick: return true;

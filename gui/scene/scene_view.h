@@ -14,6 +14,8 @@ QString libraryVersion();
 /// Sets the OpenGL format of the scene. Call it before the QApplication is made.
 void applySurfaceFormat();
 
+enum class TaskPlace { Start, Target };
+
 /// The scene in three dimensions. Left drag moves the hand (handDragged), right drag turns, middle drag (or shift) pans, the wheel zooms.
 class SceneView : public QWidget {
   Q_OBJECT
@@ -50,6 +52,10 @@ class SceneView : public QWidget {
   void setCamera(const Camera& camera);
   const ScenePlan& plan() const;
   SceneFrame frame() const;
+  /// Whether start and target can be taken hold of with the left button.
+  void setPlacesMovable(bool movable);
+  /// Draws start or target at `r` until the next plan, with `words` beside it. What rests at the start goes with it.
+  void showPlace(TaskPlace place, const Vec3& r, const QString& words);
   /// Software drawing is slow: fewer frames per second, and a cheaper translucency.
   bool drawsInSoftware() const;
   /// Where a world point is drawn, in this widget's coordinates.
@@ -59,6 +65,10 @@ class SceneView : public QWidget {
   /// The pointer with the left button down: where the hand is asked to be [m], in the plane through the hand that faces the viewer.
   /// `eventMs`: when, by the window system's own clock.
   void handDragged(double x, double y, double z, qint64 eventMs);
+  /// Start or target is dragged to a pixel of this widget, is let go there, or goes back where it was (Escape).
+  void placeDragged(reachlab::gui::scene::TaskPlace place, const QPointF& pixel);
+  void placeDropped(reachlab::gui::scene::TaskPlace place);
+  void placeLeft(reachlab::gui::scene::TaskPlace place);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

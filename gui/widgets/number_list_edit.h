@@ -1,6 +1,7 @@
 #pragma once
 #include <QLineEdit>
 #include <QStringList>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <vector>
@@ -16,6 +17,9 @@ struct NumberListRule {
   double low = -std::numeric_limits<double>::infinity();
   bool lowAllowed = true;
   std::size_t fewest = 0, most = 512, multipleOf = 1;
+  bool formulas = false;  // "pi/2" and "3*pi/4" are numbers, too, and are shown so
+  /// The number that "0.2 m" stands for. NaN: none. Empty: no lengths are allowed.
+  std::function<double(double metres)> atLength = {};
 };
 
 /// Several numbers in one line, parted by blanks: "0.6 0.6 0.6" or "5 x 0.6". Red while the rule does not hold.
@@ -44,9 +48,9 @@ class NumberListEdit : public QLineEdit {
   bool telling_ = false;
 };
 
-/// "5 x 0.6" where all are equal. Shortest decimal that reads back the same.
-QString textOf(const std::vector<double>& numbers);
-std::optional<std::vector<double>> numbersOf(const QString& text);
+/// "5 x 0.6" where all are equal. Shortest text that reads back the same.
+QString textOf(const std::vector<double>& numbers, const NumberListRule& rule = {});
+std::optional<std::vector<double>> numbersOf(const QString& text, const NumberListRule& rule = {});
 /// "mass 2: -0.6 kg; allowed: more than 0". Empty if the text keeps the rule.
 QString faultOf(const QString& text, const NumberListRule& rule);
 

@@ -101,6 +101,23 @@ TEST_F(Chooser, AFormulaThatDegeneratesEverywhereIsRefusedWithAReason) {
   EXPECT_TRUE(find<QLabel>("fault")->isVisible());
 }
 
+TEST_F(Chooser, AFormulaWithoutAnyValueIsToldWhileItIsTyped) {
+  const auto fault = [&] { return find<QLabel>("fault")->isVisible() ? find<QLabel>("fault")->text() : QString(); };
+  type("formula_x", "0.1*sqrt(-1-phi^2)");
+  EXPECT_TRUE(fault().startsWith(QStringLiteral("x has no value at any phi from -0.3927 to 6.283: sqrt is given"))) << fault().toStdString();
+  EXPECT_TRUE(fault().contains(QStringLiteral("0 or more for sqrt"))) << fault().toStdString();
+  EXPECT_FALSE(find<QPushButton>("use")->isEnabled());
+  if (const QByteArray folder = qgetenv("REACHLAB_TEST_PICTURES"); !folder.isEmpty())
+    chooser_.grab().save(QString::fromLocal8Bit(folder) + QStringLiteral("/nowhere.png"));
+  type("formula_x", "0.1*sqrt(1+phi^2)");
+  EXPECT_EQ(fault(), QString()) << "gone with its cause";
+  EXPECT_TRUE(find<QPushButton>("use")->isEnabled());
+  type("formula_x", "0.1*log(phi-20)");
+  EXPECT_TRUE(fault().contains(QStringLiteral("log is given -"))) << fault().toStdString();
+  type("formula_x", "0.1*log(phi-1)");
+  EXPECT_FALSE(fault().contains(QStringLiteral("no value at any"))) << "it has one beyond 1: " << fault().toStdString();
+}
+
 TEST_F(Chooser, ASavedDefinitionIsInTheListAndReadsBack) {
   type("formula_x", "0");
   type("formula_y", "0.1*cos(phi)");

@@ -1,0 +1,206 @@
+// Start and target, taken hold of in the scene and put elsewhere by the mouse.
+#include <QLabel>
+#include <QMouseEvent>
+#include <QTableWidget>
+#include <QUndoStack>
+
+#include "constraints/constraint.h"
+#include "constraints/geometry/task_path.h"
+#include "gui/docks/session_dock.h"
+#include "gui/scene/scene_view.h"
+#include "gui/widgets/number_list_edit.h"
+#include "sim/experiment/experiment.h"
+#include "tests/gui/at_the_window.h"
+
+namespace reachlab::gui {
+namespace {
+
+class DraggedPlaces : public AtTheWindow {
+ protected:
+  void begin(const char* what) {
+    request_.what = what;
+    open().resize(1500, 950);
+    QTest::qWait(50);
+  }
+  scene::SceneView& view() { return window_->view(); }
+  const experiment::Task& task() { return *window_->session().experiment().task; }
+  QPoint pixelOf(const std::vector<double>& q) {
+    return view().pixelOf(placeOn(window_->session().constraint(), q)).toPoint();
+  }
+  void send(QEvent::Type type, const QPoint& at, Qt::MouseButtons buttons) {
+    QMouseEvent event(type, at, type == QEvent::MouseMove ? Qt::NoButton : Qt::LeftButton, buttons, {});
+    QApplication::sendEvent(view().focusProxy(), &event);
+  }
+  void take(const QPoint& from) { send(QEvent::MouseButtonPress, from, Qt::LeftButton); }
+  void drag(const QPoint& to) { send(QEvent::MouseMove, to, Qt::LeftButton); }
+  void drop(const QPoint& at) { send(QEvent::MouseButtonRelease, at, Qt::NoButton); }
+  void move(const QPoint& from, const QPoint& to) {
+    take(from);
+    drag((from + to) / 2);
+    drag(to);
+    drop(to);
+  }
+  double apart(const std::vector<double>& q, const QPoint& from) {
+    const QPointF off = view().pixelOf(placeOn(window_->session().constraint(), q)) - from;
+    return std::hypot(off.x(), off.y());
+  }
+  void keepPicture(const QString& name) {
+    if (const QByteArray folder = qgetenv("REACHLAB_TEST_PICTURES"); !folder.isEmpty())
+      window_->grab().save(QString::fromLocal8Bit(folder) + QLatin1Char('/') + name);
+  }
+};
+
+constexpr double kNear = 1.5;  // pixels
+
+TEST_F(DraggedPlaces, LieUnderThePointerOnEveryKindOfShape) {
+  struct {
+    const char* what;
+    std::vector<double> to;  // by the constraint's parameters
+  } const cases[] = {{"chain-moderate", {0.17}},  {"ellipse", {1.1}},       {"trefoil", {2.0}},  {"torus", {0.7, 0.9}}, {"sphere", {0.5, 0.4}},
+                     {"moebius-strip", {0.9, 0}}, {"helicoid", {0.3, 0.4}}, {"plane", {0.05, 0.03}}, {"cycloid", {2}},  {"free-point", {0.1, 0.05, 0}}};
+  for (const auto& [what, to] : cases) {
+    begin(what);
+    const std::vector<double> before = task().target;
+    if (to.size() != before.size()) ADD_FAILURE() << what;
+    const QPoint at = pixelOf(to);
+    move(pixelOf(before), at);
+    ASSERT_NE(task().target, before) << what << ": " << window_->message().toStdString();
+    EXPECT_LE(apart(task().target, at), kNear) << what;
+    keepPicture(QStringLiteral("dragged-%1.png").arg(QLatin1String(what)));
+    window_->edits().undo();
+    EXPECT_EQ(task().target, before) << what;
+    window_->edits().setClean();
+    window_.reset();
+  }
+}
+
+TEST_F(DraggedPlaces, AreShownWhileTheyAreDraggedAndGoBackWithEscape) {
+  begin("ellipse");
+  const std::vector<double> start = task().start, target = task().target;
+  const QPoint at = pixelOf({2.2});
+  take(pixelOf(target));
+  drag(at);
+  const QPointF shown = view().pixelOf(view().plan().target);
+  EXPECT_LE(std::hypot(shown.x() - at.x(), shown.y() - at.y()), kNear);
+  EXPECT_EQ(task().target, target) << "not taken over yet";
+  EXPECT_TRUE(find<scene::SceneOverlay>("")->label().startsWith(QStringLiteral("phi = 2.19"))) << find<scene::SceneOverlay>("")->label().toStdString();
+  keepPicture(QStringLiteral("dragging.png"));
+  QTest::keyClick(view().focusProxy(), Qt::Key_Escape);
+  drop(at);
+  EXPECT_EQ(task().target, target);
+  EXPECT_TRUE(window_->edits().isClean());
+  const QPointF back = view().pixelOf(view().plan().target) - pixelOf(target);
+  EXPECT_LE(std::hypot(back.x(), back.y()), kNear);
+  // The start takes along what rests at it. A click alone moves nothing.
+  const QPoint elsewhere = pixelOf({-0.5});
+  take(pixelOf(start));
+  drag(elsewhere);
+  EXPECT_EQ(view().frame().masses.back(), view().plan().start);
+  drop(elsewhere);
+  EXPECT_NEAR(task().start[0], -0.5, 0.02);
+  const std::vector<double> moved = task().start;
+  take(elsewhere);
+  drop(elsewhere);
+  EXPECT_EQ(task().start, moved);
+}
+
+TEST_F(DraggedPlaces, StayWhereTheyAreDuringARunAndInAPlan) {
+  begin("chain-moderate");
+  window_->nextTrial();
+  ASSERT_NE(window_->session().run(), nullptr) << window_->message().toStdString();
+  const std::vector<double> target = task().target;
+  move(pixelOf(target), pixelOf({0.1}));
+  EXPECT_EQ(task().target, target);
+  EXPECT_NE(window_->session().run(), nullptr);
+  window_->abortTrial();
+  window_->session().endRun();
+  move(pixelOf(target), pixelOf({0.1}));
+  EXPECT_NE(task().target, target) << "no run is open";
+  window_->edits().setClean();
+}
+
+// The fields of the same places.
+class TypedPlaces : public DraggedPlaces {
+ protected:
+  void type(const char* field, const QString& text) {
+    auto* edit = find<widgets::NumberListEdit>(field);
+    edit->setFocus();
+    edit->selectAll();
+    edit->clear();
+    for (const QChar letter : text)  // QTest has no key for every letter
+      if (letter.unicode() < 128) QTest::keyClick(edit, letter.toLatin1());
+      else edit->insert(letter);
+    QTest::keyClick(edit, Qt::Key_Return);
+  }
+  QString faults() { return find<QLabel>("taskFaults")->isVisibleTo(window_.get()) ? find<QLabel>("taskFaults")->text() : QString(); }
+};
+
+TEST_F(TypedPlaces, AreFractionsOfPi) {
+  begin("ellipse");
+  const std::pair<const char*, double> entries[] = {
+      {"pi/2", M_PI / 2}, {"3*pi/4", 3 * M_PI / 4}, {"2pi/3", 2 * M_PI / 3}, {"-pi/6", -M_PI / 6}, {"3 * π / 2", 3 * M_PI / 2}, {"pi/4 + 0.1", 0}};
+  for (const auto& [text, value] : entries) {
+    type("taskTarget", QString::fromUtf8(text));
+    if (value != 0) EXPECT_DOUBLE_EQ(task().target.at(0), value) << text << faults().toStdString();
+    else EXPECT_TRUE(faults().contains(QStringLiteral("no number")) || faults().contains(QStringLiteral("3 numbers"))) << faults().toStdString();
+  }
+  type("taskTarget", QStringLiteral("3*pi/4"));
+  EXPECT_EQ(find<widgets::NumberListEdit>("taskTarget")->text(), QStringLiteral("3*pi/4")) << "shown as it was typed";
+  EXPECT_EQ(faults(), QString());
+  window_->edits().setClean();
+}
+
+TEST_F(TypedPlaces, AreLengthsAlongTheCurve) {
+  begin("ellipse");
+  type("taskTarget", QStringLiteral("0.1 m"));
+  // Against a sum of many short chords.
+  const auto lengthBetween = [&](double from, double to) {
+    double sum = 0;
+    constexpr int kParts = 100'000;
+    for (int i = 0; i < kParts; ++i)
+      sum += norm(placeOn(window_->session().constraint(), std::vector{from + (to - from) * (i + 1) / kParts}) -
+                  placeOn(window_->session().constraint(), std::vector{from + (to - from) * i / kParts}));
+    return sum;
+  };
+  EXPECT_NEAR(lengthBetween(task().start.at(0), task().target.at(0)), 0.1, 1e-6) << faults().toStdString();
+  EXPECT_GT(task().target[0], task().start[0]);
+  EXPECT_EQ(find<QLabel>("taskLength")->text(), QStringLiteral("0.1 m along the curve"));
+  type("taskTarget", QStringLiteral("-0.05 m"));
+  EXPECT_LT(task().target[0], task().start[0]) << "the other way";
+  EXPECT_NEAR(lengthBetween(task().start[0], task().target[0]), 0.05, 1e-6);
+  type("taskStart", QStringLiteral("0.15m"));
+  EXPECT_NEAR(lengthBetween(task().start[0], task().target[0]), 0.15, 1e-6);
+  keepPicture(QStringLiteral("typed-places.png"));
+  window_->edits().setClean();
+}
+
+TEST_F(TypedPlaces, LengthsBeyondTheEndAndOnSurfacesAreRefused) {
+  begin("torus");
+  type("taskTarget", QStringLiteral("0.1 m"));
+  EXPECT_TRUE(faults().contains(QStringLiteral("no number"))) << faults().toStdString();
+  EXPECT_FALSE(faults().contains(QStringLiteral("a length")));
+  window_->edits().setClean();
+}
+
+TEST_F(TypedPlaces, AFaultGoesWithItsCause) {
+  begin("ellipse");
+  const QString before = find<widgets::NumberListEdit>("taskTarget")->text(), start = find<widgets::NumberListEdit>("taskStart")->text();
+  type("taskTarget", start);
+  EXPECT_TRUE(faults().contains(QStringLiteral("same position"))) << faults().toStdString();
+  keepPicture(QStringLiteral("fault.png"));
+  // The other field mends it.
+  type("taskStart", QStringLiteral("0.3"));
+  EXPECT_EQ(faults(), QString());
+  type("taskTarget", QStringLiteral("0.3"));
+  EXPECT_NE(faults(), QString());
+  window_->edits().undo();
+  EXPECT_EQ(faults(), QString()) << "an older state is shown, and it holds";
+  type("taskTarget", QStringLiteral("abc"));
+  EXPECT_TRUE(faults().contains(QStringLiteral("\"abc\" is no number"))) << faults().toStdString();
+  type("taskTarget", before);
+  EXPECT_EQ(faults(), QString());
+  window_->edits().setClean();
+}
+
+}  // namespace
+}  // namespace reachlab::gui
