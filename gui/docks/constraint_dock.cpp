@@ -70,6 +70,7 @@ ConstraintDock::ConstraintDock(QWidget* parent) : Dock(QStringLiteral("Constrain
   auto* another = new QPushButton(QStringLiteral("Choose or type another…  (Ctrl+K)"));
   another->setObjectName(QStringLiteral("choose"));
   another->setFocusPolicy(Qt::NoFocus);
+  another->setToolTip(QStringLiteral("shows the catalogue of curves and surfaces, and takes a formula of your own"));
   layout->addWidget(name_);
   layout->addWidget(formula_);
   layout->addWidget(sliders_);

@@ -21,6 +21,8 @@ CouplingDock::CouplingDock(QWidget* parent) : Dock(QStringLiteral("Coupling"), Q
   stiffness_->setName(QStringLiteral("stiffness"));
   damping_->setName(QStringLiteral("damping"));
   for (auto* number : {stiffness_, damping_}) faults()->watch(number);
+  stiffness_->setToolTip(QStringLiteral("spring between the hand and the mass that it drives"));
+  damping_->setToolTip(QStringLiteral("damper beside this spring"));
   setBody(body);
   const auto tell = [this] {
     experiment::Experiment changed = shown();

@@ -15,6 +15,7 @@ class Scroll : public QScrollArea {
   explicit Scroll(QWidget* body) {
     setWidgetResizable(true);
     setFrameShape(QFrame::NoFrame);
+    setFocusPolicy(Qt::NoFocus);  // the Tab key goes to what can be entered
     setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
     setWidget(body);
     body->installEventFilter(this);
@@ -49,11 +50,11 @@ void Dock::setBody(QWidget* body, bool scrolls) {
 void Dock::showExperiment(const experiment::CompiledExperiment& experiment, bool editable) {
   shown_ = experiment.experiment();
   display(experiment, editable);
-}
   showEntryFaults();  // a refusal was that of an experiment that is no longer shown
+}
 
-void Dock::showFaults(const QStringList& faults) { faults_->setFaults(faults); }
 void Dock::showEntryFaults() { faults_->setFaults({}); }
 
+void Dock::showFaults(const QStringList& faults) { faults_->setFaults(faults); }
 
 }  // namespace reachlab::gui::docks

@@ -194,8 +194,10 @@ QWidget* EnvironmentDock::makeForces() {
   auto* buttons = new QHBoxLayout;
   auto* add = new QPushButton(tr("Add"));
   add->setObjectName(QStringLiteral("addForce"));
+  add->setToolTip(tr("adds a force on the hand, which begins as a curl field"));
   remove_ = new QPushButton(tr("Remove"));
   remove_->setObjectName(QStringLiteral("removeForce"));
+  remove_->setToolTip(tr("removes the chosen force"));
   kind_ = new QComboBox;
   kind_->setObjectName(QStringLiteral("forceKind"));
   kind_->setToolTip(tr("Kind of the chosen force. Another kind begins with the numbers of a published experiment."));

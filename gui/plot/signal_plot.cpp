@@ -58,6 +58,10 @@ SignalPlot::SignalPlot(QWidget* parent) : QWidget(parent), impl_(std::make_uniqu
   d.freeze->setObjectName(QStringLiteral("signalFreeze"));
   auto* save = new QToolButton;
   save->setText(tr("Export…"));
+  save->setToolTip(tr("writes the plot as SVG, PDF or CSV"));
+  d.quantity->setToolTip(tr("the signal that is drawn, of the last 10 s"));
+  d.watched->setToolTip(tr("the hand or the mass that is drawn"));
+  d.freeze->setToolTip(tr("freezes the plot. Press it again to show the current signal"));
   row->addWidget(d.quantity);
   row->addWidget(d.watched);
   row->addWidget(d.freeze);

@@ -115,6 +115,7 @@ VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent), impl_(std::make_u
   impl_->freeze->setToolTip(tr("freezes the plot. Press it again to show the current trial"));
   auto* save = new QToolButton;
   save->setText(tr("Export…"));
+  save->setToolTip(tr("writes the plot as SVG, PDF or CSV"));
   row->addWidget(impl_->freeze);
   row->addStretch(1);
   row->addWidget(save);

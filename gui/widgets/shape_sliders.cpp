@@ -65,6 +65,7 @@ void ShapeSliders::addRow(const constraints::ShapeParameter& p, double value) {
   const QString meaning = QStringLiteral("%1: %2").arg(QString::fromStdString(p.name), QString::fromStdString(p.meaning));
   label->setToolTip(meaning);
   slider->setToolTip(meaning);
+  box->setToolTip(meaning);
   const std::size_t at = rows_.size();
   rows_.push_back({p, slider, box, nullptr, nullptr, isWhole(p) && !typed ? static_cast<int>(p.max - p.min) : kSteps});
   slider->setRange(0, rows_[at].steps);
