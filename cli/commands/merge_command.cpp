@@ -11,6 +11,7 @@
 
 #include "network/merge/station_merge.h"
 #include "sim/record/export/exporters.h"
+#include "sim/record/log/folder_hold.h"
 #include "sim/session/session_folder.h"
 
 namespace reachlab::cli {

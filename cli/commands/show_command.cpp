@@ -13,6 +13,7 @@
 #include "cli/output/trial_profile.h"
 #include "cli/terminal/at_option.h"
 #include "sim/record/export/tidy_csv.h"
+#include "sim/record/log/atomic_file.h"
 #include "sim/record/log/run_log.h"
 #include "sim/record/log/trial_measures.h"
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/record/log/whole_file.h"
 #include "sim/session/session_folder.h"
 #include "test_paths.h"
 #include "tests/record/made_run.h"

@@ -17,6 +17,7 @@
 #include <sstream>
 #include <thread>
 
+#include "sim/record/log/whole_file.h"
 #include "sim/record/recover.h"
 #include "sim/record/replay.h"
 #include "sim/session/session_folder.h"

@@ -1,3 +1,4 @@
+#include "sim/record/log/whole_file.h"
 #include "sim/record/replay.h"
 
 #include <gtest/gtest.h>

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "network/link/given_samples.h"
+#include "sim/record/log/atomic_file.h"
 #include "sim/record/log/run_log.h"
 #include "sim/session/session_folder.h"
 #include "tests/cli/program.h"

@@ -14,6 +14,7 @@
 
 #include "base/fault.h"
 #include "base/system/os.h"
+#include "sim/record/log/atomic_file.h"
 #include "sim/session/session.h"
 #include "tests/record/made_run.h"
 

@@ -1,3 +1,4 @@
+#include "sim/record/log/atomic_file.h"
 #include "sim/session/recorded_run.h"
 
 #include <chrono>

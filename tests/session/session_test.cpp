@@ -1,3 +1,5 @@
+#include "sim/record/log/atomic_file.h"
+#include "sim/record/log/folder_hold.h"
 #include "sim/session/session.h"
 
 #include <gtest/gtest.h>

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/record/log/atomic_file.h"
 #include "sim/record/log/run_log.h"
 
 namespace reachlab::record {

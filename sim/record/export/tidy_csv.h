@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/table_text.h"
+#include "sim/record/log/atomic_file.h"
 #include "sim/record/log/run_log.h"
 
 namespace reachlab::record {
