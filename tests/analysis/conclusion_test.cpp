@@ -215,7 +215,7 @@ TEST(Conclusion, OfACandidateWithSystematicResidualsIsPoor) {
     const Conclusion five = concludePeople(std::vector<PersonScores>(5, one), kCandidates, kReference);
     EXPECT_EQ(five.reason, expected) << deviations;
     EXPECT_NEAR(five.systematic.share / std::sqrt(five.systematic.variance), deviations, 1e-9);
-    one.conditions[0].systematic.assign(kCandidates, {0.029, 1e-6, 0});
+    one.conditions[0].systematic.assign(kCandidates, {0.049, 1e-6, 0});
     EXPECT_EQ(concludePerson(one, kCandidates, kReference).reason, Obstacle::None) << "a small part does not count";
     one.conditions[0].systematic.assign(kCandidates, {0.24, 1e-6, 0});
     for (const double r2 : {0.9998, 0.99999}) {  // 0.7 and 0.15 % of the speed

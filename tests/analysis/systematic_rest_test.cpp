@@ -50,8 +50,8 @@ TEST(SystematicRest, OfARightFitIsFoundAsOftenAsTheLevelSays) {
 }
 
 TEST(SystematicRest, IsFoundInTheMeanAndInWhatGrowsWithTheDuration) {
-  EXPECT_GT(shareBelow(0.02, 0.5, 0), 0.9);
-  EXPECT_GT(shareBelow(0.02, 0, 0.5), 0.9);
+  EXPECT_GT(shareBelow(0.02, 0.8, 0), 0.9);
+  EXPECT_GT(shareBelow(0.02, 0, 0.8), 0.9);
 }
 
 // A tenth of the mean square is the same in every trial.
