@@ -55,8 +55,9 @@ std::optional<Fault> undefinedFault(const Constraint& c, const std::array<Domain
   for (int i = 1; i <= kLooks; ++i) places.push_back({placeIn(range[0], i, 0.7548776662466927), placeIn(range[1], i, 0.5698402909980532)});
   for (const auto& [u, v] : places)
     if (isFinite(curve ? evaluate(c.curve, u).r : evaluate(c.surface, u, v).r)) return std::nullopt;
-  std::string where = curve ? fmt::format("phi from {:.4g} to {:.4g}", range[0].lo, range[0].hi)
-                            : fmt::format("u from {:.4g} to {:.4g} and v from {:.4g} to {:.4g}", range[0].lo, range[0].hi, range[1].lo, range[1].hi);
+  std::string where =
+      curve ? fmt::format("phi from {:.4g} to {:.4g}", range[0].lo, range[0].hi)
+            : fmt::format("u from {:.4g} to {:.4g} and v from {:.4g} to {:.4g}", range[0].lo, range[0].hi, range[1].lo, range[1].hi);
   Fault fault{{}, "has no value at any " + where, "a formula with a value there"};
   if (c.owner == nullptr) return fault;
 

@@ -8,9 +8,9 @@
 #include "constraints/constraint.h"
 #include "constraints/formula/formula.h"
 #include "constraints/geometry/task_path.h"
+#include "gui/scene/place_under.h"
 #include "gui/scene/scene_view.h"
 #include "gui/scene/trial_texts.h"
-#include "gui/scene_plan/place_under.h"
 #include "gui/subject/subject_window.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/scene_look.h"
@@ -120,9 +120,8 @@ void Screens::dragPlace(scene::TaskPlace place, const QPointF& pixel) {
                                    scene::drawnDomain(constraint, task.start, task.target), before);
   if (!q) return;
   dragged_ = q;
-  const std::vector<std::string> names = constraint.kind == constraints::ConstraintKind::Free
-                                             ? std::vector<std::string>{"x", "y", "z"}
-                                             : constraints::variablesOf(constraint.kind);
+  const std::vector<std::string> names = constraint.kind == constraints::ConstraintKind::Free ? std::vector<std::string>{"x", "y", "z"}
+                                                                                              : constraints::variablesOf(constraint.kind);
   QStringList words;
   for (std::size_t i = 0; i < q->size(); ++i)
     words << QStringLiteral("%1 = %2").arg(QString::fromStdString(names[i])).arg((*q)[i], 0, 'g', 5);

@@ -59,8 +59,9 @@ ObjectDock::ObjectDock(QWidget* parent) : Dock(QStringLiteral("Object"), QString
   for (auto* number : {viscosity_, gravity_[0], gravity_[1], gravity_[2]}) faults()->watch(number);
   masses_->setToolTip(QStringLiteral("first: the mass that the hand drives. Example: 0.6 0.6 0.6, or 5 x 0.6"));
   stiffness_->setToolTip(QStringLiteral("chain: between neighbours, one fewer than masses; parallel: each mass to the hand"));
-  kind_->setToolTip(QStringLiteral("point: one mass. chain: masses in a row, and the hand drives the first. parallel: every mass hangs on the hand.\n"
-                                   "body: one mass that can turn. none: the hand alone"));
+  kind_->setToolTip(
+      QStringLiteral("point: one mass. chain: masses in a row, and the hand drives the first. parallel: every mass hangs on the hand.\n"
+                     "body: one mass that can turn. none: the hand alone"));
   damping_->setToolTip(QStringLiteral("dampers beside the springs, in the same order"));
   viscosity_->setToolTip(QStringLiteral("drag on every mass, per speed of the mass"));
   for (std::size_t i = 0; i < 3; ++i) gravity_[i]->setToolTip(QStringLiteral("gravity along %1; y points up").arg(QLatin1Char("xyz"[i])));

@@ -149,7 +149,10 @@ void TaskDock::display(const experiment::CompiledExperiment& experiment, bool ed
   target_->setRule(rule);
   targetLabel_->setText(QStringLiteral("target ") + unit);
   QString places = QStringLiteral("three coordinates in metres");
-  if (rule.formulas) places = QStringLiteral("the position on the constraint, by its parameters (rad for an angle): %1.\nFractions of pi may be typed: pi/2, 3*pi/4").arg(unit);
+  if (rule.formulas)
+    places = QStringLiteral(
+                 "the position on the constraint, by its parameters (rad for an angle): %1.\nFractions of pi may be typed: pi/2, 3*pi/4")
+                 .arg(unit);
   if (kind == constraints::ConstraintKind::Curve) places += QStringLiteral(".\n\"0.2 m\" means 0.2 m along the curve, counted from the %1");
   places += QStringLiteral(".\nThe position can also be dragged in the scene while no run is open.");
   start_->setToolTip(kind == constraints::ConstraintKind::Curve ? places.arg(QStringLiteral("target")) : places);

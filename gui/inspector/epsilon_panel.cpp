@@ -67,7 +67,7 @@ EpsilonPanel::EpsilonPanel(QWidget* parent) : QWidget(parent) {
       table_->setItem(i, column, number);
     }
   }
-  table_->setMinimumSize(240, 110);
+  table_->setMinimumSize(290, 110);
   table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   layout->addWidget(table_, 1);
   told_ = new QLabel;

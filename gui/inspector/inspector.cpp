@@ -52,6 +52,7 @@ InspectorPage::InspectorPage(QWidget* parent) : QWidget(parent) {
   view_->verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
   view_->verticalHeader()->setDefaultSectionSize(22);
   view_->horizontalHeader()->setHighlightSections(false);
+  view_->horizontalHeader()->setMinimumSectionSize(24);  // Qt's own is the width of the widest letter, whatever is in the column
   view_->horizontalHeader()->setStretchLastSection(true);
   view_->setWordWrap(false);
   auto* left = new QWidget;
@@ -91,13 +92,14 @@ void InspectorPage::resizeEvent(QResizeEvent* event) {
 
 // As wide as what is in them, and as what will be computed for them.
 void InspectorPage::fitColumns() {
-  constexpr int kMargins = 14, kMostRows = 1000;
+  constexpr int kMargins = 10, kMostRows = 1000;
   const QFontMetrics heading(view_->horizontalHeader()->font()), words(view_->font());
   for (int column = 0; column < TrialTable::kMark; ++column) {
     int width = heading.horizontalAdvance(table_->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString());
     for (int row = 0; row < std::min(table_->rowCount(), kMostRows); ++row)
       width = std::max(width, words.horizontalAdvance(table_->index(row, column).data().toString()));
-    if (column == TrialTable::kPaper || column == TrialTable::kFitted) width = std::max(width, words.horizontalAdvance(QStringLiteral("0.0000")));
+    if (column == TrialTable::kPaper || column == TrialTable::kFitted)
+      width = std::max(width, words.horizontalAdvance(QStringLiteral("0.0000")));
     view_->setColumnWidth(column, width + kMargins);
     if (column == TrialTable::kOutcome) outcomeWidth_ = width + kMargins;
   }
@@ -108,11 +110,13 @@ void InspectorPage::fitColumns() {
 void InspectorPage::fitHalves() {
   if (halvesMoved_ || table_->rowCount() == 0) return;
   const QFontMetrics words(view_->font());
-  int others = words.horizontalAdvance(QStringLiteral("marks")) + view_->verticalScrollBar()->sizeHint().width() + 2 * view_->frameWidth() + 16;
+  int others =
+      words.horizontalAdvance(QStringLiteral("marks")) + view_->verticalScrollBar()->sizeHint().width() + 2 * view_->frameWidth() + 16;
   for (int column = 0; column < TrialTable::kMark; ++column)
     if (column != TrialTable::kOutcome) others += view_->columnWidth(column);
   const int room = halves_->width() - halves_->handleWidth() - halves_->widget(1)->minimumSizeHint().width();
-  const int outcome = std::clamp(room - others, std::min(outcomeWidth_, words.horizontalAdvance(QStringLiteral("✗ still moving"))), outcomeWidth_);
+  const int outcome =
+      std::clamp(room - others, std::min(outcomeWidth_, words.horizontalAdvance(QStringLiteral("✗ still …"))), outcomeWidth_);
   view_->setColumnWidth(TrialTable::kOutcome, outcome);
   halves_->setSizes({others + outcome, std::max(1, halves_->width() - others - outcome)});
 }

@@ -103,7 +103,7 @@ class InspectorPage : public QWidget {
   TrialTable* table_;
   TrialFilter* filter_;
   QTableView* view_;
-  QSplitter* halves_;        // the table and what is drawn of it
+  QSplitter* halves_;         // the table and what is drawn of it
   bool halvesMoved_ = false;  // by hand
   int outcomeWidth_ = 0;      // [px] of all of its words
   QLineEdit* words_;

@@ -106,9 +106,9 @@ struct SceneView::Impl {
   QPoint pressedAt, lastAt;
   Vec3 handAtPress;
   bool reaching = false;
-  bool movable = false;             // start and target
+  bool movable = false;  // start and target
   std::optional<TaskPlace> dragged;
-  bool moved = false;               // since it was taken hold of: a click moves nothing
+  bool moved = false;  // since it was taken hold of: a click moves nothing
   QString placeWords;
 
   double width() const { return std::max(widget->width(), 1); }

@@ -16,8 +16,8 @@ namespace {
 
 // Nothing behind it but the number: "5 x 0.6" gives five parts "0.6". "3*pi/4" is one number.
 QStringList partsOf(QString text, const NumberListRule& rule) {
-  static const QRegularExpression repeated(QStringLiteral("^\\s*(\\d{1,3})\\s*([x×*])\\s*(\\S+)\\s*$")),
-      blanks(QStringLiteral("[\\s;]+")), around(QStringLiteral("\\s*([*/])\\s*")), unit(QStringLiteral("(?<=[\\d.)i])\\s+m(?=[\\s;]|$)")),
+  static const QRegularExpression repeated(QStringLiteral("^\\s*(\\d{1,3})\\s*([x×*])\\s*(\\S+)\\s*$")), blanks(QStringLiteral("[\\s;]+")),
+      around(QStringLiteral("\\s*([*/])\\s*")), unit(QStringLiteral("(?<=[\\d.)i])\\s+m(?=[\\s;]|$)")),
       before(QStringLiteral("(?<=\\d)pi"));
   if (rule.formulas) {
     text.replace(QStringLiteral("π"), QStringLiteral("pi"));
@@ -101,8 +101,7 @@ QString faultOf(const QString& text, const NumberListRule& rule) {
   const QStringList parts = partsOf(text, rule);
   for (const QString& part : parts) {
     if (numberOf(part, rule)) continue;
-    if (lengthOf(part, rule))
-      return QStringLiteral("%1: the curve ends before %2; allowed: a shorter length").arg(rule.list, part);
+    if (lengthOf(part, rule)) return QStringLiteral("%1: the curve ends before %2; allowed: a shorter length").arg(rule.list, part);
     QString allowed = rule.formulas ? QStringLiteral("numbers such as 0.6, pi/2 or 3*pi/4") : QStringLiteral("numbers such as 0.6");
     if (rule.atLength) allowed += QStringLiteral(", or a length such as 0.2 m");
     if (rule.most > 1) allowed += QStringLiteral(", with blanks between");

@@ -45,35 +45,40 @@ class Contrast : public AtTheWindow, public ::testing::WithParamInterface<Theme>
     if (const auto* label = qobject_cast<const QLabel*>(widget)) return label->text();
     if (const auto* button = qobject_cast<const QAbstractButton*>(widget)) return button->text();
     if (const auto* box = qobject_cast<const QComboBox*>(widget)) return box->currentText();
-    if (const auto* edit = qobject_cast<const QLineEdit*>(widget)) return edit->text() + (edit->text().isEmpty() ? edit->placeholderText() : QString());
+    if (const auto* edit = qobject_cast<const QLineEdit*>(widget))
+      return edit->text() + (edit->text().isEmpty() ? edit->placeholderText() : QString());
     return {};
   }
 };
 
 TEST_P(Contrast, OfEveryWordIsEnough) {
   request_.what = "chain-moderate";
-  open().resize(1900, 1050);
-  QTest::qWait(100);
+  open();
   auto* masses = find<widgets::NumberListEdit>("masses");
   masses->setFocus();
   masses->clear();
   QTest::keyClicks(masses, QStringLiteral("abc"));
   find<QWidget>("note")->setFocus();
-  QTest::qWait(50);
-  const QImage picture = window_->grab().toImage();
-  if (const QByteArray folder = qgetenv("REACHLAB_TEST_PICTURES"); !folder.isEmpty())
-    picture.save(QString::fromLocal8Bit(folder) + (GetParam() == Theme::Light ? QStringLiteral("/light.png") : QStringLiteral("/dark.png")));
-  int seen = 0;
-  for (const QWidget* widget : window_->findChildren<QWidget*>()) {
-    const QString words = wordsOf(widget);
-    if (words.trimmed().isEmpty() || !widget->isEnabled() || widget->visibleRegion().isEmpty()) continue;
-    const QRect place(widget->mapTo(window_.get(), QPoint()), widget->size());
-    if (widget->visibleRegion().boundingRect() != widget->rect()) continue;  // behind another
-    QRect inside = place.adjusted(3, 3, -3, -3);  // without its frame
-    EXPECT_GE(measure(picture.copy(inside)), 4.5) << words.toStdString() << " (" << widget->objectName().toStdString() << ')';
-    ++seen;
+  for (const QSize& size : {QSize(1900, 1050), QSize(1366, 740)}) {
+    window_->resize(size);
+    QTest::qWait(100);
+    const QImage picture = window_->grab().toImage();
+    if (const QByteArray folder = qgetenv("REACHLAB_TEST_PICTURES"); !folder.isEmpty())
+      picture.save(QStringLiteral("%1/%2-%3.png")
+                       .arg(QString::fromLocal8Bit(folder), GetParam() == Theme::Light ? QStringLiteral("light") : QStringLiteral("dark"))
+                       .arg(size.width()));
+    int seen = 0;
+    for (const QWidget* widget : window_->findChildren<QWidget*>()) {
+      const QString words = wordsOf(widget);
+      if (words.trimmed().isEmpty() || !widget->isEnabled() || widget->visibleRegion().boundingRect() != widget->rect()) continue;
+      const QRect inside = widget->rect().adjusted(3, 3, -3, -3);  // without its frame
+      const QPoint at = widget->mapTo(window_.get(), inside.topLeft()) * picture.devicePixelRatio();
+      EXPECT_GE(measure(picture.copy({at, inside.size() * picture.devicePixelRatio()})), 4.5)
+          << words.toStdString() << " (" << widget->objectName().toStdString() << ')';
+      ++seen;
+    }
+    EXPECT_GT(seen, 40);
   }
-  EXPECT_GT(seen, 50);
 }
 
 INSTANTIATE_TEST_SUITE_P(Themes, Contrast, ::testing::Values(Theme::Dark, Theme::Light));

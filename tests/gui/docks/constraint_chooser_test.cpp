@@ -104,7 +104,8 @@ TEST_F(Chooser, AFormulaThatDegeneratesEverywhereIsRefusedWithAReason) {
 TEST_F(Chooser, AFormulaWithoutAnyValueIsToldWhileItIsTyped) {
   const auto fault = [&] { return find<QLabel>("fault")->isVisible() ? find<QLabel>("fault")->text() : QString(); };
   type("formula_x", "0.1*sqrt(-1-phi^2)");
-  EXPECT_TRUE(fault().startsWith(QStringLiteral("x has no value at any phi from -0.3927 to 6.283: sqrt is given"))) << fault().toStdString();
+  EXPECT_TRUE(fault().startsWith(QStringLiteral("x has no value at any phi from -0.3927 to 6.283: sqrt is given")))
+      << fault().toStdString();
   EXPECT_TRUE(fault().contains(QStringLiteral("0 or more for sqrt"))) << fault().toStdString();
   EXPECT_FALSE(find<QPushButton>("use")->isEnabled());
   if (const QByteArray folder = qgetenv("REACHLAB_TEST_PICTURES"); !folder.isEmpty())

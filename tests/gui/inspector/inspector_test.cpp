@@ -297,7 +297,7 @@ TEST_F(Inspecting, WhatIsNoRecordingIsSaid) {
   page_.open(QString::fromStdString(folder_->path() + "/cache"));
   ASSERT_TRUE(QTest::qWaitFor([this] { return !page_.busy(); }, 10000));
   QTest::qWait(40);
-  EXPECT_TRUE(said_.contains(QStringLiteral("no logs"))) << said_.toStdString();
+  EXPECT_TRUE(said_.contains(QStringLiteral("neither logs"))) << said_.toStdString();
 }
 
 TEST_F(Inspecting, ADatasetWithoutLogsShowsItsMotionFiles) {
@@ -351,9 +351,11 @@ TEST_F(Inspecting, ColumnsAndProgressFit) {
                               .horizontalAdvance(model->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString());
       EXPECT_GE(room, heading + 6) << "heading of column " << column;
       for (int row = 0; row < 24 && column != TrialTable::kOutcome; ++row)  // its tool tip has all of the reason
-        EXPECT_GE(room, metrics.horizontalAdvance(model->index(row, column).data().toString()) + 6) << "row " << row << ", column " << column;
+        EXPECT_GE(room, metrics.horizontalAdvance(model->index(row, column).data().toString()) + 6)
+            << "row " << row << ", column " << column;
     }
-    EXPECT_EQ(page_.view().horizontalScrollBar()->maximum(), 0) << "all columns are seen";
+    EXPECT_EQ(page_.view().horizontalScrollBar()->maximum(), 0)
+        << "all columns are seen: " << page_.view().horizontalHeader()->length() << " pixels in " << page_.view().viewport()->width();
     auto* progress = find<QProgressBar>("inspectorProgress");
     progress->setRange(0, 88'888);
     progress->setValue(88'888);

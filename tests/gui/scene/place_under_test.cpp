@@ -1,5 +1,5 @@
 // The place under a pixel, against a search through very many points of the shape.
-#include "gui/scene_plan/place_under.h"
+#include "gui/scene/place_under.h"
 
 #include <gtest/gtest.h>
 
@@ -78,7 +78,8 @@ TEST(PlaceUnder, IsDrawnAtThePixelAndInFrontOnEveryShippedShape) {
       double front = shown.depthOf(q);
       for (const Sample& s : samples)
         if (std::hypot(s.x - x, s.y - y) < 0.75) front = std::min(front, double(s.depth));
-      EXPECT_LE(shown.depthOf(*found), front + kOneSheet * shown.plan.size) << definition.name << " shows another sheet at " << x << ' ' << y;
+      EXPECT_LE(shown.depthOf(*found), front + kOneSheet * shown.plan.size)
+          << definition.name << " shows another sheet at " << x << ' ' << y;
     }
   }
 }

@@ -1,4 +1,4 @@
-#include "gui/scene_plan/place_under.h"
+#include "gui/scene/place_under.h"
 
 #include <algorithm>
 #include <cmath>
@@ -63,9 +63,7 @@ std::optional<Seen> frontOf(const std::vector<Seen>& found) {
 }
 
 // A period more or less is the same point.
-double wrapped(double off, const constraints::Domain& domain) {
-  return domain.periodic ? std::remainder(off, domain.hi - domain.lo) : off;
-}
+double wrapped(double off, const constraints::Domain& domain) { return domain.periodic ? std::remainder(off, domain.hi - domain.lo) : off; }
 
 // Where a shape runs over one point more than once (a Moebius strip has each point twice), the parameters nearest to those before.
 Seen nearestTo(std::span<const double> about, const constraints::Constraint& constraint, const std::array<constraints::Domain, 2>& drawn,
@@ -185,12 +183,14 @@ std::vector<Seen> onSurface(const Looker& look) {
   std::vector<Seen> knots;
   const auto value = [&](std::size_t k, double i) { return look.low(k) + look.range(k) * i / static_cast<double>(kParts); };
   for (std::size_t i = 0; i <= kParts; ++i)
-    for (std::size_t j = 0; j <= kParts; ++j) knots.push_back(look.at({value(0, static_cast<double>(i)), value(1, static_cast<double>(j))}));
+    for (std::size_t j = 0; j <= kParts; ++j)
+      knots.push_back(look.at({value(0, static_cast<double>(i)), value(1, static_cast<double>(j))}));
   std::vector<Seen> found;
   for (std::size_t i = 0; i < kParts; ++i)
     for (std::size_t j = 0; j < kParts; ++j) {
       double left = kNever, right = -kNever, above = kNever, below = -kNever;
-      for (const std::size_t k : {i * (kParts + 1) + j, i * (kParts + 1) + j + 1, (i + 1) * (kParts + 1) + j, (i + 1) * (kParts + 1) + j + 1}) {
+      for (const std::size_t k :
+           {i * (kParts + 1) + j, i * (kParts + 1) + j + 1, (i + 1) * (kParts + 1) + j, (i + 1) * (kParts + 1) + j + 1}) {
         if (!std::isfinite(knots[k].apart())) continue;
         left = std::min(left, knots[k].right), right = std::max(right, knots[k].right);
         above = std::min(above, knots[k].down), below = std::max(below, knots[k].down);
