@@ -52,7 +52,7 @@ inline constexpr double kLeastMisfit = 0.05, kMisfitLevel = 0.05;
 /// the mean square, and of the way to the other candidate, do not count, however many trials show them. Nor does a systematic rest below half a
 /// percent of the speed (RMS): the fits of one plan are no more exact, since they know the recording's filter for the plan's duration alone.
 inline constexpr double kLeastSystematicSpeed = 0.005;
-inline constexpr double kSystematicLevel = 0.02, kMixtureLevel = 0.01, kLeastSystematic = 0.05, kLeastMixture = 0.125;
+inline constexpr double kSystematicLevel = 0.01, kMixtureLevel = 0.01, kLeastSystematic = 0.05, kLeastMixture = 0.125;
 /// Of (1 - R^2) / (1 - ceiling): with more unexplained squares than this, a candidate does not describe all trials, whatever its mean score.
 inline constexpr double kMostUnexplained = 1.2;
 inline constexpr std::size_t kFewestSubjects = 5, kFewestForSignFlip = 6;

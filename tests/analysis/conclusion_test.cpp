@@ -202,13 +202,13 @@ TEST(Conclusion, OfACandidateThatFitsWorseThanThePersonsOwnMeanIsPoor) {
   }
 }
 
-// Shares of 2.3 and 1.9 standard deviations: p = 0.011 and 0.029, normally distributed. People's shares are averaged.
+// Shares of 2.5 and 2.2 standard deviations: p = 0.006 and 0.014, normally distributed. People's shares are averaged.
 TEST(Conclusion, OfACandidateWithSystematicResidualsIsPoor) {
-  for (const double deviations : {2.3, 1.9}) {
+  for (const double deviations : {2.5, 2.2}) {
     PersonScores one;
     one.conditions = {levels({-3, 0, 0, 0})};
     one.conditions[0].systematic.assign(kCandidates, {0.1 * deviations, 0.01, 0});
-    const Obstacle expected = deviations > 2 ? Obstacle::Poor : Obstacle::None;
+    const Obstacle expected = deviations > 2.3 ? Obstacle::Poor : Obstacle::None;
     EXPECT_EQ(concludePerson(one, kCandidates, kReference).reason, expected) << deviations;
     for (SystematicRest& rest : one.conditions[0].systematic) rest.share /= std::sqrt(5.0);
     EXPECT_EQ(concludePerson(one, kCandidates, kReference).reason, Obstacle::None);
