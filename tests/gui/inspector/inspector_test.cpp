@@ -366,8 +366,11 @@ TEST_F(Inspecting, ColumnsAndProgressFit) {
     EXPECT_EQ(page_.size(), size);
     EXPECT_GE(progress->width(), QFontMetrics(progress->font()).horizontalAdvance(progress->text()) + 8) << progress->text().toStdString();
     keepPicture(size.width() < 1500 ? "inspector-small.png" : "inspector-large.png");
-    for (QWidget* button : page_.findChildren<QPushButton*>())
-      if (button->isVisible()) EXPECT_GE(button->width(), button->minimumSizeHint().width());
+    for (QWidget* button : page_.findChildren<QPushButton*>()) {
+      if (button->isVisible()) {
+        EXPECT_GE(button->width(), button->minimumSizeHint().width());
+      }
+    }
     progress->hide();
     find<QPushButton>("inspectorCancel")->hide();
   }
