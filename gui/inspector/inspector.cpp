@@ -92,7 +92,7 @@ void InspectorPage::resizeEvent(QResizeEvent* event) {
 
 // As wide as what is in them, and as what will be computed for them.
 void InspectorPage::fitColumns() {
-  constexpr int kMargins = 10, kMostRows = 1000;
+  constexpr int kMargins = 8, kMostRows = 1000;
   const QFontMetrics heading(view_->horizontalHeader()->font()), words(view_->font());
   for (int column = 0; column < TrialTable::kMark; ++column) {
     int width = heading.horizontalAdvance(table_->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString());
@@ -111,12 +111,12 @@ void InspectorPage::fitHalves() {
   if (halvesMoved_ || table_->rowCount() == 0) return;
   const QFontMetrics words(view_->font());
   int others =
-      words.horizontalAdvance(QStringLiteral("marks")) + view_->verticalScrollBar()->sizeHint().width() + 2 * view_->frameWidth() + 16;
+      words.horizontalAdvance(QStringLiteral("marks")) + view_->verticalScrollBar()->sizeHint().width() + 2 * view_->frameWidth() + 8;
   for (int column = 0; column < TrialTable::kMark; ++column)
     if (column != TrialTable::kOutcome) others += view_->columnWidth(column);
   const int room = halves_->width() - halves_->handleWidth() - halves_->widget(1)->minimumSizeHint().width();
   const int outcome =
-      std::clamp(room - others, std::min(outcomeWidth_, words.horizontalAdvance(QStringLiteral("✗ still …"))), outcomeWidth_);
+      std::clamp(room - others, std::min(outcomeWidth_, words.horizontalAdvance(QStringLiteral("✗ st…"))), outcomeWidth_);
   view_->setColumnWidth(TrialTable::kOutcome, outcome);
   halves_->setSizes({others + outcome, std::max(1, halves_->width() - others - outcome)});
 }

@@ -194,8 +194,8 @@ TEST_F(TypedPlaces, AFaultGoesWithItsCause) {
   // Of an entry that was refused as a whole: an older state of the experiment takes its place, and has no fault.
   auto* kind = find<QComboBox>("objectKind");
   const auto refusal = [&] { return find<QLabel>("objectFaults")->isHidden() ? QString() : find<QLabel>("objectFaults")->text(); };
-  kind->setCurrentIndex(1);
-  Q_EMIT kind->activated(1);  // a chain cannot move on a surface
+  kind->setCurrentText(QStringLiteral("body"));
+  Q_EMIT kind->activated(kind->currentIndex());  // it moves free
   EXPECT_NE(refusal(), QString());
   window_->edits().undo();
   EXPECT_EQ(refusal(), QString());
