@@ -254,14 +254,28 @@ double IntervalSeries::bound(const std::array<Interval, 2>& box, const std::arra
       apply(operation, values_[static_cast<std::size_t>(operation.a)], two ? values_[static_cast<std::size_t>(operation.b)] : kNothing, to);
     }
   }
-  double squares = 0;
+  double squares = 0, largest = 0;  // the squares are of shares of the largest, so that they do not overflow
   for (const int root : roots_) {
     const Interval& last = values_[static_cast<std::size_t>(root)][kOrder];
     const double most = std::max(std::abs(last.lo), std::abs(last.hi));
     if (!(most < std::numeric_limits<double>::infinity())) return std::numeric_limits<double>::infinity();
-    squares += most * most;
+    if (most > largest) {
+      squares = squares * (largest / most) * (largest / most) + 1;
+      largest = most;
+    } else if (largest > 0) {
+      squares += (most / largest) * (most / largest);
+    }
   }
-  return std::sqrt(squares);
+  return largest * std::sqrt(squares);
+}
+
+double IntervalSeries::leastSlope() const noexcept {
+  double least = 0;
+  for (const int root : roots_) {
+    const Interval& slope = values_[static_cast<std::size_t>(root)][1];
+    least = std::max({least, slope.lo, -slope.hi});
+  }
+  return std::isfinite(least) ? least : 0;
 }
 
 }  // namespace reachlab::constraints

@@ -112,6 +112,15 @@ class Examiner {
     result_.places.push_back(place);
   }
 
+  /// Where a curve comes to rest, nothing is stepped over on its last millimetre.
+  void seeFarEnds() {
+    constexpr double kLast = 1e-3;  // [m]
+    for (const Place& place : result_.places) {
+      double& seen = place.at < 0 ? result_.seenLo : result_.seenHi;
+      if (std::isinf(place.at) && std::isfinite(seen) && norm(evaluate(c_.curve, seen).r - place.r) < kLast) seen = place.at;
+    }
+  }
+
   std::pair<double, double> window(double lo, double hi, double share) const {
     double half = kTurns;
     if (const double speed = norm(evaluate(c_.curve, about_).rPhi); speed > 0 && std::isfinite(speed))
@@ -216,6 +225,7 @@ class Examiner {
     if (!c_.domain[0].periodic) {
       if (!std::isfinite(result_.lo)) addFarEnd(-1);
       if (!std::isfinite(result_.hi)) addFarEnd(1);
+      seeFarEnds();
     }
     result_.smooth = result_.places.empty();
   }
@@ -277,6 +287,7 @@ class Examiner {
     const BranchEnd& only = b.left.valid ? b.left : b.right;
     if (!(hasLeft && hasRight) && only.settled && only.bounded && isFinite(evaluate((hasLeft ? result_.pieces[i - 1] : result_.pieces[i]).curve, b.at)))
       return;
+    if (!b.branching) blind_.push_back(b.at);
     b.branching = b.branching && (!b.left.valid || b.left.exact) && (!b.right.valid || b.right.exact);
     Place place;
     place.at = b.at + 0.0 + moveToTangents(i, b);
@@ -354,7 +365,7 @@ class Examiner {
     if (!stillPlaces_ || c_.curve.function != evaluateCurveProgram) return;  // a definition of the catalogue is known
     if (result_.pieces.empty()) return;
     const auto [from, to] = window(lo_, hi_, 1);
-    NarrowSearch found = findNarrowPlaces(graph_, shape_, result_.pieces, formulas, {from, to}, about_, findPeriod(c_).turn);
+    NarrowSearch found = findNarrowPlaces(graph_, shape_, result_.pieces, formulas, blind_, {from, to}, about_, findPeriod(c_).turn);
     result_.narrow = std::move(found.places);
     result_.seenLo = found.lo;
     result_.seenHi = found.hi;
@@ -393,6 +404,7 @@ class Examiner {
   std::vector<std::pair<double, std::size_t>> atHi_;
   std::map<std::vector<int>, Branch> branches_;
   std::shared_ptr<std::vector<std::unique_ptr<BranchCurve>>> curves_;  // of the stretches
+  std::vector<double> blind_;                                          // where a guard decides that does not branch
   std::vector<bool> alive_;                                            // whether a stretch's formula has a value
   CurveRegularity result_;
 };

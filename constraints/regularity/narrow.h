@@ -11,9 +11,9 @@
 namespace reachlab::constraints::narrow {
 
 // A place is narrow if a step of kWay there could miss a part kUnseen of the slope.
-inline constexpr double kWay = 4e-3;  // [m]
+inline constexpr double kWay = 1e-3;  // [m]
 inline constexpr double kUnseen = 1e-7;
-inline constexpr int kBoxes = 40000;  // of a search: tenths of a second
+inline constexpr int kBoxes = 20000;  // of a search: tenths of a second
 
 /// How far a step may lead along s so that the terms of r from s^kOrder on change r_s by less than kUnseen of `speed`, the usual |r_s|.
 /// `last` bounds the coefficient of s^kOrder.

@@ -30,7 +30,8 @@ int CurveRegularity::pieceAt(double phi) const {
 double CurveRegularity::reachFrom(double phi, bool upwards) const noexcept {
   // A step may end within a place, if it leads into it no farther than the place allows.
   double reach = std::numeric_limits<double>::infinity();
-  const auto above = std::upper_bound(narrow.begin(), narrow.end(), phi, [](double value, const NarrowPlace& place) { return value < place.lo; });
+  const auto above =
+      std::upper_bound(narrow.begin(), narrow.end(), phi, [](double value, const NarrowPlace& place) { return value < place.lo; });
   if (upwards) {
     for (auto place = above == narrow.begin() ? above : above - 1; place != narrow.end() && place->lo - phi < reach; ++place)
       if (place->hi > phi) reach = std::min(reach, std::max(place->lo - phi, 0.0) + place->reach);

@@ -34,7 +34,7 @@ class CuspAdaptive {
       StepReport tried;
       const StepStatus status = regular_.step(system, hand, dt, y, next, tried);
       report.rhs += tried.rhs;
-      if (timeAlone || (status == StepStatus::Ok && (narrow || tried.rhs < kSuspicious))) {
+      if (timeAlone || narrow || (status == StepStatus::Ok && tried.rhs < kSuspicious)) {
         report.error = tried.error;
         return status;
       }
@@ -259,6 +259,8 @@ class CuspAdaptive {
     State sum(n), begin(n);
     for (int i = 0; i < n; ++i) begin[i] = plain[i] = at[i];
     system.rate(system.handAt(hand, at[n] / dt), plain, rates);
+    if constexpr (System::kHas.sight)
+      if (system.reach(plain, rates, std::abs(rest)) < std::abs(rest)) return false;
     sum = rates;
     for (const double share : {0.5, 0.5, 1.0}) {
       for (int i = 0; i < n; ++i) plain[i] = begin[i] + share * rest * rates[i];

@@ -73,10 +73,14 @@ struct CurvePlaces {
     constexpr int kLookEvery = 64;  // ticks
     if (++ticks % kLookEvery != 0) return Settled::Same;
     for (int i = 0; i < n(); ++i) {
-      if (isUnseen(phiOf(i, y[i]))) return Settled::Lost;
-      if (!(std::abs(y[i]) > kFarPhi)) continue;
-      if (period.turn > 0) takeTurnsOff(i, y);
-      else if (const constraints::CurvePoint p = evaluate(curve, y[i]); roundingOfPhi(p, y[i]) > allowedRounding(p)) return Settled::Lost;
+      bool lost = isUnseen(phiOf(i, y[i]));
+      if (std::abs(y[i]) > kFarPhi && !lost) {
+        if (period.turn > 0) takeTurnsOff(i, y);
+        else if (const constraints::CurvePoint p = evaluate(curve, y[i]); roundingOfPhi(p, y[i]) > allowedRounding(p)) lost = true;
+      }
+      if (!lost) continue;
+      --ticks;  // a shorter step is looked at again
+      return Settled::Lost;
     }
     return Settled::Same;
   }
@@ -89,8 +93,9 @@ struct CurvePlaces {
   std::string lostReason(const State& y) const {
     for (int i = 0; i < n(); ++i)
       if (const double phi = phiOf(i, y[i]); isUnseen(phi))
-        return fmt::format("mass {} at phi = {:.9g} left what was examined: bends too short for a step were looked for from {:.6g} to {:.6g} only",
-                           i + 1, phi, seenLo, seenHi);
+        return fmt::format(
+            "mass {} at phi = {:.9g} left what was examined: bends too short for a step were looked for from {:.6g} to {:.6g} only", i + 1, phi,
+            seenLo, seenHi);
     for (int i = 0; i < n(); ++i)
       if (const constraints::CurvePoint p = evaluate(curve, y[i]); roundingOfPhi(p, y[i]) > allowedRounding(p))
         return fmt::format("mass {} at phi = {:.6g}, so far from 0 that a rounding of phi moves it by {:.2g} m, in every tick", i + 1, y[i],

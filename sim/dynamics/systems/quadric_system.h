@@ -15,8 +15,9 @@ struct QuadricSystem : SpaceSystem<Springs<1, true>> {
   static constexpr bool kSecondOrder = true;
   static constexpr Hooks kHas{.ends = true, .settling = true, .losing = true, .parametrising = true, .care = true, .sight = true, .gliding = true};
   static constexpr int kProjectEvery = 8;   // ticks
-  static constexpr double kBeside = 1e-2;   // [m] from an apex, within which places are computed more exactly
-  static constexpr double kNearest = 1e-9;  // [m] from an apex, within which rounding decides where a mass leaves it
+  static constexpr double kBeside = 0.1;    // [m] from an apex, within which sub-steps have smaller errors
+  static constexpr double kSubSteps = 0.01;  // [m] from an apex, within which there are only sub-steps
+  static constexpr double kNearest = 2e-6;  // [m] from an apex, within which rounding decides where a mass leaves it
   using State = Numbers<6>;
 
   Quadric quadric;
@@ -54,23 +55,29 @@ struct QuadricSystem : SpaceSystem<Springs<1, true>> {
     const Vec3 a = mulAdd(-(mulAdd(2, fusedDot(v, quadric.times(v)), fusedDot(n, f)) / fusedDot(n, n)), n, f);
     dy.assign(v.x, v.y, v.z, a.x, a.y, a.z);
   }
-  double scale(int i) const noexcept { return i < 3 ? kTypicalPlace * nearness : 1.0; }
+  double scale(int i) const noexcept { return (i < 3 ? kTypicalPlace : 1.0) * nearness; }
 
-  /// The time [s] in which a mass would come to an apex, if it moved straight towards it. Its distance is that times |v|.
+  /// [m], or less where the cone is slender.
+  double distanceFromApex(const State& y) const noexcept {
+    const std::array<double, 6>& a = quadric.a;
+    const double bend = 2 * std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2] + 2 * (a[3] * a[3] + a[4] * a[4] + a[5] * a[5]));
+    return norm(quadric.gradient({y[0], y[1], y[2]})) / bend;
+  }
+  /// The time [s] in which a mass would come to an apex, if it moved straight towards it.
   double timeToApex(const State& y) const noexcept {
     const Vec3 turn = 2.0 * quadric.times({y[3], y[4], y[5]});
     return norm(quadric.gradient({y[0], y[1], y[2]})) / std::fmax(norm(turn), 1e-300);
   }
   bool wantsSubSteps(const State& y, double dt) const noexcept {
     constexpr double kSteps = 4;
-    return apex && timeToApex(y) < kSteps * dt;
+    return apex && (timeToApex(y) < kSteps * dt || distanceFromApex(y) < kSubSteps);
   }
   static constexpr double tightening() noexcept { return 1; }
   /// The longest sub-step, at most `most` [s]: the force of the surface turns round beside an apex.
   double reach(const State& y, const State&, double most) const noexcept {
     constexpr double kPart = 0.4;
     if (!apex) return most;
-    const double time = timeToApex(y), distance = time * norm(Vec3{y[3], y[4], y[5]});
+    const double time = timeToApex(y), distance = distanceFromApex(y);
     nearness = std::fmin(1, std::fmax(distance, kNearest) / kBeside);
     atApex = atApex || distance < kNearest;
     return std::fmin(most, kPart * time);
@@ -137,7 +144,9 @@ struct QuadricSystem : SpaceSystem<Springs<1, true>> {
   void accelerate(const State&, const State& dy, std::span<MassState> masses) const noexcept { masses[0].a = {dy[3], dy[4], dy[5]}; }
 
   std::string stopReason(StepStatus status, const State&) const {
-    return plainReason(status, "the surface has no tangent plane here (a cone's apex): there is no unique continuation");
+    return plainReason(status,
+                       "the surface has no tangent plane here (a cone's apex), or the mass is within 2 micrometres of it: which way it "
+                       "leaves is not determined");
   }
 
   bool bounded() const noexcept { return edges; }
