@@ -168,11 +168,13 @@ class Adaptive {
     StepStatus status = StepStatus::Ok;
     bool stopped = false;
     while (t < dt && !stopped) {
+      double sight = dt;  // no sub-step may lead farther, the last one neither
       if constexpr (System::kHas.sight) {
-        h = system.reach(y, k[0], h);
+        sight = system.reach(y, k[0], kNearlyLast * h);
+        h = std::min(h, sight);
         looks += system.sightCost();
       }
-      const bool lastPart = t + kNearlyLast * h >= dt;
+      const bool lastPart = t + kNearlyLast * h >= dt && dt - t <= sight;
       if (lastPart) h = dt - t;
       allowed.lookAt(y);
       double error = dop853::attempt<System::kStates>(rate, allowed, t, h, y, k, trial);

@@ -242,14 +242,14 @@ bool SurfaceSystem::meetsPole(const constraints::SurfaceWatch::Motion& motion, d
 
 bool SurfaceSystem::seesWayOf(const State& y, double dt) const noexcept {
   if (!inPolar && watch->knows({y[0], y[1]}, {y[2], y[3]}, dt)) return true;
-  if (endingLine(y) >= 0) return true;  // what is there has its own rules
+  if (besideBlindLine(y)) return true;
   const constraints::SurfaceWatch::Motion motion = motionOf(y);
   return meetsPole(motion, dt) || watch->allows(motion, dt);
 }
 
 double SurfaceSystem::reachSeen(const State& y, const State& dy, double most) const noexcept {
   constexpr double kToApex = 0.4;  // of the way to a place where r_u or r_v vanishes
-  if (endingLine(y) >= 0) return most;
+  if (besideBlindLine(y)) return most;
   constraints::SurfaceWatch::Motion motion = motionOf(y);
   if (inPolar) return meetsPole(motion, most) ? most : watch->reach(motion, most);
   motion.acceleration = {dy[2], dy[3]};
@@ -270,6 +270,17 @@ int SurfaceSystem::endingLine(const State& y) const noexcept {
     if (!branches->lines[k].passable && !(std::abs(lines[k].value) > kEnding * (std::abs(lines[k].u) + std::abs(lines[k].v))))
       return static_cast<int>(k);
   return -1;
+}
+
+bool SurfaceSystem::besideBlindLine(const State& y) const noexcept {
+  if (branches == nullptr) return false;
+  const std::array<double, 2> q = inBase(y);
+  const auto lines = branches->at(q[0], q[1]);
+  for (std::size_t k = 0; k < branches->lines.size(); ++k) {
+    const bool blind = !branches->lines[k].passable || branches->lines[k].kind == constraints::PlaceKind::Jump;
+    if (blind && !(std::abs(lines[k].value) > kEnding * (std::abs(lines[k].u) + std::abs(lines[k].v)))) return true;
+  }
+  return false;
 }
 
 std::string SurfaceSystem::stopReason(StepStatus status, const State& y) const {

@@ -33,6 +33,7 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
   PolarChart polar;
   bool inPolar = false;
   int ticks = 0, waiting = 0;                          // between looks for a pole
+  double startArea = 0;                                // [m^4] the largest about the start
   double largestU = 0, largestV = 0, largestArea = 0;  // [m^2], [m^2], [m^4] the largest |r_u|^2, |r_v|^2, |r_u x r_v|^2 seen so far
 
   /// Lines across which the formula is not smooth. Null for a surface without them. A crease (abs) is passed as the geodesic does. The
@@ -111,7 +112,9 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
     if (branches != nullptr) findBranch(q, qRate);
     active = surface;
     ticks = waiting = 0;
+    startArea = 0;
     for (int i = 0; i < 16; ++i) look(constraints::evaluate(surface, q[0] + 0.4 * (i % 4), q[1] + 0.4 * (i / 4)));
+    startArea = largestArea;
   }
   void locate(const State& y, std::span<MassState> masses) const noexcept {
     const constraints::SurfacePoint p = constraints::evaluate(active, y[0], y[1]);
@@ -154,7 +157,9 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
     if (!std::isfinite(area)) return;
     largestU = std::max(largestU, uu);
     largestV = std::max(largestV, vv);
-    largestArea = std::max(largestArea, area);
+    // A ridge of a typed surface may be very steep. What lies beside it is not degenerate for that.
+    constexpr double kSteeper = 1e4;
+    largestArea = std::max(largestArea, watch == nullptr || startArea == 0 ? area : std::min(area, kSteeper * startArea));
   }
   /// The pole ahead, where the lines of parameter `fixed` = const collapse, if a pole exists. Newton on r_(other) = 0 along the line finds
   /// it. A check round the whole line confirms it.
@@ -201,6 +206,8 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
   bool passEnds(const State& beyond, State& y, const Hand& hand, double dt) noexcept;
   /// A line at which the formula ends, if the mass is beside it. Otherwise -1.
   int endingLine(const State& y) const noexcept;
+  /// True beside a line at which the formula ends or jumps: bounds grow there without limit, and it has its own rules.
+  bool besideBlindLine(const State& y) const noexcept;
   std::string stopReason(StepStatus status, const State& y) const;
   /// An elastic edge turns the part of the velocity across it. Where the lines are oblique this part is not the rate of the parameter.
   void meetEnd(const State& beyond, State& y, bool bounce) const noexcept {
