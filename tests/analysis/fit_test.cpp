@@ -225,33 +225,6 @@ TEST(PersonFit, FindsAHandsMassBetweenThoseThatItStartsFrom) {
     }
 }
 
-// One plan for 1.296 s, run in 1.2 to 1.45 s with a scatter of 0.3 %. The cost has a second valley at 1.1 kg and 1.37 s, and both are narrower than
-// the steps between masses and plans.
-TEST(PersonFit, FindsPlanAndMassOfASteadyHand) {
-  const CandidateSet set =
-      makeCandidates(experiment::CompiledExperiment(lineExperiment(experiment::ObjectKind::Chain, {3}, {}, 120, 1.35)),
-                     of({Criterion::MinHandJerk, Criterion::MinHandForce}));
-  constexpr double kMass = 1.702, kPlan = 1.296;
-  const auto family = set.candidates[1].familyOf(kMass);
-  std::vector<FitWindow> windows;
-  std::vector<double> durations;
-  std::mt19937_64 random(3);
-  std::normal_distribution<double> normal;
-  for (int i = 0; i < 20; ++i) {
-    const double T = kPlan * std::exp(0.05 * normal(random)), size = 0.003 * normal(random), phase = 3 * normal(random);
-    windows.push_back(recorded(*family, kPlan, 0.5, 0.2 / T, T / kPlan));
-    std::vector<double>& velocity = windows.back().velocity;
-    const double peak = *std::max_element(velocity.begin(), velocity.end());
-    for (std::size_t k = 0; k < velocity.size(); ++k) velocity[k] += peak * size * std::sin(0.06 * static_cast<double>(k) + phase);
-    durations.push_back(0.95 * T);
-  }
-  const CandidateFit fit = fitPerson(windows, durations, set).candidates[1];
-  EXPECT_EQ(fit.choice.law, TimeLaw::OnePlan);
-  EXPECT_NEAR(fit.choice.plan, kPlan, 0.003);
-  EXPECT_NEAR(fit.mass->mass, kMass, 0.01);
-  EXPECT_GT(fit.systematic.p(), 0.02);
-}
-
 TEST(PersonFit, SaysThatAMassIsAtTheEdgeAndTriesThoseBeyond) {
   CandidateOptions options = of({Criterion::MinHandJerk, Criterion::MinHandForce});
   options.handMasses = {2, 4, 3};
