@@ -103,6 +103,7 @@ void InspectorPage::fitColumns() {
     view_->setColumnWidth(column, width + kMargins);
     if (column == TrialTable::kOutcome) outcomeWidth_ = width + kMargins;
   }
+  view_->setColumnWidth(TrialTable::kMark, words.horizontalAdvance(QStringLiteral("marks")) + kMargins);  // stretched where there is room
   fitHalves();
 }
 
