@@ -117,7 +117,7 @@ void InspectorPage::fitHalves() {
     if (column != TrialTable::kOutcome) others += view_->columnWidth(column);
   const int room = halves_->width() - halves_->handleWidth() - halves_->widget(1)->minimumSizeHint().width();
   const int outcome =
-      std::clamp(room - others, std::min(outcomeWidth_, words.horizontalAdvance(QStringLiteral("✗ st…"))), outcomeWidth_);
+      std::clamp(room - others, std::min(outcomeWidth_, words.horizontalAdvance(QStringLiteral("✗ …"))), outcomeWidth_);
   view_->setColumnWidth(TrialTable::kOutcome, outcome);
   halves_->setSizes({others + outcome, std::max(1, halves_->width() - others - outcome)});
 }
