@@ -112,7 +112,7 @@ void InspectorPage::fitHalves() {
   if (halvesMoved_ || table_->rowCount() == 0) return;
   const QFontMetrics words(view_->font());
   int others =
-      words.horizontalAdvance(QStringLiteral("marks")) + view_->verticalScrollBar()->sizeHint().width() + 2 * view_->frameWidth() + 8;
+      words.horizontalAdvance(QStringLiteral("marks")) + view_->verticalScrollBar()->sizeHint().width() + 2 * view_->frameWidth() + 14;
   for (int column = 0; column < TrialTable::kMark; ++column)
     if (column != TrialTable::kOutcome) others += view_->columnWidth(column);
   const int room = halves_->width() - halves_->handleWidth() - halves_->widget(1)->minimumSizeHint().width();
