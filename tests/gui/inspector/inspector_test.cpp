@@ -349,7 +349,7 @@ TEST_F(Inspecting, ColumnsAndProgressFit) {
       const QFontMetrics metrics(page_.view().font());
       const int heading = QFontMetrics(page_.view().horizontalHeader()->font())
                               .horizontalAdvance(model->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString());
-      EXPECT_GE(room, heading + 6) << "heading of column " << column;
+      EXPECT_GE(room, heading + 4) << "heading of column " << column;
       for (int row = 0; row < 24 && column != TrialTable::kOutcome; ++row)  // its tool tip has all of the reason
         EXPECT_GE(room, metrics.horizontalAdvance(model->index(row, column).data().toString()) + 6)
             << "row " << row << ", column " << column;
