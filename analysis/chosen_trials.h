@@ -21,7 +21,7 @@ Recording openRecording(const std::string& path, ScenesOfRuns& known);
 bool isMotionFile(const std::string& path);
 
 /// The runs of a dataset without logs, as openTrialIndex gives those of logs. A run that cannot be read is left out and named. Throws
-/// FaultError where there is no motion file of Reachlab, and says what is there.
+/// FaultError where there is no motion file of Reachlab, and names the tracking systems of the other files.
 record::TrialIndex indexMotionFiles(const std::string& folder, const record::IndexProgress& progress = {});
 
 /// Some trials of one log or motion file, by their numbers.

@@ -66,8 +66,8 @@ class ScenesOfRuns {
 /// Passes the run's trials to `sink`. The day of a run without a day is 0. `scenes` are the experiments of the configuration's scenes.
 void addRun(const RunSource& run, std::span<const experiment::CompiledExperiment> scenes, DatasetIndex& index, const TrialSink& sink);
 
-/// What a dataset without logs was recorded with: the experiments in its code/experiments/, or else the experiment of that name that is
-/// shipped now. Throws FaultError where there is neither.
+/// The experiments of a dataset without logs: those in its code/experiments/, or else the experiment of that name that is shipped now.
+/// Throws FaultError if there is no such experiment.
 struct BidsExperiments {
   std::vector<experiment::CompiledExperiment> scenes;
   bool own = false;  // of the dataset

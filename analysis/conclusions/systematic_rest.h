@@ -7,8 +7,8 @@
 
 namespace reachlab::analysis {
 
-/// How much of what a fit leaves of a person's trials is the same in every trial, or grows with the duration: a test of the fit by its mean
-/// residual. Under the hypothesis that the fit is right, a trial's residual is as likely with the other sign.
+/// The part of a person's residuals that is the same in every trial, or grows with the duration: a test of a fit by its mean residual. Under the
+/// hypothesis that the fit is right, a trial's residual is as likely with the other sign.
 struct SystematicRest {
   double share = 0;                 // of the mean squared residual. About 0 for a right fit, where it may be negative
   double variance = 0, third = 0;   // second and third cumulant of `share` over all choices of the signs
@@ -26,14 +26,14 @@ using LaidResiduals = std::vector<std::vector<double>>;
 /// Neighbours are left out because trials that follow one another are alike. Long series are judged by means of consecutive trials.
 SystematicRest computeSystematicRest(LaidResiduals residuals, std::vector<double> durations);
 
-/// `place`: of the trial on the person's mean. The weights are the window's.
+/// `place`: of the trial on the person's mean. The residual is weighed by the window's weights.
 std::vector<double> layResidual(const FitWindow& window, std::span<const double> residual, const MovementFit& place);
 
-/// How far each trial goes from one fit towards another, [other][trial]: 0 at the fit, 1 at the other, 0.5 for the mean of both. The way from one
-/// to the other is the mean of the other trials, so that a trial's own scatter does not choose it. 0 where both fits are the same.
+/// The position of each trial on the way from a fit to every other fit, [fit][trial]: 0 at the first fit, 1 at the second fit, 0.5 for their mean. The
+/// way is the mean over the remaining trials, so that a trial's own scatter does not choose it. 0 where both fits are the same.
 std::vector<std::vector<double>> computeSharesOfOthers(std::span<const LaidResiduals> fits, std::size_t of);
 
-/// The mean of independent ones, of a person's conditions or of people.
+/// The mean of independent tests, for example of a person's conditions or of several people.
 SystematicRest meanOf(std::span<const SystematicRest> rests);
 
 }  // namespace reachlab::analysis

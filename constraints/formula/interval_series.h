@@ -14,7 +14,7 @@ class IntervalSeries {
  public:
   static constexpr int kOrder = 8;
   IntervalSeries(const ExpressionGraph& graph, std::span<const int> roots, const double* shape);
-  /// Bound of |(c_1, c_2, …)| over the roots, c being the coefficient of s^kOrder. Infinite where none is known.
+  /// Bound of |(c_1, c_2, …)| over the roots, c being the coefficient of s^kOrder. Infinite where no bound is known.
   double bound(const std::array<Interval, 2>& box, const std::array<Interval, 2>& rate) noexcept;
   /// A bound from below of the same for s^1, over the box and the rates of the last call of bound().
   double leastSlope() const noexcept;

@@ -21,7 +21,7 @@ struct NarrowSearch {
   double lo = 0, hi = 0;            // all of them between these are known
 };
 /// The places where a curve turns within less than the way of a tick, by interval arithmetic on Taylor series: from `about` outwards through
-/// `window`, and beyond it where a single look shows that there are none. `formulas` holds r of each piece. `period` is that of the whole
+/// `window`, and beyond it where a single look shows that there are no such places. `formulas` holds r of each piece. `period` is that of the whole
 /// formula, or 0. Beside the places of `blind`, where the formula has a limit and no value or is about to end, nothing is looked for.
 NarrowSearch findNarrowPlaces(const ExpressionGraph& graph, const double* shape, const std::vector<CurvePiece>& pieces,
                               const std::vector<std::vector<int>>& formulas, const std::vector<double>& blind, const Domain& window,

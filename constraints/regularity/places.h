@@ -55,7 +55,7 @@ struct CurveRegularity {
   std::vector<Place> places;          // in order of phi
   std::vector<CurvePiece> pieces;     // in order; one where the formula is analytic throughout
   std::shared_ptr<const void> owner;  // keeps the pieces' programs alive
-  /// The narrow places of a typed formula, in order, all those between phi = seenLo and seenHi. A definition of the catalogue has none.
+  /// The narrow places of a typed formula, in order, all those between phi = seenLo and seenHi. A definition of the catalogue has no such places.
   std::vector<NarrowPlace> narrow;
   double seenLo = -std::numeric_limits<double>::infinity(), seenHi = std::numeric_limits<double>::infinity();
   /// No place was found: smooth, and nowhere still.

@@ -7,8 +7,8 @@
 
 namespace reachlab::constraints {
 
-/// Of a curve or surface that has no value anywhere in the range: the coordinate, the part of its formula that has no value there, and what
-/// that part needs. nullopt if it has a value somewhere.
+/// The fault of a curve or surface without any value in the range. It names the coordinate, the part of the formula without a value, and the
+/// numbers that this part allows. nullopt if the formula has a value somewhere.
 std::optional<Fault> undefinedFault(const Constraint& constraint, const std::array<Domain, 2>& range);
 
 }  // namespace reachlab::constraints

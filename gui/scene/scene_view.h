@@ -54,7 +54,7 @@ class SceneView : public QWidget {
   SceneFrame frame() const;
   /// Whether start and target can be taken hold of with the left button.
   void setPlacesMovable(bool movable);
-  /// Draws start or target at `r` until the next plan, with `words` beside it. What rests at the start goes with it.
+  /// Draws start or target at `r` until the next plan, with `words` beside it. Hand and masses that rest at the start go with it.
   void showPlace(TaskPlace place, const Vec3& r, const QString& words);
   /// Software drawing is slow: fewer frames per second, and a cheaper translucency.
   bool drawsInSoftware() const;

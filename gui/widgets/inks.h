@@ -13,7 +13,7 @@ inline QColor ink(int opacity) {
   return colour;
 }
 
-/// The theme's ink for what is wrong, and a field with a fault in that ink.
+/// The theme's ink for faults, and a field with a fault in that ink.
 inline QColor faultInk() { return toQColor(colours::kBadText); }
 inline QString faultyField() { return QStringLiteral("color: %1; border: 1px solid #c0564a;").arg(faultInk().name()); }
 

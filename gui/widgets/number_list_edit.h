@@ -18,7 +18,7 @@ struct NumberListRule {
   bool lowAllowed = true;
   std::size_t fewest = 0, most = 512, multipleOf = 1;
   bool formulas = false;  // "pi/2" and "3*pi/4" are numbers, too, and are shown so
-  /// The number that "0.2 m" stands for. NaN: none. Empty: no lengths are allowed.
+  /// The number that "0.2 m" stands for. NaN: no value. Empty: no lengths are allowed.
   std::function<double(double metres)> atLength = {};
 };
 

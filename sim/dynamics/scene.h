@@ -34,7 +34,7 @@ struct Scene {
 Scene compileScene(const experiment::Experiment& experiment, const SceneOptions& options = {});
 /// The same for a valid experiment whose constraint has been made already.
 Scene compileScene(const experiment::CompiledExperiment& experiment, const SceneOptions& options = {});
-/// The scenes of the trials of a block. A trial needs a task: FaultError where there is none.
+/// The scenes of the trials of a block. Throws FaultError for an experiment without a task, because a trial needs a task.
 std::vector<Scene> compileScenes(std::span<const experiment::CompiledExperiment> experiments);
 /// The same for an experiment that was changed, except for its constraint.
 Scene compileScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const SceneOptions& options = {});

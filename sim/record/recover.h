@@ -19,8 +19,8 @@ struct Recovery {
 /// FaultError (no log, configuration damaged) or ResourceError (disk, or the log is being written).
 Recovery recoverLog(const std::string& path);
 
-/// What is not in a log that was not closed in order or is damaged, in a sentence that names the trials: the one that broke off, and the
-/// planned ones that it does not have. Empty for a healthy log, and for one that is being recorded into.
+/// A sentence about a log that was not closed in order or is damaged. It names the trial that broke off, and the planned trials that are
+/// missing. Empty for a healthy log, and for one that is being recorded into.
 std::string lossOf(const RunLog& log);
 
 }  // namespace reachlab::record

@@ -11,7 +11,7 @@
 #include "sim/subjects/feedback_subject.h"
 #include "sim/subjects/model_learner.h"
 #include "sim/subjects/reach_way.h"
-#include "sim/subjects/subject_draws.h"
+#include "sim/subjects/plans/subject_draws.h"
 
 namespace reachlab::subjects {
 

@@ -16,7 +16,7 @@
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/blind_hand.h"
 #include "sim/subjects/plans/sampled_plan.h"
-#include "sim/subjects/subject_draws.h"
+#include "sim/subjects/plans/subject_draws.h"
 #include "sim/subjects/subject_kinds.h"
 #include "sim/subjects/subject_parameters.h"
 #include "sim/trial/protocol.h"

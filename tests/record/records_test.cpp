@@ -336,7 +336,7 @@ TEST(TrialRecord, HasItsFieldsInTheDocumentedOrder) {
   encode(t, {3000, 31}, out);
   const Bytes expected =
       bytesOf(std::int32_t{5}, std::int32_t{3}, std::int32_t{700}, std::uint8_t{1}) +
-      bytesOf(std::uint8_t{2}, std::uint8_t{4}, std::int32_t{2}, 0.25, 1.75) +
+      bytesOf(std::uint8_t{2}, std::uint8_t{3}, std::int32_t{2}, 0.25, 1.75) +
       bytesOf(std::uint64_t{100}, std::uint64_t{200}, std::uint64_t{900}, std::uint64_t{1300}, std::uint64_t{3050}, std::uint64_t{3051}) +
       bytesOf(0.5, 0.75, 8.5, 4.5, std::uint64_t{11}, std::uint64_t{12}) +
       bytesOf(std::uint64_t{4000}, std::uint32_t{41}, std::uint64_t{3000}, std::uint32_t{31}, 2.125, std::uint64_t{13});

@@ -30,6 +30,16 @@ Eigen::Vector3d flattest(const Quadric& q, Eigen::Matrix3d& a, Eigen::Vector3d& 
   return (2 * a).completeOrthogonalDecomposition().solve(-b);
 }
 
+// Ten fitted coefficients tell a cone from a hyperboloid with a narrow waist only down to their rounding, and a cylinder has no apex.
+bool isCone(const Quadric& q) {
+  constexpr double kRounding = 1e-12;  // of the size, which is about 1/|A|
+  Eigen::Matrix3d a;
+  Eigen::Vector3d b;
+  const Eigen::Vector3d d = flattest(q, a, b);
+  const Eigen::Vector3d singular = a.jacobiSvd().singularValues();
+  return singular(2) > kNone * singular(0) && std::abs(d.dot(a * d) + b.dot(d) + q.c) * singular(0) <= kRounding;
+}
+
 /// A cone about its apex: b = 0 and c = 0. A fitted b and c would make it a hyperboloid with a waist of 1e-13 m, round which a mass turns.
 void putApexFirst(Quadric& q, double size) {
   constexpr double kRounding = 1e-13;  // of the size
@@ -97,7 +107,10 @@ std::optional<Quadric> fitQuadric(const constraints::Surface& surface, const std
   for (double& value : q.a) value /= slope;
   q.b = q.b / slope;
   q.c /= slope;
-  if (hasApex(q)) putApexFirst(q, size);
+  if (hasApex(q)) {
+    if (!isCone(q)) return std::nullopt;
+    putApexFirst(q, size);
+  }
   return q;
 }
 

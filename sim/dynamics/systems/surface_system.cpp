@@ -315,6 +315,11 @@ std::string SurfaceSystem::lostReason(const State& y) const {
           "the surface is so steep in its parameters here (|r_u| {:.2g} m, |r_v| {:.2g} m) that their rounding shows in the speed; write the "
           "surface in other parameters",
           norm(p.rU), norm(p.rV));
+    if (startArea > 0 && largestArea > 100 * startArea && dot(area, area) > kDegenerate * startArea)
+      return fmt::format(
+          "the surface was so steep in its parameters on the way (|r_u x r_v| {:.2g} m^2, here {:.2g} m^2) that the accuracy cannot be held; "
+          "write the surface in other parameters",
+          std::sqrt(largestArea), norm(area));
     return "the surface degenerates here (a pinch point, an apex or a cuspidal edge): there is no unique continuation";
   }
   const constraints::SurfaceBranches::Line& line = branches->lines[static_cast<std::size_t>(k)];

@@ -31,7 +31,7 @@ std::string unitOf(trial::Reason reason) {
     case trial::Reason::Via:
     case trial::Reason::Position: return "m";
     case trial::Reason::Velocity: return "m/s";
-    case trial::Reason::TimeShort:
+    case trial::Reason::TimeShort: return "s";
     default: return "";
   }
 }

@@ -6,7 +6,7 @@
 
 namespace reachlab::record {
 
-/// Throws ResourceError of the system's last error: what failed, where, why, and what to do.
+/// Throws ResourceError of the system's last error, with action, file, reason and remedy.
 [[noreturn]] void failByErrno(std::string_view what, const std::string& path);
 /// True if every byte was written. The reason is in errno otherwise.
 bool writeAll(int descriptor, const std::uint8_t* data, std::size_t size);

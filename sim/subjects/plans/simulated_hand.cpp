@@ -13,7 +13,7 @@
 #include "base/ticks.h"
 #include "sim/subjects/plans/played_hand.h"
 #include "sim/subjects/plans/sampled_plan.h"
-#include "sim/subjects/subject_draws.h"
+#include "sim/subjects/plans/subject_draws.h"
 
 namespace reachlab::subjects {
 namespace {
