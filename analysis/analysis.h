@@ -25,7 +25,7 @@ enum class PredictionDuration { Task, Moved };
 struct AnalysisOptions {
   MeasureOptions measure;
   bool includePractice = false;
-  bool includeFailures = false;  // failed trials are used as successful ones are
+  bool includeFailures = false;              // failed trials are used as successful ones are
   std::vector<predict::Criterion> criteria;  // compared criteria, empty: all criteria that are defined for the object
   std::vector<predict::Criterion> drawn;     // in figures, predictions and the paper's epsilon, empty: the compared criteria
   std::optional<double> handMass;            // [kg] of the predictions; nullopt: the experiment's
@@ -119,8 +119,9 @@ struct ConditionResult {
   std::vector<PredictedSignal> signals;                           // one a prediction of the paper's epsilon
   std::vector<std::unique_ptr<predict::Prediction>> predictions;  // parallel
   PredictedSignal movedSignal;                                    // of `moved`
-  std::unique_ptr<predict::Prediction> moved;  // (1) for the T whose movement lasts as long as the trials did; null where `predictions` have it
-  std::vector<std::string> refusals;           // criteria that cannot be predicted here, and why
+  std::unique_ptr<predict::Prediction>
+      moved;                          // (1) for the T whose movement lasts as long as the trials did; null where `predictions` have it
+  std::vector<std::string> refusals;  // criteria that cannot be predicted here, and why
   EpsilonTable handEpsilon, objectEpsilon;
   CandidateSet candidates;              // of the fits
   Conclusion conclusion;                // indexes `candidates`

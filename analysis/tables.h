@@ -33,7 +33,7 @@ struct FitRow {
   bool massAtEdge = false;             // of the range of masses
   double misfit = 0;                   // score less that of the person's own mean
   SystematicRest systematic;
-  std::string toward;                 // of the person's closest candidate: see Conclusion::mixedWith. Empty for the others
+  std::string toward;  // of the person's closest candidate: see Conclusion::mixedWith. Empty for the others
   double towardShare = 0, towardP = 1;
   std::size_t trials = 0;
   bool decided = false;

@@ -53,7 +53,9 @@ CsvTable readCsvTable(const std::string& file) {
     if (line.find_first_not_of(" \r") == std::string::npos) continue;
     CsvTable::Row row{number, cellsOf(line, separator)};
     if (row.cells.size() != table.columns.size())
-      throw FaultError(Fault{{}, fmt::format("has {} cells", row.cells.size()), fmt::format("{}, as the header", table.columns.size()),
+      throw FaultError(Fault{{},
+                             fmt::format("has {} cells", row.cells.size()),
+                             fmt::format("{}, as the header", table.columns.size()),
                              FilePlace{file, number}});
     table.rows.push_back(std::move(row));
   }

@@ -70,7 +70,8 @@ std::vector<ClockTiming> measureLatency(const std::string& spec, double seconds)
   for (const std::string& way : ways) {
     const std::shared_ptr<haptics::HapticDevice> device = makeDevice(way, experiment, 1);
     if (device->info().virtualHand)
-      throw FaultError(Fault{"device", "is " + spec + ", which is simulated and has no latency", "a device as `reach list devices` has it"});
+      throw FaultError(
+          Fault{"device", "is " + spec + ", which is simulated and has no latency", "a device as `reach list devices` has it"});
     rows.push_back(measure(device, seconds));
   }
   return rows;

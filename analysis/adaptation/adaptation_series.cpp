@@ -13,7 +13,8 @@ AdaptationSeries readAdaptationSeries(const std::string& file) {
   const auto columnOf = [&](const char* name) {
     const auto column = table.find(name);
     if (!column)
-      throw FaultError(Fault{name, "column is missing", fmt::format("a header with perturbation,response; this one has {}", fmt::join(table.columns, ", ")),
+      throw FaultError(Fault{name, "column is missing",
+                             fmt::format("a header with perturbation,response; this one has {}", fmt::join(table.columns, ", ")),
                              FilePlace{file, 1}});
     return *column;
   };

@@ -25,9 +25,9 @@ struct LearningState {
 std::vector<double> simulateLearning(const std::vector<LearningState>& states, const AdaptationSeries& series);
 
 struct LearningFit {
-  std::vector<LearningState> states;  // fast, slow; or the single one
-  double meanSquare = 0;              // of the residuals, in the square of the responses' unit
-  double bic = 0;                     // Bayesian information criterion: n ln(mean square) + k ln n
+  std::vector<LearningState> states;             // fast, slow; or the single one
+  double meanSquare = 0;                         // of the residuals, in the square of the responses' unit
+  double bic = 0;                                // Bayesian information criterion: n ln(mean square) + k ln n
   std::vector<std::array<Bounds, 2>> intervals;  // of each state's retention and learning rate: 95 %
 };
 

@@ -254,7 +254,8 @@ Conclusion concludePeople(const std::vector<PersonScores>& everyone, std::size_t
   findMixture(out, [&](std::size_t k) {
     std::vector<double> shares;
     for (const PersonScores& person : people)
-      if (const std::vector<TTest> tests = towardsInPerson(person, *out.best, k); !tests.empty()) shares.push_back(combineTTests(tests).mean);
+      if (const std::vector<TTest> tests = towardsInPerson(person, *out.best, k); !tests.empty())
+        shares.push_back(combineTTests(tests).mean);
     return computeTTest(shares);
   });
   std::vector<std::vector<double>> outside;

@@ -17,7 +17,7 @@ struct ConditionScores {
   // The same with hand masses outside the range [candidate][trial], empty for a candidate whose mass is not at the edge of the range. The
   // whole vector may be empty.
   std::vector<std::vector<double>> beyond;
-  std::vector<double> own;  // ln S of each trial for the mean of the person's other trials. Empty: not compared with it
+  std::vector<double> own;                 // ln S of each trial for the mean of the person's other trials. Empty: not compared with it
   std::vector<SystematicRest> systematic;  // one a candidate. Empty: residuals are not tested
   // How far each trial goes from a candidate towards another [candidate][other][trial]. May be empty.
   std::vector<std::vector<std::vector<double>>> toward;
@@ -70,9 +70,9 @@ struct Conclusion {
   std::size_t subjects = 0, trials = 0;
   std::vector<std::size_t> closest;  // people whose own least score each candidate has
   std::vector<double> posterior;     // protected exceedance probability of each candidate; empty for one person
-  std::optional<double> signFlipP;  // of the nearest rival, from six people on
-  std::vector<double> score;        // Y of each candidate: mean over conditions of the mean over trials, over people
-  std::vector<TTest> against;       // of each candidate: score - best's score
+  std::optional<double> signFlipP;   // of the nearest rival, from six people on
+  std::vector<double> score;         // Y of each candidate: mean over conditions of the mean over trials, over people
+  std::vector<TTest> against;        // of each candidate: score - best's score
   // pairs with p above the level after Holm's correction, or too small a difference
   std::vector<std::pair<std::size_t, std::size_t>> notToldApart;
   double r2 = 0, ceiling = 0;  // of the best candidate; of people's own means

@@ -182,7 +182,8 @@ MassFit fitMass(const Candidate& candidate, const ShapeFitter& fitter, const std
   MassFit out;
   out.mass = scores[bestOf(scores)].mass;
   out.interval = intervalOf(scores);
-  out.atEdge = out.interval.high >= candidate.masses.back() || (out.interval.low <= candidate.masses.front() && candidate.masses.front() > 0);
+  out.atEdge =
+      out.interval.high >= candidate.masses.back() || (out.interval.low <= candidate.masses.front() && candidate.masses.front() > 0);
   return out;
 }
 

@@ -38,9 +38,9 @@ struct CandidateFit {
   std::vector<MovementFit> trials;
   std::vector<double> epsilon;  // [m/s] of each trial: sqrt(sum r^2 / N), unweighted
   double meanScore = 0;
-  double epsilonOfAll = 0;   // [m/s] the same over all samples: fitted epsilon
-  double r2 = 0;             // 1 - sum S / sum w^2 v^2
-  double duration = 0;       // [s] mean of the fitted ones
+  double epsilonOfAll = 0;  // [m/s] the same over all samples: fitted epsilon
+  double r2 = 0;            // 1 - sum S / sum w^2 v^2
+  double duration = 0;      // [s] mean of the fitted ones
   SystematicRest systematic;
   std::vector<std::vector<double>> toward;  // [candidate][trial] computeSharesOfOthers
   std::vector<double> mean;  // [m/s] mean of the fitted movements, laid over one another as the trials are in PersonTemplate::mean

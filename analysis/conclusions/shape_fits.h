@@ -25,7 +25,7 @@ struct ShapeFits {
 struct FamilyFits {
   ShapeFits anew;
   std::map<int, ShapeFits> plans;  // by step of ln P
-  ShapeFits between;  // at the plan where parabolas through the costs of plans near the best step are least, may be empty
+  ShapeFits between;               // at the plan where parabolas through the costs of plans near the best step are least, may be empty
 };
 
 /// Fits the trials of one person with one family after another. Every trial is fitted from several starts. One thread.

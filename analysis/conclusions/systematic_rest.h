@@ -10,8 +10,8 @@ namespace reachlab::analysis {
 /// The part of a person's residuals that is the same in every trial, or grows with the duration: a test of a fit by its mean residual. Under the
 /// hypothesis that the fit is right, a trial's residual is as likely with the other sign.
 struct SystematicRest {
-  double share = 0;                 // of the mean squared residual. About 0 for a right fit, where it may be negative
-  double variance = 0, third = 0;   // second and third cumulant of `share` over all choices of the signs
+  double share = 0;                // of the mean squared residual. About 0 for a right fit, where it may be negative
+  double variance = 0, third = 0;  // second and third cumulant of `share` over all choices of the signs
   /// The chance of so large a share if the fit is right. 1 if nothing was tested. The distribution over the signs is taken as a shifted gamma
   /// distribution with its three cumulants.
   double p() const;

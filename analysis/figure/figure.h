@@ -16,8 +16,7 @@ struct Color {
 /// Colours that stay apart for colour-blind readers (Okabe and Ito 2008) and, where it matters, in grey print.
 namespace palette {
 inline constexpr Color kBlack{0.0, 0.0, 0.0}, kGrey{0.45, 0.45, 0.45}, kOrange{0.902, 0.624, 0.0}, kSky{0.337, 0.706, 0.914},
-    kGreen{0.0, 0.620, 0.451}, kBlue{0.0, 0.447, 0.698}, kVermilion{0.835, 0.369, 0.0},
-    kPurple{0.800, 0.475, 0.655};
+    kGreen{0.0, 0.620, 0.451}, kBlue{0.0, 0.447, 0.698}, kVermilion{0.835, 0.369, 0.0}, kPurple{0.800, 0.475, 0.655};
 /// The i-th colour for series of equal standing. The colours repeat after seven.
 Color series(int i);
 constexpr Color faded(Color c, double alpha) { return {c.red, c.green, c.blue, alpha}; }

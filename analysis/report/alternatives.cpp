@@ -90,7 +90,8 @@ std::string describeAlternatives(const Analysis& analysis) {
                             row.criterion.empty() ? "undecided (" + row.reason + ")" : row.criterion);
   }
   if (all == 0) return {};
-  return fmt::format("The conclusion is the same in {} of {} analyses with another choice.{}", all - changed, all, differ.empty() ? "" : differ + ".");
+  return fmt::format("The conclusion is the same in {} of {} analyses with another choice.{}", all - changed, all,
+                     differ.empty() ? "" : differ + ".");
 }
 
 std::string alternativesTable(const Analysis& analysis) {

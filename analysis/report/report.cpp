@@ -248,7 +248,9 @@ void addAlternatives(Html& html, const Analysis& analysis) {
   html.add("<table><thead><tr><th>Choice</th><th>Condition</th><th>Criterion</th><th>Closest</th><th>p</th></tr></thead><tbody>");
   for (const AlternativeConclusion& row : analysis.alternatives)
     html.add(fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>", row.choice, escaped(row.condition),
-                         row.criterion.empty() ? "undecided: " + row.reason : row.changed ? "<b>" + row.criterion + "</b>" : row.criterion,
+                         row.criterion.empty() ? "undecided: " + row.reason
+                         : row.changed         ? "<b>" + row.criterion + "</b>"
+                                               : row.criterion,
                          row.best, row.p ? shortNumber(*row.p) : ""));
   html.add("</tbody></table>");
 }

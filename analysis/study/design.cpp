@@ -144,7 +144,6 @@ void readExperiments(const JsonNode& root, Design& design, FaultList& faults) {
 
 std::string experimentNameOf(const session::PlanBlock& block) { return fs::path(block.experiment).filename().string(); }
 
-
 Design parseDesign(const std::string& text, const std::string& file, const std::optional<NamedTexts>& named) {
   const JsonNode root = parseJson(text, file);
   FaultList faults(file);

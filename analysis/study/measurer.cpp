@@ -29,8 +29,8 @@ MeasuredTrial Measurer::measure(const BlockRun& run, const record::RecordedTrial
   trial.recorded = recorded;
   if (!needs_.samples) return trial;
   const analysis::RunTrials trials(run.table(), BlockRun::kSampleEvery,
-                                  {experiment_.constraint(), experiment_.experiment().task->start, experiment_.experiment().task->target},
-                                  analysis::sceneOf(experiment_.experiment(), analysis::viscousFieldOf(experiment_.experiment())));
+                                   {experiment_.constraint(), experiment_.experiment().task->start, experiment_.experiment().task->target},
+                                   analysis::sceneOf(experiment_.experiment(), analysis::viscousFieldOf(experiment_.experiment())));
   const analysis::TrialData data =
       trials.read(recorded, [&](std::uint64_t first, std::uint64_t last) { return run.rowsBetween(first, last); });
   const analysis::TrialSignals signals = analysis::computeSignals(data, options_);

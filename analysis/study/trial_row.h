@@ -11,7 +11,7 @@ namespace reachlab::study {
 /// The values of one trial that are entered into the table.
 struct MeasuredTrial {
   record::RecordedTrial recorded;
-  analysis::TrialMeasures measures;                 // with Needs::samples
+  analysis::TrialMeasures measures;                // with Needs::samples
   std::vector<double> epsilonHand, epsilonObject;  // [m/s] one of each of criteriaOf, NaN where there is none
   std::vector<double>
       score;  // the same, then the reference's, effective samples of a trial, and how much poorer the best is than the subject's own mean

@@ -54,8 +54,8 @@ struct Halves {
   Halves() = default;
   Halves(const Part& first, const Part& second) noexcept : low(first), high(second) {}
   template <class... Each>
-    requires(sizeof...(Each) == 2 * kPart && (std::is_arithmetic_v<Each> && ...))
-  Halves(Each... each) noexcept : Halves(std::array<Number, 2 * kPart>{each...}, std::make_index_sequence<kPart>()) {}
+  requires(sizeof...(Each) == 2 * kPart && (std::is_arithmetic_v<Each> && ...)) Halves(Each... each)
+  noexcept : Halves(std::array<Number, 2 * kPart>{each...}, std::make_index_sequence<kPart>()) {}
 
   Number& operator[](int i) noexcept { return reinterpret_cast<Number*>(this)[i]; }
   Number operator[](int i) const noexcept { return i < kPart ? low[i] : high[i - kPart]; }
@@ -71,8 +71,8 @@ struct Of {
   using Marks = Halves<typename Of<Width / 2>::Marks>;
 };
 template <int Width>
-  requires(Width <= kRegister)
-struct Of<Width> : Vectors<Width> {};
+requires(Width <= kRegister) struct Of<Width> : Vectors<Width> {
+};
 
 template <class T>
 inline constexpr bool kInHalves = false;
@@ -81,9 +81,7 @@ inline constexpr bool kInHalves<Halves<Part>> = true;
 template <class A, class B>
 concept SomeHalves = kInHalves<A> || kInHalves<B>;
 template <class L>
-concept Lanes = kInHalves<L> || (!std::is_class_v<L> && requires(L x) {
-  x[0], x* x;
-});
+concept Lanes = kInHalves<L> ||(!std::is_class_v<L> && requires(L x) { x[0], x* x; });
 
 template <class T>
 const auto& lowOf(const T& x) noexcept {
@@ -102,57 +100,57 @@ template <class Operation, class... Operands>
   return Halves<Part>(operation(lowOf(x)...), operation(highOf(x)...));
 }
 template <class A, class B>
-  requires SomeHalves<A, B>
+requires SomeHalves<A, B>
 [[gnu::always_inline]] inline auto operator+(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x + y; }, a, b);
 }
 template <class A, class B>
-  requires SomeHalves<A, B>
+requires SomeHalves<A, B>
 [[gnu::always_inline]] inline auto operator-(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x - y; }, a, b);
 }
 template <class A, class B>
-  requires SomeHalves<A, B>
+requires SomeHalves<A, B>
 [[gnu::always_inline]] inline auto operator*(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x * y; }, a, b);
 }
 template <class A, class B>
-  requires SomeHalves<A, B>
+requires SomeHalves<A, B>
 [[gnu::always_inline]] inline auto operator/(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x / y; }, a, b);
 }
 template <class A, class B>
-  requires SomeHalves<A, B>
+requires SomeHalves<A, B>
 [[gnu::always_inline]] inline auto operator<(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x < y; }, a, b);
 }
 template <class A, class B>
-  requires SomeHalves<A, B>
+requires SomeHalves<A, B>
 [[gnu::always_inline]] inline auto operator<=(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x <= y; }, a, b);
 }
 template <class A, class B>
-  requires SomeHalves<A, B>
+requires SomeHalves<A, B>
 [[gnu::always_inline]] inline auto operator>(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x > y; }, a, b);
 }
 template <class A, class B>
-  requires SomeHalves<A, B>
+requires SomeHalves<A, B>
 [[gnu::always_inline]] inline auto operator>=(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x >= y; }, a, b);
 }
 template <class A, class B>
-  requires SomeHalves<A, B>
+requires SomeHalves<A, B>
 [[gnu::always_inline]] inline auto operator==(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x == y; }, a, b);
 }
 template <class A, class B>
-  requires SomeHalves<A, B>
+requires SomeHalves<A, B>
 [[gnu::always_inline]] inline auto operator|(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x | y; }, a, b);
 }
 template <class A, class B>
-  requires SomeHalves<A, B>
+requires SomeHalves<A, B>
 [[gnu::always_inline]] inline auto operator&(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x & y; }, a, b);
 }

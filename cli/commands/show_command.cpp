@@ -180,7 +180,9 @@ void show(const ShowOptions& options) {
   const std::vector<record::RunLog>& logs = readable.runs;
   if (options.trial > 0) {
     const record::RecordedTrial& trial = trialOf(logs, options.trial);
-    if (!options.figure.empty()) atOption("--figure", [&] { record::writeFileAtomically(options.figure, figure::renderFor(options.figure, drawTrial(logs[0], trial))); });
+    if (!options.figure.empty())
+      atOption("--figure",
+               [&] { record::writeFileAtomically(options.figure, figure::renderFor(options.figure, drawTrial(logs[0], trial))); });
     if (options.figure.empty() || options.json) showTrial(logs[0], trial, options.json);
     return;
   }

@@ -90,8 +90,10 @@ int finishStandardOutput(int exitCode) {
   std::cout.flush();
   std::fflush(stdout);
   if (firstFault == 0) return exitCode;
-  fmt::print(stderr, "error: standard output: cannot be written: {}\nhelp: the printed text is incomplete. Recordings and files are not concerned\n",
-             std::strerror(firstFault));
+  fmt::print(
+      stderr,
+      "error: standard output: cannot be written: {}\nhelp: the printed text is incomplete. Recordings and files are not concerned\n",
+      std::strerror(firstFault));
   return exitCode == 0 ? 3 : exitCode;
 }
 

@@ -118,9 +118,7 @@ Series rootOf(const Series& a) {
   for (int k = 1; k < kCount; ++k) t[k] = quotient(a[k] - convolve(t, t, k, 1, k - 1), twice);
   return t;
 }
-Series logarithmOf(const Series& a) {
-  return integrateOver(a, a[0].lo > 0 ? over(Op::Log, a[0]) : kUnbounded, a);
-}
+Series logarithmOf(const Series& a) { return integrateOver(a, a[0].lo > 0 ? over(Op::Log, a[0]) : kUnbounded, a); }
 Series wholePowerOf(const Series& a, int exponent) {
   const int count = std::abs(exponent);
   if (count == 0) return constantOf({1, 1});

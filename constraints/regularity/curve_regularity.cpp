@@ -16,12 +16,13 @@ namespace reachlab::constraints {
 namespace {
 
 constexpr double kTurns = 64 * 2 * std::numbers::pi;
-constexpr double kReach = 10;              // [m] that are examined at least either way
-constexpr double kLargestPhi = 1e12;       // at most
-constexpr double kProvedShare = 1.0 / 16;  // of that, for still places of a formula that is analytic everywhere: others are met in the motion
+constexpr double kReach = 10;         // [m] that are examined at least either way
+constexpr double kLargestPhi = 1e12;  // at most
+constexpr double kProvedShare =
+    1.0 / 16;  // of that, for still places of a formula that is analytic everywhere: others are met in the motion
 constexpr std::size_t kMaxPlaces = 2000;
-constexpr int kMaxBoxes = 100000;   // stretches looked at: tenths of a second
-constexpr double kTouching = 1e-7;  // a root or an arc that touches the end of its domain has lost half its digits there
+constexpr int kMaxBoxes = 100000;    // stretches looked at: tenths of a second
+constexpr double kTouching = 1e-7;   // a root or an arc that touches the end of its domain has lost half its digits there
 constexpr double kTogether = 1e-12;  // of phi, at least 1: boundaries nearer to each other are one
 constexpr double kSameTangent = 1e-9, kSameLimit = 1e-4;  // of |r_phi|: of the formula's own values, and of limits from three places
 
@@ -285,7 +286,8 @@ class Examiner {
     if (!b.left.valid && !b.right.valid) return;
     // At an end of the examined range nothing lies behind, so that only an end without a limit is a place.
     const BranchEnd& only = b.left.valid ? b.left : b.right;
-    if (!(hasLeft && hasRight) && only.settled && only.bounded && isFinite(evaluate((hasLeft ? result_.pieces[i - 1] : result_.pieces[i]).curve, b.at)))
+    if (!(hasLeft && hasRight) && only.settled && only.bounded &&
+        isFinite(evaluate((hasLeft ? result_.pieces[i - 1] : result_.pieces[i]).curve, b.at)))
       return;
     if (!b.branching) blind_.push_back(b.at);
     b.branching = b.branching && (!b.left.valid || b.left.exact) && (!b.right.valid || b.right.exact);

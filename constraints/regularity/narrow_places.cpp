@@ -103,8 +103,7 @@ class Searcher {
   }
   bool isBlind(double a, double b, double near) const {
     const auto above = std::lower_bound(blind_.begin(), blind_.end(), a);
-    return (above != blind_.end() && *above - a <= near && b - *above <= near) ||
-           (above != blind_.begin() && b - *(above - 1) <= near);
+    return (above != blind_.end() && *above - a <= near && b - *above <= near) || (above != blind_.begin() && b - *(above - 1) <= near);
   }
   /// The formula is as narrow at each of some places as the bound for the whole stretch: a ripple, which is not halved to its waves.
   static bool isEverywhere(IntervalSeries& series, double speed, double a, double b, double reach) {

@@ -26,7 +26,8 @@ class SurfaceWatch {
   /// True if the mass is where each step of dt is known to be short enough. Does not compute.
   bool knows(const std::array<double, 2>& q, const std::array<double, 2>& rate, double dt) const noexcept {
     for (std::size_t k = 0; k < 2; ++k)
-      if (!(std::abs(rate[k]) <= fastest_[k] && q[k] - fastest_[k] * dt >= known_[k].lo && q[k] + fastest_[k] * dt <= known_[k].hi)) return false;
+      if (!(std::abs(rate[k]) <= fastest_[k] && q[k] - fastest_[k] * dt >= known_[k].lo && q[k] + fastest_[k] * dt <= known_[k].hi))
+        return false;
     return dt <= within_;
   }
   /// Whether steps of dt are short enough now. Learns about some ticks ahead.

@@ -159,9 +159,9 @@ PreflightLine channelLine(const Experiment& experiment, const experiment::Coupli
                                 wall.stiffness, device.name, passive);
     return line;
   }
-  line.sentence = fmt::format(
-      "the hand feels {:.4g} N/m and {:.3g} N s/m in the channel; {} is stable up to {:.4g} N/m, {:.2g} times as much; {}",
-      felt.stiffness, felt.damping, inARelaxedHand(device), *line.limit, *line.limit / felt.stiffness, passive);
+  line.sentence =
+      fmt::format("the hand feels {:.4g} N/m and {:.3g} N s/m in the channel; {} is stable up to {:.4g} N/m, {:.2g} times as much; {}",
+                  felt.stiffness, felt.damping, inARelaxedHand(device), *line.limit, *line.limit / felt.stiffness, passive);
   if (line.verdict != Verdict::Warning) return line;
   loop.mass += kRelaxedHandMass;
   loop.friction += kRelaxedHandDamping;
@@ -221,7 +221,9 @@ PreflightLine workspace(const haptics::DeviceInfo& device, const ReachDemand& de
   line.verdict = demand.farthest <= *line.limit * (1 + kRounding) ? Verdict::Fine : Verdict::Warning;
   line.sentence = fmt::format("the hand goes {:.3g} m from its middle; {} reaches {:.3g} m", demand.farthest, device.name, *line.limit);
   if (line.verdict == Verdict::Warning)
-    line.remedy = fmt::format("places of the task (start, target, via_m) nearer to the middle, a scale {:.3g} times as large (a mapping), or another offset", demand.farthest / *line.limit);
+    line.remedy = fmt::format(
+        "places of the task (start, target, via_m) nearer to the middle, a scale {:.3g} times as large (a mapping), or another offset",
+        demand.farthest / *line.limit);
   return line;
 }
 

@@ -2,7 +2,6 @@
 #include <string>
 #include <vector>
 
-
 namespace reachlab::devices {
 
 struct VelocityTableSettings {

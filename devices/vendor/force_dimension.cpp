@@ -32,7 +32,8 @@ struct Model {
   double maxForce, radius;
 };
 constexpr Model omega(int type) { return {type, kOmegaForce, kOmegaRadius}; }
-constexpr Model kKnownModels[] = {{63, 20, 0.15}, omega(33), omega(34), omega(36), omega(35), omega(37), omega(104), omega(105), {60, 8, 0.04}};
+constexpr Model kKnownModels[] = {{63, 20, 0.15}, omega(33),  omega(34),  omega(36),    omega(35),
+                                  omega(37),      omega(104), omega(105), {60, 8, 0.04}};
 constexpr double kUnknownForce = 8, kUnknownRadius = 0.04;  // of the others, whatever they are: the least of these
 
 class ForceDimension final : public Transport {

@@ -116,8 +116,7 @@ void InspectorPage::fitHalves() {
   for (int column = 0; column < TrialTable::kMark; ++column)
     if (column != TrialTable::kOutcome) others += view_->columnWidth(column);
   const int room = halves_->width() - halves_->handleWidth() - halves_->widget(1)->minimumSizeHint().width();
-  const int outcome =
-      std::clamp(room - others, std::min(outcomeWidth_, words.horizontalAdvance(QStringLiteral("✗ …"))), outcomeWidth_);
+  const int outcome = std::clamp(room - others, std::min(outcomeWidth_, words.horizontalAdvance(QStringLiteral("✗ …"))), outcomeWidth_);
   view_->setColumnWidth(TrialTable::kOutcome, outcome);
   halves_->setSizes({others + outcome, std::max(1, halves_->width() - others - outcome)});
 }

@@ -20,8 +20,8 @@ namespace {
 using Actor = vtkSmartPointer<vtkActor>;
 
 constexpr double kNextVia = 0.6, kLaterVia = 0.3, kPassedVia = 0.1;  // opacity of places on the way
-constexpr double kOtherPlaces = 0.5;                     // opacity of places that are not of this trial
-constexpr double kFieldArrow = 0.18, kPulseArrow = 0.4;  // of the reach, the longest of each
+constexpr double kOtherPlaces = 0.5;                                 // opacity of places that are not of this trial
+constexpr double kFieldArrow = 0.18, kPulseArrow = 0.4;              // of the reach, the longest of each
 
 widgets::Colour colourOf(MassRole role, const PartColours& colours) {
   switch (role) {

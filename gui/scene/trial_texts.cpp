@@ -21,8 +21,7 @@ QString outcomeText(const trial::TrialResult& result) {
       return QStringLiteral("Time is up: %1%2 mm too far from the target").arg(massIs(result.mass, "is"), number(1000 * result.by, 1));
     case trial::Reason::Velocity:
       return QStringLiteral("Time is up: %1%2 mm/s too fast").arg(massIs(result.mass, "still moves"), number(1000 * result.by, 1));
-    case trial::Reason::Via:
-      return QStringLiteral("Time is up: a via point was missed by %1 mm").arg(number(1000 * result.by, 1));
+    case trial::Reason::Via: return QStringLiteral("Time is up: a via point was missed by %1 mm").arg(number(1000 * result.by, 1));
     case trial::Reason::ForceLimit: return QStringLiteral("The force exceeded its limit");
     case trial::Reason::DeviceLost: return QStringLiteral("The device was lost");
     case trial::Reason::NoOnset: return QStringLiteral("No movement began");

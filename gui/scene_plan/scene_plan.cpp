@@ -266,8 +266,8 @@ void copyToFrame(const haptics::TickState& state, SceneFrame& frame) {
 
 bool movedBeyond(double distance, const SceneFrame& from, const SceneFrame& to) {
   const auto apart = [&](const Vec3& a, const Vec3& b) { return !(norm(a - b) <= distance); };
-  if (from.handValid != to.handValid || from.cursorShown != to.cursorShown || from.viaPassed != to.viaPassed || from.masses.size() != to.masses.size() ||
-      from.hands.size() != to.hands.size())
+  if (from.handValid != to.handValid || from.cursorShown != to.cursorShown || from.viaPassed != to.viaPassed ||
+      from.masses.size() != to.masses.size() || from.hands.size() != to.hands.size())
     return true;
   for (std::size_t i = 0; i < from.hands.size(); ++i)
     if (from.hands[i].has_value() != to.hands[i].has_value() || (from.hands[i] && apart(*from.hands[i], *to.hands[i]))) return true;

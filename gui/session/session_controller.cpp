@@ -131,8 +131,8 @@ void SessionController::planRuns(const session::SessionRequest& request) {
   for (const std::string& file : mappings) onOpening_ << tr("The mapping of the hand is read from %1.").arg(QString::fromStdString(file));
   if (!instruments_) instruments_ = devices::openInstruments(request.instruments);
   auto planned = std::make_unique<session::RecordedSession>(
-      programme_, asked, [this](const auto& spec, auto scenes, auto seed) { return makeDeviceHere(spec, scenes, seed); },
-      &trace_, instruments_.get());
+      programme_, asked, [this](const auto& spec, auto scenes, auto seed) { return makeDeviceHere(spec, scenes, seed); }, &trace_,
+      instruments_.get());
   if (planned->blocksLeft() == 0)
     throw FaultError(Fault{{}, "nothing is left to do: every trial of this session is recorded", "another subject or session"});
   recorded_ = std::move(planned);

@@ -27,8 +27,8 @@ const char* const kThanks = QT_TRANSLATE_NOOP("Subject", "That was all: thank yo
 }  // namespace
 
 const std::vector<const char*>& subjectSentences() {
-  static const std::vector<const char*> all{kWait,     kGoToStart, kHold,  kReach,      kGo,      kWell, kTooFast,
-                                            kNotThere, kNotAtRest, kNotPassed, kEarly, kNoMovement, kNoCount, kRest, kThanks};
+  static const std::vector<const char*> all{kWait,      kGoToStart, kHold,  kReach,      kGo,      kWell, kTooFast, kNotThere,
+                                            kNotAtRest, kNotPassed, kEarly, kNoMovement, kNoCount, kRest, kThanks};
   return all;
 }
 

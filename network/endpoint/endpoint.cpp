@@ -210,8 +210,8 @@ class Endpoint {
     const double loss = probes.share();
     LinkStatus& status = memory_.status[s.station - 1];
     status.roundTrip.store(clock.roundTrip), status.jitter.store(clock.jitter), status.offset.store(clock.offset);
-    status.loss.store(loss), status.lossBound.store(probes.bound()), status.overtaken.store(std::max(0.0, clock.missing - loss)), status.gap.store(clock.gap),
-        status.heardNs.store(now);
+    status.loss.store(loss), status.lossBound.store(probes.bound()), status.overtaken.store(std::max(0.0, clock.missing - loss)),
+        status.gap.store(clock.gap), status.heardNs.store(now);
     if (clock.roundTrip < 0 && own_.station != 0) return;  // its time means nothing here yet
     HeardState heard;
     heard.trial = s.trial;

@@ -31,7 +31,8 @@ std::unique_ptr<Plant> makeBodyPlant(const ObjectModel& model, const experiment:
 struct CurveForm {
   bool tangential = false;
   double largestSpeed = 1;  // [m] |r_phi|
-  double seenLo = -std::numeric_limits<double>::infinity(), seenHi = std::numeric_limits<double>::infinity();  // short bends are known between
+  double seenLo = -std::numeric_limits<double>::infinity(),
+         seenHi = std::numeric_limits<double>::infinity();  // short bends are known between
 };
 std::unique_ptr<Plant> makeCurvePlant(const ObjectModel& model, const constraints::Constraint& constraint, const CurveForm& form,
                                       const MethodRequest& request);

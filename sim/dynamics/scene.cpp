@@ -272,8 +272,8 @@ CurveFacts examineCurve(const experiment::Experiment& experiment, const constrai
                 facts.regularity->seenHi - ahead};
   for (const constraints::Place& place : facts.regularity->places)
     if (experiment.task && isStill(place.kind) && std::abs(start - place.at) < 1e-9 * std::max(1.0, std::abs(place.at)))
-      throw RefusedError(fmt::format("the start phi = {} is a {}: from rest there the mass could go either way; choose another start", start,
-                                     nameOf(place.kind)));
+      throw RefusedError(fmt::format("the start phi = {} is a {}: from rest there the mass could go either way; choose another start",
+                                     start, nameOf(place.kind)));
   return facts;
 }
 

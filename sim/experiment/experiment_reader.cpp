@@ -144,7 +144,7 @@ struct KeyReader {
     if (!key.required || in.required(key.name, listOf(*key.names)) != nullptr) in.text(key.name, value);
   }
   template <class T>
-    requires std::is_enum_v<T>
+  requires std::is_enum_v<T>
   void operator()(const Key& key, T& value) const {
     std::string name;
     if (!in.choice(key.name, *key.names, name, key.required)) return;

@@ -48,7 +48,8 @@ struct KeyWriter {
     if constexpr (std::is_enum_v<T>) out[key.name] = key.names->at(static_cast<std::size_t>(value));
     else if constexpr (std::same_as<T, Vec3>) out[key.name] = toArray(value);
     else if constexpr (std::same_as<T, constraints::ConstraintSpec>) out[key.name] = constraintJson(value);
-    else if constexpr (std::is_class_v<T> && !requires { value.begin(); }) visitKeys(value, KeyWriter{out[key.name] = Json::object(), experiment});
+    else if constexpr (std::is_class_v<T> && !requires { value.begin(); })
+      visitKeys(value, KeyWriter{out[key.name] = Json::object(), experiment});
     else out[key.name] = value;
   }
   template <class T>

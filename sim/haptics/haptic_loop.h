@@ -56,8 +56,8 @@ class HapticLoop {
   bool hangs() const noexcept;
 
   static constexpr std::int64_t kPeriodNs = LoopCore::kPeriodNs;
-  static constexpr int kPatienceMs = 300;   // for the tick, or the device's clock, to end
-  static constexpr int kLastWordMs = 100;   // for `stopForce` and the watchdog after that
+  static constexpr int kPatienceMs = 300;  // for the tick, or the device's clock, to end
+  static constexpr int kLastWordMs = 100;  // for `stopForce` and the watchdog after that
   static constexpr std::int64_t kHangNs = 500'000'000;
 
  private:

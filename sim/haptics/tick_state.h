@@ -52,12 +52,12 @@ struct TickHeader {
   trial::Phase phase = trial::Phase::Idle;
   trial::Semaphore semaphore = trial::Semaphore::Neutral;
   dynamics::StepStatus status = dynamics::StepStatus::Ok;
-  std::int32_t trial = 0;     // from 1
-  bool gone = false;          // the go signal was given
+  std::int32_t trial = 0;      // from 1
+  bool gone = false;           // the go signal was given
   std::int32_t viaPassed = 0;  // places on the way
-  double trialTime = 0;       // [s] since onset; 0 before
-  double energy = 0;          // [J]
-  trial::TrialResult result;  // valid in phase Done
+  double trialTime = 0;        // [s] since onset; 0 before
+  double energy = 0;           // [J]
+  trial::TrialResult result;   // valid in phase Done
   LoopFaults faults;
   std::int32_t massCount = 0;
   std::int32_t handCount = 1;
@@ -67,7 +67,7 @@ struct TickHeader {
 
 /// The whole state after one tick. It is published to the window and becomes a row of the recording.
 struct TickState : TickHeader {
-  std::array<HandState, experiment::kMaxHands> hands{};  // the first `handCount`
+  std::array<HandState, experiment::kMaxHands> hands{};              // the first `handCount`
   std::array<dynamics::MassState, experiment::kMaxMasses> masses{};  // the first `massCount`
   EnvironmentState environment;
 };

@@ -176,8 +176,9 @@ void requireFewSwings(const experiment::Experiment& experiment, double handMass,
   constexpr double kMostSwings = 1e6;
   const double swings = fastestSwing(experiment, handMass) * duration / (2 * std::numbers::pi);
   if (swings > kMostSwings)
-    throw RefusedError(fmt::format("the object swings some {:.2g} times in {:.6g} s; allowed: {:.0e}, by softer springs, heavier masses or less time",
-                                   swings, duration, kMostSwings));
+    throw RefusedError(
+        fmt::format("the object swings some {:.2g} times in {:.6g} s; allowed: {:.0e}, by softer springs, heavier masses or less time",
+                    swings, duration, kMostSwings));
 }
 
 // Whoever asks. What is nearly nothing is no part of an object, and no method was tested with it.

@@ -142,7 +142,8 @@ DatasetFiles filesOf(const fs::path& dataset, const fs::path& backup) {
       entry.disable_recursion_pending();
     } else if (!canBeRead(entry->path(), folder)) {
       if (folder) entry.disable_recursion_pending();
-      found.unreadable += fmt::format("{}{}: cannot be read: {}", found.unreadable.empty() ? "" : "\n", entry->path().string(), std::strerror(errno));
+      found.unreadable +=
+          fmt::format("{}{}: cannot be read: {}", found.unreadable.empty() ? "" : "\n", entry->path().string(), std::strerror(errno));
     } else if (!folder && entry->is_regular_file(error) && !isTemporary(entry->path().filename().string())) {
       found.files.push_back(entry->path());
     }
@@ -223,10 +224,12 @@ class Backup {
     std::error_code error;
     if (fs::exists(copy, error)) {
       const bool sameSize = fs::file_size(copy, error) == fs::file_size(log, error);
-      if (sameSize && (list_.contains(inDataset(log, dataset_)) || fileHash(log.string(), false) == fileHash(copy.string(), true))) return {};
-      return fmt::format("{}: is there already with other bytes; nothing is overwritten: move it away if the log was recovered since, or choose "
-                         "another folder",
-                         copy.string());
+      if (sameSize && (list_.contains(inDataset(log, dataset_)) || fileHash(log.string(), false) == fileHash(copy.string(), true)))
+        return {};
+      return fmt::format(
+          "{}: is there already with other bytes; nothing is overwritten: move it away if the log was recovered since, or choose "
+          "another folder",
+          copy.string());
     }
     try {
       const record::RunLog run = record::RunLog::open(log.string(), record::LogCheck::Trials);

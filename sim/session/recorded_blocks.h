@@ -10,7 +10,7 @@ namespace reachlab::session {
 /// The recorded part of a block: its first run and the runs that resumed it.
 struct RecordedBlock {
   record::RunConfiguration configuration;  // of the first run
-  std::set<int> done = {};                  // planned indices that are finished and not to be repeated
+  std::set<int> done = {};                 // planned indices that are finished and not to be repeated
   std::set<int> putUpAgain = {};           // planned indices that are to be repeated once
   bool complete() const { return done.size() >= configuration.trials.size(); }
   int lastTrial = 0;  // largest trial number used so far

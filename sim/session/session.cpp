@@ -40,7 +40,7 @@ bool hasScenes(const record::RunConfiguration& c, const std::vector<BlockScene>&
 }
 
 const RecordedBlock* findRecordedBlock(const std::vector<RecordedBlock>& blocks, const Plan& plan, int number,
-                                  const experiment::Experiment& experiment) {
+                                       const experiment::Experiment& experiment) {
   const RecordedBlock* found = nullptr;
   for (const RecordedBlock& block : blocks) {
     const record::RunConfiguration& c = block.configuration;
@@ -154,7 +154,8 @@ void checkRecordable(const Programme& programme) {
   std::vector<Fault> faults;
   for (std::size_t k = 0; k < programme.experiments.size(); ++k) {
     const PlanBlock& block = programme.plan.blocks.at(k);
-    record::RunConfiguration c = freshConfiguration({}, programme.plan, block, programme.experiments[k].experiment(), programme.scenes.at(k));
+    record::RunConfiguration c =
+        freshConfiguration({}, programme.plan, block, programme.experiments[k].experiment(), programme.scenes.at(k));
     c.trials = planTrials(block, 0);
     addUnreadable(std::move(c), programme.experiments[k], programme.scenes.at(k), faults);
   }
@@ -172,7 +173,9 @@ int sessionDay(const SessionRequest& request, const Plan& plan) {
   else if (!number)
     throw FaultError(Fault{"session", fmt::format("\"{}\" is no number, and the plan {} has days", label, plan.name),
                            "01, 02 …, or a day asked for beside it"});
-  if (day < 1) throw FaultError(Fault{"session", fmt::format("\"{}\" is day 0, and the days of the plan {} begin with 1", label, plan.name), "01, 02 …"});
+  if (day < 1)
+    throw FaultError(
+        Fault{"session", fmt::format("\"{}\" is day 0, and the days of the plan {} begin with 1", label, plan.name), "01, 02 …"});
   return day;
 }
 
@@ -272,7 +275,8 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
 
 void requireOneScene(const BlockToRun& block) {
   if (block.scenes.size() > 1)
-    throw FaultError(Fault{"experiment", "has kinds of trials or targets, and stations share one scene", "a block without kinds and targets"});
+    throw FaultError(
+        Fault{"experiment", "has kinds of trials or targets, and stations share one scene", "a block without kinds and targets"});
 }
 
 void takeFreeRun(BlockToRun& block, const SessionPlace& place, bool askedFor) {

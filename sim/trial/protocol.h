@@ -98,7 +98,7 @@ struct ProtocolState {
   Semaphore semaphore = Semaphore::Neutral;
   std::int32_t trial = 0;  // from 1
   PlannedTrial planned;
-  bool gone = false;  // the go signal was given
+  bool gone = false;                                  // the go signal was given
   std::array<Vec3, experiment::kMaxHands> armedAt{};  // [m] the HIPs at arming
   std::uint64_t putUpTick = 0, armedTick = 0, onsetTick = 0;
   std::int64_t restTicks = 0;    // at the start and at rest, in a row

@@ -32,7 +32,8 @@ TEST(Adaptation, ReboundsAsTheTwoStateModelWasPublished) {
   const AdaptationSeries series = savings(kSmith);
   EXPECT_NEAR(*series[299].response, 0.750060669, 5e-10);
   EXPECT_NEAR(*series[319].response, -0.220273289, 5e-10);
-  const auto rebound = std::max_element(series.begin() + 320, series.end(), [](const auto& a, const auto& b) { return *a.response < *b.response; });
+  const auto rebound =
+      std::max_element(series.begin() + 320, series.end(), [](const auto& a, const auto& b) { return *a.response < *b.response; });
   EXPECT_NEAR(*rebound->response, 0.160897459, 5e-10);
   EXPECT_EQ(rebound - (series.begin() + 320), 10);  // the eleventh channel trial
 }
@@ -66,7 +67,8 @@ TEST(Adaptation, DoesNotDependOnTheUnitAndRefusesNumbersWhoseSquaresAreNoNumbers
     return series;
   };
   const AdaptationFit fit = fitAdaptation(inUnit(1), 100, 1);
-  for (const double unit : {1e-90, 1e90}) EXPECT_NEAR(fitAdaptation(inUnit(unit), 100, 1).one.states[0].retention, fit.one.states[0].retention, 1e-6);
+  for (const double unit : {1e-90, 1e90})
+    EXPECT_NEAR(fitAdaptation(inUnit(unit), 100, 1).one.states[0].retention, fit.one.states[0].retention, 1e-6);
   for (const double unit : {5e-324, 1e-200, 1e160, 1e300}) EXPECT_THROW(fitAdaptation(inUnit(unit), 100, 1), RefusedError) << unit;
 }
 

@@ -285,7 +285,8 @@ TEST(Alternatives, ChangeTheConclusionOnlyWhereTheTruthIsLeftOut) {
   addAlternatives(analysis, rows);
   EXPECT_EQ(analysis.alternatives.front().criterion, "min-hand-jerk");
   EXPECT_GE(analysis.alternatives.size(), 10u);
-  for (const AlternativeConclusion& row : analysis.alternatives) EXPECT_EQ(row.changed, row.choice == "without min-hand-jerk") << row.choice;
+  for (const AlternativeConclusion& row : analysis.alternatives)
+    EXPECT_EQ(row.changed, row.choice == "without min-hand-jerk") << row.choice;
   EXPECT_NE(describeAlternatives(analysis).find(" The others are: without min-hand-jerk: "), std::string::npos);
   // Each choice has the scores of its candidates; those as asked are the conclusions'.
   std::map<std::string, std::string> files;

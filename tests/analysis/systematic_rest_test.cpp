@@ -73,7 +73,8 @@ TEST(SystematicRest, OfALongSeriesIsThatOfMeansOfConsecutiveTrials) {
   EXPECT_LT(rest.p(), 0.001);
   EXPECT_NEAR(rest.share, 0.0065, 0.006);
   EXPECT_EQ(computeSystematicRest({t.residuals[0], t.residuals[1]}, {1, 1}).p(), 1) << "too few to tell";
-  EXPECT_EQ(computeSystematicRest(LaidResiduals(10, std::vector<double>(kPhases, 0.0)), std::vector<double>(10, 1.0)).p(), 1) << "nothing is left";
+  EXPECT_EQ(computeSystematicRest(LaidResiduals(10, std::vector<double>(kPhases, 0.0)), std::vector<double>(10, 1.0)).p(), 1)
+      << "nothing is left";
 }
 
 TEST(SystematicRest, OfSeveralHasTheMeanShareAndTheCumulantsOfAMean) {

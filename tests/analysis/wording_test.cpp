@@ -165,9 +165,10 @@ Analysis madeAdaptation(const std::vector<double>& plateaus, double push) {
 }
 
 TEST(Wording, OfLearningGivesPlateauAfterEffectAndItsSide) {
-  EXPECT_EQ(describeLearning(madeAdaptation({60}, -0.02)),
-            "In a counterclockwise curl field of 13 N s/m, 1 subject learned to cancel 60 % of it (channel trials of the last quarter of the "
-            "training). Without it they then deviated by 10 mm to the right, against the deviation at first (after-effect).");
+  EXPECT_EQ(
+      describeLearning(madeAdaptation({60}, -0.02)),
+      "In a counterclockwise curl field of 13 N s/m, 1 subject learned to cancel 60 % of it (channel trials of the last quarter of the "
+      "training). Without it they then deviated by 10 mm to the right, against the deviation at first (after-effect).");
   // t(0.975; 2) sd / sqrt(3) = 4.3027 * 10 / 1.7321 = 24.8.
   expectIn(describeLearning(madeAdaptation({50, 60, 70}, 0.02)),
            {"3 subjects learned to cancel 60 [35.2, 84.8] % of it", "by 10 mm to the left, against the"});
@@ -175,9 +176,10 @@ TEST(Wording, OfLearningGivesPlateauAfterEffectAndItsSide) {
            {"3 subjects cancelled 16.7 [−83.7, 117] % of it", "It is not shown that they learned."});
   Analysis without = madeAdaptation({60}, -0.02);
   std::erase_if(without.trials, [](const AnalyzedTrial& t) { return t.scene.channel || t.key.trial > 18; });
-  expectIn(describeLearning(without),
-           {"1 subject deviated by 20 mm to the left at first and by 5 mm to the left in the last quarter of the training. No trial without it "
-            "followed"});
+  expectIn(
+      describeLearning(without),
+      {"1 subject deviated by 20 mm to the left at first and by 5 mm to the left in the last quarter of the training. No trial without it "
+       "followed"});
   EXPECT_EQ(describeLearning(madeStudy()), "") << "nobody was perturbed";
 }
 
@@ -208,7 +210,8 @@ TEST(Wording, OfEffectsGivesIntervalsForTwoPeopleOrMore) {
   EXPECT_EQ(describeEffect(analysis, analysis.effects[0]),
             "quick, D2 − D1: +21 percentage points [5, 37], odds ratio 2.5 [1.25, 5], p = 0.012 (2 subjects).");
   EXPECT_EQ(describeEffect(analysis, analysis.effects[1]), "quick − slow pace: −12.5 percentage points (one subject: no interval).");
-  EXPECT_EQ(describeSlope(analysis, analysis.slopes[0]), "quick: +0.75 percentage points per ten trials [−0.25, 1.75], p = 0.2 (2 subjects).");
+  EXPECT_EQ(describeSlope(analysis, analysis.slopes[0]),
+            "quick: +0.75 percentage points per ten trials [−0.25, 1.75], p = 0.2 (2 subjects).");
   EXPECT_EQ(describeSlope(analysis, analysis.slopes[1]), "slow pace: −0.3 percentage points per ten trials (one subject: no interval).");
   Effect none = analysis.effects[1];
   none.points.mean = 0;

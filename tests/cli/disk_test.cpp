@@ -72,7 +72,8 @@ TEST(FullDisk, LeavesNoLogOfARunThatCouldNotBegin) {
     const std::filesystem::path sources = std::filesystem::path(data) / "sourcedata";
     std::filesystem::create_directories(sources);
     EXPECT_EQ(runWithFileLimit(data, data, limit).exitCode, 3);
-    for (const auto& entry : std::filesystem::directory_iterator(sources)) EXPECT_EQ(entry.path().string().find("_log.reach"), std::string::npos);
+    for (const auto& entry : std::filesystem::directory_iterator(sources))
+      EXPECT_EQ(entry.path().string().find("_log.reach"), std::string::npos);
     EXPECT_TRUE(session::recordedRuns({data}).empty());
   }
 }

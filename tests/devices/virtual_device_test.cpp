@@ -65,7 +65,8 @@ TEST(VirtualDevice, AWholeRunIsTheSameTwiceAndWithinTheDevicesForce) {
   const auto run = [&] {
     haptics::LoopOptions options;
     options.virtualClock = true;
-    haptics::RunConductor conductor(experiment::CompiledExperiment(experiment), makeDevice("virtual:premium15", experiment, 3), {trial::PlannedTrial{0}}, options);
+    haptics::RunConductor conductor(experiment::CompiledExperiment(experiment), makeDevice("virtual:premium15", experiment, 3),
+                                    {trial::PlannedTrial{0}}, options);
     conductor.start(nullptr);
     return conductor.runTrial(std::atomic<bool>{false})->result;
   };

@@ -69,8 +69,8 @@ TEST(UnseenPlaces, AMassOnACurveKeepsItsSpeedThroughNeedlesAndRoundedCorners) {
   for (const Spot& spot : spots())
     for (const double start : {-0.3, -0.30037}) {
       SCOPED_TRACE(fmt::format("{} from {}", spot.y, start));
-      Scene scene = freeScene(onCurve(makeExperiment(experiment::ObjectKind::Point, {1}, {}), "0.1*phi", inTermsOf(spot.y, "phi"), "0"), {start},
-                              {1.3});
+      Scene scene = freeScene(onCurve(makeExperiment(experiment::ObjectKind::Point, {1}, {}), "0.1*phi", inTermsOf(spot.y, "phi"), "0"),
+                              {start}, {1.3});
       const double speed = norm(observed(*scene.plant)[0].v);
       ASSERT_EQ(run(*scene.plant, noHand, 1.2, kShort), StepStatus::Ok) << scene.plant->stopReason();
       const long double way = lengthOf(spot.slope, start, observed(*scene.plant)[0].q[0], spot.at, spot.width);
@@ -100,7 +100,8 @@ TEST(UnseenPlaces, AMassOnASurfaceKeepsItsSpeedAcrossRidges) {
 TEST(UnseenPlaces, AMassOnRipplesKeepsItsSpeed) {
   const Slope slope = [](long double p) { return std::cos(1e5L * p); };
   for (const double rate : {0.1296, 0.02}) {
-    Scene scene = freeScene(onCurve(makeExperiment(experiment::ObjectKind::Point, {1}, {}), "0.1*phi", "1e-5*sin(1e5*phi)", "0"), {7e-6}, {rate});
+    Scene scene =
+        freeScene(onCurve(makeExperiment(experiment::ObjectKind::Point, {1}, {}), "0.1*phi", "1e-5*sin(1e5*phi)", "0"), {7e-6}, {rate});
     const double speed = norm(observed(*scene.plant)[0].v);
     ASSERT_EQ(run(*scene.plant, noHand, 0.04, kShort), StepStatus::Ok) << scene.plant->stopReason();
     const double end = observed(*scene.plant)[0].q[0];
@@ -116,9 +117,9 @@ TEST(UnseenPlaces, AMassOnRipplesKeepsItsSpeed) {
 
 /// A cone 0.1 v (cos u, sin u, slope) unfolded: where a mass from (u, v) = (0, 1) with rates (turn, -1) is after `time`.
 Vec3 onUnfoldedCone(double slope, double turn, double time) {
-  const long double slant = std::sqrt(1 + static_cast<long double>(slope) * slope), radius = slant / 10, across = radius * turn / slant * time,
-                    along = radius - radius * time, far = std::sqrt(along * along + across * across) / radius,
-                    u = std::atan2(across, along) * slant;
+  const long double slant = std::sqrt(1 + static_cast<long double>(slope) * slope), radius = slant / 10,
+                    across = radius * turn / slant * time, along = radius - radius * time,
+                    far = std::sqrt(along * along + across * across) / radius, u = std::atan2(across, along) * slant;
   return {static_cast<double>(far * std::cos(u) / 10), static_cast<double>(far * std::sin(u) / 10), static_cast<double>(far * slope / 10)};
 }
 

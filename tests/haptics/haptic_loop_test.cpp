@@ -124,8 +124,7 @@ TEST(HapticLoop, KeepsToItsDeadlinesWhateverItMisses) {
   const auto clock =
       std::make_shared<MadeClock>(std::map<int, std::int64_t>{{10, 430'000}, {20, 3'430'000}, {30, 7'530'000}, {40, 1'080'000}});
   options.clock = clock;
-  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("chain-moderate"), EngineOptions{}), device, &sink,
-                  options);
+  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("chain-moderate"), EngineOptions{}), device, &sink, options);
   loop.start();
   loop.start();  // once is enough
   while (loop.report().ticks < 60) std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -219,7 +219,8 @@ TEST_F(LoopSafety, ARunOnADeviceThatHangsEndsItsTrialAsLostAndSaysWhy) {
   auto engine = std::make_unique<TickEngine>(experiment, EngineOptions{});
   auto hanging = std::make_unique<FailingDevice>(engine->protocol().start);
   FailingDevice* const seen = hanging.get();
-  auto run = std::make_unique<RunConductor>(experiment::CompiledExperiment(experiment), std::move(hanging), std::vector<trial::PlannedTrial>{{}});
+  auto run =
+      std::make_unique<RunConductor>(experiment::CompiledExperiment(experiment), std::move(hanging), std::vector<trial::PlannedTrial>{{}});
   run->start(nullptr);
   std::jthread breaker([&] {
     until([&] { return seen->lastForce > 1.2; });

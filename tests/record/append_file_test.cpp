@@ -286,8 +286,7 @@ TEST(ReadWholeFile, GivesEveryByte) {
 TEST(ReadWholeFile, RefusesWhatIsNotThereNoFileOrTooLarge) {
   const TemporaryFolder folder;
   const std::string path = folder / "file";
-  EXPECT_EQ(refusalOf([&] { readWholeFile(path); }),
-            path + ": cannot be read: No such file or directory");
+  EXPECT_EQ(refusalOf([&] { readWholeFile(path); }), path + ": cannot be read: No such file or directory");
   EXPECT_EQ(refusalOf([&] { readWholeFile(folder / ""); }), (folder / "").string() + ": is no regular file; allowed: a file on a disk");
   writeFileAtomically(path, "");
   std::filesystem::resize_file(path, (1u << 30) + 1);  // takes no room on the disk

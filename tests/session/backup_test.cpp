@@ -100,7 +100,8 @@ class AsNobody {
 TEST_F(Backups, NameWhatCannotBeReadAndCopyTheRest) {
   addRun(2);
   fs::create_directories(backup_);
-  for (const fs::path& folder : {fs::path(folder_.path()), fs::path(backup_).parent_path(), fs::path(backup_)}) fs::permissions(folder, fs::perms::all);
+  for (const fs::path& folder : {fs::path(folder_.path()), fs::path(backup_).parent_path(), fs::path(backup_)})
+    fs::permissions(folder, fs::perms::all);
   fs::permissions(dataset_ + "/code", fs::perms::none);
   fs::permissions(logOf(1), fs::perms::none);
   std::string told;

@@ -506,7 +506,7 @@ TEST(TrialResult, TheRunEndsWithWhatSomebodyBrokeOffAndGoesOnAfterWhatTheCompute
 TEST(TrialResult, HasNamesThatFilesKnow) {
   const std::string_view outcomes[] = {"none", "success", "failure", "aborted", "interrupted"};
   for (int i = 0; i < 5; ++i) EXPECT_EQ(nameOf(static_cast<Outcome>(i)), outcomes[i]);
-  const std::string_view reasons[] = {"none",        "position", "velocity",     "time_short",        "none",   "force_limit",
+  const std::string_view reasons[] = {"none",        "position", "velocity",     "time_short",        "none",        "force_limit",
                                       "device_lost", "no_onset", "experimenter", "end_of_constraint", "computation", "program",
                                       "early",       "timing",   "no_start",     "peer_lost",         "via"};
   for (int i = 0; i < 17; ++i) EXPECT_EQ(nameOf(static_cast<Reason>(i)), reasons[i]);

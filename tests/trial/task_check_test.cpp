@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-
 #include <functional>
 
 #include "sim/experiment/experiment.h"
@@ -30,7 +29,8 @@ TEST(TaskCheck, TellsOfMassesAndTimesThatAreHardlyMeant) {
   ASSERT_EQ(slow.size(), 1u);
   EXPECT_EQ(slow[0].key, "task.duration_s");
   EXPECT_EQ(slow[0].what, "is 60.5 s; more than 60 s is hardly meant");
-  EXPECT_TRUE(implausibleWith("epitrochoid", [](auto& e) { e.task->target[0] = e.task->start[0] + 2 * std::numbers::pi; }).empty()) << "a lap";
+  EXPECT_TRUE(implausibleWith("epitrochoid", [](auto& e) { e.task->target[0] = e.task->start[0] + 2 * std::numbers::pi; }).empty())
+      << "a lap";
   const auto turns = implausibleWith("epitrochoid", [](auto& e) { e.task->target[0] = e.task->start[0] - 12 * std::numbers::pi; });
   ASSERT_EQ(turns.size(), 1u);
   EXPECT_EQ(turns[0].key, "task.target[0]");

@@ -56,9 +56,9 @@ class Adaptive {
   }
 
  private:
-  static constexpr double kGrowth = 5;           // largest ratio of a sub-step to the one before it; 1 right after a rejection
-  static constexpr double kRounding = 4.5e-16;   // of phi, two units in its last place: a smaller error cannot be reached
-  static constexpr double kNearlyLast = 1.01;    // of a sub-step: a shorter rest is taken in one sub-step
+  static constexpr double kGrowth = 5;          // largest ratio of a sub-step to the one before it; 1 right after a rejection
+  static constexpr double kRounding = 4.5e-16;  // of phi, two units in its last place: a smaller error cannot be reached
+  static constexpr double kNearlyLast = 1.01;   // of a sub-step: a shorter rest is taken in one sub-step
 
   static bool mayHaveTurned(const System& system, const State& from, const State& to, double h) noexcept {
     if constexpr (System::kHas.branches) return system.turned(from, to, h);

@@ -98,9 +98,9 @@ class CuspAdaptive {
     /// A sub-step of tau from y to `trial`. Returns its estimated error, where 1 is the most allowed.
     double attempt(double tau) noexcept {
       rhs += dop853::kStages - 1;
-      return dop853::attempt<kSize>([&](double, const Extended& at, Extended& d) { rate(at, d); },
-                                    [&](int i, double value) { return i < n ? tolerance * (system.scale(i) + std::abs(value)) : tolerance; },
-                                    0, tau, y, k, trial);
+      return dop853::attempt<kSize>(
+          [&](double, const Extended& at, Extended& d) { rate(at, d); },
+          [&](int i, double value) { return i < n ? tolerance * (system.scale(i) + std::abs(value)) : tolerance; }, 0, tau, y, k, trial);
     }
 
     /// Selects the mass that is nearest its cusp now. False where it rests on the cusp.

@@ -23,7 +23,8 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N, Parallel>> {
   static constexpr int kStates = 2 * N;
   static constexpr bool kTangential = true;
   static constexpr bool kSecondOrder = false;
-  static constexpr Hooks kHas{.ends = true, .branches = true, .holding = true, .care = true, .pieces = true, .sight = true, .leadRate = true};
+  static constexpr Hooks kHas{
+      .ends = true, .branches = true, .holding = true, .care = true, .pieces = true, .sight = true, .leadRate = true};
   static constexpr double kSwing = 1.0 / 30;
   using State = Numbers<kStates>;
   std::shared_ptr<const constraints::CurveRegularity> regularity;

@@ -33,7 +33,8 @@ struct CurvePlaces {
   constraints::Period period;  // whole turns of it are taken off phi, where it has become large, and counted here
   std::array<double, kMassCapacity<N>> turns{};
   int ticks = 0;
-  double seenLo = -std::numeric_limits<double>::infinity(), seenHi = std::numeric_limits<double>::infinity();  // short bends are known between
+  double seenLo = -std::numeric_limits<double>::infinity(),
+         seenHi = std::numeric_limits<double>::infinity();  // short bends are known between
 
   CurvePlaces(const ObjectModel& model, const constraints::Constraint& constraint, double typicalSpeed, int roomForPhi)
       : curve(constraint.curve), domain(constraint.domain[0]), speedScale(typicalSpeed), count(model.count()), room(roomForPhi),
@@ -94,8 +95,8 @@ struct CurvePlaces {
     for (int i = 0; i < n(); ++i)
       if (const double phi = phiOf(i, y[i]); isUnseen(phi))
         return fmt::format(
-            "mass {} at phi = {:.9g} left what was examined: bends too short for a step were looked for from {:.6g} to {:.6g} only", i + 1, phi,
-            seenLo, seenHi);
+            "mass {} at phi = {:.9g} left what was examined: bends too short for a step were looked for from {:.6g} to {:.6g} only", i + 1,
+            phi, seenLo, seenHi);
     for (int i = 0; i < n(); ++i)
       if (const constraints::CurvePoint p = evaluate(curve, y[i]); roundingOfPhi(p, y[i]) > allowedRounding(p))
         return fmt::format("mass {} at phi = {:.6g}, so far from 0 that a rounding of phi moves it by {:.2g} m, in every tick", i + 1, y[i],

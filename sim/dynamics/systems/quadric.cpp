@@ -20,7 +20,7 @@ double sampleAt(const constraints::Domain& domain, double start, double fraction
   return lo + (hi - lo) * fraction;
 }
 
-constexpr double kRound = 1e-13;  // of A: as round as ten fitted coefficients can be
+constexpr double kRound = 1e-13;            // of A: as round as ten fitted coefficients can be
 constexpr double kNone = 1e-6, kOn = 1e-9;  // of the gradient, which is of order one; [m] from the surface
 
 /// The place d where the gradient vanishes, or comes nearest to it.

@@ -13,11 +13,12 @@ namespace reachlab::dynamics {
 struct QuadricSystem : SpaceSystem<Springs<1, true>> {
   static constexpr int kStates = 6;
   static constexpr bool kSecondOrder = true;
-  static constexpr Hooks kHas{.ends = true, .settling = true, .losing = true, .parametrising = true, .care = true, .sight = true, .gliding = true};
-  static constexpr int kProjectEvery = 8;   // ticks
-  static constexpr double kBeside = 0.1;    // [m] from an apex, within which sub-steps have smaller errors
+  static constexpr Hooks kHas{
+      .ends = true, .settling = true, .losing = true, .parametrising = true, .care = true, .sight = true, .gliding = true};
+  static constexpr int kProjectEvery = 8;    // ticks
+  static constexpr double kBeside = 0.1;     // [m] from an apex, within which sub-steps have smaller errors
   static constexpr double kSubSteps = 0.01;  // [m] from an apex, within which there are only sub-steps
-  static constexpr double kNearest = 2e-6;  // [m] from an apex, within which rounding decides where a mass leaves it
+  static constexpr double kNearest = 2e-6;   // [m] from an apex, within which rounding decides where a mass leaves it
   using State = Numbers<6>;
 
   Quadric quadric;
@@ -27,8 +28,8 @@ struct QuadricSystem : SpaceSystem<Springs<1, true>> {
   bool edges = false;  // the domain has an edge that is not a pole: parameters are followed
   int ticks = 0;
   mutable std::array<double, 2> parameters{};  // last known u, v: where the search for the next begins
-  mutable double nearness = 1;   // the distance from an apex over kBeside, at most 1
-  mutable bool atApex = false;   // a step came nearer than kNearest
+  mutable double nearness = 1;                 // the distance from an apex over kBeside, at most 1
+  mutable bool atApex = false;                 // a step came nearer than kNearest
   std::optional<Sphere> sphere;
   bool gliding = false;  // on a sphere without forces
 

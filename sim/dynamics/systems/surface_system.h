@@ -84,7 +84,8 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
     const double a = fusedDot(p.rU, drive), b = fusedDot(p.rV, drive), inverse = 1 / determinant;
     // If the lines are less oblique than the limit of flatness, they are neither flat nor parallel. One comparison decides this in nearly
     // all cases.
-    const double awayFromOblique = mulAdd(-kOblique * e, g, determinant), flatBelow = (watch == nullptr ? kDegenerate : kThin) * largestArea;
+    const double awayFromOblique = mulAdd(-kOblique * e, g, determinant),
+                 flatBelow = (watch == nullptr ? kDegenerate : kThin) * largestArea;
     if (!(awayFromOblique > flatBelow && std::max(e, g) <= kLong)) [[unlikely]] {
       met.flat |= determinant < kDegenerate * largestArea;
       met.thin |= determinant < flatBelow;

@@ -22,7 +22,7 @@ using Vector = Eigen::VectorXd;
 constexpr int kMaxIterations = 25;
 constexpr int kMaxUnknowns = 300, kMaxIntervals = 4000;
 constexpr double kSettled = 3e-6;       // change of the unknowns, relative: Newton's error is its square
-constexpr double kLeastError = 1e-12;  // of the profile, of its peak: rounding
+constexpr double kLeastError = 1e-12;   // of the profile, of its peak: rounding
 constexpr double kProfile = 2e-9;       // error of the profile, of its peak, that is aimed at
 constexpr double kArrived = 1e-11;      // of the way, by any mass on the finer intervals
 constexpr double kRounding = 1e-9;      // of the way, beyond the end of a curve whose target is its end

@@ -28,13 +28,13 @@ class EnergyMovement {
  public:
   using Batch = BatchOf<Real>;
   EnergyMovement(const ControlProblem& system, const SparseRows& a, int intervals, double halfWidth, LaneMatrix<Real> half,
-           const LaneMatrix<Real>& whole, double condition)
-      : size_(system.size), count_(intervals), terms_(countTerms(a.norm() * halfWidth, kSeriesRounding / condition)), memory_(half.memory()),
-        scaled_(memory_, system, a, halfWidth), inverse_(makeInverses<Real>(memory_, terms_ + 1)), half_(std::move(half)),
-        halfTurned_(transpose(half_)), whole_(whole), gain_(makeImpulse<Real>(scaled_, system, -1.0, inverse_, terms_, memory_)),
-        adjoint_(memory_, count_, size_), atBegin_(memory_, count_, size_), atEnd_(memory_, count_, size_), row_(memory_, 2, size_),
-        lane_(memory_, 5 * 2 * size_, 1), control_(memory_, lanesFor<kBatchLanes>(count_) * terms_, kBatchLanes),
-        state(memory_, count_, size_) {}
+                 const LaneMatrix<Real>& whole, double condition)
+      : size_(system.size), count_(intervals), terms_(countTerms(a.norm() * halfWidth, kSeriesRounding / condition)),
+        memory_(half.memory()), scaled_(memory_, system, a, halfWidth), inverse_(makeInverses<Real>(memory_, terms_ + 1)),
+        half_(std::move(half)), halfTurned_(transpose(half_)), whole_(whole),
+        gain_(makeImpulse<Real>(scaled_, system, -1.0, inverse_, terms_, memory_)), adjoint_(memory_, count_, size_),
+        atBegin_(memory_, count_, size_), atEnd_(memory_, count_, size_), row_(memory_, 2, size_), lane_(memory_, 5 * 2 * size_, 1),
+        control_(memory_, lanesFor<kBatchLanes>(count_) * terms_, kBatchLanes), state(memory_, count_, size_) {}
 
   // The control is u = b^T adjoint, with the adjoint backwards from `weights` at T. The states follow it from rest. Returns the end state.
   std::vector<Real> follow(const std::vector<Real>& weights) {

@@ -24,8 +24,8 @@ constexpr size_t kFirstMemory = 48 * 1024;  // [B] of a chain of five in double
 // The weights under which the movement comes to the target. W carries the square of the condition into its inverse; what the movement
 // misses the target by corrects that. False where it did not settle.
 template <class Real>
-bool findWeights(const ControlProblem& system, const Gramian<Real>& gramian, const std::vector<Real>& target, EnergyMovement<Real>& movement,
-                 std::vector<Real>& weights, double& miss) {
+bool findWeights(const ControlProblem& system, const Gramian<Real>& gramian, const std::vector<Real>& target,
+                 EnergyMovement<Real>& movement, std::vector<Real>& weights, double& miss) {
   const typename Gramian<Real>::Solution solution = gramian.solve(target);
   weights = solution.weights;
   const double wanted = gramian.condition() < Precision<Real>::kNeedsNoCorrection
@@ -67,7 +67,8 @@ std::optional<MinimumEnergyMotion> solveIn(const ControlProblem& system, const S
   if (std::is_same_v<Real, double> && !(motion.condition <= Precision<double>::kMaxCondition)) return std::nullopt;
   const int intervals = 1 << (doublings - toHalf - 1);
   const double halfWidth = duration / (2 * intervals);
-  EnergyMovement<Real> movement(system, a, intervals, halfWidth, std::move(half), whole, std::clamp(motion.condition, 1.0, kRefuseCondition));
+  EnergyMovement<Real> movement(system, a, intervals, halfWidth, std::move(half), whole,
+                                std::clamp(motion.condition, 1.0, kRefuseCondition));
   std::vector<Real> target;
   target.reserve(system.target.size());
   for (const DoubleDouble& x : system.target) target.push_back(rounded<Real>(x));

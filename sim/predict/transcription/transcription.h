@@ -20,7 +20,7 @@ struct TranscribedMotion {
   std::vector<double> start;
   double duration = 0;
   double cost = 0;
-  double condition = 0;  // root of the last Newton matrix's, as it is of a square, its diagonal scaled to one
+  double condition = 0;    // root of the last Newton matrix's, as it is of a square, its diagonal scaled to one
   double uncertainty = 0;  // likely error of the profile, of its peak, by which the number of unknowns is judged
   double errorBound = 0;   // what it is said to be; 0 where it was found from neighbours and nothing is known
 

@@ -98,8 +98,8 @@ ChannelTable makeChannelTable(const experiment::Experiment& experiment, int para
   table.parameterCount = parameterCount;
   table.body = experiment.object.kind == experiment::ObjectKind::Body;
   auto& out = table.channels;
-  addScalar(out,
-            {"latency", "time_s", "LATENCY", "n/a", "s", "time in ticks of 1 ms, the clock of protocol and physics; in exported files since the first sample, as events"});
+  addScalar(out, {"latency", "time_s", "LATENCY", "n/a", "s",
+                  "time in ticks of 1 ms, the clock of protocol and physics; in exported files since the first sample, as events"});
   addScalar(out, {"measured_time", "measured_s", "MISC", "n/a", "s", "monotonic clock of the computer, from the same moment as latency"});
   addVector(out, {"hand_pos", "hand_{}_m", "POS", "hand", "m", "haptic interface point as the coupling sees it"});
   addVector(out, {"hand_vel", "hand_v{}_m_per_s", "VEL", "hand", "m/s", "haptic interface point, estimated velocity"});
@@ -123,8 +123,10 @@ ChannelTable makeChannelTable(const experiment::Experiment& experiment, int para
   if (!experiment.environment.empty()) table.environment = true;
   if (experiment.cursor) table.cursor = true;
   if (table.environment)
-    addVector(out, {"environment_force", "environment_{}_n", "MISC", "hand", "N", "force of the environment on the hand, before the safety limits"});
-  if (table.cursor) addVector(out, {"cursor_pos", "cursor_{}_m", "POS", "cursor", "m", "cursor of the hand, without the delay of the picture"});
+    addVector(out, {"environment_force", "environment_{}_n", "MISC", "hand", "N",
+                    "force of the environment on the hand, before the safety limits"});
+  if (table.cursor)
+    addVector(out, {"cursor_pos", "cursor_{}_m", "POS", "cursor", "m", "cursor of the hand, without the delay of the picture"});
   return table;
 }
 

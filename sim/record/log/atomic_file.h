@@ -34,7 +34,6 @@ void writeFileAtomically(const std::string& path, std::string_view text);
 /// The same for a new file: of several programs that write it at once, one program succeeds. False: the file exists already.
 bool createFileAtomically(const std::string& path, std::string_view text);
 
-
 /// AtomicFile for a library that writes by name. The library writes `temporary()` and closes it. Then `commit` puts the file in the
 /// position of `path` once it is on the disk. Without `commit` nothing is left, also where the program is killed. One thread. Members throw
 /// ResourceError.

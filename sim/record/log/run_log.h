@@ -73,7 +73,7 @@ struct RecordedTrial {
   double peakForce = 0;                                    // [N] largest coupling force
   double meanForce = 0;                                    // [N]
   std::uint64_t clampedTicks = 0, missedTicks = 0;
-  std::uint64_t droppedTicks = 0;  // that the recorder lost because the disk was too slow
+  std::uint64_t droppedTicks = 0;                             // that the recorder lost because the disk was too slow
   double elapsed = std::numeric_limits<double>::quiet_NaN();  // [s] from go to the end by the computer's clock; NaN: no go
   bool channelBroken = false;                                 // EventKind::ChannelBroken came in this trial
   bool complete = true;                                       // false: the log broke off in this trial

@@ -19,8 +19,8 @@ struct TickMeasure {
   std::string_view name;      // with its unit, as in every table
   std::string_view sentence;  // of every dictionary
   double (*of)(const RecordedTrial& trial);
-  bool count = false;         // a whole number
-  bool ofComputer = false;    // of the computer that recorded and not of the movement
+  bool count = false;       // a whole number
+  bool ofComputer = false;  // of the computer that recorded and not of the movement
 };
 std::span<const TickMeasure> tickMeasures();
 /// The measure of that name. A name that is in no table is a mistake in the program and throws FaultError.

@@ -14,8 +14,8 @@ struct TickFacts {
   bool clamped = false;  // the device gets less force than the object gives
   haptics::DeviceState deviceState = haptics::DeviceState::Off;
   std::uint8_t interventions = 0;  // bits of haptics::intervention
-  bool deviceValid = true;     // the first hand's
-  bool channelBroken = false;  // in the trial under way
+  bool deviceValid = true;         // the first hand's
+  bool channelBroken = false;      // in the trial under way
   dynamics::HandSample hip;
   Vec3 couplingForce;         // [N]
   trial::TrialResult result;  // in phase Done

@@ -18,7 +18,7 @@ struct FakeInput {
 };
 struct FakeInputs {
   std::mutex mutex;
-  std::map<std::string, FakeInput> nodes;                                // by their paths
+  std::map<std::string, FakeInput> nodes;                                 // by their paths
   std::optional<std::vector<devices::TabletNode>> listed = std::nullopt;  // instead of /dev/input
 };
 FakeInputs& fakeInputs();

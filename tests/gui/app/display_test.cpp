@@ -18,8 +18,9 @@ TEST(Display, ThatDoesNotAnswerIsNamedWithTheRemedy) {
   ASSERT_TRUE(program.waitForFinished(60000));
   EXPECT_EQ(program.exitStatus(), QProcess::NormalExit);
   EXPECT_EQ(program.exitCode(), 3);
-  EXPECT_EQ(program.readAllStandardError().toStdString(),
-            "error: the display :4242 does not answer\nhelp: set DISPLAY to the display of your session, or use `reach run`, which needs no window\n");
+  EXPECT_EQ(
+      program.readAllStandardError().toStdString(),
+      "error: the display :4242 does not answer\nhelp: set DISPLAY to the display of your session, or use `reach run`, which needs no window\n");
 }
 
 }  // namespace
