@@ -99,7 +99,9 @@ TEST_F(Fields, TabGoesThroughADockAsItIsRead) {
       before = widget;
       ++rows;
     } while (widget != dock);
-    if (dock->objectName() == QLatin1String("taskDock")) EXPECT_EQ(rows, 7) << "start, target, via, T and three tolerances";
+    if (dock->objectName() == QLatin1String("taskDock")) {
+      EXPECT_EQ(rows, 7) << "start, target, via, T and three tolerances";
+    }
   }
 }
 
