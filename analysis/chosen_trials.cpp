@@ -67,22 +67,9 @@ record::TrialIndex indexMotionFiles(const std::string& folder, const record::Ind
     ++index.read;
     try {
       const RunSource source = readBidsRun(file);
-      const record::RunConfiguration& c = source.configuration;
-      record::IndexedRun run;
-      run.path = file;
-      run.subject = c.subject;
-      run.session = c.session;
-      run.condition = record::conditionOf(c);
-      run.experiment = c.experimentName;
-      run.device = c.device;
-      run.run = c.run;
-      run.block = c.block;
-      run.day = c.day;
-      run.practice = c.practice;
+      record::IndexedRun run = record::indexedRunOf(file, source.configuration);
       run.trials = source.trials;
       for (record::RecordedTrial& trial : run.trials) trial.peakHandSpeed = trial.handPathLength = kNotMeasured;  // not in the tables
-      if (c.scenes)
-        for (const record::RunScene& scene : *c.scenes) run.scenes.push_back({scene.kind, scene.target, scene.condition});
       index.runs.push_back(std::move(run));
     } catch (const Error& error) {
       index.unreadable.emplace_back(error.what());

@@ -13,7 +13,7 @@ namespace {
 constexpr int kSamplesOfTurn = 257;   // of a turn, for the usual |r_phi|
 constexpr int kDoublings = 20;        // from the first stretch beside the start to the whole window
 constexpr double kPointLike = 1e-13;  // of phi or of a metre: a shorter stretch is not halved
-constexpr double kAlike = 2;          // reaches of neighbours that are told as one
+constexpr double kAlike = 2;          // stretches whose reaches differ by less than this factor are one place
 constexpr double kBlind = 0.02;       // of a piece, beside its ends of that kind
 constexpr double kRipple = 3;         // times the reach of a stretch, that its places may allow
 constexpr std::size_t kMost = 100000;

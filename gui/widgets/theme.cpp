@@ -94,7 +94,7 @@ void applyTheme(QApplication& application) {
           "QCheckBox::indicator:unchecked, QTableView::indicator:unchecked { width: 11px; height: 11px; border: 1px solid #6b7788;"
           " border-radius: 2px; background: %5; }"
           "QPushButton { padding: 5px 14px; }"
-          // With a border of its own, or Fusion would draw a lighter blue, on which white words are hard to read.
+          // The border is set, because without it the Fusion style draws a lighter blue, on which white words are hard to read.
           "QPushButton[role=\"go\"] { background: #2463a8; color: white; font-weight: 600; border: 1px solid #1b4b80; border-radius: 3px; }"
           "QPushButton[role=\"go\"]:hover { background: #2a6fba; } QPushButton[role=\"go\"]:pressed { background: #1b4b80; }"
           "QPushButton[role=\"go\"]:focus { border: 2px solid %9; }"

@@ -140,11 +140,20 @@ FileStamp stampOf(const std::string& path) {
 
 IndexedRun readRun(const std::string& path, const FileStamp& stamp) {
   const RunLog log = RunLog::open(path, LogCheck::Trials);
-  const RunConfiguration& c = log.configuration();
-  IndexedRun run;
-  run.path = path;
+  IndexedRun run = indexedRunOf(path, log.configuration());
   run.bytes = stamp.bytes;
   run.changedNs = stamp.changedNs;
+  run.healthy = log.healthy();
+  run.loss = lossOf(log);
+  run.trials = log.trials();
+  return run;
+}
+
+}  // namespace
+
+IndexedRun indexedRunOf(const std::string& path, const RunConfiguration& c) {
+  IndexedRun run;
+  run.path = path;
   run.subject = c.subject;
   run.session = c.session;
   run.condition = conditionOf(c);
@@ -155,15 +164,10 @@ IndexedRun readRun(const std::string& path, const FileStamp& stamp) {
   run.block = c.block;
   run.day = c.day;
   run.practice = c.practice;
-  run.healthy = log.healthy();
-  run.loss = lossOf(log);
-  run.trials = log.trials();
   if (c.scenes)
     for (const RunScene& scene : *c.scenes) run.scenes.push_back({scene.kind, scene.target, scene.condition});
   return run;
 }
-
-}  // namespace
 
 std::size_t TrialIndex::trialCount() const {
   std::size_t count = 0;

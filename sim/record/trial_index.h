@@ -30,6 +30,9 @@ struct IndexedRun {
   const std::string& conditionOf(const RecordedTrial& trial) const { return scenes.empty() ? condition : sceneOf(trial)->condition; }
 };
 
+/// A run as its configuration describes it, without its trials.
+IndexedRun indexedRunOf(const std::string& path, const RunConfiguration& configuration);
+
 /// The trials of a dataset, a session or a single log, without their samples.
 struct TrialIndex {
   std::vector<IndexedRun> runs;         // by the name of their logs

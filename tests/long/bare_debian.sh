@@ -22,12 +22,12 @@ timed() {
   printf '| %s | %d:%02d | %d:%02d |\n' "$words" $((wall / 60)) $((wall % 60)) $(((user + system) / 60)) $(((user + system) % 60))
 }
 inside() { LC_ALL=C.UTF-8 DEBIAN_FRONTEND=noninteractive HOME=/root chroot "$root" "$@"; }
-at_clone() { inside sh -c "cd /root/reachlab && $*"; }
+at_clone() { inside sh -c "cd /srv/reachlab && $*"; }
 quietly() { "$@" > "$root/said" 2>&1 || { tail -20 "$root/said"; exit 1; }; }
 
 quietly inside apt-get update -qq
 quietly inside apt-get install -qq --no-install-recommends git ca-certificates sudo locales
-git clone -q --no-hardlinks "$source" "$root/root/reachlab"
+git clone -q --no-hardlinks "$source" "$root/srv/reachlab"
 echo "| Step ($(nproc) cores, $(git -C "$source" log -1 --format=%h)) | Wall time [min:s] | Processor time [min:s] |"
 echo "|---|---|---|"
 if wanted first; then
