@@ -184,6 +184,19 @@ TEST(Surface, WhatEndsAMotionIsToldInWords) {
   EXPECT_TRUE(has(pinch, "the surface degenerates here (a pinch point, an apex or a cuspidal edge)")) << pinch;
 }
 
+// A constant force drives a mass up a monkey saddle, until its slope is 19000 and its parameter lines are 0.007 degrees apart. The reference
+// is a Taylor series of 28 digits of the motion of (x, y) on z = 50 (x^3 - 3 x y^2).
+TEST(Surface, WhereParameterLinesRunTogetherTheMotionKeepsItsDigits) {
+  Experiment e = onSurface("u/10", "v/10", "0.05*(u^3 - 3*u*v^2)");
+  e.object.gravity = {0.3, 0.7, 2};
+  const Scene scene = freeScene(e, {0.3, 0.2}, {0, 0});
+  ASSERT_EQ(run(*scene.plant, noHand, 6), StepStatus::Ok);
+  const MassState mass = observed(*scene.plant)[0];
+  const Vec3 r{9.7421409578112859, 5.6227107028736153, 31.507787385711941}, v{3.2128061051952977, 1.8554962848130288, 11.222256438391633};
+  EXPECT_LT(norm(mass.r - r), 1e-11 * norm(r));
+  EXPECT_LT(norm(mass.v - v), 1e-11 * norm(v));
+}
+
 // sqrt(u) ends at u = 0 with |r_u| without bound: the mass stays beside it.
 TEST(Surface, BesideAnEndOfItsFormulaAMassIsStopped) {
   const std::string words = stopped(onSurface("u/10", "v/10", "0.05*sqrt(u) + 0.01*v^3"), {0.3, 0.1}, {-1, 0.1}, StepStatus::AtEnd);

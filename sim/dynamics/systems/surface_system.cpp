@@ -305,7 +305,8 @@ std::string SurfaceSystem::lostReason(const State& y) const {
   if (k < 0) {
     const constraints::SurfacePoint p = evaluate(active, y[0], y[1]);
     const Vec3 area = cross(p.rU, p.rV);
-    if (dot(area, area) < 100 * kParallel * dot(p.rU, p.rU) * dot(p.rV, p.rV))
+    constexpr double kSeenParallel = 1e-4;  // squared sine: within 0.6 degrees the lines explain the stop
+    if (dot(area, area) < kSeenParallel * dot(p.rU, p.rU) * dot(p.rV, p.rV))
       return fmt::format(
           "the surface's parameter lines run into each other here: r_u and r_v are {:.2g} degrees apart, too little for a "
           "velocity to be told from its rates; write the surface in other parameters",

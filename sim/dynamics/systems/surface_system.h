@@ -18,8 +18,9 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
   static constexpr int kStates = 4;
   static constexpr bool kSecondOrder = true;
   static constexpr Hooks kHas{.ends = true, .branches = true, .settling = true, .losing = true, .care = true, .sight = true};
-  /// Squared sine of the angle between r_u and r_v. Below it the tolerance of the rates, and their rounding, would show in the speed.
-  static constexpr double kOblique = 1e-3, kParallel = 1e-6;
+  /// Squared sine of the angle between r_u and r_v. Below the first, the tolerance of the rates would show in the speed, and they are
+  /// computed more exactly. Below the second, the eleventh digit of the speed is lost to their rounding.
+  static constexpr double kOblique = 1e-3, kParallel = 1e-9;
   static constexpr double kDegenerate = 1e-7;  // of the largest |r_u x r_v|^2: below, r_u and r_v span no plane
   static constexpr double kThin = 1e-3;        // of the same: below, a typed surface may come to an apex within the next steps
   static constexpr double kLong = 1;           // [m^2] |r_u|^2 or |r_v|^2 above which the rates' tolerance would show in the speed
