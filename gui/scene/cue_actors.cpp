@@ -4,16 +4,19 @@
 #include <vtkCellArray.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
-#include <vtkRegularPolygonSource.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
+#include <vtkUnsignedCharArray.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <numbers>
 
 #include "gui/scene/scene_actors.h"
 #include "gui/scene/scene_overlay.h"
@@ -64,39 +67,85 @@ struct CueActors::Impl {
     return actor;
   }
 
-  // Squares of a round length, so that they are a measure too.
+  // Squares of a round length, so that they are a measure too, on a faint floor. Both fade towards the rim.
   void addGrid(const Box& box, double size) {
     const double step = roundLength(0.16 * size);
     if (!(step > 0)) return;
-    const auto down = [&](double v) { return step * (std::floor(v / step) - 1); };
-    const auto up = [&](double v) { return step * (std::ceil(v / step) + 1); };
+    constexpr double kMargin = 3;  // squares around the scene
+    const auto down = [&](double v) { return step * (std::floor(v / step) - kMargin); };
+    const auto up = [&](double v) { return step * (std::ceil(v / step) + kMargin); };
     const double left = down(box.low.x), right = up(box.high.x), back = down(box.low.z), front = up(box.high.z);
+    const Vec3 middle{0.5 * (left + right), floor, 0.5 * (back + front)};
+    const double width = 0.5 * (right - left), depth = 0.5 * (front - back);
     vtkNew<vtkPoints> points;
     vtkNew<vtkCellArray> lines;
+    vtkNew<vtkUnsignedCharArray> colours;
+    colours->SetNumberOfComponents(4);
+    const widgets::Colour& c = look.colours.rail;
+    const auto corner = [&](double x, double z) {
+      const double out = std::pow((x - middle.x) / width, 2) + std::pow((z - middle.z) / depth, 2);
+      colours->InsertNextTuple4(255 * c.red, 255 * c.green, 255 * c.blue, 255 * 0.4 * std::max(0.0, 1 - out));
+      return points->InsertNextPoint(x, floor, z);
+    };
     const auto line = [&](double ax, double az, double bx, double bz) {
-      lines->InsertNextCell(2);
-      lines->InsertCellPoint(points->InsertNextPoint(ax, floor, az));
-      lines->InsertCellPoint(points->InsertNextPoint(bx, floor, bz));
+      const int squares = static_cast<int>(std::lround(std::hypot(bx - ax, bz - az) / step));
+      lines->InsertNextCell(squares + 1);
+      for (int i = 0; i <= squares; ++i) lines->InsertCellPoint(corner(ax + (bx - ax) * i / squares, az + (bz - az) * i / squares));
     };
     for (int i = 0; left + i * step <= right + 0.5 * step; ++i) line(left + i * step, back, left + i * step, front);
     for (int i = 0; back + i * step <= front + 0.5 * step; ++i) line(left, back + i * step, right, back + i * step);
     vtkNew<vtkPolyData> data;
     data->SetPoints(points);
     data->SetLines(lines);
-    vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputData(data);
-    add(actorOf(mapper, look.colours.rail, 0.35));
+    data->GetPointData()->SetScalars(colours);
+    addSoft(data);
+    Actor ground = addDisc(c, {{{0.5, 0.13}, {0.8, 0.06}, {1.0, 0}}});
+    ground->SetScale(width, 1, depth);
+    ground->SetPosition(middle.x, floor - 1e-3 * unit, middle.z);
   }
 
-  Actor addShadow(double size) {
-    vtkNew<vtkRegularPolygonSource> disc;
-    disc->SetNumberOfSides(28);
-    disc->SetRadius(size);
-    disc->SetNormal(0, 1, 0);
-    disc->GeneratePolylineOff();
+  Actor addSoft(vtkPolyData* data) {
     vtkNew<vtkPolyDataMapper> mapper;
-    mapper->SetInputConnection(disc->GetOutputPort());
-    return add(actorOf(mapper, {0, 0, 0}, 0.45));
+    mapper->SetInputData(data);
+    Actor actor = add(actorOf(mapper, {}, 1));
+    mapper->ScalarVisibilityOn();
+    actor->ForceTranslucentOn();
+    return actor;
+  }
+
+  struct Ring {
+    double distance, opacity;
+  };
+  // A level disc around the origin whose opacity goes from ring to ring.
+  Actor addDisc(const widgets::Colour& colour, const std::array<Ring, 3>& rings) {
+    constexpr int kSides = 32;
+    vtkNew<vtkPoints> points;
+    vtkNew<vtkUnsignedCharArray> colours;
+    colours->SetNumberOfComponents(4);
+    vtkNew<vtkCellArray> faces;
+    faces->InsertNextCell(kSides);
+    for (int i = 0; i < kSides; ++i) faces->InsertCellPoint(i);
+    for (const auto& [distance, opacity] : rings)
+      for (int i = 0; i < kSides; ++i) {
+        const double angle = 2 * std::numbers::pi * i / kSides;
+        const vtkIdType at = points->InsertNextPoint(distance * std::cos(angle), 0, distance * std::sin(angle));
+        colours->InsertNextTuple4(255 * colour.red, 255 * colour.green, 255 * colour.blue, 255 * opacity);
+        if (at < kSides) continue;
+        const vtkIdType next = i + 1 < kSides ? at + 1 : at + 1 - kSides, corners[] = {at, next, next - kSides, at - kSides};
+        faces->InsertNextCell(4, corners);
+      }
+    vtkNew<vtkPolyData> data;
+    data->SetPoints(points);
+    data->SetPolys(faces);
+    data->GetPointData()->SetScalars(colours);
+    return addSoft(data);
+  }
+
+  // As under a wide light: the rim fades.
+  Actor addShadow(double size) {
+    Actor disc = addDisc({}, {{{0.55, 0.6}, {1.0, 0.3}, {1.45, 0}}});
+    disc->SetScale(size, 1, size);
+    return disc;
   }
 
   void addTrace() {

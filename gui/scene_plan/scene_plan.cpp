@@ -217,8 +217,10 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
   if (!plan.hands.empty() && !experiment::lookOf(experiment).colours.contains("hand"))
     plan.look.colours.hand = plan.hands.at(static_cast<std::size_t>(plan.ownHand)).colour;
   plan.box = box;
-  plan.floor = box.low.y - 0.12 * plan.size;
   plan.seen = pointsSeen(plan);
+  plan.floor = box.low.y;
+  for (const Vec3& point : plan.seen) plan.floor = std::min(plan.floor, point.y);
+  plan.floor -= 0.12 * plan.size;
   return plan;
 }
 

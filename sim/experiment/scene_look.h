@@ -26,7 +26,7 @@ struct NamedCamera {
 /// How the scene is drawn. Stored in the experiment's file and no part of its value: it changes no number of a trial.
 struct SceneLook {
   double surfaceOpacity = 0.42;                // [0, 1]
-  std::string depthCue = "none";               // none | grid | shadow
+  std::string depthCue = "shadow";             // none | grid | shadow
   bool trace = false;                          // where the hand has been in the trial
   bool forceArrow = false;                     // of the coupling, at the hand
   std::string sceneFile;                       // VRML 2.0 or glTF; what is named `hand` or `mass1` in it moves with these

@@ -33,15 +33,6 @@ std::string withCamera(const std::string& camera) { return "{ \"cameras\": [" + 
 TEST(SceneLook, IsTheDefaultWhereTheFileSaysNothing) {
   const SceneLook look = lookOf(parseExperiment(fileWith("{}"), "x.json"));
   EXPECT_EQ(look, SceneLook{});
-  EXPECT_EQ(look.surfaceOpacity, 0.42);
-  EXPECT_EQ(look.depthCue, "none");
-  EXPECT_FALSE(look.trace || look.forceArrow);
-  const NamedCamera camera;
-  EXPECT_EQ(camera.position, (Vec3{0, 0, 1}));
-  EXPECT_EQ(camera.focus, Vec3{});
-  EXPECT_EQ(camera.up, (Vec3{0, 1, 0}));
-  EXPECT_EQ(camera.angle, 30);
-  EXPECT_FALSE(camera.parallel);
   EXPECT_EQ(lookOf(Experiment{}), SceneLook{}) << "of no text";
   Experiment odd;
   odd.text = "no file, but \"look\"";

@@ -48,7 +48,7 @@ TEST_F(ShippedSchema, AcceptsWhatTheReaderAccepts) {
 TEST_F(ShippedSchema, AcceptsALookThatTheReaderTakesAndTheWriterKeeps) {
   SceneLook look;
   look.surfaceOpacity = 0.8;
-  look.depthCue = "shadow";
+  look.depthCue = "grid";
   look.sceneFile = "table.wrl";
   look.colours["last"] = "#f58521";
   look.cameras.push_back({"above", {0, 0.5, 0.1}, {0.1, 0, 0}, {0, 0, -1}, 20, true});

@@ -10,6 +10,7 @@ wanted() { [[ $steps == *" $1 "* ]]; }
 root=$(mktemp -d /var/tmp/reachlab-bare-XXXXXX)
 clean_up() { umount "$root/dev/shm" "$root/proc" 2> /dev/null || true; rm -rf --one-file-system "$root"; }
 trap clean_up EXIT
+chmod 755 "$root"  # a user other than root goes through it
 "$source/packaging/bare" "$root"
 mount -t proc proc "$root/proc"
 mkdir -p "$root/dev/shm" && mount -t tmpfs shm "$root/dev/shm"

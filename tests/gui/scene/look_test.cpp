@@ -52,8 +52,9 @@ class Looks : public ::testing::Test {
 };
 
 TEST_F(Looks, GridShadowArrowAndColoursAreSeen) {
-  const QImage plain = picture(planWith({}));
   experiment::SceneLook look;
+  look.depthCue = "none";
+  const QImage plain = picture(planWith(look));
   look.depthCue = "grid";
   const QImage grid = picture(planWith(look));
   EXPECT_GT(differing(plain, grid), 300);

@@ -100,6 +100,14 @@ TEST(ScenePlan, MassesOverOneAnotherAreCountedUntilTheyPart) {
   EXPECT_EQ(massesAtOnePlace(alone, restingFrame(alone)), 0);
 }
 
+TEST(ScenePlan, TheFloorLiesBelowAllMasses) {
+  for (const char* name : {"chain-moderate", "parallel", "torus", "centre-out"}) {
+    const ScenePlan plan = planOf(name, ViewOptions::SideBySide::Always);
+    for (std::size_t i = 0; i < plan.massShift.size(); ++i)
+      EXPECT_GT(plan.start.y + plan.massShift[i].y - plan.massRadius[i], plan.floor) << name << ", mass " << i;
+  }
+}
+
 TEST(ScenePlan, MarksAreSmallerThanMasses) {
   const ScenePlan plan = planOf("dingwell");
   EXPECT_LT(plan.markRadius, plan.massRadius[0]);
