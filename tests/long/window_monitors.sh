@@ -51,8 +51,7 @@ picture() { [[ -z $pictures ]] || import -silent -window root -depth 8 PNG24:"$p
 choose() {  # the monitor by its place in the menu, from 0; the keys go to the window that has them
   xdotool windowactivate --sync "$main"
   xdotool key --clearmodifiers alt+v; sleep 0.5
-  for _ in $(seq 14); do xdotool key Down; sleep 0.05; done
-  xdotool key Right; sleep 0.5
+  xdotool key o; sleep 0.5
   for _ in $(seq "$1"); do xdotool key Down; sleep 0.05; done
   picture "menu$1"
   xdotool key Return; sleep 2
