@@ -18,6 +18,7 @@
 #include "devices/preflight/preflight.h"
 #include "sim/experiment/experiment.h"
 #include "sim/trial/protocol.h"
+#include "sim/trial/task_check.h"
 
 namespace reachlab::gui::app {
 namespace {
@@ -99,6 +100,8 @@ std::vector<Fault> SessionController::tryEdit(const experiment::Experiment& expe
   try {
     const experiment::CompiledExperiment compiled(edited);
     (void)dynamics::compileScene(compiled);  // refused now, with the reason, and not when the subject sits there
+    if (compiled.experiment().task)
+      if (std::vector<Fault> faults = trial::taskProblems(compiled); !faults.empty()) return faults;
     setProgramme(session::programmeOf(compiled));
     return {};
   } catch (const FaultError& error) {

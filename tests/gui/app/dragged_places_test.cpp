@@ -191,6 +191,11 @@ TEST_F(TypedPlaces, AFaultGoesWithItsCause) {
   keepPicture(QStringLiteral("fault.png"));
   type("taskTarget", QStringLiteral("0.5 0.1"));
   EXPECT_EQ(faults(), QString()) << "mended";
+  const std::vector<double> kept = task().target;
+  type("taskTarget", find<widgets::NumberListEdit>("taskStart")->text());
+  EXPECT_TRUE(faults().contains(QStringLiteral("start and target are the same position"))) << faults().toStdString();
+  EXPECT_EQ(task().target, kept);
+  type("taskTarget", QStringLiteral("0.5 0.1"));
   // Of an entry that was refused as a whole: an older state of the experiment takes its place, and has no fault.
   auto* kind = find<QComboBox>("objectKind");
   const auto refusal = [&] { return find<QLabel>("objectFaults")->isHidden() ? QString() : find<QLabel>("objectFaults")->text(); };
