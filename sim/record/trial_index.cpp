@@ -72,7 +72,7 @@ bool decode(ByteReader& in, std::span<const std::uint8_t> all, IndexedRun& run) 
   run.trials.reserve(count);
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto size = in.get<std::uint32_t>();
-    if (!in.ok() || size + 5 > in.left()) return false;
+    if (!in.ok() || size > in.left()) return false;
     TrialLink link;
     run.trials.push_back(decodeTrial(all.subspan(all.size() - in.left(), size), link));
     for (std::uint32_t k = 0; k < size; ++k) (void)in.get<std::uint8_t>();
