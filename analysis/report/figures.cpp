@@ -11,16 +11,17 @@ using figure::Dash;
 using predict::Criterion;
 
 CriterionLook lookOf(const std::vector<Criterion>& criteria) {
-  if (criteria.empty()) return {palette::kGrey, Dash::Dotted};
+  constexpr std::array<int, 3> kGreyOnDark{180, 180, 180}, kGreyOnLight{95, 95, 95};
+  if (criteria.empty()) return {palette::kGrey, Dash::Dotted, kGreyOnDark, kGreyOnLight};
   switch (criteria.front()) {
-    case Criterion::MinHandJerk: return {palette::kBlue, Dash::Solid};
-    case Criterion::MinTorqueChange: return {palette::kSky, Dash::DashDot};
-    case Criterion::MinCrackle: return {palette::kVermilion, Dash::Dashed};
-    case Criterion::MinHandForce: return {palette::kPurple, Dash::Dotted};
-    case Criterion::MinHandForceChange: return {palette::kGreen, Dash::DashDot};
-    case Criterion::MinComAcceleration: return {palette::kOrange, Dash::Dashed};
-    case Criterion::MinHandCrackle: return {palette::kOrange, Dash::DashDot};
-    default: return {palette::kBlack, Dash::Solid};  // one that has no look of its own yet
+    case Criterion::MinHandJerk: return {palette::kBlue, Dash::Solid, {240, 228, 66}, {140, 110, 0}};
+    case Criterion::MinTorqueChange: return {palette::kSky, Dash::DashDot, {204, 121, 167}, {160, 60, 115}};
+    case Criterion::MinCrackle: return {palette::kVermilion, Dash::Dashed, {0, 200, 160}, {0, 120, 105}};
+    case Criterion::MinHandForce: return {palette::kPurple, Dash::Dotted, {230, 90, 90}, {190, 35, 35}};
+    case Criterion::MinHandForceChange: return {palette::kGreen, Dash::DashDot, {86, 220, 110}, {55, 125, 0}};
+    case Criterion::MinComAcceleration: return {palette::kOrange, Dash::Dashed, {190, 150, 255}, {110, 70, 190}};
+    case Criterion::MinHandCrackle: return {palette::kOrange, Dash::DashDot, kGreyOnDark, kGreyOnLight};
+    default: return {palette::kBlack, Dash::Solid, kGreyOnDark, kGreyOnLight};  // one that has no look of its own yet
   }
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -48,10 +49,11 @@ NamedFigure adaptationFigure(const Analysis& analysis);
 /// All figures of the study that have something to show.
 std::vector<NamedFigure> makeFigures(const Analysis& analysis, const std::optional<TruthRecovery>& recovery);
 
-/// How a criterion is drawn everywhere.
+/// How a criterion is drawn everywhere: on paper, and in the window on its dark or light ground.
 struct CriterionLook {
   figure::Color color;
   figure::Dash dash;
+  std::array<int, 3> onDark, onLight;  // red, green, blue, 0 to 255
 };
 CriterionLook lookOf(const std::vector<predict::Criterion>& criteria);
 /// "(1)", "(4, 6)", "reference": for axes.
