@@ -20,27 +20,16 @@
 #include "gui/choosers/formula_editor.h"
 #include "gui/scene/scene_view.h"
 #include "gui/scene/thumbnail.h"
+#include "gui/scene_plan/definition_reach.h"
 #include "gui/widgets/shape_sliders.h"
 
 namespace reachlab::gui::docks {
 namespace {
 
-experiment::Experiment onePoint() {
-  experiment::Experiment e;
-  e.object.kind = experiment::ObjectKind::Point;
-  e.object.masses = {1};
-  e.coupling = experiment::Coupling{600, 0};
-  e.task = experiment::Task{};
-  return e;
-}
-
 QString text(const std::string& s) { return QString::fromStdString(s); }
 
 QImage thumbnailOf(const constraints::Definition& definition, const QSize& size, double ratio) {
-  experiment::Experiment probe = onePoint();
-  probe.task->start = definition.start;
-  probe.task->target = definition.target;
-  return scene::drawThumbnail(scene::planScene(probe, constraints::makeConstraint(definition)), size, ratio);
+  return scene::drawThumbnail(scene::planScene(scene::reachOn(definition), constraints::makeConstraint(definition)), size, ratio);
 }
 
 // A formula that no file speaks of begins in the middle of what is drawn of it and goes a quarter of the way.
@@ -68,7 +57,7 @@ bool coincide(const constraints::Constraint& constraint, const ConstraintChoice&
 
 }  // namespace
 
-ConstraintChooser::ConstraintChooser(QWidget* parent) : QDialog(parent), probe_(onePoint()) {
+ConstraintChooser::ConstraintChooser(QWidget* parent) : QDialog(parent), probe_(scene::reachOn({})) {
   setWindowTitle(QStringLiteral("Constraint"));
   setObjectName(QStringLiteral("constraintChooser"));
   resize(1240, 780);

@@ -10,9 +10,9 @@
 #include <optional>
 
 #include "base/error.h"
-#include "constraints/catalogue/definition.h"
 #include "constraints/constraint.h"
 #include "gui/choosers/constraint_chooser.h"
+#include "gui/scene_plan/definition_reach.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/shape_sliders.h"
 
@@ -50,7 +50,7 @@ void becomePoint(experiment::Experiment& experiment) {
   object.kind = experiment::ObjectKind::Point;
   object.stiffness.clear();
   object.damping.clear();
-  if (!experiment.coupling) experiment.coupling = experiment::Coupling{600, 0};
+  if (!experiment.coupling) experiment.coupling = scene::kNewCoupling;
 }
 
 bool sameFormula(const constraints::ConstraintSpec& a, const constraints::ConstraintSpec& b) {

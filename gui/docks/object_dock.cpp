@@ -5,10 +5,10 @@
 #include <QHBoxLayout>
 #include <QSignalBlocker>
 
+#include "gui/scene_plan/definition_reach.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/number_list_edit.h"
 #include "gui/widgets/unit_spin_box.h"
-#include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::docks {
 namespace {
@@ -142,7 +142,7 @@ void ObjectDock::tell() {
   changed.object = object_;
   // The springs of parallel masses are the hand's own.
   if (object_.kind == experiment::ObjectKind::Parallel || object_.kind == experiment::ObjectKind::None) changed.coupling.reset();
-  else if (!changed.coupling) changed.coupling = experiment::Coupling{600, 0};
+  else if (!changed.coupling) changed.coupling = scene::kNewCoupling;
   Q_EMIT edited(changed, QStringLiteral("object"));
 }
 

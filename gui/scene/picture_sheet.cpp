@@ -6,29 +6,17 @@
 #include <QPainter>
 
 #include "base/error.h"
-#include "constraints/catalogue/definition.h"
 #include "constraints/constraint.h"
 #include "gui/scene/scene_view.h"
+#include "gui/scene_plan/definition_reach.h"
 #include "gui/widgets/theme.h"
 #include "sim/experiment/compiled_experiment.h"
-#include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 
 namespace reachlab::gui::scene {
 namespace {
 
 constexpr int kWidth = 480, kHeight = 360, kAcross = 4, kDown = 3;
-
-experiment::Experiment reachOn(const constraints::Definition& definition) {
-  experiment::Experiment e;
-  e.object.kind = experiment::ObjectKind::Point;
-  e.object.masses = {1};
-  e.coupling = experiment::Coupling{600, 0};
-  e.task = experiment::Task{};
-  e.task->start = definition.start;
-  e.task->target = definition.target;
-  return e;
-}
 
 void save(const QImage& image, const QString& file) {
   if (!image.save(file)) throw ResourceError(file.toStdString() + " could not be written. Choose another folder, or free disk space");

@@ -5,11 +5,10 @@
 
 #include <random>
 
-#include "constraints/catalogue/definition.h"
 #include "constraints/constraint.h"
 #include "constraints/geometry/task_path.h"
+#include "gui/scene_plan/definition_reach.h"
 #include "gui/scene_plan/scene_plan.h"
-#include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::scene {
 namespace {
@@ -21,14 +20,7 @@ constexpr double kOneSheet = 0.05;  // of the shape's size: at its edge a surfac
 // A definition as the chooser shows it, looked at from the usual side.
 struct Shown {
   explicit Shown(const constraints::Definition& definition) : constraint(constraints::makeConstraint(definition)) {
-    experiment::Experiment e;
-    e.object.kind = experiment::ObjectKind::Point;
-    e.object.masses = {1};
-    e.coupling = experiment::Coupling{600, 0};
-    e.task = experiment::Task{};
-    e.task->start = definition.start;
-    e.task->target = definition.target;
-    plan = planScene(e, constraint);
+    plan = planScene(reachOn(definition), constraint);
     drawn = drawnDomain(constraint, definition.start, definition.target);
     camera = lookAtPoints(plan.seen, 0.06 * plan.size, plan.viewFrom, kWidth / kHeight);
   }
