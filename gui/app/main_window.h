@@ -57,7 +57,6 @@ class MainWindow : public QMainWindow {
   plot::VelocityPlot& plot();
   docks::PredictionDock& predictions() { return *docks_.predictions; }
   docks::SessionDock& sessionDock() { return *docks_.session; }
-  SessionStrip& strip() { return *strip_; }
   docks::ConstraintChooser& chooser();    // made when first asked for
   inspector::InspectorPage& inspector();  // made when first asked for
   bool inspecting() const { return layout_ == WindowLayout::Inspect; }

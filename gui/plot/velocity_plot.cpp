@@ -54,7 +54,7 @@ struct VelocityPlot::Impl {
   Trial now, before;
   std::vector<Line> lines;
   bool newLines = false, newTask = false;
-  double duration = 1, tolerance = 0.5, low = 0, high = 0.1, span = 1;
+  double duration = 1, tolerance = 0.5;
   bool changed = false;
 
   void draw() {
@@ -96,11 +96,10 @@ struct VelocityPlot::Impl {
     }
     // Grows in steps, so that the axis does not creep while a trial runs.
     const double step = most > 0.6 ? 0.2 : 0.05;
-    low = std::floor(least * 1.04 / step) * step;
-    high = std::ceil(most * 1.06 / step) * step;
-    plot->setAxisScale(QwtPlot::yLeft, low, high);
+    plot->setAxisScale(QwtPlot::yLeft, std::floor(least * 1.04 / step) * step, std::ceil(most * 1.06 / step) * step);
     // A window in time that is open at its beginning only says how long to wait: the reach would be a splinter in it.
-    span = std::max(tolerance < duration ? duration + tolerance + 0.25 : 2 * duration, now.times.isEmpty() ? 0.0 : now.times.back());
+    const double span =
+        std::max(tolerance < duration ? duration + tolerance + 0.25 : 2 * duration, now.times.isEmpty() ? 0.0 : now.times.back());
     plot->setAxisScale(QwtPlot::xBottom, 0, span);
   }
 };
@@ -237,8 +236,6 @@ std::pair<double, double> VelocityPlot::shownTimes() const {
   const QwtInterval shown = impl_->plot->axisInterval(QwtPlot::xBottom);
   return {shown.minValue(), shown.maxValue()};
 }
-
-double VelocityPlot::timeSpan() const { return impl_->span; }
 
 std::size_t VelocityPlot::pointCount() const { return static_cast<std::size_t>(impl_->now.times.size()); }
 

@@ -39,7 +39,6 @@ class VelocityPlot : public QWidget {
   /// By the file's ending: pdf, svg, csv. False when it cannot be written.
   bool exportTo(const QString& file);
   std::size_t pointCount() const;
-  double timeSpan() const;                       // [s] that the time axis shows while nothing is zoomed
   std::pair<double, double> shownTimes() const;  // [s] where the time axis begins and ends now
   QSize sizeHint() const override { return {900, 260}; }
   QSize minimumSizeHint() const override { return {300, 150}; }

@@ -23,7 +23,6 @@
 
 #include "gui/app/main_window.h"
 #include "gui/session/remembered_session.h"
-#include "gui/session/session_strip.h"
 #include "gui/app/window_layout.h"
 #include "gui/docks/prediction_dock.h"
 #include "gui/docks/session_dock.h"
@@ -283,7 +282,7 @@ TEST_F(Day, TheEndOfARunShowsItsCountsAndLeadsToTheNextSubject) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return title->isVisible(); }, 5000));
   EXPECT_EQ(title->text().toStdString(), "Run 1 is complete");
   EXPECT_TRUE(find<QLabel>("cardText")->text().contains(QString::fromStdString(request_.place.data)));
-  EXPECT_TRUE(find<QLabel>("cardText")->text().startsWith(window.strip().tally()));
+  EXPECT_TRUE(find<QLabel>("cardText")->text().startsWith(find<QLabel>("tally")->text()));
   find<QPushButton>("endNextSubject")->click();
   EXPECT_FALSE(title->isVisible());
   EXPECT_EQ(window.session().run(), nullptr);

@@ -110,7 +110,7 @@ TEST_F(Window, AReachByThePointerTurnsTheSemaphoreGreenSucceedsAndIsRecorded) {
   EXPECT_TRUE(seen.contains(trial::Semaphore::Neutral));
   EXPECT_TRUE(seen.contains(trial::Semaphore::Green));
   EXPECT_GT(window.plot().pointCount(), 20u);
-  EXPECT_TRUE(window.strip().tally().contains(QStringLiteral("1 of 1"))) << window.strip().tally().toStdString();
+  EXPECT_TRUE(find<QLabel>("tally")->text().contains(QStringLiteral("1 of 1"))) << find<QLabel>("tally")->text().toStdString();
 
   // What the screen shows is what the record holds.
   const std::string log = window.session().run()->logPath();
@@ -185,18 +185,18 @@ TEST_F(Window, FieldsSpeakPlainWordsAndUnits) {
   trial::TrialResult result;
   result.outcome = trial::Outcome::Failure;
   result.reason = trial::Reason::TimeShort;
-  free.strip().count(result);
-  EXPECT_TRUE(free.strip().tally().contains(QStringLiteral("1 × too fast")));
+  find<SessionStrip>("sessionStrip")->count(result);
+  EXPECT_TRUE(find<QLabel>("tally")->text().contains(QStringLiteral("1 × too fast")));
 }
 
 TEST_F(Window, AWindowInTimeWithoutABeginningLeavesThePlotToTheReach) {
-  EXPECT_NEAR(open().plot().timeSpan(), 20.35, 1e-12);  // T + dT and a quarter of a second
+  EXPECT_NEAR(open().plot().shownTimes().second, 20.35, 1e-12);  // T + dT and a quarter of a second
   experiment::Experiment ellipse = experiment::openExperiment("ellipse").experiment();
   ellipse.task->tolerance.time = 8.5;  // 1.5 s, at most 10
   request_.what = (folder_.path() + QStringLiteral("/ellipse.json")).toStdString();
   std::ofstream(request_.what) << experiment::toJson(ellipse);
   MainWindow& window = open();
-  EXPECT_NEAR(window.plot().timeSpan(), 3, 1e-12);
+  EXPECT_NEAR(window.plot().shownTimes().second, 3, 1e-12);
   const scene::ScenePlan& plan = window.view().plan();
   EXPECT_TRUE(window.view().rect().contains(window.view().pixelOf(scene::penEnd(plan.start, plan.handRadius)).toPoint()));
 }
