@@ -44,7 +44,6 @@ class ConstraintChooser : public QDialog {
   void answer(const QStringList& faults);
   /// The present choice. nullopt while it has a fault.
   std::optional<ConstraintChoice> choice() const { return choice_; }
-  scene::SceneView* preview() { return preview_; }
 
  Q_SIGNALS:
   void used(const reachlab::gui::docks::ConstraintChoice& choice);

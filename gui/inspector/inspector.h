@@ -44,8 +44,6 @@ class InspectorPage : public QWidget {
   ReplayView& replay() { return *replay_; }
   /// The inspection of the chosen trials. Null while it is read.
   const Inspection* inspection() const { return inspection_.get(); }
-  /// The picked row, or -1.
-  int pickedRow() const { return picked_; }
   bool busy() const { return opening_.valid() || inspector_.busy(); }
   /// Everything that is chosen as a figure (by the file's ending: svg, pdf, png) or as lines (csv). Throws ResourceError.
   void exportTo(const QString& file);

@@ -204,10 +204,6 @@ QPoint ProfilePlot::pixelOf(double x, double y) const {
   return impl_->plot->canvas()->mapTo(const_cast<ProfilePlot*>(this), at);
 }
 
-double ProfilePlot::timeAt(const QPoint& at) const {
-  return impl_->xAt(impl_->plot->canvas()->mapFrom(const_cast<ProfilePlot*>(this), at).x());
-}
-
 bool ProfilePlot::eventFilter(QObject* watched, QEvent* event) {
   Impl& d = *impl_;
   using Drag = Impl::Drag;

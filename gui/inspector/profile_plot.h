@@ -42,8 +42,6 @@ class ProfilePlot : public QWidget {
   int pickedLine() const;
   /// Where a point is in this widget. For tests that drive it.
   QPoint pixelOf(double x, double y) const;
-  /// The time at a point of this widget. [s]
-  double timeAt(const QPoint& at) const;
 
  Q_SIGNALS:
   void picked(int line);

@@ -81,12 +81,14 @@ TEST_F(Chooser, ATypedFormulaIsDrawnGetsSlidersAndIsUsed) {
   type("formula_z", "b*sin(phi)");
   ASSERT_TRUE(chooser_.choice().has_value());
   EXPECT_NE(chooser_.findChild<QSlider*>(QStringLiteral("slider_a")), nullptr);
-  EXPECT_GT(chooser_.preview()->plan().curve.pointCount(), 32u);
+  const auto* preview = chooser_.findChild<scene::SceneView*>();
+  ASSERT_NE(preview, nullptr);
+  EXPECT_GT(preview->plan().curve.pointCount(), 32u);
   // The line's places, 0 and 2 pi, are one place here: others are given.
-  EXPECT_GT(norm(chooser_.preview()->plan().target - chooser_.preview()->plan().start), 0.01);
-  const double before = chooser_.preview()->plan().size;
+  EXPECT_GT(norm(preview->plan().target - preview->plan().start), 0.01);
+  const double before = preview->plan().size;
   find<QSlider>("slider_a")->setValue(500);  // from 0.1 to 1
-  EXPECT_GT(chooser_.preview()->plan().size, 2 * before);
+  EXPECT_GT(preview->plan().size, 2 * before);
   QTest::mouseClick(find<QPushButton>("use"), Qt::LeftButton);
   ASSERT_TRUE(used_.has_value());
   EXPECT_EQ(used_->spec.curve, (std::vector<std::string>{"0", "a*cos(phi)", "b*sin(phi)"}));
