@@ -82,22 +82,25 @@ void removeTemporary(const std::string& temporary) {
 
 }  // namespace
 
-AtomicFile::AtomicFile(const std::string& path) : path_(path) {
+TemporaryFile::TemporaryFile(const std::string& path) : path_(path) {
   makePlaceFor(path);
   descriptor_ = openTemporary(path, temporary_);
   if (descriptor_ < 0) failByErrno("cannot be created", path);
 }
 
-AtomicFile::~AtomicFile() {
+TemporaryFile::~TemporaryFile() { drop(); }
+
+void TemporaryFile::drop() {
   if (descriptor_ < 0) return;
   removeTemporary(temporary_);
-  ::close(descriptor_);
+  close();
 }
+
+void TemporaryFile::close() { ::close(std::exchange(descriptor_, -1)); }
 
 void AtomicFile::giveUp() {
   const int reason = errno;
-  removeTemporary(temporary_);
-  if (descriptor_ >= 0) ::close(std::exchange(descriptor_, -1));
+  drop();
   errno = reason;
   failByErrno("cannot be written", path_);
 }
@@ -127,7 +130,7 @@ bool AtomicFile::commitNew() {
     if ((errno != EPERM && errno != EOPNOTSUPP) || !putInPlace(temporary_, path_)) giveUp();
     isNew = true;
   }
-  ::close(std::exchange(descriptor_, -1));
+  close();
   if (isNew) syncFolderOf(path_);
   return isNew;
 }
@@ -135,7 +138,7 @@ bool AtomicFile::commitNew() {
 void AtomicFile::commit() {
   sync();
   if (!putInPlace(temporary_, path_)) giveUp();
-  ::close(std::exchange(descriptor_, -1));
+  close();
   syncFolderOf(path_);
 }
 
@@ -151,21 +154,9 @@ bool createFileAtomically(const std::string& path, std::string_view text) {
   return file.commitNew();
 }
 
-ForeignFile::ForeignFile(const std::string& path) : path_(path) {
-  makePlaceFor(path);
-  descriptor_ = openTemporary(path, temporary_);
-  if (descriptor_ < 0) failByErrno("cannot be created", path);
-}
-
-ForeignFile::~ForeignFile() {
-  if (descriptor_ < 0) return;
-  removeTemporary(temporary_);
-  ::close(descriptor_);
-}
-
 void ForeignFile::commit() {
   if (!os::syncFile(descriptor_) || !putInPlace(temporary_, path_)) failByErrno("cannot be written", path_);
-  ::close(std::exchange(descriptor_, -1));
+  close();
   syncFolderOf(path_);
 }
 

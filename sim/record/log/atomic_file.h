@@ -8,15 +8,26 @@ namespace reachlab::record {
 /// Takes a long text piece by piece.
 using TakePiece = std::function<void(std::string_view piece)>;
 
-/// Replaces `path` in one step (temporary file, fsync, rename) by text that is appended piece by piece. A reader sees the old or the new
-/// file, never a part. Makes the folders above it. Without `commit` nothing is left. One thread. Members throw ResourceError.
-class AtomicFile {
+/// A file that takes the position of `path` in one step (temporary file, fsync, rename). A reader sees the old or the new file, never a part.
+/// Makes the folders above it. Until it is put in place, nothing is left of it. One thread. Members throw ResourceError.
+class TemporaryFile {
  public:
-  explicit AtomicFile(const std::string& path);
-  ~AtomicFile();
-  AtomicFile(const AtomicFile&) = delete;
-  AtomicFile& operator=(const AtomicFile&) = delete;
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
 
+ protected:
+  explicit TemporaryFile(const std::string& path);
+  ~TemporaryFile();
+  void drop();
+  void close();
+  std::string path_, temporary_;
+  int descriptor_ = -1;
+};
+
+/// Text that is appended piece by piece.
+class AtomicFile : TemporaryFile {
+ public:
+  explicit AtomicFile(const std::string& path) : TemporaryFile(path) {}
   void append(std::string_view piece);
   void commit();
   /// Puts the file in place only if the name is free. False: a file has the name, and it is not changed.
@@ -26,32 +37,22 @@ class AtomicFile {
   void flush();
   void sync();
   [[noreturn]] void giveUp();
-  std::string path_, temporary_, waiting_;
-  int descriptor_ = -1;
+  std::string waiting_;
 };
 /// The same with the whole text at once.
 void writeFileAtomically(const std::string& path, std::string_view text);
 /// The same for a new file: of several programs that write it at once, one program succeeds. False: the file exists already.
 bool createFileAtomically(const std::string& path, std::string_view text);
 
-/// AtomicFile for a library that writes by name. The library writes `temporary()` and closes it. Then `commit` puts the file in the
-/// position of `path` once it is on the disk. Without `commit` nothing is left, also where the program is killed. One thread. Members throw
-/// ResourceError.
-class ForeignFile {
+/// For a library that writes by name. The library writes `temporary()` and closes it. Then `commit` puts the file in place once it is on the
+/// disk.
+class ForeignFile : TemporaryFile {
  public:
-  explicit ForeignFile(const std::string& path);
-  ~ForeignFile();
-  ForeignFile(const ForeignFile&) = delete;
-  ForeignFile& operator=(const ForeignFile&) = delete;
-
+  explicit ForeignFile(const std::string& path) : TemporaryFile(path) {}
   const std::string& temporary() const { return temporary_; }
   void commit();
   /// Reports that the library could not write, in the form of every other write, with the name of the content.
   [[noreturn]] void giveUp(const std::string& what);
-
- private:
-  std::string path_, temporary_;
-  int descriptor_ = -1;
 };
 
 /// Removes the temporary files of killed programs in a folder and the folders below it (`.….reachlab-tmp`, older than ten minutes). Throws
