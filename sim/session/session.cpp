@@ -7,6 +7,7 @@
 #include <random>
 
 #include "base/fault.h"
+#include "base/ticks.h"
 #include "constraints/constraint.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/log/append_file.h"
@@ -138,6 +139,61 @@ int firstTrialOf(const std::vector<trial::PlannedTrial>& remaining, const Record
   return oneStretch && before->lastTrial <= remaining.front().index + 1 ? remaining.front().index + 1 : before->lastTrial + 1;
 }
 
+// A block of the session in its order, with what was recorded of it.
+struct OrderedBlock {
+  int number;  // from 1
+  const PlanBlock& planned;
+  const experiment::CompiledExperiment& experiment;
+  const std::vector<BlockScene>& scenes;
+  const RecordedBlock* recorded;  // null: nothing
+};
+
+void checkPeople(const SessionRequest& request) {
+  std::vector<Fault> faults = record::problems(request.participant);
+  for (const auto& [key, label] : {std::pair{"subject", request.place.subject}, std::pair{"session", request.place.session}})
+    if (const auto fault = record::labelFault(label, key)) faults.push_back(*fault);
+  if (!faults.empty()) throw FaultError(std::move(faults));
+}
+
+void refuseOpenRuns(const SessionPlace& place) {
+  for (const RunOnDisk& run : recordedRuns(place))
+    if (record::isBeingWritten(run.path))
+      throw ResourceError(fmt::format("run {} is being recorded{} into {}; wait until it has ended, then resume", run.run,
+                                      record::writerOf(run.path), run.path));
+}
+
+std::vector<OrderedBlock> orderBlocks(const SessionRequest& request, const Programme& programme, const Plan& plan,
+                                      const std::vector<int>& order, const std::vector<RecordedBlock>& recorded) {
+  std::vector<OrderedBlock> blocks;
+  for (const int index : order) {
+    const auto k = static_cast<std::size_t>(index);
+    const int number = static_cast<int>(blocks.size()) + 1;
+    const experiment::CompiledExperiment& experiment = programme.experiments.at(k);
+    trial::checkTask(experiment, programme.isPlan() ? plan.blocks[k].experiment : request.what);
+    blocks.push_back(
+        {number, plan.blocks[k], experiment, programme.scenes.at(k), findRecordedBlock(recorded, plan, number, experiment.experiment())});
+  }
+  return blocks;
+}
+
+// The first block that was recorded of the session to resume; null if there is none. Throws FaultError if a file has changed since.
+const RecordedBlock* findResumed(const SessionRequest& request, const Plan& plan, const std::vector<OrderedBlock>& blocks,
+                                 const std::vector<RecordedBlock>& recorded) {
+  const auto first = std::find_if(blocks.begin(), blocks.end(), [](const OrderedBlock& block) { return block.recorded != nullptr; });
+  if (first == blocks.end()) {
+    refuseChanged(recorded, plan, blocks.front().experiment.experiment());
+    return nullptr;
+  }
+  checkSameWishes(request, *first->recorded);
+  for (const OrderedBlock& block : blocks) {
+    if (block.recorded == nullptr) continue;
+    const record::RunConfiguration& c = block.recorded->configuration;
+    const experiment::Experiment& experiment = block.experiment.experiment();
+    if (!isOf(c, experiment) || !hasScenes(c, block.scenes)) refuseToResume(experiment.name, c.run);
+  }
+  return first->recorded;
+}
+
 // The seed of the session that is resumed, before that the one asked for, else a drawn one.
 void chooseSeed(const SessionRequest& request, const RecordedBlock* resumed, SessionToRun& session) {
   if (resumed != nullptr) session.seed = resumed->configuration.sessionSeed;
@@ -146,6 +202,32 @@ void chooseSeed(const SessionRequest& request, const RecordedBlock* resumed, Ses
     session.seed = drawSeed();
     session.notice.seedDrawn = true;
   }
+}
+
+// What is left of a block, without its run. `before`: the part that is resumed.
+BlockToRun makeBlock(const SessionRequest& request, const Plan& plan, const OrderedBlock& ordered, const RecordedBlock* before,
+                     std::uint64_t seed) {
+  BlockToRun block{
+      .experiment = ordered.experiment, .scenes = experimentsOf(ordered.scenes), .configuration = {}, .logPath = {}, .trials = {}};
+  block.restSeconds = ordered.planned.restSeconds;
+  block.instructions = ordered.planned.instructions;
+  record::RunConfiguration& c = block.configuration;
+  if (before != nullptr) {
+    c = before->configuration;
+  } else {
+    c = freshConfiguration(request, plan, ordered.planned, block.experiment.experiment(), ordered.scenes);
+    c.block = ordered.number;
+    c.sessionSeed = seed;
+    c.seed = blockSeed(seed, c.block);
+    c.trials = planTrials(ordered.planned, c.seed);
+  }
+  block.trials = remainingTrials(c, before != nullptr ? before->done : std::set<int>{});
+  c.device = request.device;
+  c.participant = request.participant;
+  c.notes = request.notes;
+  c.sampleEveryTicks = request.everyTick ? 1 : 10;
+  c.samplingHz = kTicksPerSecond / c.sampleEveryTicks;
+  return block;
 }
 
 }  // namespace
@@ -194,10 +276,7 @@ std::uint64_t drawSeed() {
 SessionToRun planSession(const SessionRequest& request) { return planSession(request, readProgramme(request.what)); }
 
 SessionToRun planSession(const SessionRequest& request, const Programme& programme) {
-  std::vector<Fault> faults = record::problems(request.participant);
-  for (const auto& [key, label] : {std::pair{"subject", request.place.subject}, std::pair{"session", request.place.session}})
-    if (const auto fault = record::labelFault(label, key)) faults.push_back(*fault);
-  if (!faults.empty()) throw FaultError(std::move(faults));
+  checkPeople(request);
   const Plan plan = planOf(request, programme);
   const int day = sessionDay(request, plan);
   const std::vector<int> order = blockOrder(plan, request.place.subject, day);
@@ -206,70 +285,29 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
         Fault{"day", fmt::format("is {}, for which the plan {} has no block", day, plan.name), "a day, or a session, that it has"});
 
   SessionToRun session;
-  if (request.resume)
-    for (const RunOnDisk& run : recordedRuns(request.place))
-      if (record::isBeingWritten(run.path))
-        throw ResourceError(fmt::format("run {} is being recorded{} into {}; wait until it has ended, then resume", run.run,
-                                        record::writerOf(run.path), run.path));
-  const std::vector<RecordedBlock> blocks = readRecordedBlocks(request.place, session.notice.unreadable, request.resume);
-  std::vector<const RecordedBlock*> recorded;
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const experiment::CompiledExperiment& experiment = programme.experiments.at(static_cast<std::size_t>(order[k]));
-    trial::checkTask(experiment, programme.isPlan() ? plan.blocks[static_cast<std::size_t>(order[k])].experiment : request.what);
-    recorded.push_back(findRecordedBlock(blocks, plan, static_cast<int>(k) + 1, experiment.experiment()));
-  }
-  const auto anyRecorded = std::find_if(recorded.begin(), recorded.end(), [](const RecordedBlock* block) { return block != nullptr; });
-  const RecordedBlock* resumed = request.resume && anyRecorded != recorded.end() ? *anyRecorded : nullptr;
-  if (request.resume && resumed == nullptr)
-    refuseChanged(blocks, plan, programme.experiments.at(static_cast<std::size_t>(order[0])).experiment());
-  if (resumed != nullptr) checkSameWishes(request, *resumed);
-  for (std::size_t k = 0; k < order.size() && request.resume; ++k) {
-    const experiment::Experiment& experiment = programme.experiments[static_cast<std::size_t>(order[k])].experiment();
-    const std::vector<BlockScene>& scenes = programme.scenes.at(static_cast<std::size_t>(order[k]));
-    if (recorded[k] != nullptr && (!isOf(recorded[k]->configuration, experiment) || !hasScenes(recorded[k]->configuration, scenes)))
-      refuseToResume(experiment.name, recorded[k]->configuration.run);
-  }
-  chooseSeed(request, resumed, session);
+  if (request.resume) refuseOpenRuns(request.place);
+  const std::vector<RecordedBlock> recorded = readRecordedBlocks(request.place, session.notice.unreadable, request.resume);
+  const std::vector<OrderedBlock> blocks = orderBlocks(request, programme, plan, order, recorded);
+  chooseSeed(request, request.resume ? findResumed(request, plan, blocks, recorded) : nullptr, session);
 
+  std::vector<Fault> faults;
   int run = chooseRun(request.place, request.run);
-  for (std::size_t k = 0; k < order.size(); ++k) {
-    const PlanBlock& planned = plan.blocks[static_cast<std::size_t>(order[k])];
-    const std::vector<BlockScene>& scenes = programme.scenes.at(static_cast<std::size_t>(order[k]));
-    const RecordedBlock* before = request.resume ? recorded[k] : nullptr;
-    BlockToRun block{.experiment = programme.experiments[static_cast<std::size_t>(order[k])],
-                     .scenes = experimentsOf(scenes),
-                     .configuration = {},
-                     .logPath = {},
-                     .trials = {}};
-    block.restSeconds = planned.restSeconds;
-    block.instructions = planned.instructions;
-    if (before != nullptr) {
-      block.configuration = before->configuration;
-    } else {
-      block.configuration = freshConfiguration(request, plan, planned, block.experiment.experiment(), scenes);
-      block.configuration.block = static_cast<int>(k) + 1;
-      block.configuration.sessionSeed = session.seed;
-      block.configuration.seed = blockSeed(session.seed, block.configuration.block);
-      block.configuration.trials = planTrials(planned, block.configuration.seed);
-    }
-    block.trials = remainingTrials(block.configuration, before != nullptr ? before->done : std::set<int>{});
+  for (const OrderedBlock& ordered : blocks) {
+    const RecordedBlock* before = request.resume ? ordered.recorded : nullptr;
+    BlockToRun block = makeBlock(request, plan, ordered, before, session.seed);
     if (block.trials.empty()) continue;
     if (!session.blocks.empty()) run = chooseRun(request.place, run + 1);
     block.configuration.run = run;
     block.configuration.firstTrial = firstTrialOf(block.trials, before);
     if (before == nullptr) block.configuration.firstRun = run;
-    block.configuration.device = request.device;
-    block.configuration.participant = request.participant;
-    block.configuration.notes = request.notes;
-    block.configuration.sampleEveryTicks = request.everyTick ? 1 : 10;
-    block.configuration.samplingHz = request.everyTick ? 1000 : 100;
     block.logPath = logPath(request.place, block.configuration.task, run);
-    addUnreadable(block.configuration, block.experiment, scenes, faults);
+    addUnreadable(block.configuration, block.experiment, ordered.scenes, faults);
     session.blocks.push_back(std::move(block));
   }
   if (!faults.empty()) throw FaultError(std::move(faults));
-  session.notice.unfinished = !request.resume && std::any_of(recorded.begin(), recorded.end(),
-                                                             [](const RecordedBlock* b) { return b != nullptr && !b->complete(); });
+  session.notice.unfinished = !request.resume && std::any_of(blocks.begin(), blocks.end(), [](const OrderedBlock& block) {
+    return block.recorded != nullptr && !block.recorded->complete();
+  });
   return session;
 }
 
