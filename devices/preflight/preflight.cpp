@@ -128,17 +128,27 @@ PreflightLine passivity(const Experiment& experiment, const experiment::Coupling
   return line;
 }
 
+LoopSettings withRelaxedHand(LoopSettings loop) {
+  loop.mass += kRelaxedHandMass;
+  loop.friction += kRelaxedHandDamping;
+  return loop;
+}
+
+// Without sentence and remedy. There is no limit where the device's mass is not known.
+PreflightLine stiffnessLine(const char* name, const LoopSettings& loop) {
+  PreflightLine line{name, Verdict::Unknown, loop.stiffness, std::nullopt, "N/m", {}, {}};
+  if (!(loop.mass > 0)) return line;
+  line.limit = largestStableStiffness(withRelaxedHand(loop));
+  line.verdict = loop.stiffness <= *line.limit ? Verdict::Fine : Verdict::Warning;
+  return line;
+}
+
 PreflightLine stability(const Experiment& experiment, const experiment::Coupling& coupling, const haptics::DeviceInfo& device) {
-  PreflightLine line{"stability", Verdict::Unknown, coupling.stiffness, std::nullopt, "N/m", {}, {}};
-  if (!(device.apparentMass > 0)) {
+  PreflightLine line = stiffnessLine("stability", heldLoop(coupling, device, experiment));
+  if (!line.limit) {
     line.sentence = fmt::format("the apparent mass of {} is not known, so how stiff a coupling it renders cannot be told", device.name);
     return line;
   }
-  LoopSettings loop = heldLoop(coupling, device, experiment);
-  loop.mass += kRelaxedHandMass;
-  loop.friction += kRelaxedHandDamping;
-  line.limit = largestStableStiffness(loop);
-  line.verdict = coupling.stiffness <= *line.limit ? Verdict::Fine : Verdict::Warning;
   line.sentence = fmt::format("k_h = {:.4g} N/m; {} is stable up to {:.4g} N/m", coupling.stiffness, inARelaxedHand(device), *line.limit);
   if (line.verdict == Verdict::Warning) line.remedy = fmt::format("a coupling of k_h <= {:.4g} N/m", *line.limit);
   return line;
@@ -148,9 +158,8 @@ PreflightLine stability(const Experiment& experiment, const experiment::Coupling
 PreflightLine channelLine(const Experiment& experiment, const experiment::Coupling& coupling, const experiment::ChannelForce& wall,
                           const haptics::DeviceInfo& device) {
   const experiment::Coupling felt{coupling.stiffness + wall.stiffness, coupling.damping + wall.damping};
-  PreflightLine line = stability(experiment, felt, device);
-  line.name = "channel";
   LoopSettings loop = heldLoop(felt, device, experiment);
+  PreflightLine line = stiffnessLine("channel", loop);
   const double asked = loop.friction - passivityMargin(loop);
   const std::string passive = fmt::format("Colgate's condition asks for {:.3g} N s/m of friction (K T/2 + |B|), and {} has {:.3g}", asked,
                                           device.name, device.viscosity);
@@ -163,11 +172,9 @@ PreflightLine channelLine(const Experiment& experiment, const experiment::Coupli
       fmt::format("the hand feels {:.4g} N/m and {:.3g} N s/m in the channel; {} is stable up to {:.4g} N/m, {:.2g} times as much; {}",
                   felt.stiffness, felt.damping, inARelaxedHand(device), *line.limit, *line.limit / felt.stiffness, passive);
   if (line.verdict != Verdict::Warning) return line;
-  loop.mass += kRelaxedHandMass;
-  loop.friction += kRelaxedHandDamping;
   loop.damping = coupling.damping;
   line.remedy = fmt::format("a channel of stiffness_n_per_m <= {:.4g}, or less damping_n_s_per_m (without it {:.4g} N/m are stable)",
-                            std::max(0.0, *line.limit - coupling.stiffness), largestStableStiffness(loop));
+                            std::max(0.0, *line.limit - coupling.stiffness), largestStableStiffness(withRelaxedHand(loop)));
   return line;
 }
 
