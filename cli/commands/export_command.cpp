@@ -7,6 +7,7 @@
 #include "cli/commands/commands.h"
 #include "cli/output/readable_logs.h"
 #include "sim/record/export/exporters.h"
+#include "sim/record/log/logs_folder.h"
 
 namespace reachlab::cli {
 namespace {
@@ -20,7 +21,7 @@ struct ExportOptions {
 // The dataset that a log lies in (…/sourcedata/x_log.reach), else the log's own folder.
 fs::path datasetOf(const std::string& log) {
   const fs::path folder = fs::absolute(log).lexically_normal().parent_path();
-  return folder.filename() == "sourcedata" ? folder.parent_path() : folder;
+  return folder.filename() == record::kLogsFolder ? folder.parent_path() : folder;
 }
 
 void exportLogs(const ExportOptions& options) {

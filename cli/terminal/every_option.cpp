@@ -12,6 +12,7 @@
 #include "base/terminal/command_words.h"
 #include "sim/experiment/resources.h"
 #include "sim/record/log/log.h"
+#include "sim/record/log/logs_folder.h"
 #include "sim/session/programme.h"
 
 namespace reachlab::cli {
@@ -32,7 +33,7 @@ bool liesInSourcedata(const fs::path& path) {
   std::error_code error;
   const fs::path whole = fs::weakly_canonical(path, error);
   const fs::path& known = error ? path : whole;
-  return std::find(known.begin(), known.end(), "sourcedata") != known.end();
+  return std::find(known.begin(), known.end(), record::kLogsFolder) != known.end();
 }
 
 struct Value {

@@ -12,6 +12,7 @@
 #include "base/fault.h"
 #include "base/json/json_tree.h"
 #include "base/text_file.h"
+#include "sim/record/log/logs_folder.h"
 
 namespace reachlab::devices {
 namespace {
@@ -78,7 +79,7 @@ Mapping mappingFromJson(const std::string& text, const std::string& origin) {
 Mapping readMapping(const std::string& file) { return mappingFromJson(readTextFile(file), file); }
 
 std::string mappingFile(const std::string& data, const std::string& subject, const std::string& device) {
-  return fmt::format("{}/sourcedata/mappings/sub-{}_{}.json", data, subject, device);
+  return fmt::format("{}/{}/mappings/sub-{}_{}.json", data, record::kLogsFolder, subject, device);
 }
 
 void saveMapping(const Mapping& mapping, const std::string& file) {

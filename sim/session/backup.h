@@ -4,10 +4,12 @@
 #include <string_view>
 #include <vector>
 
+#include "sim/record/log/logs_folder.h"
+
 namespace reachlab::session {
 
 /// The list of the files in a backup with their SHA-256, in the format of sha256sum: `cd BACKUP && sha256sum -c sourcedata/sha256sums.txt`.
-inline constexpr const char* kBackupList = "sourcedata/sha256sums.txt";
+inline const std::string kBackupList = std::string(record::kLogsFolder) + "/sha256sums.txt";
 
 struct BackupReport {
   std::size_t runs = 0;         // closed runs of the dataset, all of them now in the backup

@@ -9,6 +9,7 @@
 #include "base/fault.h"
 #include "sim/record/configuration/limits.h"
 #include "sim/record/log/log.h"
+#include "sim/record/log/logs_folder.h"
 
 namespace reachlab::session {
 namespace {
@@ -27,7 +28,8 @@ std::string partOf(const std::string& name, const std::string& key) {
 }  // namespace
 
 std::string logPath(const SessionPlace& place, const std::string& task, int run) {
-  return fmt::format("{}/sourcedata/sub-{}_ses-{}_task-{}_run-{:02}{}", place.data, place.subject, place.session, task, run, kLogEnding);
+  return fmt::format("{}/{}/sub-{}_ses-{}_task-{}_run-{:02}{}", place.data, record::kLogsFolder, place.subject, place.session, task, run,
+                     kLogEnding);
 }
 
 std::string labelOf(const std::string& name) {
@@ -41,7 +43,7 @@ std::vector<RunOnDisk> recordedRuns(const SessionPlace& place) {
   std::vector<RunOnDisk> runs;
   std::error_code error;
   const std::string prefix = fmt::format("sub-{}_ses-{}_", place.subject, place.session);
-  const fs::path logs = fs::path(place.data) / "sourcedata";
+  const fs::path logs = fs::path(place.data) / record::kLogsFolder;
   if (!fs::exists(logs, error)) return runs;
   for (const fs::directory_entry& entry : fs::directory_iterator(logs)) {
     const std::string name = entry.path().filename().string();
@@ -69,6 +71,8 @@ int chooseRun(const SessionPlace& place, std::optional<int> asked) {
   return *asked;
 }
 
-record::FolderHold holdDataset(const std::string& data) { return {data + "/sourcedata", record::FolderHold::WithoutLocks::Refuse}; }
+record::FolderHold holdDataset(const std::string& data) {
+  return {data + "/" + record::kLogsFolder, record::FolderHold::WithoutLocks::Refuse};
+}
 
 }  // namespace reachlab::session

@@ -10,6 +10,7 @@
 #include "base/text_file.h"
 #include "base/ticks.h"
 #include "sim/record/log/log.h"
+#include "sim/record/log/logs_folder.h"
 #include "sim/record/log/records.h"
 
 namespace reachlab::record {
@@ -301,7 +302,7 @@ std::vector<std::string> findLogs(const std::string& path) {
     prefix = name + "_";
     root = root.parent_path();
   }
-  if (fs::is_directory(root / "sourcedata", error)) root /= "sourcedata";
+  if (fs::is_directory(root / kLogsFolder, error)) root /= kLogsFolder;
   std::vector<std::string> logs;
   for (const fs::directory_entry& entry : fs::directory_iterator(root)) {
     const std::string file = entry.path().filename().string();
