@@ -8,6 +8,9 @@
 
 namespace reachlab::analysis {
 
+/// The folder in a dataset that its analysis is written to.
+inline std::string analysisFolderOf(const std::string& dataset) { return dataset + "/derivatives/reachlab"; }
+
 struct AnalysisFiles {
   std::string report;
   std::vector<std::string> tables, figures;

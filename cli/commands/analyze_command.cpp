@@ -379,7 +379,7 @@ void run(CLI::App& command, const AnalyzeOptions& o) {
   }
   const analysis::ReportHeader header{folder, REACHLAB_VERSION, commandOf(o), plan ? describePlan(*plan) : std::vector<std::string>{},
                                       analysis::describeLearning(analysis)};
-  const std::string out = o.out.empty() ? folder + "/derivatives/reachlab" : o.out;
+  const std::string out = o.out.empty() ? analysis::analysisFolderOf(folder) : o.out;
   const analysis::AnalysisFiles files =
       atOption("--out", [&] { return analysis::writeAnalysis(analysis, dataset, header, out, recovery); });
   if (o.out.empty()) record::describeDerivative(out, "Analysis of reaching movements", "reachlab " REACHLAB_VERSION);
@@ -398,7 +398,7 @@ void addAnalyzeCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("analyze", "Tables (CSV), figures (SVG, PDF) and a report (HTML) of recorded sessions");
   const auto o = std::make_shared<AnalyzeOptions>();
   command->add_option("dataset", o->dataset, "Data folder of `reach run`, a session's folder in it, or one log")->required();
-  command->add_option("--out", o->out, "Folder to write to [default: DATASET/derivatives/reachlab]");
+  command->add_option("--out", o->out, "Folder to write to [default: " + analysis::analysisFolderOf("DATASET") + "]");
   command
       ->add_option("--criterion", o->criteria,
                    "Draw this criterion and tell its ε; repeat for more. Every criterion is compared all the same [default: all]")

@@ -5,6 +5,8 @@
 #include <QStandardPaths>
 #include <utility>
 
+#include "analysis/report/write_analysis.h"
+
 namespace reachlab::gui::app {
 namespace {
 
@@ -15,7 +17,9 @@ QString findReach() {
   return QStandardPaths::findExecutable(QStringLiteral("reach"));
 }
 
-QString reportOf(const QString& dataset) { return dataset + QStringLiteral("/derivatives/reachlab/report.html"); }
+QString reportOf(const QString& dataset) {
+  return QString::fromStdString(analysis::analysisFolderOf(dataset.toStdString())) + QStringLiteral("/report.html");
+}
 
 }  // namespace
 

@@ -23,7 +23,7 @@ void goOnUnless(const std::stop_token& stop) {
 
 std::string reportFolderOf(const std::string& path) {
   if (path.ends_with(record::kLogEnding)) return path.substr(0, path.size() - record::kLogEnding.size()) + "_report";
-  return path + "/derivatives/reachlab";
+  return analysis::analysisFolderOf(path);
 }
 
 Inspector::Inspector(QObject* parent) : QObject(parent) {}
