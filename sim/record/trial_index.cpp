@@ -1,7 +1,6 @@
 #include "sim/record/trial_index.h"
 
 #include <fmt/format.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <cmath>
@@ -10,6 +9,7 @@
 
 #include "base/error.h"
 #include "sim/record/log/atomic_file.h"
+#include "sim/record/log/checksum.h"
 #include "sim/record/log/whole_file.h"
 #include "sim/record/log/records.h"
 #include "sim/record/recover.h"
@@ -21,10 +21,6 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kMagic = "REACHIDX";
 constexpr std::uint32_t kVersion = 3;
-
-std::uint32_t checksum(std::string_view text) {
-  return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef*>(text.data()), text.size()));
-}
 
 std::string_view asText(std::span<const std::uint8_t> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
 
@@ -94,7 +90,7 @@ std::map<std::string, IndexedRun> readIndex(const std::string& file) {
     const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(body.data()), body.size());
     std::uint32_t stored = 0;
     std::memcpy(&stored, text.data() + text.size() - 4, 4);
-    if (stored != checksum(body)) return known;
+    if (stored != checksum(body.data(), body.size())) return known;
     ByteReader in(bytes);
     if (in.get<std::uint32_t>() != kVersion) return known;
     const auto runs = in.get<std::uint32_t>();
@@ -116,7 +112,7 @@ void writeIndex(const TrialIndex& index, const std::string& file) {
   out.put(static_cast<std::uint32_t>(index.runs.size()));
   for (const IndexedRun& run : index.runs) encode(run, out);
   const std::string_view body = asText(out.bytes());
-  const std::uint32_t crc = checksum(body);
+  const std::uint32_t crc = checksum(body.data(), body.size());
   std::string text(kMagic);
   text.append(body);
   text.append(reinterpret_cast<const char*>(&crc), 4);

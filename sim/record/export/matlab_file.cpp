@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <matio.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -12,6 +11,7 @@
 #include "sim/record/export/run_tables.h"
 #include "sim/record/export/tidy_csv.h"
 #include "sim/record/log/atomic_file.h"
+#include "sim/record/log/checksum.h"
 
 namespace reachlab::record {
 namespace {
@@ -79,10 +79,6 @@ Variable textsOf(const char* name, const ChannelTable& table, const std::functio
   Variable whole = structure(name, columns);
   for (std::size_t i = 0; i < columns.size(); ++i) setField(whole, i, text(nullptr, textOf(table.channels[i])));
   return whole;
-}
-
-std::uint32_t checksum(const void* data, std::size_t bytes) {
-  return static_cast<std::uint32_t>(crc32_z(0, static_cast<const unsigned char*>(data), bytes));
 }
 
 // matio does not tell when the disk takes less than it was given: what is expected to be read back.

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +13,7 @@
 
 #include "base/error.h"
 #include "base/fault.h"
+#include "sim/record/log/checksum.h"
 
 namespace reachlab::record {
 
@@ -24,10 +24,6 @@ namespace {
 constexpr std::size_t kMinAhead = 4096, kMaxAhead = 1 << 20;
 
 constexpr std::array<char, 8> kSignature{'R', 'E', 'A', 'C', 'H', 'L', 'O', 'G'};
-
-std::uint32_t checksum(const std::uint8_t* data, std::size_t size) {
-  return static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), data, size));
-}
 
 template <typename T>
 T load(const std::uint8_t* at) {
