@@ -1,17 +1,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "analysis/dataset.h"
+#include "base/as_number.h"
 #include "base/fault.h"
 #include "base/table_text.h"
 #include "base/text_file.h"
 #include "base/ticks.h"
+#include "sim/experiment/experiment.h"
 #include "sim/record/export/bids.h"
 #include "sim/record/log/whole_file.h"
 
@@ -22,9 +23,7 @@ namespace fs = std::filesystem;
 
 /// The number of a cell; kNotMeasured for n/a. A text that only begins with a number, such as 1,5, is refused under `key`.
 double numberOf(std::string_view cell, const char* key, const std::string& file, int line = 0) {
-  double value = kNotMeasured;
-  const auto [end, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (error == std::errc() && end == cell.data() + cell.size()) return value;
+  if (const auto value = asNumber<double>(cell)) return *value;
   if (!cell.empty() && cell != "n/a")
     throw FaultError(Fault{key, fmt::format("'{}' is not a number", cell.substr(0, 40)), "a number with a decimal point, or n/a",
                            FilePlace{file, line}});

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <sstream>
 
+#include "base/as_number.h"
 #include "base/fault.h"
 #include "base/text_file.h"
 
@@ -64,12 +64,11 @@ CsvTable readCsvTable(const std::string& file) {
 
 double numberIn(const CsvTable& table, const CsvTable::Row& row, std::size_t column) {
   const std::string& cell = row.cells[column];
-  double value = 0;
-  const auto [end, fault] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-  if (fault != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
+  const auto value = asNumber<double>(cell);
+  if (!value || !std::isfinite(*value))
     throw FaultError(Fault{table.columns[column], fmt::format("'{}' is not a number", cell.substr(0, 40)), "a finite number",
                            FilePlace{table.file, row.line}});
-  return value;
+  return *value;
 }
 
 }  // namespace reachlab

@@ -4,9 +4,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 
+#include "base/as_number.h"
 #include "base/fault.h"
 
 namespace reachlab {
@@ -41,11 +41,10 @@ std::optional<std::string> DeviceOptions::take(const std::string& key) {
 double DeviceOptions::number(const std::string& key, double otherwise, double least, double most) {
   const auto text = take(key);
   if (!text) return otherwise;
-  double value = 0;
-  const auto [end, error] = std::from_chars(text->data(), text->data() + text->size(), value);
-  if (error != std::errc() || end != text->data() + text->size() || !(value >= least) || !(value <= most))
+  const auto value = asNumber<double>(*text);
+  if (!value || !(*value >= least) || !(*value <= most))
     throw FaultError(Fault{"device", fmt::format("{}: {}={}", device_, key, *text), fmt::format("a number from {} to {}", least, most)});
-  return value;
+  return *value;
 }
 
 std::string DeviceOptions::word(const std::string& key, const std::vector<std::string>& allowed) {

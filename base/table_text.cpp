@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <iterator>
+
+#include "base/as_number.h"
 
 namespace reachlab {
 
@@ -15,16 +16,6 @@ TableText& TableText::raw(std::string_view text) {
   return *this;
 }
 
-namespace {
-
-bool isNumber(std::string_view text) {
-  double value = 0;
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return fault == std::errc{} && end == text.data() + text.size();
-}
-
-}  // namespace
-
 TableText& TableText::cell(std::string_view text) {
   if (text.empty()) return missing();
   if (separator_ != ',') {
@@ -34,7 +25,7 @@ TableText& TableText::cell(std::string_view text) {
     return raw(clean);
   }
   // A spreadsheet would take such a text for a formula and carry it out.
-  const bool guarded = std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos && !isNumber(text);
+  const bool guarded = std::string_view("=+-@\t\r").find(text.front()) != std::string_view::npos && !asNumber<double>(text);
   if (!guarded && text.find_first_of(",\"\r\n") == std::string_view::npos) return raw(text);
   std::string quoted = guarded ? "\"'" : "\"";
   for (const char c : text) quoted += c == '"' ? "\"\"" : std::string(1, c);

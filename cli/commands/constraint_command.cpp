@@ -1,11 +1,11 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/as_number.h"
 #include "base/fault.h"
 #include "base/json/json_tree.h"
 #include "base/text_file.h"
@@ -37,11 +37,10 @@ std::string shortList(const std::vector<double>& values) {
 bool isCurve(const constraints::Definition& d) { return d.kind == constraints::ConstraintKind::Curve; }
 
 double parseNumber(const std::string& text, const std::string& option) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value))
+  const auto value = asNumber<double>(text);
+  if (!value || !std::isfinite(*value))
     throw FaultError(Fault{option, fmt::format("'{}' is no number", text), "a finite number such as 0.3"});
-  return value;
+  return *value;
 }
 
 std::vector<double> parseNumbers(const std::string& text, const std::string& option) {

@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <optional>
 
+#include "base/as_number.h"
 #include "base/fault.h"
 #include "base/system/os.h"
 #include "sim/subjects/subject_kinds.h"
@@ -15,15 +15,9 @@
 namespace reachlab::cli {
 namespace {
 
-std::optional<int> wholeNumber(std::string_view text) {
-  int value = 0;
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), value);
-  return fault == std::errc{} && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
-}
-
 std::optional<int> fromEnvironment(const char* name) {
   const char* text = std::getenv(name);
-  return text == nullptr ? std::nullopt : wholeNumber(text);
+  return text == nullptr ? std::nullopt : asNumber<int>(text);
 }
 
 // Tasks are numbered as the user likes; the share is the task's place among them.
@@ -44,8 +38,8 @@ study::Shard shardOfSlurm() {
 study::Shard shardOf(const std::string& text) {
   if (text.empty()) return shardOfSlurm();
   const std::size_t slash = text.find('/');
-  const auto index = slash == std::string::npos ? std::nullopt : wholeNumber(std::string_view(text).substr(0, slash));
-  const auto of = slash == std::string::npos ? std::nullopt : wholeNumber(std::string_view(text).substr(slash + 1));
+  const auto index = slash == std::string::npos ? std::nullopt : asNumber<int>(std::string_view(text).substr(0, slash));
+  const auto of = slash == std::string::npos ? std::nullopt : asNumber<int>(std::string_view(text).substr(slash + 1));
   if (!index || !of || *of < 1 || *index < 1 || *index > *of) throw FaultError(Fault{"--shard", "is " + text, "I/N with 1 <= I <= N"});
   return {*index, *of};
 }

@@ -1,7 +1,7 @@
-#include <charconv>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "base/as_number.h"
 #include "constraints/catalogue/definition.h"
 
 namespace reachlab::constraints {
@@ -12,9 +12,7 @@ using Json = nlohmann::ordered_json;
 // Numbers stay numbers, expressions strings, no end null.
 Json endJson(const std::string& text) {
   if (text.empty()) return nullptr;
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc{} && end == text.data() + text.size()) return value;
+  if (const auto value = asNumber<double>(text)) return *value;
   return text;
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "base/as_number.h"
 #include "base/fault.h"
 
 namespace reachlab::devices {
@@ -114,9 +115,8 @@ HandSettings takeHandSettings(DeviceOptions& options) {
     hand.mapping.rotation = std::numbers::pi / 180 * *degrees, hand.mapped = true;
   if (options.word("mirror", {"no", "x"}) == "x") hand.mapping.mirrorX = hand.mapped = true;
   if (const auto wall = options.take("wall")) {
-    double radius = 0;
-    const auto [end, error] = std::from_chars(wall->data(), wall->data() + wall->size(), radius);
-    const bool number = error == std::errc() && end == wall->data() + wall->size() && radius > 0 && radius <= 10;
+    const double radius = asNumber<double>(*wall).value_or(0);
+    const bool number = radius > 0 && radius <= 10;
     if (*wall != "yes" && *wall != "no" && !number) throw FaultError(Fault{"device", "wall=" + *wall, "yes, no or a radius up to 10 m"});
     if (*wall != "no") hand.wall = number ? radius : 0;
   }

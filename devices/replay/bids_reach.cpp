@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "base/as_number.h"
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/json/json_tree.h"
@@ -135,9 +135,8 @@ std::vector<Sample> samplesOf(const std::string& motion, const Layout& layout, c
     const auto valueOf = [&](std::size_t column) -> std::optional<double> {
       const std::string& cell = cells[column];
       if (cell == "n/a") return std::nullopt;
-      double value = 0;
-      const auto [end, fault] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-      if (fault != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
+      const auto value = asNumber<double>(cell);
+      if (!value || !std::isfinite(*value))
         throw FaultError(Fault{fmt::format("column {}", column + 1), fmt::format("'{}' is not a number", cell.substr(0, 40)),
                                "a number or n/a (motion.tsv has no header)", FilePlace{motion, number}});
       return value;
@@ -175,9 +174,8 @@ std::vector<ReachSpan> reachesIn(const std::string& file, const std::string& tri
     const auto valueOf = [&](const std::string& column) -> std::optional<double> {
       const std::string& cell = events.cell(row, column);
       if (cell == "n/a") return std::nullopt;
-      double value = 0;
-      const auto [end, fault] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
-      if (fault != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
+      const auto value = asNumber<double>(cell);
+      if (!value || !std::isfinite(*value))
         throw FaultError(Fault{column, fmt::format("'{}' is not a number", cell.substr(0, 40)), "a number or n/a",
                                FilePlace{file, static_cast<int>(row) + 2}});
       return value;

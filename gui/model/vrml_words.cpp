@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cmath>
+
+#include "base/as_number.h"
 
 namespace reachlab::gui::model {
 namespace {
@@ -67,23 +68,19 @@ void VrmlWords::expect(std::string_view wanted, const std::string& within) {
 }
 
 double VrmlWords::number(const std::string& key) {
-  double value = 0;
   std::string_view digits = word_;
   if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  if (quoted_ || digits.empty() || error != std::errc() || end != digits.data() + digits.size() || !std::isfinite(value))
-    fail(key, ended() ? "ends in the middle" : fmt::format("has {}", shown()), "a number");
+  const auto value = asNumber<double>(digits);
+  if (quoted_ || !value || !std::isfinite(*value)) fail(key, ended() ? "ends in the middle" : fmt::format("has {}", shown()), "a number");
   advance();
-  return value;
+  return *value;
 }
 
 int VrmlWords::whole(const std::string& key) {
-  int value = 0;
-  const auto [end, error] = std::from_chars(word_.data(), word_.data() + word_.size(), value);
-  if (quoted_ || ended() || error != std::errc() || end != word_.data() + word_.size())
-    fail(key, ended() ? "ends in the middle" : fmt::format("has {}", shown()), "a whole number");
+  const auto value = asNumber<int>(word_);
+  if (quoted_ || !value) fail(key, ended() ? "ends in the middle" : fmt::format("has {}", shown()), "a whole number");
   advance();
-  return value;
+  return *value;
 }
 
 void VrmlWords::fail(const std::string& key, const std::string& what, const std::string& allowed) const {

@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <charconv>
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "base/as_number.h"
 #include "base/fault.h"
 
 namespace reachlab::experiment {
@@ -29,10 +29,8 @@ std::vector<Step> stepsOf(const std::string& path) {
       const std::string inside = path.substr(at + 1, close - at - 1);
       Step step;
       if (inside != "*") {
-        std::size_t index = 0;
-        const auto [end, error] = std::from_chars(inside.data(), inside.data() + inside.size(), index);
-        if (error != std::errc() || end != inside.data() + inside.size()) refuse(fmt::format("has no number in [{}]", inside));
-        step.at = index;
+        step.at = asNumber<std::size_t>(inside);
+        if (!step.at) refuse(fmt::format("has no number in [{}]", inside));
       }
       steps.push_back(step);
       at = close + 1;

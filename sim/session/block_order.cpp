@@ -1,7 +1,7 @@
 #include <algorithm>
-#include <charconv>
 #include <numeric>
 
+#include "base/as_number.h"
 #include "base/math/seeded.h"
 #include "sim/session/plan.h"
 
@@ -12,9 +12,8 @@ constexpr std::size_t kMaxAllOrders = 4;  // 4! = 24 orders; beyond, nobody has 
 
 // Subjects that are numbered take the rows in turn, so that the orders are balanced; others are spread by their label.
 std::uint64_t rowOf(const std::string& subject) {
-  std::uint64_t number = 0;
-  const auto [end, fault] = std::from_chars(subject.data(), subject.data() + subject.size(), number);
-  return fault == std::errc{} && end == subject.data() + subject.size() && number > 0 ? number - 1 : hashOf(subject);
+  const auto number = asNumber<std::uint64_t>(subject);
+  return number && *number > 0 ? *number - 1 : hashOf(subject);
 }
 
 // Fisher-Yates with numbers that depend on the seed alone.

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <random>
 
+#include "base/as_number.h"
 #include "base/fault.h"
 #include "base/ticks.h"
 #include "constraints/constraint.h"
@@ -247,24 +247,19 @@ void checkRecordable(const Programme& programme) {
 int sessionDay(const SessionRequest& request, const Plan& plan) {
   const bool daysMatter = std::any_of(plan.blocks.begin(), plan.blocks.end(), [](const PlanBlock& block) { return block.day != 0; });
   if (!daysMatter) return 0;
-  int day = 0;
   const std::string& label = request.place.session;
-  const auto [end, fault] = std::from_chars(label.data(), label.data() + label.size(), day);
-  const bool number = fault == std::errc{} && end == label.data() + label.size();
-  if (request.day) day = *request.day;
-  else if (!number)
+  const std::optional<int> asked = request.day ? request.day : asNumber<int>(label);
+  if (!asked)
     throw FaultError(Fault{"session", fmt::format("\"{}\" is no number, and the plan {} has days", label, plan.name),
                            "01, 02 …, or a day asked for beside it"});
-  if (day < 1)
+  if (*asked < 1)
     throw FaultError(
         Fault{"session", fmt::format("\"{}\" is day 0, and the days of the plan {} begin with 1", label, plan.name), "01, 02 …"});
-  return day;
+  return *asked;
 }
 
 std::optional<Fault> seedFault(const std::string& text) {
-  std::uint64_t seed = 0;
-  const auto [end, fault] = std::from_chars(text.data(), text.data() + text.size(), seed);
-  if (fault == std::errc{} && end == text.data() + text.size()) return std::nullopt;
+  if (asNumber<std::uint64_t>(text)) return std::nullopt;
   return Fault{{}, "is " + text, "0 to 18446744073709551615"};
 }
 

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <filesystem>
 
+#include "base/as_number.h"
 #include "base/fault.h"
 #include "sim/record/configuration/limits.h"
 #include "sim/record/log/log.h"
@@ -48,10 +48,7 @@ std::vector<RunOnDisk> recordedRuns(const SessionPlace& place) {
   for (const fs::directory_entry& entry : fs::directory_iterator(logs)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(prefix) || !name.ends_with(kLogEnding)) continue;
-    const std::string number = partOf(name, "run");
-    RunOnDisk run{0, partOf(name, "task"), entry.path().string()};
-    const auto [end, fault] = std::from_chars(number.data(), number.data() + number.size(), run.run);
-    if (fault == std::errc{} && end == number.data() + number.size()) runs.push_back(run);
+    if (const auto run = asNumber<int>(partOf(name, "run"))) runs.push_back({*run, partOf(name, "task"), entry.path().string()});
   }
   std::sort(runs.begin(), runs.end(), [](const RunOnDisk& a, const RunOnDisk& b) { return a.run < b.run; });
   return runs;

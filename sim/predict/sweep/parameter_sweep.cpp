@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <atomic>
-#include <charconv>
 #include <cmath>
 #include <mutex>
 #include <numeric>
 #include <thread>
 
+#include "base/as_number.h"
 #include "base/fault.h"
 #include "base/number_range.h"
 #include "sim/experiment/experiment.h"
@@ -38,11 +38,9 @@ constexpr std::array<SweepKey, 12> kKeys{{
 }};
 
 double parseNumber(std::string_view text, const std::string& whole) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(value))
-    throw FaultError(Fault{"sweep", fmt::format("is {}, where '{}' is no number", whole, text), kForm});
-  return value;
+  const auto value = asNumber<double>(text);
+  if (!value || !std::isfinite(*value)) throw FaultError(Fault{"sweep", fmt::format("is {}, where '{}' is no number", whole, text), kForm});
+  return *value;
 }
 
 void resizeObject(experiment::Experiment& experiment, double value, bool keepTotal) {

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
 
+#include "base/as_number.h"
 #include "base/fault.h"
 #include "base/math/elementary.h"
 #include "base/math/fused.h"
@@ -97,11 +97,10 @@ PlayedReach carryOut(const SampledPlan& plan, const SubjectSpec& subject, std::u
 }
 
 double readNumber(const std::string& key, const std::string& text, double most) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size() || !(value >= 0) || !(value <= most))
+  const auto value = asNumber<double>(text);
+  if (!value || !(*value >= 0) || !(*value <= most))
     throw FaultError(Fault{"device", fmt::format("simulated: {}={}", key, text), fmt::format("a number from 0 to {}", most)});
-  return value;
+  return *value;
 }
 
 predict::Criterion readCriterion(const std::string& text) {
