@@ -12,7 +12,8 @@ namespace {
 
 // Pixels, as the scale has them: docks left and right of a scene that is still seen, and three of them below one another.
 constexpr int kThreeColumns = 1200, kThreeRows = 680;
-constexpr int kLayoutVersion = 7;  // another set of docks is another layout
+constexpr QSize kWanted(1560, 960), kFrame(20, 50);  // of the window, and of the title bar and borders around it
+constexpr int kLayoutVersion = 7;                    // another set of docks is another layout
 
 QString key(const char* name) { return QStringLiteral("window/") + QLatin1String(name); }
 
@@ -71,12 +72,10 @@ WindowLayout restoreLayout(QMainWindow& window) {
   restoreDocks(window, layout);
   if (known) return layout;
   const QScreen* screen = QGuiApplication::primaryScreen();
-  const QSize room = screen == nullptr ? QSize(1560, 960) : screen->availableSize();
-  const QSize wanted(1560, 960);
-  // A title bar and borders come on top of this.
-  if (room.width() < wanted.width() + 20 || room.height() < wanted.height() + 50)
+  const QSize room = screen == nullptr ? kWanted : screen->availableSize();
+  if (room.width() < (kWanted + kFrame).width() || room.height() < (kWanted + kFrame).height())
     window.setWindowState(window.windowState() | Qt::WindowMaximized);
-  window.resize(wanted.boundedTo(room - QSize(20, 50)));
+  window.resize(kWanted.boundedTo(room - kFrame));
   return layout;
 }
 
