@@ -111,13 +111,13 @@ class Reader {
   std::optional<double> number(const std::string& name) const {
     const Parameter* p = find(name);
     if (p == nullptr) return std::nullopt;
-    if (p->type == 4 && p->data.size() >= 4) return real(p->data.data());
-    if (p->type == 2 && p->data.size() >= 2) return static_cast<double>(word(p->data.data()));
-    if (p->type == 1 && !p->data.empty()) return static_cast<double>(p->data[0]);
+    if (p->type == kFloat && p->data.size() >= 4) return real(p->data.data());
+    if (p->type == kWord && p->data.size() >= 2) return static_cast<double>(word(p->data.data()));
+    if (p->type == kByte && !p->data.empty()) return static_cast<double>(p->data[0]);
     return std::nullopt;
   }
   void addTexts(const Parameter* p, std::vector<std::string>& out) const {
-    if (p == nullptr || p->type != -1 || p->dimensions.empty()) return;
+    if (p == nullptr || p->type != kCharacters || p->dimensions.empty()) return;
     const std::size_t width = p->dimensions[0];
     for (std::size_t at = 0; width > 0 && at + width <= p->data.size(); at += width) {
       std::string text(reinterpret_cast<const char*>(&p->data[at]), width);
@@ -133,7 +133,8 @@ class Reader {
     const std::size_t first = word(&bytes_[6]), last = word(&bytes_[8]);
     std::size_t frames = last >= first ? last - first + 1 : 0;
     const Parameter *begin = find("TRIAL:ACTUAL_START_FIELD"), *end = find("TRIAL:ACTUAL_END_FIELD");
-    if (begin != nullptr && end != nullptr && begin->type == 2 && end->type == 2 && begin->data.size() >= 4 && end->data.size() >= 4) {
+    if (begin != nullptr && end != nullptr && begin->type == kWord && end->type == kWord && begin->data.size() >= 4 &&
+        end->data.size() >= 4) {
       const auto whole = [this](const Parameter& p) { return word(p.data.data()) | word(p.data.data() + 2) << 16; };
       if (whole(*end) >= whole(*begin)) frames = std::max(frames, whole(*end) - whole(*begin) + 1);
     }
@@ -147,7 +148,7 @@ class Reader {
     std::vector<std::string> labels;
     addTexts(find("EVENT:LABELS"), labels);
     const Parameter* times = find("EVENT:TIMES");
-    if (times == nullptr || times->type != 4) return {};
+    if (times == nullptr || times->type != kFloat) return {};
     std::vector<C3dEvent> found;
     for (std::size_t i = 0; i < labels.size() && 8 * (i + 1) <= times->data.size(); ++i)
       if (const double time = 60 * real(&times->data[8 * i]) + real(&times->data[8 * i + 4]); std::isfinite(time))

@@ -32,24 +32,24 @@ class Parameters {
     tail(description);
   }
   void word(const std::string& name, std::size_t value) {
-    open(name, 2, {}, 2, "");
+    open(name, kWord, {}, 2, "");
     put16(text_, value);
     tail("");
   }
   void words(const std::string& name, const std::vector<std::size_t>& values, const std::string& description = "") {
-    open(name, 2, {values.size()}, 2 * values.size(), description);
+    open(name, kWord, {values.size()}, 2 * values.size(), description);
     for (const std::size_t value : values) put16(text_, value);
     tail(description);
   }
   void floats(const std::string& name, const std::vector<float>& values, const std::vector<std::size_t>& dimensions,
               const std::string& description = "") {
-    open(name, 4, dimensions, 4 * values.size(), description);
+    open(name, kFloat, dimensions, 4 * values.size(), description);
     for (const float value : values) putFloat(text_, value);
     tail(description);
   }
   void text(const std::string& name, const std::string& value) {
     const std::string cut = value.empty() ? " " : value.substr(0, kMostLabels);
-    open(name, -1, {cut.size()}, cut.size(), "");
+    open(name, kCharacters, {cut.size()}, cut.size(), "");
     text_ += cut;
     tail("");
   }
@@ -60,7 +60,7 @@ class Parameters {
     std::size_t first = 0, part = 1;
     do {
       const std::size_t count = std::min(values.size() - first, kMostLabels);
-      open(part == 1 ? name : name + std::to_string(part), -1, {width, count}, width * count, "");
+      open(part == 1 ? name : name + std::to_string(part), kCharacters, {width, count}, width * count, "");
       for (std::size_t i = 0; i < count; ++i) {
         std::string value = values[first + i].substr(0, width);
         value.resize(width, ' ');
@@ -183,13 +183,13 @@ std::string headerOf(const C3dFile& file, std::size_t dataBlock) {
   putFloat(h, static_cast<float>(file.rate));
   h.resize(2 * 149, '\0');
   put16(h, kEventKey);
-  const std::size_t events = std::min<std::size_t>(file.events.size(), 18);
+  const std::size_t events = std::min<std::size_t>(file.events.size(), kMostEvents);
   put16(h, events);
   put16(h, 0);
-  for (std::size_t i = 0; i < 18; ++i) putFloat(h, i < events ? static_cast<float>(file.events[i].time) : 0);
-  for (std::size_t i = 0; i < 18; ++i) h += i < events ? '\x01' : '\0';  // shown
+  for (std::size_t i = 0; i < kMostEvents; ++i) putFloat(h, i < events ? static_cast<float>(file.events[i].time) : 0);
+  for (std::size_t i = 0; i < kMostEvents; ++i) h += i < events ? '\x01' : '\0';  // shown
   put16(h, 0);
-  for (std::size_t i = 0; i < 18; ++i) {
+  for (std::size_t i = 0; i < kMostEvents; ++i) {
     std::string label = i < events ? file.events[i].label.substr(0, 4) : "";
     label.resize(4, ' ');
     h += label;
