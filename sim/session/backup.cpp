@@ -29,6 +29,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::size_t kPiece = std::size_t{1} << 20;
+constexpr std::size_t kHashDigits = 64;
+constexpr std::string_view kBetween = "  ";  // hash and file in a line of the list
 using record::kLogEnding;
 
 class Sha256 {
@@ -95,13 +97,13 @@ List readList(const std::string& backup) {
   if (!fs::exists(path, error)) return list;
   std::istringstream lines(record::readWholeFile(path));
   for (std::string line; std::getline(lines, line);)
-    if (line.size() > 66) list[line.substr(66)] = line.substr(0, 64);
+    if (line.size() > kHashDigits + kBetween.size()) list[line.substr(kHashDigits + kBetween.size())] = line.substr(0, kHashDigits);
   return list;
 }
 
 void writeList(const std::string& backup, const List& list) {
   std::string text;
-  for (const auto& [file, hash] : list) text += hash + "  " + file + "\n";
+  for (const auto& [file, hash] : list) text += fmt::format("{}{}{}\n", hash, kBetween, file);
   record::writeFileAtomically(backup + "/" + kBackupList, text);
 }
 
