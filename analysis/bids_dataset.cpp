@@ -154,6 +154,68 @@ int sceneIn(const TsvTable& events, const std::vector<std::string>& row, record:
   return static_cast<int>(scenes.size()) - 1;
 }
 
+/// Ticks from one row to the next: as the description says, else as the first two rows lie, else 10.
+std::uint32_t ticksOfSample(const nlohmann::json& about, const record::SampleRows& rows) {
+  double frequency = about.is_object() && about.contains("SamplingFrequency") && about["SamplingFrequency"].is_number()
+                         ? about["SamplingFrequency"].get<double>()
+                         : 0.0;
+  if (!(frequency > 0) && rows.size() > 1) frequency = kTicksPerSecond / static_cast<double>(rows.ticks[1] - rows.ticks[0]);
+  if (!(frequency > 0)) frequency = 100;
+  return static_cast<std::uint32_t>(std::clamp<double>(std::round(kTicksPerSecond / frequency), 1, 1e6));
+}
+
+/// One row of events.tsv, whose times count from the first row of the recording, at `begin` [s].
+struct EventRow {
+  const TsvTable& events;
+  const fs::path& file;
+  std::size_t index = 0;
+  double begin = 0;
+
+  int line() const { return static_cast<int>(index) + 2; }
+  const std::string& text(const char* key) const { return events.rows[index].at(columnOf(events, key, file)); }
+  double number(const char* key) const { return numberOf(text(key), key, file.native(), line()); }
+  int count(const char* key) const { return countOf(number(key)); }
+  std::uint64_t tick(const char* key) const { return tickOf(number(key) + begin); }
+};
+
+record::RecordedTrial trialOf(const EventRow& row, const record::SampleRows& rows) {
+  record::RecordedTrial trial;
+  trial.trial = row.count("trial");
+  trial.planned.catchTrial = row.text("trial_type") == "catch";
+  trial.result.outcome = outcomeFrom(row.text("outcome"));
+  trial.result.reason = reasonFrom(row.text("reason"));
+  trial.result.mass = row.count("mass");
+  trial.result.by = row.number("by");
+  const double movement = row.number("movement_time");
+  trial.result.movementTime = std::isfinite(movement) ? movement : 0;
+  trial.result.onsetTick = std::isfinite(movement) ? row.tick("onset") : 0;
+  trial.result.endTick = tickOf(row.number("onset") + row.number("duration") + row.begin);
+  constexpr std::uint64_t kBeyond = kTicksPerSecond;  // the last rows of a recording that broke off may be missing
+  if (rows.size() > 1 && trial.result.endTick > rows.ticks.back() + kBeyond)
+    throw FaultError(Fault{"onset",
+                           fmt::format("and duration end at {:g} s, and the recording at {:g} s",
+                                       secondsOf(trial.result.endTick) - row.begin, secondsOf(rows.ticks.back()) - row.begin),
+                           "times within the recording, in s since its first row", FilePlace{row.file.string(), row.line()}});
+  trial.goTick = row.tick("go");
+  trial.armedTick = row.tick("armed");
+  trial.startTick = trial.armedTick;
+  trial.lastTick = trial.result.endTick;
+  trial.peakForce = row.number("peak_force");
+  trial.meanForce = row.number("mean_force");
+  return trial;
+}
+
+record::SampleRows rowsBetween(const record::SampleRows& rows, std::uint64_t first, std::uint64_t last) {
+  record::SampleRows part;
+  part.columns = rows.columns;
+  const auto from = std::lower_bound(rows.ticks.begin(), rows.ticks.end(), first);
+  const auto to = std::upper_bound(from, rows.ticks.end(), last);
+  part.ticks.assign(from, to);
+  const auto row = [&](auto at) { return rows.values.begin() + (at - rows.ticks.begin()) * static_cast<std::ptrdiff_t>(rows.columns); };
+  part.values.assign(row(from), row(to));
+  return part;
+}
+
 RunSource readRun(const fs::path& motion) {
   const std::string name = motion.filename().string();
   const auto sibling = [&](const std::string& ending) {
@@ -175,22 +237,15 @@ RunSource readRun(const fs::path& motion) {
   for (std::size_t row = 1; row < rows->size(); ++row)
     if (rows->ticks[row] <= rows->ticks[row - 1])
       throw FaultError(Fault{"time", "does not increase", "increasing times", FilePlace{motion.string(), static_cast<int>(row + 1)}});
-  double frequency = about.is_object() && about.contains("SamplingFrequency") && about["SamplingFrequency"].is_number()
-                         ? about["SamplingFrequency"].get<double>()
-                         : 0.0;
-  if (!(frequency > 0) && rows->size() > 1) frequency = kTicksPerSecond / static_cast<double>(rows->ticks[1] - rows->ticks[0]);
-  if (!(frequency > 0)) frequency = 100;
-  c.sampleEveryTicks = static_cast<std::uint32_t>(std::clamp<double>(std::round(kTicksPerSecond / frequency), 1, 1e6));
+  c.sampleEveryTicks = ticksOfSample(about, *rows);
   c.samplingHz = kTicksPerSecond / c.sampleEveryTicks;
 
   const fs::path eventsFile = sibling("events.tsv");
   const TsvTable events = parseTsv(record::readWholeFile(eventsFile.string()));
-  const auto column = [&](const char* key) { return columnOf(events, key, eventsFile); };
   // Asked for before the first row too: what is no table of events at all would else be a run of no trials.
   for (const char* key : {"onset", "duration", "trial_type", "trial", "block", "phase", "condition", "outcome", "reason", "mass", "by",
                           "movement_time", "armed", "go", "peak_force", "mean_force", "day"})
-    column(key);
-  // Events count from the first row, as BIDS asks.
+    columnOf(events, key, eventsFile);
   double begin = rows->size() == 0 ? 0 : secondsOf(rows->ticks.front());
   // Tick 0 means never, so the first row lies a sample behind it, as in a log. Only times between ticks are used.
   if (rows->size() > 0 && rows->ticks.front() < c.sampleEveryTicks) {
@@ -198,53 +253,16 @@ RunSource readRun(const fs::path& motion) {
     for (std::uint64_t& tick : rows->ticks) tick += later;
     begin += secondsOf(later);
   }
-  for (const auto& row : events.rows) {
-    const int line = static_cast<int>(&row - events.rows.data()) + 2;
-    const auto number = [&](const char* key) { return numberOf(row.at(column(key)), key, eventsFile.native(), line); };
-    const auto count = [&](const char* key) { return countOf(number(key)); };
-    const auto tick = [&](const char* key) { return tickOf(number(key) + begin); };
-    record::RecordedTrial trial;
-    trial.trial = count("trial");
-    trial.planned.catchTrial = row.at(column("trial_type")) == "catch";
-    trial.result.outcome = outcomeFrom(row.at(column("outcome")));
-    trial.result.reason = reasonFrom(row.at(column("reason")));
-    trial.result.mass = count("mass");
-    trial.result.by = number("by");
-    const double movement = number("movement_time");
-    trial.result.movementTime = std::isfinite(movement) ? movement : 0;
-    trial.result.onsetTick = std::isfinite(movement) ? tick("onset") : 0;
-    trial.result.endTick = tickOf(number("onset") + number("duration") + begin);
-    constexpr std::uint64_t kBeyond = kTicksPerSecond;  // the last rows of a recording that broke off may be missing
-    if (rows->size() > 1 && trial.result.endTick > rows->ticks.back() + kBeyond)
-      throw FaultError(Fault{"onset",
-                             fmt::format("and duration end at {:g} s, and the recording at {:g} s", secondsOf(trial.result.endTick) - begin,
-                                         secondsOf(rows->ticks.back()) - begin),
-                             "times within the recording, in s since its first row", FilePlace{eventsFile.string(), line}});
-    trial.goTick = tick("go");
-    trial.armedTick = tick("armed");
-    trial.startTick = trial.armedTick;
-    trial.lastTick = trial.result.endTick;
-    trial.peakForce = number("peak_force");
-    trial.meanForce = number("mean_force");
-    c.day = count("day");
-    c.block = count("block");
-    c.practice = row.at(column("phase")) == "practice";
-    c.condition = row.at(column("condition"));
-    trial.planned.scene = sceneIn(events, row, c);
-    run.trials.push_back(trial);
+  for (std::size_t index = 0; index < events.rows.size(); ++index) {
+    const EventRow row{events, eventsFile, index, begin};
+    record::RecordedTrial& trial = run.trials.emplace_back(trialOf(row, *rows));
+    c.day = row.count("day");
+    c.block = row.count("block");
+    c.practice = row.text("phase") == "practice";
+    c.condition = row.text("condition");
+    trial.planned.scene = sceneIn(events, events.rows[index], c);
   }
-  run.rowsOf = [rows](std::uint64_t first, std::uint64_t last) {
-    record::SampleRows part;
-    part.columns = rows->columns;
-    const auto from = std::lower_bound(rows->ticks.begin(), rows->ticks.end(), first);
-    const auto to = std::upper_bound(from, rows->ticks.end(), last);
-    part.ticks.assign(from, to);
-    const auto row = [&](auto at) {
-      return rows->values.begin() + (at - rows->ticks.begin()) * static_cast<std::ptrdiff_t>(rows->columns);
-    };
-    part.values.assign(row(from), row(to));
-    return part;
-  };
+  run.rowsOf = [rows](std::uint64_t first, std::uint64_t last) { return rowsBetween(*rows, first, last); };
   return run;
 }
 
