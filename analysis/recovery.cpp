@@ -27,6 +27,7 @@ constexpr std::array<std::pair<Kind, std::string_view>, 7> kOthers{{{Kind::Other
                                                                     {Kind::TwoInTurn, "two-in-turn"},
                                                                     {Kind::HandSnap, "hand-snap"},
                                                                     {Kind::TwoSubmovements, "two-submovements"}}};
+constexpr double kLeastWarp = 0.02, kWarpRange = 0.08;  // of the duration
 bool followsCandidate(Kind kind) { return kind <= Kind::OwnWarp; }
 bool needsTwo(Kind kind) { return kind == Kind::MeanOfTwo || kind == Kind::TwoInTurn; }
 
@@ -117,6 +118,116 @@ std::vector<FitWindow> simulatePerson(const Analysis& analysis, const PersonResu
   return windows;
 }
 
+/// Studies whose people move by a known rule, each judged as the recorded study is.
+class SimulatedStudies {
+ public:
+  SimulatedStudies(const Analysis& analysis, std::vector<const PersonResult*> people, std::uint64_t seed)
+      : analysis_(analysis), people_(std::move(people)), seed_(seed) {
+    for (std::size_t truth = 0; truth < truths(); ++truth) {
+      if (analysis.common[truth].empty()) continue;
+      named_.push_back(truth);
+      const auto hasMass = [&](const PersonResult* p) { return static_cast<bool>(candidateOf(*p, truth).familyOf); };
+      if (std::all_of(people_.begin(), people_.end(), hasMass)) withMass_.push_back(truth);
+    }
+  }
+  /// There are candidates enough for this kind.
+  bool has(Kind kind) const { return candidatesFor(kind).size() > (needsTwo(kind) ? 1 : 0); }
+  /// The candidate that is concluded where everybody follows `truth`; their count if nothing is.
+  std::size_t nameOne(std::size_t truth, int number) const {
+    Draws draws = drawsOf(truth, number);
+    return judge({Kind::Candidate, truth, truth}, draws);
+  }
+  /// True if the right candidate is concluded. nullopt: undecided.
+  std::optional<bool> judgeOther(Kind kind, int number) const {
+    Draws draws = drawsOf(truths() + static_cast<std::size_t>(kind), number);
+    const std::vector<std::size_t>& from = candidatesFor(kind);
+    const std::size_t drawn = draws.below(from.size());
+    Mover mover{kind, from[drawn], from[drawn]};
+    if (needsTwo(kind)) mover.second = from[(drawn + 1 + draws.below(from.size() - 1)) % from.size()];
+    const std::size_t follows = judge(mover, draws);
+    if (follows == truths()) return std::nullopt;
+    return followsCandidate(kind) && follows == mover.first;
+  }
+
+ private:
+  struct Plan {
+    const CandidateFit* fit;
+    std::shared_ptr<const ProfileFamily> family;
+  };
+
+  std::size_t truths() const { return analysis_.common.size(); }
+  const std::vector<std::size_t>& candidatesFor(Kind kind) const { return kind == Kind::OtherMasses ? withMass_ : named_; }
+  const CandidateSet& setOf(const PersonResult& person) const { return analysis_.results[person.condition].candidates; }
+  std::size_t indexOf(const PersonResult& person, std::size_t truth) const {
+    std::size_t k = 0;
+    while (setOf(person).candidates[k].criteria != analysis_.common[truth]) ++k;
+    return k;
+  }
+  const Candidate& candidateOf(const PersonResult& person, std::size_t truth) const {
+    return setOf(person).candidates[indexOf(person, truth)];
+  }
+  Draws drawsOf(std::size_t stream, int number) const {
+    return Draws(seededBits(seededBits(seed_, stream), static_cast<std::uint64_t>(number)));
+  }
+
+  Plan planOf(const PersonResult& person, Kind kind, std::size_t truth, Draws& draws) const {
+    const Candidate& candidate = candidateOf(person, truth);
+    const CandidateFit& fit = person.fit.candidates[indexOf(person, truth)];
+    if (kind != Kind::OtherMasses || !candidate.familyOf) return {&fit, fit.family};
+    return {&fit, candidate.familyOf(candidate.masses.front() + draws.fraction() * (candidate.masses.back() - candidate.masses.front()))};
+  }
+
+  /// The person's trials as `mover` moves them, fitted again.
+  PersonResult simulate(const PersonResult& person, Mover mover, Draws& draws) const {
+    if (mover.kind == Kind::OwnSkew || mover.kind == Kind::OwnWarp) {
+      mover.warp = (kLeastWarp + kWarpRange * draws.fraction()) * (draws.fraction() < 0.5 ? -1 : 1);
+      mover.waves = mover.kind == Kind::OwnSkew ? 1 : 2;
+    }
+    Plan first = planOf(person, mover.kind, mover.first, draws);
+    if (mover.kind == Kind::HandSnap || mover.kind == Kind::TwoSubmovements) {  // where and how long the reference moves
+      const double rate = analysis_.trials[person.firstTrial].windowRate;
+      first.fit = &person.fit.candidates.back();
+      first.family = std::make_shared<ProfileFamily>(samplerOf(mover.kind, draws), RecordingFilter(analysis_.options.measure.cutoff, rate),
+                                                     first.family->grid());
+    }
+    const Plan second = mover.second == mover.first ? first : planOf(person, mover.kind, mover.second, draws);
+    const auto add = [&](FitWindow& window, const Plan& plan, std::size_t place, double share) {
+      addPlanned(window, *plan.family, plan.fit->choice, plan.fit->trials[place], mover, share);
+    };
+    const auto planned = [&](FitWindow& window, std::size_t place) {
+      if (mover.kind == Kind::TwoInTurn) return add(window, draws.fraction() < 0.5 ? second : first, place, 1);
+      add(window, first, place, 0.5);
+      add(window, second, place, 0.5);
+    };
+    std::vector<FitWindow> windows = simulatePerson(analysis_, person, planned, draws);
+    std::vector<double> durations;
+    for (const MovementFit& laid : person.fit.own.place) durations.push_back(laid.duration);
+    PersonResult simulated;
+    simulated.subject = person.subject;
+    simulated.condition = person.condition;
+    simulated.fitted = true;
+    simulated.fit = fitPerson(windows, durations, setOf(person));
+    return simulated;
+  }
+
+  std::size_t judge(const Mover& mover, Draws& draws) const {
+    std::vector<PersonScores> scores;
+    std::map<std::string, std::size_t> index;
+    for (const PersonResult* person : people_) {
+      const PersonResult simulated = simulate(*person, mover, draws);
+      const auto [place, fresh] = index.try_emplace(person->subject, scores.size());
+      if (fresh) scores.push_back({person->subject, {}});
+      scores[place->second].conditions.push_back(scoresOf(simulated, setOf(*person), analysis_.common));
+    }
+    return concludePeople(scores, truths(), truths() - 1, heavyLimits(analysis_.common)).follows.value_or(truths());
+  }
+
+  const Analysis& analysis_;
+  std::vector<const PersonResult*> people_;
+  std::uint64_t seed_;
+  std::vector<std::size_t> named_, withMass_;  // truths; the second: those whose hand has a mass
+};
+
 }  // namespace
 
 TruthRecovery recover(const Analysis& analysis, int studies, std::uint64_t seed, unsigned threads, const RecoveryProgress& progress) {
@@ -132,86 +243,10 @@ TruthRecovery recover(const Analysis& analysis, int studies, std::uint64_t seed,
   out.counts.assign(truths, std::vector<std::size_t>(truths + 1, 0));
   if (people.empty() || studies < 1) return out;
 
-  const auto candidateOf = [&](std::size_t condition, std::size_t truth) {
-    const auto& all = analysis.results[condition].candidates.candidates;
-    std::size_t k = 0;
-    while (all[k].criteria != analysis.common[truth]) ++k;
-    return k;
-  };
-  const auto judge = [&](Mover mover, Draws& draws) {
-    std::vector<PersonScores> scores;
-    std::map<std::string, std::size_t> index;
-    for (const PersonResult* person : people) {
-      const CandidateSet& set = analysis.results[person->condition].candidates;
-      if (mover.kind == Kind::OwnSkew || mover.kind == Kind::OwnWarp) {
-        mover.warp = (0.02 + 0.08 * draws.fraction()) * (draws.fraction() < 0.5 ? -1 : 1);
-        mover.waves = mover.kind == Kind::OwnSkew ? 1 : 2;
-      }
-      const auto planOf = [&](std::size_t truth) {
-        const Candidate& candidate = set.candidates[candidateOf(person->condition, truth)];
-        const CandidateFit& fit = person->fit.candidates[candidateOf(person->condition, truth)];
-        if (mover.kind != Kind::OtherMasses || !candidate.familyOf) return std::pair(&fit, fit.family);
-        const double mass = candidate.masses.front() + draws.fraction() * (candidate.masses.back() - candidate.masses.front());
-        return std::pair(&fit, candidate.familyOf(mass));
-      };
-      auto first = planOf(mover.first);
-      if (mover.kind == Kind::HandSnap || mover.kind == Kind::TwoSubmovements) {  // where and how long the reference moves
-        const double rate = analysis.trials[person->firstTrial].windowRate;
-        first.first = &person->fit.candidates.back();
-        first.second = std::make_shared<ProfileFamily>(samplerOf(mover.kind, draws), RecordingFilter(analysis.options.measure.cutoff, rate),
-                                                       first.second->grid());
-      }
-      const auto second = mover.second == mover.first ? first : planOf(mover.second);
-      std::vector<FitWindow> windows = simulatePerson(
-          analysis, *person,
-          [&](FitWindow& window, std::size_t place) {
-            const bool turn = mover.kind == Kind::TwoInTurn, other = turn && draws.fraction() < 0.5;
-            const auto& [fit, family] = other ? second : first;
-            addPlanned(window, *family, fit->choice, fit->trials[place], mover, turn ? 1 : 0.5);
-            if (!turn) addPlanned(window, *second.second, second.first->choice, second.first->trials[place], mover, 0.5);
-          },
-          draws);
-      std::vector<double> durations;
-      for (const MovementFit& laid : person->fit.own.place) durations.push_back(laid.duration);
-      PersonResult simulated;
-      simulated.subject = person->subject;
-      simulated.condition = person->condition;
-      simulated.fitted = true;
-      simulated.fit = fitPerson(windows, durations, set);
-      const auto [place, fresh] = index.try_emplace(person->subject, scores.size());
-      if (fresh) scores.push_back({person->subject, {}});
-      scores[place->second].conditions.push_back(scoresOf(simulated, set, analysis.common));
-    }
-    return concludePeople(scores, truths, truths - 1, heavyLimits(analysis.common)).follows.value_or(truths);
-  };
-  const auto nameOne = [&](std::size_t truth, int number) {
-    Draws draws(seededBits(seededBits(seed, truth), static_cast<std::uint64_t>(number)));
-    return judge({Kind::Candidate, truth, truth}, draws);
-  };
-  std::vector<std::size_t> withMass, named;  // candidates
-  for (std::size_t t = 0; t < truths; ++t) {
-    if (analysis.common[t].empty()) continue;
-    named.push_back(t);
-    if (std::all_of(people.begin(), people.end(), [&](const PersonResult* p) {
-          return static_cast<bool>(analysis.results[p->condition].candidates.candidates[candidateOf(p->condition, t)].familyOf);
-        }))
-      withMass.push_back(t);
-  }
-  std::vector<Kind> kinds;                                                             // parallel to out.others
-  const auto judgeOther = [&](std::size_t other, int number) -> std::optional<bool> {  // was the name right? nullopt: undecided
-    const Kind kind = kinds[other];
-    Draws draws(seededBits(seededBits(seed, truths + static_cast<std::size_t>(kind)), static_cast<std::uint64_t>(number)));
-    const std::vector<std::size_t>& from = kind == Kind::OtherMasses ? withMass : named;
-    const std::size_t drawn = draws.below(from.size());
-    Mover mover{kind, from[drawn], from[drawn]};
-    if (needsTwo(kind)) mover.second = from[(drawn + 1 + draws.below(from.size() - 1)) % from.size()];
-    const std::size_t follows = judge(mover, draws);
-    if (follows == truths) return std::nullopt;
-    return followsCandidate(kind) && follows == mover.first;
-  };
+  const SimulatedStudies simulated(analysis, people, seed);
+  std::vector<Kind> kinds;  // parallel to out.others
   for (const auto& [kind, name] : kOthers)
-    if ((kind == Kind::OtherMasses ? withMass : named).size() > (needsTwo(kind) ? 1 : 0))
-      kinds.push_back(kind), out.others.push_back({name});
+    if (simulated.has(kind)) kinds.push_back(kind), out.others.push_back({name});
 
   const std::size_t inside = truths * static_cast<std::size_t>(studies);
   const std::size_t jobs = inside + out.others.size() * static_cast<std::size_t>(studies);
@@ -222,8 +257,11 @@ TruthRecovery recover(const Analysis& analysis, int studies, std::uint64_t seed,
     for (std::size_t job; (job = next++) < jobs;) {
       std::size_t truth = job % truths, follows = truths;
       std::optional<bool> right;
-      if (job < inside) follows = nameOne(truth, static_cast<int>(job / truths));
-      else truth = (job - inside) % out.others.size(), right = judgeOther(truth, static_cast<int>((job - inside) / out.others.size()));
+      if (job < inside) follows = simulated.nameOne(truth, static_cast<int>(job / truths));
+      else {
+        truth = (job - inside) % kinds.size();
+        right = simulated.judgeOther(kinds[truth], static_cast<int>((job - inside) / kinds.size()));
+      }
       const std::lock_guard lock(mutex);
       if (job < inside) ++out.counts[truth][follows];
       else if (!right) ++out.others[truth].undecided;
