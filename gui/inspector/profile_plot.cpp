@@ -26,19 +26,6 @@ namespace {
 
 constexpr double kNear = 7;  // pixels: what a click means
 
-std::unique_ptr<QwtPlotCurve> makeCurve(QwtPlot& plot, const QPen& pen, double z, const QString& title = {}) {
-  auto curve = std::make_unique<QwtPlotCurve>(title);
-  curve->setPen(pen);
-  curve->setRenderHint(QwtPlotItem::RenderAntialiased);
-  curve->setPaintAttribute(QwtPlotCurve::ClipPolygons);
-  curve->setLegendAttribute(QwtPlotCurve::LegendShowLine);
-  curve->setLegendIconSize({22, 6});
-  curve->setItemAttribute(QwtPlotItem::Legend, !title.isEmpty());
-  curve->setZ(z);
-  curve->attach(&plot);
-  return curve;
-}
-
 std::unique_ptr<QwtPlotMarker> makeMark(QwtPlot& plot, const QColor& colour, Qt::PenStyle style, const QString& label) {
   auto mark = std::make_unique<QwtPlotMarker>();
   mark->setLineStyle(QwtPlotMarker::VLine);
@@ -96,25 +83,19 @@ ProfilePlot::ProfilePlot(QWidget* parent) : QWidget(parent), impl_(std::make_uni
   layout->addWidget(plot);
   auto* canvas = gui::plot::dress(*plot);
   canvas->installEventFilter(this);
-  for (const int axis : {int{QwtPlot::xBottom}, int{QwtPlot::yLeft}}) {
-    QFont font;
-    font.setPointSizeF(9.5);
-    plot->setAxisFont(axis, font);
-  }
+  gui::plot::setAxisFonts(*plot);
   impl_->band = std::make_unique<QwtPlotIntervalCurve>(tr("± SD"));
   impl_->band->setBrush(widgets::ink(34));
   impl_->band->setPen(QPen(Qt::NoPen));
   impl_->band->setZ(12);
   impl_->band->attach(plot);
-  impl_->picked = makeCurve(*plot, QPen(widgets::toQColor(widgets::colours::kLast), 2.2), 40, tr("picked"));
-  impl_->mean = makeCurve(*plot, QPen(widgets::ink(255), 2.6), 30, tr("mean"));
+  impl_->picked = gui::plot::makeCurve(*plot, tr("picked"), QPen(widgets::toQColor(widgets::colours::kLast), 2.2), 40);
+  impl_->mean = gui::plot::makeCurve(*plot, tr("mean"), QPen(widgets::ink(255), 2.6), 30);
   const QColor mark = widgets::toQColor(widgets::colours::kTarget);
   impl_->onset = makeMark(*plot, mark, Qt::DashLine, tr("onset"));
   impl_->end = makeMark(*plot, mark, Qt::DashLine, tr("end"));
   impl_->cursor = makeMark(*plot, widgets::ink(150), Qt::SolidLine, {});
-  auto* legend = new QwtLegend;
-  legend->setDefaultItemMode(QwtLegendData::ReadOnly);
-  plot->insertLegend(legend, QwtPlot::RightLegend);
+  gui::plot::addLegend(*plot);
   auto* wheel = new QwtPlotMagnifier(canvas);
   wheel->setMouseButton(Qt::NoButton);
   auto* shift = new QwtPlotPanner(canvas);
@@ -136,7 +117,7 @@ void ProfilePlot::setLines(const std::vector<Line>& lines) {
   QColor thin = widgets::toQColor(widgets::colours::kDriven).lighter(125);
   thin.setAlpha(lines.size() > 40 ? 70 : lines.size() > 8 ? 120 : 190);
   for (const Line& line : lines) {
-    auto curve = makeCurve(*impl_->plot, QPen(thin, 1), 20);
+    auto curve = gui::plot::makeCurve(*impl_->plot, {}, QPen(thin, 1), 20);
     curve->setSamples(line.x, line.y);
     impl_->lines.push_back(std::move(curve));
   }
@@ -169,7 +150,8 @@ void ProfilePlot::setMean(const QVector<double>& x, const QVector<double>& mean,
 void ProfilePlot::setPredictions(const std::vector<Prediction>& predictions) {
   impl_->predictions.clear();
   for (const Prediction& p : predictions) {
-    auto curve = makeCurve(*impl_->plot, QPen(p.colour, p.fitted ? 2.2 : 1.8, p.fitted ? Qt::DotLine : Qt::DashLine), 50, p.title);
+    auto curve =
+        gui::plot::makeCurve(*impl_->plot, p.title, QPen(p.colour, p.fitted ? 2.2 : 1.8, p.fitted ? Qt::DotLine : Qt::DashLine), 50);
     curve->setSamples(p.x, p.y);
     impl_->predictions.push_back(std::move(curve));
   }

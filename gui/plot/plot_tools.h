@@ -1,8 +1,10 @@
 #pragma once
 // Tools of every plot of the window, for files that are compiled with Qwt's headers (gui/CMakeLists.txt).
 #include <qwt_global.h>
+#include <qwt_legend.h>
 #include <qwt_plot.h>
 #include <qwt_plot_canvas.h>
+#include <qwt_plot_curve.h>
 #include <qwt_plot_grid.h>
 #include <qwt_plot_layout.h>
 #include <qwt_plot_renderer.h>
@@ -14,6 +16,7 @@
 #include <QMessageBox>
 #include <QSaveFile>
 #include <QTextStream>
+#include <memory>
 
 #include "gui/widgets/inks.h"
 #include "gui/widgets/theme.h"
@@ -43,6 +46,33 @@ inline QwtPlotCanvas* dress(QwtPlot& plot) {
   grid->setPen(QPen(widgets::ink(26), 0));
   grid->attach(&plot);
   return canvas;
+}
+
+inline void setAxisFonts(QwtPlot& plot) {
+  QFont font;
+  font.setPointSizeF(9.5);
+  for (const int axis : {int{QwtPlot::xBottom}, int{QwtPlot::yLeft}}) plot.setAxisFont(axis, font);
+}
+
+/// Of the lines that the plot has, and of those that it gets. The plot owns it.
+inline void addLegend(QwtPlot& plot) {
+  auto* legend = new QwtLegend;
+  legend->setDefaultItemMode(QwtLegendData::ReadOnly);
+  plot.insertLegend(legend, QwtPlot::RightLegend);
+}
+
+/// A line, which the legend shows if it has a title.
+inline std::unique_ptr<QwtPlotCurve> makeCurve(QwtPlot& plot, const QString& title, const QPen& pen, double z) {
+  auto curve = std::make_unique<QwtPlotCurve>(title);
+  curve->setPen(pen);
+  curve->setRenderHint(QwtPlotItem::RenderAntialiased);
+  curve->setPaintAttribute(QwtPlotCurve::ClipPolygons);
+  curve->setLegendAttribute(QwtPlotCurve::LegendShowLine);
+  curve->setLegendIconSize({22, 6});
+  curve->setItemAttribute(QwtPlotItem::Legend, !title.isEmpty());
+  curve->setZ(z);
+  curve->attach(&plot);
+  return curve;
 }
 
 /// A drag zooms in, and a right click zooms back. The pointer's coordinates in the axes' units are shown beside it.

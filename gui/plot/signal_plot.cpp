@@ -1,7 +1,6 @@
 #include "gui/plot/signal_plot.h"
 
 #include <qwt_global.h>
-#include <qwt_legend.h>
 #include <qwt_plot.h>
 #include <qwt_plot_canvas.h>
 #include <qwt_plot_curve.h>
@@ -79,9 +78,7 @@ SignalPlot::SignalPlot(QWidget* parent) : QWidget(parent), impl_(std::make_uniqu
     curve->setPaintAttribute(QwtPlotCurve::ClipPolygons);
     curve->attach(plot);
   }
-  auto* legend = new QwtLegend;
-  legend->setDefaultItemMode(QwtLegendData::ReadOnly);
-  plot->insertLegend(legend, QwtPlot::RightLegend);
+  addLegend(*plot);
   d.zoomer = new Zoomer(canvas);
   setMasses(0);
   const auto anew = [this] {

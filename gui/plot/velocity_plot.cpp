@@ -1,7 +1,6 @@
 #include "gui/plot/velocity_plot.h"
 
 #include <qwt_global.h>
-#include <qwt_legend.h>
 #include <qwt_plot.h>
 #include <qwt_plot_canvas.h>
 #include <qwt_plot_curve.h>
@@ -20,22 +19,6 @@
 #include "gui/plot/plot_tools.h"
 
 namespace reachlab::gui::plot {
-namespace {
-
-std::unique_ptr<QwtPlotCurve> makeCurve(QwtPlot& plot, const QString& title, const QColor& colour, double width, Qt::PenStyle style,
-                                        double z) {
-  auto curve = std::make_unique<QwtPlotCurve>(title);
-  curve->setPen(QPen(colour, width, style));
-  curve->setRenderHint(QwtPlotItem::RenderAntialiased);
-  curve->setPaintAttribute(QwtPlotCurve::ClipPolygons);
-  curve->setLegendAttribute(QwtPlotCurve::LegendShowLine);
-  curve->setLegendIconSize({22, 6});
-  curve->setZ(z);
-  curve->attach(&plot);
-  return curve;
-}
-
-}  // namespace
 
 QString libraryVersion() { return QStringLiteral(QWT_VERSION_STR); }
 
@@ -77,7 +60,7 @@ struct VelocityPlot::Impl {
   void drawPredictions() {
     predictions.clear();
     for (const Line& line : lines) {
-      auto curve = makeCurve(*plot, line.title, line.colour, 1.8, Qt::DashLine, 24);
+      auto curve = makeCurve(*plot, line.title, QPen(line.colour, 1.8, Qt::DashLine), 24);
       curve->setSamples(line.time.data(), line.velocity.data(), static_cast<int>(std::min(line.time.size(), line.velocity.size())));
       predictions.push_back(std::move(curve));
     }
@@ -124,11 +107,7 @@ VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent), impl_(std::make_u
   auto* canvas = dress(*plot);
   plot->setAxisTitle(QwtPlot::xBottom, axisTitle(QStringLiteral("time since onset [s]")));
   plot->setAxisTitle(QwtPlot::yLeft, axisTitle(QStringLiteral("velocity [m/s]")));
-  for (const int axis : {int{QwtPlot::xBottom}, int{QwtPlot::yLeft}}) {
-    QFont font;
-    font.setPointSizeF(9.5);
-    plot->setAxisFont(axis, font);
-  }
+  setAxisFonts(*plot);
   impl_->band = std::make_unique<QwtPlotZoneItem>();
   impl_->band->setOrientation(Qt::Vertical);
   QColor green = widgets::toQColor(widgets::colours::kGreen);
@@ -150,14 +129,11 @@ VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent), impl_(std::make_u
   QColor handFaint = handInk, lastFaint = lastInk;
   handFaint.setAlpha(110);
   lastFaint.setAlpha(110);
-  impl_->handBefore = makeCurve(*plot, {}, handFaint, 1, Qt::SolidLine, 18);
-  impl_->lastBefore = makeCurve(*plot, {}, lastFaint, 1, Qt::SolidLine, 18);
-  for (auto* curve : {impl_->handBefore.get(), impl_->lastBefore.get()}) curve->setItemAttribute(QwtPlotItem::Legend, false);
-  impl_->hand = makeCurve(*plot, QStringLiteral("hand"), handInk, 2.2, Qt::SolidLine, 22);
-  impl_->last = makeCurve(*plot, QStringLiteral("last mass"), lastInk, 2.2, Qt::SolidLine, 21);
-  auto* legend = new QwtLegend;
-  legend->setDefaultItemMode(QwtLegendData::ReadOnly);
-  plot->insertLegend(legend, QwtPlot::RightLegend);
+  impl_->handBefore = makeCurve(*plot, {}, QPen(handFaint, 1), 18);
+  impl_->lastBefore = makeCurve(*plot, {}, QPen(lastFaint, 1), 18);
+  impl_->hand = makeCurve(*plot, QStringLiteral("hand"), QPen(handInk, 2.2), 22);
+  impl_->last = makeCurve(*plot, QStringLiteral("last mass"), QPen(lastInk, 2.2), 21);
+  addLegend(*plot);
   impl_->zoomer = new Zoomer(canvas);
   connect(impl_->freeze, &QCheckBox::toggled, this, &VelocityPlot::refresh);
   connect(save, &QToolButton::clicked, this, [this] {
