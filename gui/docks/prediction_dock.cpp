@@ -1,6 +1,5 @@
 #include "gui/docks/prediction_dock.h"
 
-#include <QHeaderView>
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QTableWidget>
@@ -14,7 +13,8 @@
 namespace reachlab::gui::docks {
 namespace {
 
-enum Column { kName, kPeak, kLast, kAll, kFitted, kColumns };
+enum Column { kName, kPeak, kLast, kAll, kFitted };
+constexpr int kRowHeight = 23;
 
 QString speed(double metresPerSecond) { return QString::number(metresPerSecond, 'f', 4); }
 
@@ -27,10 +27,10 @@ PredictionDock::PredictionDock(QWidget* parent)
       succeeded_(predict::kCriterionCount), failed_(predict::kCriterionCount) {
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);
-  table_ = new QTableWidget(predict::kCriterionCount, kColumns);
+  table_ = plot::makeCriteriaTable(
+      {QStringLiteral("criterion"), QStringLiteral("peak"), QStringLiteral("ε last"), QStringLiteral("ε run"), QStringLiteral("ε fit")},
+      {predict::Criterion::MinHandJerk}, kRowHeight);
   table_->setObjectName(QStringLiteral("criteria"));
-  table_->setHorizontalHeaderLabels(
-      {QStringLiteral("criterion"), QStringLiteral("peak"), QStringLiteral("ε last"), QStringLiteral("ε run"), QStringLiteral("ε fit")});
   table_->horizontalHeaderItem(kPeak)->setToolTip(QStringLiteral("predicted peak velocity of the hand [m/s]"));
   table_->horizontalHeaderItem(kLast)->setToolTip(
       QStringLiteral("the paper's epsilon of the last trial: RMS difference of the hand's velocity, time-scaled [m/s]"));
@@ -39,29 +39,10 @@ PredictionDock::PredictionDock(QWidget* parent)
   table_->horizontalHeaderItem(kFitted)->setToolTip(QStringLiteral(
       "the fitted epsilon over the trials of this run that succeeded, from ten on, as in reach analyze: onset, duration and amplitude "
       "fitted to each trial [m/s]"));
-  table_->verticalHeader()->hide();
-  table_->verticalHeader()->setDefaultSectionSize(23);
-  table_->setSelectionMode(QAbstractItemView::NoSelection);
-  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table_->setShowGrid(false);
-  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  table_->horizontalHeader()->setSectionResizeMode(kName, QHeaderView::Stretch);
   table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
-  for (int i = 0; i < predict::kCriterionCount; ++i) {
-    const auto criterion = static_cast<predict::Criterion>(i);
-    auto* name = new QTableWidgetItem(plot::titleOf(criterion));
-    name->setFlags(Qt::ItemIsEnabled | Qt::ItemIsUserCheckable);
-    name->setCheckState(criterion == predict::Criterion::MinHandJerk ? Qt::Checked : Qt::Unchecked);
-    name->setForeground(plot::colourOf(criterion));
-    name->setToolTip(text(predict::describe(criterion)));
-    table_->setItem(i, kName, name);
-    for (const int column : {kPeak, kLast, kAll, kFitted}) {
-      auto* item = new QTableWidgetItem;
-      item->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-      table_->setItem(i, column, item);
-    }
-  }
-  table_->setFixedHeight(predict::kCriterionCount * 23 + 30);
+  for (int i = 0; i < predict::kCriterionCount; ++i)
+    table_->item(i, kName)->setToolTip(text(predict::describe(static_cast<predict::Criterion>(i))));
+  table_->setFixedHeight(predict::kCriterionCount * kRowHeight + 30);
   layout->addWidget(table_);
   note_ = new QLabel(QStringLiteral("m/s; dashed on the plot where ticked"));
   note_->setProperty("role", "quiet");
@@ -140,11 +121,6 @@ void PredictionDock::fillErrors() {
   }
 }
 
-std::vector<predict::Criterion> PredictionDock::chosen() const {
-  std::vector<predict::Criterion> criteria;
-  for (int i = 0; i < predict::kCriterionCount; ++i)
-    if (table_->item(i, kName)->checkState() == Qt::Checked) criteria.push_back(static_cast<predict::Criterion>(i));
-  return criteria;
-}
+std::vector<predict::Criterion> PredictionDock::chosen() const { return plot::chosenIn(*table_); }
 
 }  // namespace reachlab::gui::docks

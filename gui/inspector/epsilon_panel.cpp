@@ -1,6 +1,5 @@
 #include "gui/inspector/epsilon_panel.h"
 
-#include <QHeaderView>
 #include <QLabel>
 #include <QSignalBlocker>
 #include <QTableWidget>
@@ -39,34 +38,13 @@ EpsilonPanel::EpsilonPanel(QWidget* parent) : QWidget(parent) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(3);
-  table_ = new QTableWidget(predict::kCriterionCount, kColumns);
+  table_ = plot::makeCriteriaTable({tr("criterion"), tr("ε paper"), tr("ε fitted")},
+                                   {predict::Criterion::MinHandJerk, predict::Criterion::MinCrackle}, 22);
   table_->setObjectName(QStringLiteral("inspectedCriteria"));
-  table_->setHorizontalHeaderLabels({tr("criterion"), tr("ε paper"), tr("ε fitted")});
   table_->horizontalHeaderItem(kPaper)->setToolTip(
       tr("the paper's epsilon of the hand over the chosen trials that count, as in the report's tables [m/s]"));
   table_->horizontalHeaderItem(kFitted)->setToolTip(tr(
       "the fitted epsilon, as in fits.csv: onset, duration and amplitude fitted to each trial; from ten trials of a person on, the mean over people [m/s]"));
-  table_->verticalHeader()->hide();
-  table_->verticalHeader()->setDefaultSectionSize(22);
-  table_->setSelectionMode(QAbstractItemView::NoSelection);
-  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table_->setShowGrid(false);
-  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  table_->horizontalHeader()->setSectionResizeMode(kName, QHeaderView::Stretch);
-  for (int i = 0; i < predict::kCriterionCount; ++i) {
-    const auto criterion = static_cast<predict::Criterion>(i);
-    auto* name = new QTableWidgetItem(plot::titleOf(criterion));
-    name->setFlags(Qt::ItemIsEnabled | Qt::ItemIsUserCheckable);
-    const bool drawn = criterion == predict::Criterion::MinHandJerk || criterion == predict::Criterion::MinCrackle;
-    name->setCheckState(drawn ? Qt::Checked : Qt::Unchecked);
-    name->setForeground(plot::colourOf(criterion));
-    table_->setItem(i, kName, name);
-    for (const int column : {kPaper, kFitted}) {
-      auto* number = new QTableWidgetItem;
-      number->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-      table_->setItem(i, column, number);
-    }
-  }
   table_->setMinimumSize(290, 110);
   table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   layout->addWidget(table_, 1);
@@ -121,12 +99,7 @@ void EpsilonPanel::clear(const QString& why) {
   told_->setText(why);
 }
 
-std::vector<predict::Criterion> EpsilonPanel::chosen() const {
-  std::vector<predict::Criterion> chosen;
-  for (int i = 0; i < predict::kCriterionCount; ++i)
-    if (table_->item(i, kName)->checkState() == Qt::Checked) chosen.push_back(static_cast<predict::Criterion>(i));
-  return chosen;
-}
+std::vector<predict::Criterion> EpsilonPanel::chosen() const { return plot::chosenIn(*table_); }
 
 predict::Criterion EpsilonPanel::first() const {
   const std::vector<predict::Criterion> all = chosen();

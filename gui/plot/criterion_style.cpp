@@ -1,5 +1,9 @@
 #include "gui/plot/criterion_style.h"
 
+#include <QHeaderView>
+#include <QTableWidget>
+#include <algorithm>
+
 #include "analysis/report/figures.h"
 #include "gui/widgets/themes.h"
 
@@ -15,6 +19,39 @@ QString titleOf(predict::Criterion criterion) {
   const std::string_view name = predict::nameOf(criterion);
   QString title = QString::fromUtf8(name.data(), static_cast<int>(name.size()));
   return title.replace(QStringLiteral("min-"), QStringLiteral("min. ")).replace(QLatin1Char('-'), QLatin1Char(' '));
+}
+
+QTableWidget* makeCriteriaTable(const QStringList& columns, const std::vector<predict::Criterion>& chosen, int rowHeight) {
+  auto* table = new QTableWidget(predict::kCriterionCount, columns.size());
+  table->setHorizontalHeaderLabels(columns);
+  table->verticalHeader()->hide();
+  table->verticalHeader()->setDefaultSectionSize(rowHeight);
+  table->setSelectionMode(QAbstractItemView::NoSelection);
+  table->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  table->setShowGrid(false);
+  table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  table->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
+  for (int i = 0; i < predict::kCriterionCount; ++i) {
+    const auto criterion = static_cast<predict::Criterion>(i);
+    auto* name = new QTableWidgetItem(titleOf(criterion));
+    name->setFlags(Qt::ItemIsEnabled | Qt::ItemIsUserCheckable);
+    name->setCheckState(std::find(chosen.begin(), chosen.end(), criterion) != chosen.end() ? Qt::Checked : Qt::Unchecked);
+    name->setForeground(colourOf(criterion));
+    table->setItem(i, 0, name);
+    for (int column = 1; column < columns.size(); ++column) {
+      auto* number = new QTableWidgetItem;
+      number->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+      table->setItem(i, column, number);
+    }
+  }
+  return table;
+}
+
+std::vector<predict::Criterion> chosenIn(const QTableWidget& table) {
+  std::vector<predict::Criterion> criteria;
+  for (int i = 0; i < predict::kCriterionCount; ++i)
+    if (table.item(i, 0)->checkState() == Qt::Checked) criteria.push_back(static_cast<predict::Criterion>(i));
+  return criteria;
 }
 
 }  // namespace reachlab::gui::plot

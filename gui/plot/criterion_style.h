@@ -1,8 +1,11 @@
 #pragma once
 #include <QColor>
 #include <QString>
+#include <vector>
 
 #include "sim/predict/predict.h"
+
+class QTableWidget;
 
 namespace reachlab::gui::plot {
 
@@ -10,5 +13,9 @@ namespace reachlab::gui::plot {
 QColor colourOf(predict::Criterion criterion);
 /// "min. hand jerk" …
 QString titleOf(predict::Criterion criterion);
+
+/// A table with a row for each criterion: its title, which is ticked if it is in `chosen`, and cells for numbers.
+QTableWidget* makeCriteriaTable(const QStringList& columns, const std::vector<predict::Criterion>& chosen, int rowHeight);
+std::vector<predict::Criterion> chosenIn(const QTableWidget& table);
 
 }  // namespace reachlab::gui::plot
