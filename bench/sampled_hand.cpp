@@ -13,6 +13,7 @@
 #include "sim/dynamics/hand/hand_path.h"
 #include "sim/dynamics/object/plant.h"
 #include "sim/dynamics/scene.h"
+#include "sim/experiment/checked_experiment.h"
 
 namespace reachlab::bench {
 namespace {
@@ -84,7 +85,7 @@ std::vector<SampledRow> measureSampledHand(const std::function<void(const std::s
     const BenchScene scene = benchScene(name);
     const Reference reference = computeReference(scene);
     progress(std::string("sampled hand: ") + name);
-    for (const std::string& method : methodNames())
+    for (const std::string& method : experiment::methodNames())
       for (int samples = 1; samples <= 4; ++samples) {
         try {
           SampledRow row{.scene = name, .method = method, .samples = samples};

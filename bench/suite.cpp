@@ -5,6 +5,7 @@
 #include "base/fault.h"
 #include "base/ticks.h"
 #include "bench/peers.h"
+#include "sim/experiment/checked_experiment.h"
 
 namespace reachlab::bench {
 namespace {
@@ -32,21 +33,16 @@ const std::vector<std::string>& peerNames() {
 
 void checkNames(const SuiteOptions& options) {
   std::string allowed;
-  for (const auto& list : {methodNames(), peerNames()})
+  for (const auto& list : {experiment::methodNames(), peerNames()})
     for (const std::string& name : list) allowed += (allowed.empty() ? "" : ", ") + name;
   for (const std::string& m : options.methods) {
     if (contains(peerNames(), m) && !peersBuilt())
       throw ResourceError("method " + m + " is another library; configure the build with -DREACHLAB_BENCH_PEERS=ON to measure it");
-    if (!contains(methodNames(), m) && !contains(peerNames(), m)) throw FaultError(Fault{"method", "is " + m, allowed});
+    if (!contains(experiment::methodNames(), m) && !contains(peerNames(), m)) throw FaultError(Fault{"method", "is " + m, allowed});
   }
 }
 
 }  // namespace
-
-const std::vector<std::string>& methodNames() {
-  static const std::vector<std::string> names{"auto", "rk4", "exact", "abm", "adaptive", "stiff"};
-  return names;
-}
 
 std::vector<Row> runSuite(const SuiteOptions& options, const std::function<void(const std::string&)>& progress,
                           std::vector<std::string>& refusals) {
@@ -60,7 +56,7 @@ std::vector<Row> runSuite(const SuiteOptions& options, const std::function<void(
   for (const BenchScene& scene : scenes) {
     progress(scene.name + ": " + scene.title);
     std::vector<Contender> contenders;
-    for (const std::string& method : methodNames()) {
+    for (const std::string& method : experiment::methodNames()) {
       if (!wanted(method)) continue;
       for (const Setting& s : settingsOf(method, options.quick)) {
         try {

@@ -13,9 +13,6 @@ struct SuiteOptions {
   bool quick = false;  // only 1 ms and the default tolerance, no scan
 };
 
-/// Our methods by name, `auto` first.
-const std::vector<std::string>& methodNames();
-
 /// Runs all scenes x methods x step sizes or tolerances. `progress` gets a line when a scene begins. `refusals` gets a line with the reason
 /// for each method that cannot compute a scene. Throws FaultError for a scene or method that does not exist.
 std::vector<Row> runSuite(const SuiteOptions& options, const std::function<void(const std::string&)>& progress,
