@@ -317,33 +317,24 @@ class Reader {
     addSphere(solidOf(node), {}, radius);
   }
 
-  void readCylinder(Node& node, int) {
-    double radius = 1, height = 2;
-    bool side = true, top = true, bottom = true;
-    readFields("Cylinder", [&](const std::string& field) {
-      if (field == "radius") radius = length(field);
-      else if (field == "height") height = length(field);
-      else if (field == "side") side = boolean(field);
-      else if (field == "top") top = boolean(field);
-      else if (field == "bottom") bottom = boolean(field);
-      else return false;
-      return true;
-    });
-    addFrustum(solidOf(node), {}, radius, radius, height, bottom, top, side);
-  }
+  void readCylinder(Node& node, int) { readRound(node, "Cylinder", "radius"); }
+  void readCone(Node& node, int) { readRound(node, "Cone", "bottomRadius"); }
 
-  void readCone(Node& node, int) {
+  // A cone has no top.
+  void readRound(Node& node, const std::string& type, const std::string& radiusField) {
+    const bool cone = type == "Cone";
     double radius = 1, height = 2;
-    bool side = true, bottom = true;
-    readFields("Cone", [&](const std::string& field) {
-      if (field == "bottomRadius") radius = length(field);
+    bool side = true, top = !cone, bottom = true;
+    readFields(type, [&](const std::string& field) {
+      if (field == radiusField) radius = length(field);
       else if (field == "height") height = length(field);
       else if (field == "side") side = boolean(field);
+      else if (field == "top" && !cone) top = boolean(field);
       else if (field == "bottom") bottom = boolean(field);
       else return false;
       return true;
     });
-    addFrustum(solidOf(node), {}, radius, 0, height, bottom, false, side);
+    addFrustum(solidOf(node), {}, radius, cone ? 0 : radius, height, bottom, top, side);
   }
 
   static ModelPart& solidOf(Node& node) {
