@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "base/ticks.h"
 #include "bench/measure.h"
-#include "bench/suite.h"
 #include "sim/dynamics/hand/hand_path.h"
 #include "sim/dynamics/object/plant.h"
 #include "sim/dynamics/scene.h"
