@@ -43,7 +43,6 @@ class DefinitionReader {
 
  private:
   std::size_t dimensions() const { return definition_.kind == ConstraintKind::Curve ? 1 : 2; }
-  const char* kindName() const { return definition_.kind == ConstraintKind::Curve ? "curve" : "surface"; }
 
   void readName() {
     if (root_.required("name", "the definition's name") != nullptr) root_.text("name", definition_.name);
