@@ -6,6 +6,7 @@
 """
 import io
 import re
+import signal
 import subprocess
 import sys
 import tarfile
@@ -57,6 +58,7 @@ def count(revision):
 
 
 def main():
+    signal.signal(signal.SIGPIPE, signal.SIG_DFL)  # whoever reads the output may stop: no traceback
     columns = [count(revision) for revision in sys.argv[1:2]] + [count(None)]
     print(f"{'module':32}" + "".join(f"{name:>12}" for name in (sys.argv[1:2] or []) + ["here"]))
     for room in sorted(set().union(*columns), key=lambda r: (":" in r, r)):
