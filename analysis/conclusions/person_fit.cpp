@@ -11,6 +11,7 @@ namespace reachlab::analysis {
 namespace {
 
 constexpr double kSameMass = 0.01;  // [kg], above 1 kg a share of the mass
+constexpr double kSameEnd = 0.01;   // [kg] from an end of the mass's interval to a mass that was tried
 constexpr int kMassRounds = 6;
 constexpr double kFineMass = 0.05;  // of the mass's interval
 constexpr int kFineRounds = 3;
@@ -177,7 +178,7 @@ MassFit fitMass(const Candidate& candidate, const ShapeFitter& fitter, const std
     rough = intervalOf(scoresByMass(masses, everyTrial));
   }
   for (const double end : {rough.low, rough.high})
-    if (std::none_of(masses.begin(), masses.end(), [&](const MassFits& m) { return std::abs(m.mass - end) <= kSameMass; })) addAt(end);
+    if (std::none_of(masses.begin(), masses.end(), [&](const MassFits& m) { return std::abs(m.mass - end) <= kSameEnd; })) addAt(end);
   const std::vector<MassScore> scores = scoresByMass(masses, everyTrial);
   MassFit out;
   out.mass = scores[bestOf(scores)].mass;
