@@ -21,6 +21,7 @@
 #include "gui/scene/scene_view.h"
 #include "gui/scene/thumbnail.h"
 #include "gui/scene_plan/definition_reach.h"
+#include "gui/widgets/named.h"
 #include "gui/widgets/shape_sliders.h"
 
 namespace reachlab::gui::docks {
@@ -74,12 +75,10 @@ ConstraintChooser::~ConstraintChooser() = default;
 
 QVBoxLayout* ConstraintChooser::makeList() {
   auto* left = new QVBoxLayout;
-  search_ = new QLineEdit;
-  search_->setObjectName(QStringLiteral("search"));
+  search_ = widgets::named<QLineEdit>("search");
   search_->setPlaceholderText(QStringLiteral("search: name, kind or words"));
   search_->setClearButtonEnabled(true);
-  list_ = new QListWidget;
-  list_->setObjectName(QStringLiteral("definitions"));
+  list_ = widgets::named<QListWidget>("definitions");
   list_->setIconSize({104, 72});
   list_->setUniformItemSizes(true);
   list_->setMinimumWidth(320);
@@ -124,32 +123,26 @@ QWidget* ConstraintChooser::makeSide() {
   sideLayout->addWidget(sliders_);
   sideLayout->addStretch();
   auto* saving = new QHBoxLayout;
-  name_ = new QLineEdit;
-  name_->setObjectName(QStringLiteral("definitionName"));
+  name_ = widgets::named<QLineEdit>("definitionName");
   name_->setPlaceholderText(QStringLiteral("name-of-mine"));
-  save_ = new QPushButton(QStringLiteral("Save as definition"));
-  save_->setObjectName(QStringLiteral("save"));
+  save_ = widgets::named<QPushButton>("save", QStringLiteral("Save as definition"));
   save_->setAutoDefault(false);
   saving->addWidget(name_, 1);
   saving->addWidget(save_);
   sideLayout->addLayout(saving);
-  saved_ = new QLabel;
-  saved_->setObjectName(QStringLiteral("saved"));
+  saved_ = widgets::named<QLabel>("saved");
   saved_->setProperty("role", "quiet");
   saved_->setWordWrap(true);
   sideLayout->addWidget(saved_);
-  use_ = new QPushButton(QStringLiteral("Reach on this"));
-  use_->setObjectName(QStringLiteral("use"));
+  use_ = widgets::named<QPushButton>("use", QStringLiteral("Reach on this"));
   use_->setProperty("role", "go");
   use_->setAutoDefault(false);
   sideLayout->addWidget(use_);
-  refusal_ = new QLabel;
-  refusal_->setObjectName(QStringLiteral("refusal"));
+  refusal_ = widgets::named<QLabel>("refusal");
   refusal_->setProperty("role", "fault");
   refusal_->setWordWrap(true);
   refusal_->hide();
-  usePoint_ = new QPushButton(QStringLiteral("Reach on this with one mass"));
-  usePoint_->setObjectName(QStringLiteral("usePoint"));
+  usePoint_ = widgets::named<QPushButton>("usePoint", QStringLiteral("Reach on this with one mass"));
   usePoint_->setAutoDefault(false);
   usePoint_->hide();
   sideLayout->addWidget(refusal_);

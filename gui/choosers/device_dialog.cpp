@@ -12,6 +12,7 @@
 #include "devices/driver/registry.h"
 #include "gui/choosers/device_view.h"
 #include "gui/widgets/inks.h"
+#include "gui/widgets/named.h"
 #include "gui/widgets/wait_cursor.h"
 
 namespace reachlab::gui::docks {
@@ -37,15 +38,11 @@ DeviceDialog::DeviceDialog(const experiment::CompiledExperiment& experiment, con
   resize(860, 390);
   auto* layout = new QVBoxLayout(this);
   auto* line = new QHBoxLayout;
-  name_ = new QLineEdit(chosen);
-  name_->setObjectName(QStringLiteral("deviceName"));
+  name_ = widgets::named<QLineEdit>("deviceName", chosen);
   name_->setPlaceholderText(tr("device, with its options: hid:SERIAL,model=polhem_v1"));
-  open_ = new QPushButton;
-  open_->setObjectName(QStringLiteral("deviceOpen"));
-  calibrate_ = new QPushButton(tr("Calibrate"));
-  calibrate_->setObjectName(QStringLiteral("deviceCalibrate"));
-  take_ = new QPushButton(tr("Use it"));
-  take_->setObjectName(QStringLiteral("deviceTake"));
+  open_ = widgets::named<QPushButton>("deviceOpen");
+  calibrate_ = widgets::named<QPushButton>("deviceCalibrate", tr("Calibrate"));
+  take_ = widgets::named<QPushButton>("deviceTake", tr("Use it"));
   line->addWidget(name_, 1);
   for (QPushButton* button : {open_, calibrate_, take_}) {
     button->setAutoDefault(false);
@@ -57,8 +54,7 @@ DeviceDialog::DeviceDialog(const experiment::CompiledExperiment& experiment, con
   layout->addWidget(hint_);
   view_ = new DeviceView;
   layout->addWidget(view_);
-  numbers_ = new QLabel;
-  numbers_->setObjectName(QStringLiteral("deviceNumbers"));
+  numbers_ = widgets::named<QLabel>("deviceNumbers");
   numbers_->setTextFormat(Qt::PlainText);
   layout->addWidget(numbers_);
 

@@ -14,6 +14,7 @@
 
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/key_field.h"
+#include "gui/widgets/named.h"
 #include "sim/experiment/experiment_keys.h"
 #include "sim/experiment/unit_ending.h"
 
@@ -186,20 +187,16 @@ EnvironmentDock::EnvironmentDock(QWidget* parent) : Dock(QStringLiteral("Environ
 QWidget* EnvironmentDock::makeForces() {
   auto* box = new QGroupBox(tr("Forces on the hand"));
   auto* column = new QVBoxLayout(box);
-  list_ = new QListWidget;
-  list_->setObjectName(QStringLiteral("forces"));
+  list_ = widgets::named<QListWidget>("forces");
   list_->setToolTip(tr("The forces add up. Choose one to see its numbers."));
   list_->setFixedHeight(64);
   column->addWidget(list_);
   auto* buttons = new QHBoxLayout;
-  auto* add = new QPushButton(tr("Add"));
-  add->setObjectName(QStringLiteral("addForce"));
+  auto* add = widgets::named<QPushButton>("addForce", tr("Add"));
   add->setToolTip(tr("adds a force on the hand, which begins as a curl field"));
-  remove_ = new QPushButton(tr("Remove"));
-  remove_->setObjectName(QStringLiteral("removeForce"));
+  remove_ = widgets::named<QPushButton>("removeForce", tr("Remove"));
   remove_->setToolTip(tr("removes the chosen force"));
-  kind_ = new QComboBox;
-  kind_->setObjectName(QStringLiteral("forceKind"));
+  kind_ = widgets::named<QComboBox>("forceKind");
   kind_->setToolTip(tr("Kind of the chosen force. Another kind begins with the numbers of a published experiment."));
   for (const std::string& name : experiment::kForceKindNames) kind_->addItem(QString::fromStdString(name));
   buttons->addWidget(add);
@@ -233,8 +230,7 @@ QWidget* EnvironmentDock::makeForces() {
 }
 
 QWidget* EnvironmentDock::makeCursor() {
-  cursorBox_ = new QGroupBox(tr("Cursor in place of the hand"));
-  cursorBox_->setObjectName(QStringLiteral("cursor"));
+  cursorBox_ = widgets::named<QGroupBox>("cursor", tr("Cursor in place of the hand"));
   cursorBox_->setCheckable(true);
   auto* column = new QVBoxLayout(cursorBox_);
   cursor_ = makePage(QStringLiteral("cursor"), experiment::Cursor{});

@@ -7,6 +7,7 @@
 
 #include "gui/scene_plan/definition_reach.h"
 #include "gui/widgets/fault_label.h"
+#include "gui/widgets/named.h"
 #include "gui/widgets/number_list_edit.h"
 #include "gui/widgets/unit_spin_box.h"
 
@@ -28,14 +29,11 @@ void fitSprings(experiment::Object& object) {
 ObjectDock::ObjectDock(QWidget* parent) : Dock(QStringLiteral("Object"), QStringLiteral("objectDock"), parent) {
   auto* body = new QWidget;
   auto* form = new QFormLayout(body);
-  kind_ = new QComboBox;
-  kind_->setObjectName(QStringLiteral("objectKind"));
+  kind_ = widgets::named<QComboBox>("objectKind");
   kind_->addItems(
       {QStringLiteral("point"), QStringLiteral("chain"), QStringLiteral("parallel"), QStringLiteral("body"), QStringLiteral("none")});
-  masses_ = new widgets::NumberListEdit;
-  masses_->setObjectName(QStringLiteral("masses"));
-  stiffness_ = new widgets::NumberListEdit;
-  stiffness_->setObjectName(QStringLiteral("stiffness"));
+  masses_ = widgets::named<widgets::NumberListEdit>("masses");
+  stiffness_ = widgets::named<widgets::NumberListEdit>("stiffness");
   damping_ = new widgets::NumberListEdit;
   viscosity_ = new widgets::UnitSpinBox(0, 1e4, QStringLiteral("N s/m"));
   auto* gravity = new QHBoxLayout;

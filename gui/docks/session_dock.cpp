@@ -20,6 +20,7 @@
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/fault_words.h"
 #include "gui/widgets/inks.h"
+#include "gui/widgets/named.h"
 #include "gui/widgets/unit_spin_box.h"
 #include "sim/record/configuration/run_configuration.h"
 
@@ -41,11 +42,9 @@ QWidget* SessionDock::makeWho() {
   who_ = new QWidget;
   auto* form = new QFormLayout(who_);
   form->setContentsMargins(0, 0, 0, 0);
-  subject_ = new QLineEdit;
-  subject_->setObjectName(QStringLiteral("subject"));
+  subject_ = widgets::named<QLineEdit>("subject");
   subject_->setToolTip(QStringLiteral("Label of the subject in the dataset: letters and digits"));
-  session_ = new QLineEdit;
-  session_->setObjectName(QStringLiteral("session"));
+  session_ = widgets::named<QLineEdit>("session");
   session_->setToolTip(QStringLiteral("Label of this visit in the dataset: letters and digits"));
   day_ = new QSpinBox;
   day_->setRange(0, 999);
@@ -58,8 +57,7 @@ QWidget* SessionDock::makeWho() {
   ids->addWidget(new QLabel(QStringLiteral("day")));
   ids->addWidget(day_);
   form->addRow(QStringLiteral("subject"), ids);
-  age_ = new QLineEdit;
-  age_->setObjectName(QStringLiteral("age"));
+  age_ = widgets::named<QLineEdit>("age");
   age_->setPlaceholderText(QStringLiteral("age"));
   age_->setMaximumWidth(54);
   sex_ = new QComboBox;
@@ -75,30 +73,26 @@ QWidget* SessionDock::makeWho() {
   person->addWidget(hand_);
   form->addRow(QStringLiteral("person"), person);
   form->addRow(QStringLiteral("device"), makeDeviceRow());
-  data_ = new QLineEdit;
-  data_->setObjectName(QStringLiteral("data"));
+  data_ = widgets::named<QLineEdit>("data");
   data_->setToolTip(QStringLiteral("Folder of the dataset. It is created if it does not exist."));
   form->addRow(QStringLiteral("data in"), data_);
   return who_;
 }
 
 QHBoxLayout* SessionDock::makeDeviceRow() {
-  device_ = new QComboBox;
-  device_->setObjectName(QStringLiteral("device"));
+  device_ = widgets::named<QComboBox>("device");
   device_->setEditable(true);
   device_->addItems({QStringLiteral("mouse"), QStringLiteral("simulated"), QStringLiteral("simulated:noise=0"), QStringLiteral("replay:")});
   offered_ = device_->count();
   auto* look = new QTimer(this);
   connect(look, &QTimer::timeout, this, &SessionDock::offerPlugged);
   look->start(1000);
-  trials_ = new QSpinBox;
+  trials_ = widgets::named<QSpinBox>("trialCount");
   trials_->setRange(1, 100000);
-  trials_->setObjectName(QStringLiteral("trialCount"));
   trials_->setToolTip(QStringLiteral("Trials of the next run. A plan has its own number of trials."));
   auto* hands = new QHBoxLayout;
   hands->addWidget(device_, 1);
-  auto* devices = new QPushButton(QStringLiteral("…"));
-  devices->setObjectName(QStringLiteral("devicesButton"));
+  auto* devices = widgets::named<QPushButton>("devicesButton", QStringLiteral("…"));
   devices->setToolTip(QStringLiteral("opens the dock Devices: the present devices, why others are missing, and a live view"));
   devices->setMaximumWidth(48);
   connect(devices, &QPushButton::clicked, this, &SessionDock::devicesRequested);

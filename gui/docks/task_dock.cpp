@@ -11,6 +11,7 @@
 #include "constraints/geometry/arc_length.h"
 #include "constraints/geometry/task_path.h"
 #include "gui/widgets/fault_label.h"
+#include "gui/widgets/named.h"
 #include "gui/widgets/number_list_edit.h"
 #include "gui/widgets/unit_spin_box.h"
 #include "sim/experiment/experiment.h"
@@ -49,16 +50,13 @@ TaskDock::TaskDock(QWidget* parent) : Dock(QStringLiteral("Task"), QStringLitera
   auto* body = new QWidget;
   auto* form = new QFormLayout(body);
   start_ = new widgets::NumberListEdit;
-  target_ = new widgets::NumberListEdit;
-  target_->setObjectName(QStringLiteral("taskTarget"));
-  duration_ = new widgets::UnitSpinBox(0.05, 60, QStringLiteral("s"));
-  duration_->setObjectName(QStringLiteral("taskDuration"));
+  target_ = widgets::named<widgets::NumberListEdit>("taskTarget");
+  duration_ = widgets::named<widgets::UnitSpinBox>("taskDuration", 0.05, 60, QStringLiteral("s"));
   time_ = new widgets::UnitSpinBox(0.001, 30, QStringLiteral("s"));
   position_ = new widgets::UnitSpinBox(1e-5, 1, QStringLiteral("m"));
   velocity_ = new widgets::UnitSpinBox(1e-5, 10, QStringLiteral("m/s"));
   start_->setObjectName(QStringLiteral("taskStart"));
-  via_ = new widgets::NumberListEdit;
-  via_->setObjectName(QStringLiteral("taskVia"));
+  via_ = widgets::named<widgets::NumberListEdit>("taskVia");
   via_->setToolTip(QStringLiteral("Places that the last mass, or a bare hand, passes in this order before it arrives: x y z of each."));
   widgets::NumberListRule places;
   places.list = QStringLiteral("via");
@@ -71,8 +69,7 @@ TaskDock::TaskDock(QWidget* parent) : Dock(QStringLiteral("Task"), QStringLitera
   targetLabel_ = new QLabel;
   form->addRow(startLabel_, start_);
   form->addRow(targetLabel_, target_);
-  length_ = new QLabel;
-  length_->setObjectName(QStringLiteral("taskLength"));
+  length_ = widgets::named<QLabel>("taskLength");
   length_->setProperty("role", "quiet");
   form->addRow(QString(), length_);
   form->addRow(QStringLiteral("via x y z [m]"), via_);

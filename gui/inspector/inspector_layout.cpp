@@ -17,14 +17,14 @@
 #include "gui/inspector/profile_plot.h"
 #include "gui/inspector/replay_view.h"
 #include "gui/widgets/elided_label.h"
+#include "gui/widgets/named.h"
 
 namespace reachlab::gui::inspector {
 
 void InspectorPage::addTop(QVBoxLayout& layout) {
   auto* top = new QHBoxLayout;
-  auto* openButton = new QToolButton;
+  auto* openButton = widgets::named<QToolButton>("inspectorOpen");
   openButton->setText(tr("Open"));
-  openButton->setObjectName(QStringLiteral("inspectorOpen"));
   openButton->setPopupMode(QToolButton::InstantPopup);
   auto* menu = new QMenu(openButton);
   menu->addAction(tr("Dataset…"), this, [this] {
@@ -42,20 +42,16 @@ void InspectorPage::addTop(QVBoxLayout& layout) {
   title_ = new widgets::ElidedLabel;
   title_->setText(tr("No recording is open. Use File, Inspect to open a dataset or a session."));
   title_->setStyleSheet(QStringLiteral("font-weight: 600;"));
-  words_ = new QLineEdit;
-  words_->setObjectName(QStringLiteral("inspectorFilter"));
+  words_ = widgets::named<QLineEdit>("inspectorFilter");
   words_->setPlaceholderText(tr("filter: words of a row, e.g. sub-03 fast success"));
   words_->setClearButtonEnabled(true);
   words_->setMinimumWidth(160);
-  count_ = new QLabel;
-  count_->setObjectName(QStringLiteral("inspectorCount"));
+  count_ = widgets::named<QLabel>("inspectorCount");
   count_->setProperty("role", "quiet");
-  progress_ = new QProgressBar;
-  progress_->setObjectName(QStringLiteral("inspectorProgress"));
+  progress_ = widgets::named<QProgressBar>("inspectorProgress");
   progress_->setFixedWidth(progress_->fontMetrics().horizontalAdvance(tr("fitting trial") + QStringLiteral(" 88888 / 88888")) + 24);
   progress_->hide();
-  cancel_ = new QPushButton(tr("Cancel"));
-  cancel_->setObjectName(QStringLiteral("inspectorCancel"));
+  cancel_ = widgets::named<QPushButton>("inspectorCancel", tr("Cancel"));
   cancel_->hide();
   auto* exportButton = new QToolButton;
   exportButton->setText(tr("Export"));
@@ -64,8 +60,7 @@ void InspectorPage::addTop(QVBoxLayout& layout) {
   exports->addAction(tr("Figure or lines of the chosen trials…"), this, &InspectorPage::saveFigure);
   exports->addAction(tr("Table as it is shown…"), this, &InspectorPage::saveTable);
   exportButton->setMenu(exports);
-  report_ = new QPushButton(tr("Report"));
-  report_->setObjectName(QStringLiteral("inspectorReport"));
+  report_ = widgets::named<QPushButton>("inspectorReport", tr("Report"));
   report_->setToolTip(tr("analyses all open recordings, as `reach analyze` does, and shows the report"));
   report_->setEnabled(false);
   top->addWidget(openButton);
@@ -85,23 +80,19 @@ QWidget* InspectorPage::makeRight() {
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(3);
   auto* row = new QHBoxLayout;
-  signal_ = new QComboBox;
-  signal_->setObjectName(QStringLiteral("inspectorSignal"));
+  signal_ = widgets::named<QComboBox>("inspectorSignal");
   signal_->addItems({tr("velocity of the hand"), tr("velocity of the last mass")});
-  axis_ = new QComboBox;
-  axis_->setObjectName(QStringLiteral("inspectorAxis"));
+  axis_ = widgets::named<QComboBox>("inspectorAxis");
   axis_->addItems({tr("as moved"), tr("time-scaled to the mean")});
   predicted_ = new QCheckBox(tr("predicted for T"));
   predicted_->setChecked(true);
-  fitted_ = new QCheckBox(tr("fitted"));
-  fitted_->setObjectName(QStringLiteral("inspectorFitted"));
+  fitted_ = widgets::named<QCheckBox>("inspectorFitted", tr("fitted"));
   fitted_->setChecked(true);
   fitted_->setToolTip(tr("the mean of the movements that were fitted to a person's trials (ten trials or more)"));
   for (QWidget* widget : std::initializer_list<QWidget*>{signal_, axis_, predicted_, fitted_}) row->addWidget(widget);
   row->addStretch(1);
   column->addLayout(row);
-  plot_ = new ProfilePlot;
-  plot_->setObjectName(QStringLiteral("inspectorPlot"));
+  plot_ = widgets::named<ProfilePlot>("inspectorPlot");
   replay_ = new ReplayView;
   epsilons_ = new EpsilonPanel;
   auto* below = new QSplitter(Qt::Horizontal);

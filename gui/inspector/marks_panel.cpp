@@ -8,6 +8,8 @@
 #include <QPushButton>
 #include <QSignalBlocker>
 
+#include "gui/widgets/named.h"
+
 namespace reachlab::gui::inspector {
 
 MarksPanel::MarksPanel(QWidget* parent) : QWidget(parent) {
@@ -19,27 +21,22 @@ MarksPanel::MarksPanel(QWidget* parent) : QWidget(parent) {
   form->addRow(title_);
   times_ = new QLabel;
   times_->setToolTip(tr("drag the dashed lines of the picked trial to move its onset and end"));
-  byRule_ = new QPushButton(tr("by the rule"));
-  byRule_->setObjectName(QStringLiteral("marksByRule"));
+  byRule_ = widgets::named<QPushButton>("marksByRule", tr("by the rule"));
   byRule_->setToolTip(tr("onset and end as the analysis finds them"));
   auto* times = new QHBoxLayout;
   times->addWidget(times_, 1);
   times->addWidget(byRule_);
   form->addRow(tr("moves"), times);
-  flag_ = new QCheckBox(tr("flag"));
-  flag_->setObjectName(QStringLiteral("flag"));
-  exclude_ = new QCheckBox(tr("exclude:"));
-  exclude_->setObjectName(QStringLiteral("exclude"));
-  reason_ = new QLineEdit;
-  reason_->setObjectName(QStringLiteral("excludeReason"));
+  flag_ = widgets::named<QCheckBox>("flag", tr("flag"));
+  exclude_ = widgets::named<QCheckBox>("exclude", tr("exclude:"));
+  reason_ = widgets::named<QLineEdit>("excludeReason");
   reason_->setPlaceholderText(tr("the reason, for the report"));
   auto* out = new QHBoxLayout;
   out->addWidget(flag_);
   out->addWidget(exclude_);
   out->addWidget(reason_, 1);
   form->addRow(out);
-  note_ = new QLineEdit;
-  note_->setObjectName(QStringLiteral("trialNote"));
+  note_ = widgets::named<QLineEdit>("trialNote");
   form->addRow(tr("note"), note_);
   connect(flag_, &QCheckBox::toggled, this, &MarksPanel::tell);
   connect(exclude_, &QCheckBox::toggled, this, [this](bool on) {

@@ -15,6 +15,7 @@
 #include <cmath>
 
 #include "gui/scene/scene_view.h"
+#include "gui/widgets/named.h"
 #include "gui/widgets/theme.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/scene_look.h"
@@ -66,8 +67,7 @@ ReplayView::ReplayView(QWidget* parent) : QWidget(parent) {
   view_->setOverlayVisible(false);
   view_->setMinimumSize(220, 150);
   layout->addWidget(view_, 1);
-  slider_ = new QSlider(Qt::Horizontal);
-  slider_->setObjectName(QStringLiteral("replayTime"));
+  slider_ = widgets::named<QSlider>("replayTime", Qt::Horizontal);
   layout->addWidget(slider_);
   auto* row = new QHBoxLayout;
   row->setSpacing(3);
@@ -75,14 +75,11 @@ ReplayView::ReplayView(QWidget* parent) : QWidget(parent) {
   play_ = makeButton(QStringLiteral("replayPlay"), Sign::Play, tr("play, pause (P)"));
   on_ = makeButton(QStringLiteral("replayOn"), Sign::On, tr("one row on (.)"));
   play_->setCheckable(true);
-  speed_ = new QComboBox;
-  speed_->setObjectName(QStringLiteral("replaySpeed"));
+  speed_ = widgets::named<QComboBox>("replaySpeed");
   for (const double speed : kSpeeds) speed_->addItem(QStringLiteral("%1 ×").arg(speed), speed);
   speed_->setCurrentIndex(3);
-  loop_ = new QCheckBox(tr("loop"));
-  loop_->setObjectName(QStringLiteral("replayLoop"));
-  ghostsShown_ = new QCheckBox(tr("ghosts"));
-  ghostsShown_->setObjectName(QStringLiteral("replayGhosts"));
+  loop_ = widgets::named<QCheckBox>("replayLoop", tr("loop"));
+  ghostsShown_ = widgets::named<QCheckBox>("replayGhosts", tr("ghosts"));
   ghostsShown_->setToolTip(tr("shows the other chosen trials faintly, at the same time since their onset"));
   ghostsShown_->setChecked(true);
   told_ = new QLabel;

@@ -16,6 +16,7 @@
 #include "base/fault.h"
 #include "base/json/json_reader.h"
 #include "gui/widgets/fault_words.h"
+#include "gui/widgets/named.h"
 #include "gui/widgets/unit_spin_box.h"
 
 namespace reachlab::gui::plan {
@@ -84,8 +85,7 @@ QWidget* MixEditor::makeKinds() {
   auto* whole = new QWidget;
   auto* column = new QVBoxLayout(whole);
   column->setContentsMargins(0, 0, 0, 0);
-  kinds_ = new QTableWidget(0, kColumns);
-  kinds_->setObjectName(QStringLiteral("planKinds"));
+  kinds_ = widgets::named<QTableWidget>("planKinds", 0, kColumns);
   kinds_->setHorizontalHeaderLabels({tr("kind"), tr("in a cycle"), tr("not first"), tr("not twice"), tr("changes to the experiment")});
   kinds_->horizontalHeaderItem(kChanges)->setToolTip(tr("as in the plan's file: \"object.masses_kg[0]\": 2, \"environment\": []"));
   kinds_->horizontalHeaderItem(kCount)->setToolTip(tr("trials of this kind in each cycle; 0: none in this block"));
@@ -97,10 +97,8 @@ QWidget* MixEditor::makeKinds() {
   kinds_->setMinimumHeight(100);
   column->addWidget(kinds_, 1);
   auto* buttons = new QHBoxLayout;
-  auto* add = new QPushButton(tr("Add kind"));
-  add->setObjectName(QStringLiteral("planAddKind"));
-  remove_ = new QPushButton(tr("Remove kind"));
-  remove_->setObjectName(QStringLiteral("planRemoveKind"));
+  auto* add = widgets::named<QPushButton>("planAddKind", tr("Add kind"));
+  remove_ = widgets::named<QPushButton>("planRemoveKind", tr("Remove kind"));
   buttons->addWidget(add);
   buttons->addWidget(remove_);
   buttons->addStretch(1);
@@ -134,25 +132,18 @@ QWidget* MixEditor::makeTargets() {
   auto* whole = new QWidget;
   auto* form = new QFormLayout(whole);
   form->setContentsMargins(0, 0, 0, 0);
-  targets_ = new QComboBox;
-  targets_->setObjectName(QStringLiteral("planTargets"));
+  targets_ = widgets::named<QComboBox>("planTargets");
   targets_->addItems({tr("the experiment's target"), tr("a ring around the start"), tr("a list of places")});
-  count_ = new QSpinBox;
-  count_->setObjectName(QStringLiteral("planRingCount"));
+  count_ = widgets::named<QSpinBox>("planRingCount");
   count_->setRange(1, 360);
-  radius_ = new widgets::UnitSpinBox(0.001, 10, QStringLiteral("m"));
-  radius_->setObjectName(QStringLiteral("planRingRadius"));
-  first_ = new widgets::UnitSpinBox(-360, 360, QStringLiteral("°"));
-  first_->setObjectName(QStringLiteral("planRingFirst"));
+  radius_ = widgets::named<widgets::UnitSpinBox>("planRingRadius", 0.001, 10, QStringLiteral("m"));
+  first_ = widgets::named<widgets::UnitSpinBox>("planRingFirst", -360, 360, QStringLiteral("°"));
   first_->setToolTip(tr("direction of target 1, counterclockwise from the right"));
-  list_ = new QLineEdit;
-  list_->setObjectName(QStringLiteral("planTargetList"));
+  list_ = widgets::named<QLineEdit>("planTargetList");
   list_->setPlaceholderText(QStringLiteral("[0.1, 0, 0], [0, 0, -0.1]"));
-  order_ = new QComboBox;
-  order_->setObjectName(QStringLiteral("planOrder"));
+  order_ = widgets::named<QComboBox>("planOrder");
   order_->addItems({tr("as written"), tr("shuffled in each cycle"), tr("shuffled over the block")});
-  wayBack_ = new QCheckBox(tr("the way back is a trial"));
-  wayBack_->setObjectName(QStringLiteral("planWayBack"));
+  wayBack_ = widgets::named<QCheckBox>("planWayBack", tr("the way back is a trial"));
   auto* ring = new QHBoxLayout;
   ring->addWidget(count_);
   ring->addWidget(new QLabel(tr("at")));

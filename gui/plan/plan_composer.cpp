@@ -24,6 +24,7 @@
 #include "gui/plan/mix_editor.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/fault_words.h"
+#include "gui/widgets/named.h"
 #include "gui/widgets/unit_spin_box.h"
 #include "sim/experiment/resources.h"
 #include "sim/record/log/atomic_file.h"
@@ -75,8 +76,7 @@ PlanComposer::PlanComposer(QWidget* parent) : QDialog(parent) {
   layout->addLayout(middle, 1);
   mix_ = new MixEditor;
   layout->addWidget(mix_);
-  preview_ = new QLabel;
-  preview_->setObjectName(QStringLiteral("planPreview"));
+  preview_ = widgets::named<QLabel>("planPreview");
   preview_->setTextFormat(Qt::RichText);
   preview_->setWordWrap(true);
   layout->addWidget(preview_);
@@ -105,10 +105,8 @@ QWidget* PlanComposer::makeWhole() {
   auto* whole = new QWidget;
   auto* row = new QHBoxLayout(whole);
   row->setContentsMargins(0, 0, 0, 0);
-  name_ = new QLineEdit;
-  name_->setObjectName(QStringLiteral("planName"));
-  permute_ = new QCheckBox(tr("another balanced order for every subject"));
-  permute_->setObjectName(QStringLiteral("planPermute"));
+  name_ = widgets::named<QLineEdit>("planName");
+  permute_ = widgets::named<QCheckBox>("planPermute", tr("another balanced order for every subject"));
   orderSeed_ = new QSpinBox;
   orderSeed_->setRange(0, 999'999'999);
   orderSeed_->setToolTip(tr("draws which subject gets which order"));
@@ -123,8 +121,7 @@ QWidget* PlanComposer::makeWhole() {
 QWidget* PlanComposer::makeList() {
   auto* box = new QGroupBox(tr("Blocks"));
   auto* column = new QVBoxLayout(box);
-  list_ = new QTableWidget(0, kColumns);
-  list_->setObjectName(QStringLiteral("planBlocks"));
+  list_ = widgets::named<QTableWidget>("planBlocks", 0, kColumns);
   list_->setHorizontalHeaderLabels({tr("#"), tr("experiment"), tr("condition"), tr("trials"), tr("day"), tr("also")});
   list_->verticalHeader()->hide();
   list_->verticalHeader()->setDefaultSectionSize(24);
@@ -180,13 +177,11 @@ QWidget* PlanComposer::makeBlock() {
   auto* box = new QGroupBox(tr("This block"));
   block_ = box;
   auto* form = new QFormLayout(box);
-  experiment_ = new QComboBox;
-  experiment_->setObjectName(QStringLiteral("planExperiment"));
+  experiment_ = widgets::named<QComboBox>("planExperiment");
   experiment_->setEditable(true);
   experiment_->setToolTip(tr("a shipped experiment or a file. Files beside the plan are named without their folder"));
   for (const std::string& name : experiment::shippedExperiments()) experiment_->addItem(QString::fromStdString(name));
-  condition_ = new QLineEdit;
-  condition_->setObjectName(QStringLiteral("planCondition"));
+  condition_ = widgets::named<QLineEdit>("planCondition");
   condition_->setPlaceholderText(tr("the experiment's name"));
   const auto whole = [](const char* name, int low, int high) {
     auto* made = new QSpinBox;
@@ -197,8 +192,7 @@ QWidget* PlanComposer::makeBlock() {
   trials_ = whole("planTrials", 1, 1'000'000);
   day_ = whole("planDay", 0, 10'000);
   day_->setSpecialValueText(tr("every day"));
-  practice_ = new QCheckBox(tr("practice: recorded, but not used in statistics"));
-  practice_->setObjectName(QStringLiteral("planPractice"));
+  practice_ = widgets::named<QCheckBox>("planPractice", tr("practice: recorded, but not used in statistics"));
   repeatAborted_ = new QCheckBox(tr("repeat aborted trials at the end"));
   const auto number = [&](const char* name, double high, const QString& unit) {
     auto* made = new widgets::UnitSpinBox(0, high, unit);
@@ -210,8 +204,7 @@ QWidget* PlanComposer::makeBlock() {
   foreperiodMin_ = number("planForeperiodMin", 60, QStringLiteral("s"));
   foreperiodMax_ = number("planForeperiodMax", 60, QStringLiteral("s"));
   catchShare_ = number("planCatch", 0.5, {});
-  instructions_ = new QPlainTextEdit;
-  instructions_->setObjectName(QStringLiteral("planInstructions"));
+  instructions_ = widgets::named<QPlainTextEdit>("planInstructions");
   instructions_->setPlaceholderText(tr("what the subject reads before the block begins"));
   instructions_->setTabChangesFocus(true);
   instructions_->setMinimumHeight(70);

@@ -9,6 +9,7 @@
 #include <QVBoxLayout>
 #include <QVariant>
 
+#include "gui/widgets/named.h"
 #include "gui/widgets/theme.h"
 
 namespace reachlab::gui::plan {
@@ -48,12 +49,10 @@ StartPage::StartPage(QWidget* parent) : QFrame(parent) {
   };
   subject_ = field(tr("subject"), "startSubject");
   session_ = field(tr("session"), "startSession");
-  summary_ = new QLabel;
-  summary_->setObjectName(QStringLiteral("startSummary"));
+  summary_ = widgets::named<QLabel>("startSummary");
   who->addStretch(1);
   who->addWidget(summary_);
-  blocks_ = new QTableWidget(0, kColumns);
-  blocks_->setObjectName(QStringLiteral("startBlocks"));
+  blocks_ = widgets::named<QTableWidget>("startBlocks", 0, kColumns);
   blocks_->setHorizontalHeaderLabels({tr("block"), tr("condition"), tr("trials"), tr("state")});
   blocks_->verticalHeader()->hide();
   blocks_->verticalHeader()->setDefaultSectionSize(25);
@@ -63,15 +62,12 @@ StartPage::StartPage(QWidget* parent) : QFrame(parent) {
   blocks_->setShowGrid(false);
   blocks_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   blocks_->horizontalHeader()->setSectionResizeMode(kCondition, QHeaderView::Stretch);
-  next_ = new QLabel;
-  next_->setObjectName(QStringLiteral("startNext"));
+  next_ = widgets::named<QLabel>("startNext");
   next_->setWordWrap(true);
   auto* buttons = new QHBoxLayout;
   auto* compose = new QPushButton(tr("Compose…"));
-  anew_ = new QPushButton(tr("Begin anew"));
-  anew_->setObjectName(QStringLiteral("startAnew"));
-  go_ = new QPushButton;
-  go_->setObjectName(QStringLiteral("startGo"));
+  anew_ = widgets::named<QPushButton>("startAnew", tr("Begin anew"));
+  go_ = widgets::named<QPushButton>("startGo");
   go_->setProperty("role", QStringLiteral("go"));
   for (QPushButton* button : {compose, anew_, go_}) button->setFocusPolicy(Qt::NoFocus);  // Space is the trial's
   buttons->addWidget(compose);

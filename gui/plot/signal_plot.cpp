@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "gui/plot/plot_tools.h"
+#include "gui/widgets/named.h"
 
 namespace reachlab::gui::plot {
 namespace {
@@ -48,13 +49,10 @@ SignalPlot::SignalPlot(QWidget* parent) : QWidget(parent), impl_(std::make_uniqu
   layout->setContentsMargins(6, 2, 6, 2);
   layout->setSpacing(2);
   auto* row = new QHBoxLayout;
-  d.quantity = new QComboBox;
-  d.quantity->setObjectName(QStringLiteral("signalQuantity"));
+  d.quantity = widgets::named<QComboBox>("signalQuantity");
   d.quantity->addItems({tr("velocity"), tr("position"), tr("force"), tr("phase plane, along x"), tr("timing")});
-  d.watched = new QComboBox;
-  d.watched->setObjectName(QStringLiteral("signalWatched"));
-  d.freeze = new QCheckBox(tr("freeze"));
-  d.freeze->setObjectName(QStringLiteral("signalFreeze"));
+  d.watched = widgets::named<QComboBox>("signalWatched");
+  d.freeze = widgets::named<QCheckBox>("signalFreeze", tr("freeze"));
   auto* save = new QToolButton;
   save->setText(tr("Export…"));
   save->setToolTip(tr("writes the plot as SVG, PDF or CSV"));
