@@ -141,6 +141,61 @@ std::vector<double> scatterOf(std::vector<double> variance, std::size_t n, const
   return sigma;
 }
 
+/// Each trial's onset and duration by the moments of v^2; the durations have the mean that is given.
+std::vector<MovementFit> placesByMoments(std::span<const FitWindow> windows, double meanDuration) {
+  double widths = 0;
+  for (const FitWindow& w : windows) widths += momentsOf(w).width;
+  const double widthOfOne = widths / static_cast<double>(windows.size()) / meanDuration;  // of v^2, in parts of the duration
+  std::vector<MovementFit> places;
+  for (const FitWindow& w : windows) {
+    const ProfileMoments m = momentsOf(w);
+    MovementFit& place = places.emplace_back();
+    place.duration = m.width / widthOfOne;
+    place.onset = m.centre - place.duration / 2;
+    place.amplitude = 1;
+  }
+  return places;
+}
+
+Mean layTogether(std::span<const FitWindow> windows, const std::vector<MovementFit>& places) {
+  Mean mean{std::vector<double>(gridSize(), 0.0), std::vector<std::size_t>(gridSize(), 0)};
+  std::vector<double> laid;  // one trial at a time: there may be many thousands
+  for (std::size_t i = 0; i < windows.size(); ++i) {
+    layOver(windows[i], places[i], laid);
+    for (std::size_t k = 0; k < laid.size(); ++k)
+      if (std::isfinite(laid[k])) mean.sum[k] += laid[k] / places[i].amplitude, ++mean.count[k];
+  }
+  return mean;
+}
+
+/// Scores of each trial by the mean and by the lines of the other trials.
+void scoreByOthers(std::span<const FitWindow> windows, const Mean& mean, PersonTemplate& out) {
+  const std::size_t n = windows.size();
+  double left = 0, whole = 0;
+  const std::vector<double> x = centredLogDurations(out.place);
+  Lines lines;
+  std::vector<double> laid, ofMean, ofLine;
+  for (std::size_t i = 0; i < n; ++i) layOver(windows[i], out.place[i], laid), lines.add(laid, out.place[i].amplitude, x[i], 1);
+  for (std::size_t i = 0; i < n; ++i) {
+    Mean others = mean;
+    layOver(windows[i], out.place[i], laid);
+    for (std::size_t k = 0; k < laid.size(); ++k)
+      if (std::isfinite(laid[k])) others.sum[k] -= laid[k] / out.place[i].amplitude, --others.count[k];
+    const double rest = restCost(windows[i]);
+    const auto scoreOf = [&](const MovementFit& fit) { return std::log(std::max(fit.cost, 1e-9 * rest)); };
+    const MovementFit fit = fitMovement(windows[i], profileOf(others), out.place[i]);
+    left += fit.cost;
+    whole += rest;
+    ofMean.push_back(scoreOf(fit));
+    lines.add(laid, out.place[i].amplitude, x[i], -1);
+    ofLine.push_back(scoreOf(fitMovement(windows[i], lines.at(x[i]), out.place[i])));
+    lines.add(laid, out.place[i].amplitude, x[i], 1);
+  }
+  out.score = averageOf(ofLine) < averageOf(ofMean) ? ofLine : ofMean;
+  out.ceilingScore = averageOf(out.score);
+  out.ceiling = whole > 0 ? 1 - left / whole : 0;
+}
+
 /// Samples / sum of squared autocorrelations, pooled over the trials, of the weighted residuals.
 double effectiveSamplesOf(std::span<const FitWindow> windows, const Profile& mean, const std::vector<MovementFit>& places) {
   std::vector<std::vector<double>> residuals;
@@ -183,34 +238,13 @@ void weigh(FitWindow& window, const PersonTemplate& own, std::size_t trial) {
 }
 
 PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double> durations, bool keepApart) {
-  PersonTemplate out;
   const std::size_t n = windows.size();
   const double meanDuration = averageOf(durations);
-  out.place.resize(n);
-  double widths = 0;
-  for (const FitWindow& w : windows) widths += momentsOf(w).width;
-  const double widthOfOne = widths / static_cast<double>(n) / meanDuration;  // of v^2, in parts of the duration
-  for (std::size_t i = 0; i < n; ++i) {
-    std::fill(windows[i].weight.begin(), windows[i].weight.end(), 1.0);
-    const ProfileMoments m = momentsOf(windows[i]);
-    MovementFit& place = out.place[i];
-    place.duration = m.width / widthOfOne;
-    place.onset = m.centre - place.duration / 2;
-    place.amplitude = 1;
-  }
-  std::vector<double> laid;  // one trial at a time: there may be many thousands
-  Mean mean;
-  const auto average = [&] {
-    mean.sum.assign(gridSize(), 0.0);
-    mean.count.assign(gridSize(), 0);
-    for (std::size_t i = 0; i < n; ++i) {
-      layOver(windows[i], out.place[i], laid);
-      for (std::size_t k = 0; k < laid.size(); ++k)
-        if (std::isfinite(laid[k])) mean.sum[k] += laid[k] / out.place[i].amplitude, ++mean.count[k];
-    }
-    out.mean = profileOf(mean);
-  };
-  average();
+  for (FitWindow& window : windows) std::fill(window.weight.begin(), window.weight.end(), 1.0);
+  PersonTemplate out;
+  out.place = placesByMoments(windows, meanDuration);
+  Mean mean = layTogether(windows, out.place);
+  out.mean = profileOf(mean);
   for (int round = 0; round < kRounds; ++round) {
     const ProfilePieces pieces(out.mean);
     for (std::size_t i = 0; i < n; ++i) {
@@ -219,9 +253,10 @@ PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double
         out.place[i] = fit;
     }
     normalise(out.place, meanDuration);
-    average();
+    mean = layTogether(windows, out.place);
+    out.mean = profileOf(mean);
   }
-  std::vector<double> squares(gridSize(), 0.0);
+  std::vector<double> squares(gridSize(), 0.0), laid;
   std::vector<float> apart;
   for (std::size_t i = 0; i < n; ++i) {
     apart.assign(gridSize(), 0.0F);
@@ -233,30 +268,7 @@ PersonTemplate makeTemplate(std::span<FitWindow> windows, std::span<const double
   }
   out.scatter = scatterOf(std::move(squares), n, mean);
   for (std::size_t i = 0; i < n; ++i) weigh(windows[i], out, i);
-
-  double left = 0, whole = 0;
-  const std::vector<double> x = centredLogDurations(out.place);
-  Lines lines;
-  for (std::size_t i = 0; i < n; ++i) layOver(windows[i], out.place[i], laid), lines.add(laid, out.place[i].amplitude, x[i], 1);
-  std::vector<double> ofMean, ofLine;
-  for (std::size_t i = 0; i < n; ++i) {  // without the trial itself
-    Mean others = mean;
-    layOver(windows[i], out.place[i], laid);
-    for (std::size_t k = 0; k < laid.size(); ++k)
-      if (std::isfinite(laid[k])) others.sum[k] -= laid[k] / out.place[i].amplitude, --others.count[k];
-    const double rest = restCost(windows[i]);
-    const auto scoreOf = [&](const MovementFit& fit) { return std::log(std::max(fit.cost, 1e-9 * rest)); };
-    const MovementFit fit = fitMovement(windows[i], profileOf(others), out.place[i]);
-    left += fit.cost;
-    whole += rest;
-    ofMean.push_back(scoreOf(fit));
-    lines.add(laid, out.place[i].amplitude, x[i], -1);
-    ofLine.push_back(scoreOf(fitMovement(windows[i], lines.at(x[i]), out.place[i])));
-    lines.add(laid, out.place[i].amplitude, x[i], 1);
-  }
-  out.score = averageOf(ofLine) < averageOf(ofMean) ? ofLine : ofMean;
-  out.ceilingScore = averageOf(out.score);
-  out.ceiling = whole > 0 ? 1 - left / whole : 0;
+  scoreByOthers(windows, mean, out);
   out.effectiveSamples = effectiveSamplesOf(windows, out.mean, out.place);
   return out;
 }
