@@ -71,6 +71,51 @@ PlaceKind kindOf(const Guard& guard) {
   }
 }
 
+/// The surface and its derivatives up to the second, with every passable guard on the side that its bit of `index` says.
+std::vector<int> branchRoots(ExpressionGraph& graph, const std::vector<int>& r, const std::vector<Guard>& active,
+                             const std::vector<SurfaceBranches::Line>& lines, int index) {
+  std::vector<Guard> guards;
+  std::vector<int> signs;
+  for (std::size_t k = 0; k < active.size(); ++k) {
+    if (!lines[k].passable) continue;
+    guards.push_back(active[k]);
+    signs.push_back((index >> lines[k].bit & 1) != 0 ? 1 : -1);
+  }
+  std::vector<int> roots = freezeBranches(graph, r, guards, signs);
+  const std::vector<int> pU = graph.differentiate(roots, 0), pV = graph.differentiate(roots, 1);
+  for (const auto& more : {pU, pV, graph.differentiate(pU, 0), graph.differentiate(pU, 1), graph.differentiate(pV, 1)})
+    roots.insert(roots.end(), more.begin(), more.end());
+  return roots;
+}
+
+/// For people: lines of one parameter by their values, others by their equation. `roots`: of each guard, g and its two derivatives.
+void addPlaces(const Constraint& c, ExpressionGraph& graph, const std::vector<Guard>& active, const std::vector<int>& roots,
+               SurfaceBranches& result) {
+  const CompiledFormula& formula = *std::static_pointer_cast<const CompiledFormula>(c.owner);
+  const std::array<Domain, 2> range = boundedDomain(c);
+  for (std::size_t k = 0; k < active.size(); ++k) {
+    const int g = roots[3 * k];
+    const bool byU = !graph.isConstant(roots[3 * k + 1], 0), byV = !graph.isConstant(roots[3 * k + 2], 0);
+    Place place;
+    place.kind = result.lines[k].kind;
+    place.because = result.lines[k].because;
+    if (byU && byV) {
+      place.parameter = -1;
+      place.because = writeFormula(graph, g, variablesOf(ConstraintKind::Surface), formula.text.parameters);
+      result.places.push_back(place);
+      continue;
+    }
+    place.parameter = byU ? 0 : 1;
+    const Domain& d = range[byU ? 0 : 1];
+    int boxes = kMaxBoxes;
+    for (const double root :
+         findRoots(graph, g, c.surface.shape.data(), d.lo, d.hi, boxes, active[k].branches() ? 1e-12 : 1e-7, byU ? 0 : 1).roots) {
+      place.at = root + 0.0;
+      result.places.push_back(place);
+    }
+  }
+}
+
 struct Owned {
   Program guards;
   std::vector<Program> branches;
@@ -141,19 +186,7 @@ std::shared_ptr<const SurfaceBranches> computeBranches(const Constraint& c) {
   owned->branches.reserve(std::size_t{1} << bits);
   const int parameters = static_cast<int>(formula.text.parameters.size());
   for (int index = 0; index < (1 << bits); ++index) {
-    std::vector<Guard> guards;
-    std::vector<int> signs;
-    for (std::size_t k = 0; k < active.size(); ++k) {
-      if (!result->lines[k].passable) continue;
-      guards.push_back(active[k]);
-      signs.push_back((index >> result->lines[k].bit & 1) != 0 ? 1 : -1);
-    }
-    const std::vector<int> p = freezeBranches(graph, r, guards, signs);
-    const std::vector<int> pU = graph.differentiate(p, 0), pV = graph.differentiate(p, 1);
-    std::vector<int> roots = p;
-    for (const auto& more : {pU, pV, graph.differentiate(pU, 0), graph.differentiate(pU, 1), graph.differentiate(pV, 1)})
-      roots.insert(roots.end(), more.begin(), more.end());
-    owned->branches.push_back(compileProgram(graph, roots, parameters, 2));
+    owned->branches.push_back(compileProgram(graph, branchRoots(graph, r, active, result->lines, index), parameters, 2));
     result->branches.push_back({evaluateSurfaceProgram, &owned->branches.back(), c.surface.shape});
   }
   std::vector<int> roots;
@@ -167,28 +200,7 @@ std::shared_ptr<const SurfaceBranches> computeBranches(const Constraint& c) {
   result->shape = c.surface.shape;
   result->owner = owned;
 
-  // For people: lines of one parameter by their values, others by their equation.
-  const std::array<Domain, 2> range = boundedDomain(c);
-  for (std::size_t k = 0; k < active.size(); ++k) {
-    const int g = roots[3 * k];
-    const bool byU = !graph.isConstant(roots[3 * k + 1], 0), byV = !graph.isConstant(roots[3 * k + 2], 0);
-    Place place;
-    place.kind = result->lines[k].kind;
-    place.because = result->lines[k].because;
-    if (byU && byV) {
-      place.parameter = -1;
-      place.because = writeFormula(graph, g, variables, formula.text.parameters);
-      result->places.push_back(place);
-      continue;
-    }
-    place.parameter = byU ? 0 : 1;
-    const Domain& d = range[byU ? 0 : 1];
-    int boxes = kMaxBoxes;
-    for (const double root : findRoots(graph, g, shape, d.lo, d.hi, boxes, active[k].branches() ? 1e-12 : 1e-7, byU ? 0 : 1).roots) {
-      place.at = root + 0.0;
-      result->places.push_back(place);
-    }
-  }
+  addPlaces(c, graph, active, roots, *result);
   return result;
 }
 
