@@ -16,6 +16,7 @@
 #include <QMessageBox>
 #include <QSaveFile>
 #include <QTextStream>
+#include <QToolButton>
 #include <memory>
 
 #include "gui/widgets/inks.h"
@@ -107,13 +108,19 @@ bool exportPlot(QwtPlot& plot, const QString& file, Write write) {
   return QFileInfo::exists(file);
 }
 
-/// Asks for a file. `write` gets its name and returns whether it was written.
-template <typename Write>
-void askAndExport(QWidget* plot, const QString& title, const QString& suggested, Write write) {
-  const QString file = QFileDialog::getSaveFileName(plot, title, suggested, QObject::tr("SVG (*.svg);;PDF (*.pdf);;CSV (*.csv)"));
-  if (file.isEmpty() || write(file)) return;
-  QMessageBox::warning(plot, title,
-                       QObject::tr("%1 was not written: its name ends in .svg, .pdf or .csv, and its folder can be written to.").arg(file));
+/// A button that asks for a file and exports the plot to it.
+template <typename Plot>
+QToolButton* makeExportButton(Plot* plot, const QString& title, const QString& suggested) {
+  auto* button = new QToolButton;
+  button->setText(QObject::tr("Export…"));
+  button->setToolTip(QObject::tr("writes the plot as SVG, PDF or CSV"));
+  QObject::connect(button, &QToolButton::clicked, plot, [=] {
+    const QString file = QFileDialog::getSaveFileName(plot, title, suggested, QObject::tr("SVG (*.svg);;PDF (*.pdf);;CSV (*.csv)"));
+    if (file.isEmpty() || plot->exportTo(file)) return;
+    QMessageBox::warning(
+        plot, title, QObject::tr("%1 was not written: its name ends in .svg, .pdf or .csv, and its folder can be written to.").arg(file));
+  });
+  return button;
 }
 
 }  // namespace reachlab::gui::plot

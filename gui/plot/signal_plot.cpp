@@ -8,7 +8,6 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QHBoxLayout>
-#include <QToolButton>
 #include <QVBoxLayout>
 #include <QVector>
 #include <algorithm>
@@ -53,9 +52,6 @@ SignalPlot::SignalPlot(QWidget* parent) : QWidget(parent), impl_(std::make_uniqu
   d.quantity->addItems({tr("velocity"), tr("position"), tr("force"), tr("phase plane, along x"), tr("timing")});
   d.watched = widgets::named<QComboBox>("signalWatched");
   d.freeze = widgets::named<QCheckBox>("signalFreeze", tr("freeze"));
-  auto* save = new QToolButton;
-  save->setText(tr("Export…"));
-  save->setToolTip(tr("writes the plot as SVG, PDF or CSV"));
   d.quantity->setToolTip(tr("the signal that is drawn, of the last 10 s"));
   d.watched->setToolTip(tr("the hand or the mass that is drawn"));
   d.freeze->setToolTip(tr("freezes the plot. Press it again to show the current signal"));
@@ -63,7 +59,7 @@ SignalPlot::SignalPlot(QWidget* parent) : QWidget(parent), impl_(std::make_uniqu
   row->addWidget(d.watched);
   row->addWidget(d.freeze);
   row->addStretch(1);
-  row->addWidget(save);
+  row->addWidget(makeExportButton(this, tr("Export signal"), QStringLiteral("signal.svg")));
   layout->addLayout(row);
   auto* plot = d.plot = new QwtPlot;
   layout->addWidget(plot, 1);
@@ -87,9 +83,6 @@ SignalPlot::SignalPlot(QWidget* parent) : QWidget(parent), impl_(std::make_uniqu
   connect(d.watched, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     clear();  // points of another body are none of this one
     Q_EMIT watchedChanged(watched());
-  });
-  connect(save, &QToolButton::clicked, this, [this] {
-    askAndExport(this, tr("Export signal"), QStringLiteral("signal.svg"), [this](const QString& file) { return exportTo(file); });
   });
   fill();
 }

@@ -9,7 +9,6 @@
 #include <qwt_scale_widget.h>
 
 #include <QCheckBox>
-#include <QToolButton>
 #include <QVBoxLayout>
 #include <QVector>
 #include <algorithm>
@@ -95,12 +94,9 @@ VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent), impl_(std::make_u
   impl_->freeze = new QCheckBox(tr("freeze"));
   impl_->freeze->setObjectName(QStringLiteral("velocityFreeze"));
   impl_->freeze->setToolTip(tr("freezes the plot. Press it again to show the current trial"));
-  auto* save = new QToolButton;
-  save->setText(tr("Export…"));
-  save->setToolTip(tr("writes the plot as SVG, PDF or CSV"));
   row->addWidget(impl_->freeze);
   row->addStretch(1);
-  row->addWidget(save);
+  row->addWidget(makeExportButton(this, tr("Export velocities"), QStringLiteral("velocity.svg")));
   layout->addLayout(row);
   auto* plot = impl_->plot = new QwtPlot(this);
   layout->addWidget(plot, 1);
@@ -136,9 +132,6 @@ VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent), impl_(std::make_u
   addLegend(*plot);
   impl_->zoomer = new Zoomer(canvas);
   connect(impl_->freeze, &QCheckBox::toggled, this, &VelocityPlot::refresh);
-  connect(save, &QToolButton::clicked, this, [this] {
-    askAndExport(this, tr("Export velocities"), QStringLiteral("velocity.svg"), [this](const QString& file) { return exportTo(file); });
-  });
   impl_->draw();
 }
 
