@@ -1,11 +1,21 @@
 #pragma once
 #include <array>
+#include <cstddef>
 #include <memory>
 
 #include "devices/instruments/instrument.h"
-#include "devices/instruments/port_calls.h"
 
 namespace reachlab::devices {
+
+/// The calls of the operating system that drive ports, with their errno. This is the lowest level at which a test can replace a port.
+struct PortCalls {
+  int (*open)(const char* path, int flags);
+  int (*close)(int file);
+  int (*control)(int file, unsigned long request, void* argument);
+  long (*write)(int file, const void* bytes, std::size_t count);
+  long (*read)(int file, void* bytes, std::size_t count);
+};
+const PortCalls& systemPortCalls();
 
 /// The code that goes out at each mark (0: no code), and how long a line stays up.
 struct TriggerCodes {
