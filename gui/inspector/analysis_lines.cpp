@@ -73,7 +73,7 @@ std::vector<ProfilePlot::Prediction> predictionsOf(const analysis::Analysis& ana
     for (std::size_t k = 0; !fitted && k < r.signals.size(); ++k) {
       if (r.signals[k].criterion != criterion) continue;
       const analysis::PredictedCurve curve = analysis::curveOf(r, k);
-      out.push_back({plot::titleOf(criterion), plot::colourOf(criterion), false, toVector(curve.time),
+      out.push_back({plot::titleOf(criterion), plot::styleOf(criterion), false, toVector(curve.time),
                      toVector(signal == Signal::Hand ? curve.hand : curve.object)});
     }
     if (!fitted || signal != Signal::Hand) continue;
@@ -83,7 +83,7 @@ std::vector<ProfilePlot::Prediction> predictionsOf(const analysis::Analysis& ana
         const auto& named = r.candidates.candidates[k].criteria;
         if (std::find(named.begin(), named.end(), criterion) == named.end()) continue;
         const analysis::Profile& grid = person.fit.own.mean;
-        ProfilePlot::Prediction line{plot::titleOf(criterion) + ProfilePlot::tr(", fitted"), plot::colourOf(criterion), true, {}, {}};
+        ProfilePlot::Prediction line{plot::titleOf(criterion) + ProfilePlot::tr(", fitted"), plot::styleOf(criterion), true, {}, {}};
         for (std::size_t i = 0; i < person.fit.candidates[k].mean.size(); ++i) {
           line.x.push_back(person.duration * (grid.first + grid.step * static_cast<double>(i)));
           line.y.push_back(person.fit.candidates[k].mean[i]);

@@ -150,8 +150,7 @@ void ProfilePlot::setMean(const QVector<double>& x, const QVector<double>& mean,
 void ProfilePlot::setPredictions(const std::vector<Prediction>& predictions) {
   impl_->predictions.clear();
   for (const Prediction& p : predictions) {
-    auto curve =
-        gui::plot::makeCurve(*impl_->plot, p.title, QPen(p.colour, p.fitted ? 2.2 : 1.8, p.fitted ? Qt::DotLine : Qt::DashLine), 50);
+    auto curve = gui::plot::makePrediction(*impl_->plot, p.title, p.style, p.fitted, 50);
     curve->setSamples(p.x, p.y);
     impl_->predictions.push_back(std::move(curve));
   }

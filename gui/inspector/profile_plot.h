@@ -7,6 +7,8 @@
 #include <optional>
 #include <vector>
 
+#include "gui/plot/line_style.h"
+
 namespace reachlab::gui::inspector {
 
 /// Velocities of many trials, their mean and scatter, and predictions. A click on a line picks its trial, and a drag moves the time cursor.
@@ -23,8 +25,8 @@ class ProfilePlot : public QWidget {
   };
   struct Prediction {
     QString title;
-    QColor colour;
-    bool fitted = false;  // dotted; else dashed
+    gui::plot::LineStyle style;
+    bool fitted = false;  // thicker, with filled marks
     QVector<double> x, y;
   };
   void setLines(const std::vector<Line>& lines);

@@ -15,6 +15,12 @@ QColor colourOf(predict::Criterion criterion) {
   return {red, green, blue};
 }
 
+LineStyle styleOf(predict::Criterion criterion) {
+  static const std::vector<std::vector<double>> kDashes{{5, 3}, {2, 2}, {9, 3}, {7, 2, 2, 2}, {7, 2, 2, 2, 2, 2}, {3, 4}, {12, 2, 4, 2}};
+  const auto i = static_cast<std::size_t>(criterion);
+  return {colourOf(criterion), kDashes[i % kDashes.size()], static_cast<int>(i)};
+}
+
 QString titleOf(predict::Criterion criterion) {
   const std::string_view name = predict::nameOf(criterion);
   QString title = QString::fromUtf8(name.data(), static_cast<int>(name.size()));

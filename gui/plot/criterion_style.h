@@ -3,6 +3,7 @@
 #include <QString>
 #include <vector>
 
+#include "gui/plot/line_style.h"
 #include "sim/predict/predict.h"
 
 class QTableWidget;
@@ -11,6 +12,7 @@ namespace reachlab::gui::plot {
 
 /// A criterion's colour in plot and list. It is legible on the theme's background and differs from the hand's and the object's colours.
 QColor colourOf(predict::Criterion criterion);
+LineStyle styleOf(predict::Criterion criterion);
 /// "min. hand jerk" …
 QString titleOf(predict::Criterion criterion);
 

@@ -45,7 +45,7 @@ std::vector<VelocityPlot::Line> LiveForecast::lines(const std::vector<predict::C
   std::vector<VelocityPlot::Line> lines;
   for (const CriterionForecast& forecast : forecasts_) {
     if (!forecast.prediction || std::find(criteria.begin(), criteria.end(), forecast.criterion) == criteria.end()) continue;
-    VelocityPlot::Line line{titleOf(forecast.criterion), colourOf(forecast.criterion), {}, {}};
+    VelocityPlot::Line line{titleOf(forecast.criterion), styleOf(forecast.criterion), {}, {}};
     constexpr int kParts = 240;
     for (int i = 0; i <= kParts; ++i) {
       const double t = forecast.prediction->duration * i / kParts;

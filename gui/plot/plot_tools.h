@@ -2,6 +2,7 @@
 // Tools of every plot of the window, for files that are compiled with Qwt's headers (gui/CMakeLists.txt).
 #include <qwt_global.h>
 #include <qwt_legend.h>
+#include <qwt_painter.h>
 #include <qwt_plot.h>
 #include <qwt_plot_canvas.h>
 #include <qwt_plot_curve.h>
@@ -9,6 +10,7 @@
 #include <qwt_plot_layout.h>
 #include <qwt_plot_renderer.h>
 #include <qwt_plot_zoomer.h>
+#include <qwt_symbol.h>
 #include <qwt_text.h>
 
 #include <QFileDialog>
@@ -17,8 +19,10 @@
 #include <QSaveFile>
 #include <QTextStream>
 #include <QToolButton>
+#include <iterator>
 #include <memory>
 
+#include "gui/plot/line_style.h"
 #include "gui/widgets/inks.h"
 #include "gui/widgets/theme.h"
 
@@ -35,6 +39,7 @@ inline QwtText axisTitle(const QString& text) {
 
 /// Canvas and grid of a plot, in the theme's colours. The plot owns both.
 inline QwtPlotCanvas* dress(QwtPlot& plot) {
+  QwtPainter::setPolylineSplitting(false);  // each of its pieces begins a dash anew, and pieces shorter than a dash look solid
   auto* canvas = new QwtPlotCanvas(&plot);
   canvas->setFrameStyle(QFrame::NoFrame);
   canvas->setAutoFillBackground(true);
@@ -63,16 +68,44 @@ inline void addLegend(QwtPlot& plot) {
 }
 
 /// A line, which the legend shows if it has a title.
-inline std::unique_ptr<QwtPlotCurve> makeCurve(QwtPlot& plot, const QString& title, const QPen& pen, double z) {
-  auto curve = std::make_unique<QwtPlotCurve>(title);
+inline std::unique_ptr<QwtPlotCurve> makeCurve(QwtPlot& plot, const QString& title, const QPen& pen, double z,
+                                               std::unique_ptr<QwtPlotCurve> curve = std::make_unique<QwtPlotCurve>()) {
+  curve->setTitle(title);
   curve->setPen(pen);
   curve->setRenderHint(QwtPlotItem::RenderAntialiased);
   curve->setPaintAttribute(QwtPlotCurve::ClipPolygons);
   curve->setLegendAttribute(QwtPlotCurve::LegendShowLine);
-  curve->setLegendIconSize({22, 6});
+  curve->setLegendAttribute(QwtPlotCurve::LegendShowSymbol);
+  curve->setLegendIconSize({30, 9});
   curve->setItemAttribute(QwtPlotItem::Legend, !title.isEmpty());
   curve->setZ(z);
   curve->attach(&plot);
+  return curve;
+}
+
+/// Marks a few of its points.
+class MarkedCurve : public QwtPlotCurve {
+  void drawSymbols(QPainter* painter, const QwtSymbol& symbol, const QwtScaleMap& x, const QwtScaleMap& y, const QRectF&, int from,
+                   int to) const override {
+    constexpr int kMarks = 6;
+    for (int i = 0; i < kMarks; ++i) {
+      const QPointF at = sample(from + (to - from) * (2 * i + 1) / (2 * kMarks));
+      symbol.drawSymbol(painter, {x.transform(at.x()), y.transform(at.y())});
+    }
+  }
+};
+
+/// A criterion's line. One that was fitted is thicker and has filled marks.
+inline std::unique_ptr<QwtPlotCurve> makePrediction(QwtPlot& plot, const QString& title, const LineStyle& style, bool fitted, double z) {
+  constexpr QwtSymbol::Style kMarks[] = {QwtSymbol::Ellipse,   QwtSymbol::Rect,   QwtSymbol::Triangle, QwtSymbol::Diamond,
+                                         QwtSymbol::DTriangle, QwtSymbol::XCross, QwtSymbol::Hexagon};
+  QPen pen(style.colour, fitted ? 2.4 : 1.6);
+  pen.setDashPattern({style.dashes.begin(), style.dashes.end()});
+  pen.setCapStyle(Qt::FlatCap);
+  auto curve = makeCurve(plot, title, pen, z, std::make_unique<MarkedCurve>());
+  const QBrush inside = fitted ? style.colour : widgets::toQColor(widgets::colours::kBase);
+  curve->setSymbol(
+      new QwtSymbol(kMarks[static_cast<std::size_t>(style.mark) % std::size(kMarks)], inside, QPen(style.colour, 1.2), QSize(7, 7)));
   return curve;
 }
 

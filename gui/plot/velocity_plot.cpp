@@ -59,7 +59,7 @@ struct VelocityPlot::Impl {
   void drawPredictions() {
     predictions.clear();
     for (const Line& line : lines) {
-      auto curve = makeCurve(*plot, line.title, QPen(line.colour, 1.8, Qt::DashLine), 24);
+      auto curve = makePrediction(*plot, line.title, line.style, false, 24);
       curve->setSamples(line.time.data(), line.velocity.data(), static_cast<int>(std::min(line.time.size(), line.velocity.size())));
       predictions.push_back(std::move(curve));
     }

@@ -6,6 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "gui/plot/line_style.h"
+
 namespace reachlab::gui::plot {
 
 /// Of Qwt, as compiled: "6.1.4".
@@ -32,7 +34,7 @@ class VelocityPlot : public QWidget {
 
   struct Line {
     QString title;
-    QColor colour;
+    LineStyle style;
     std::vector<double> time, velocity;  // [s], [m/s]
   };
   void setPredictions(const std::vector<Line>& lines);

@@ -6,6 +6,8 @@
 #include <QFile>
 #include <QTemporaryDir>
 #include <QTest>
+#include <algorithm>
+#include <cmath>
 
 namespace reachlab::gui::plot {
 namespace {
@@ -35,6 +37,33 @@ QList<QByteArray> exported(VelocityPlot& plot) {
   QFile file(name);
   EXPECT_TRUE(file.open(QIODevice::ReadOnly));
   return file.readAll().trimmed().split('\n');
+}
+
+// Columns of the small canvas of a screen of 1366 pixels in which the line has no pixel, from its first to its last.
+TEST(VelocityPlot, APredictionIsDashedHoweverSmallThePlotIs) {
+  Shown shown;
+  ASSERT_NE(shown.canvas, nullptr);
+  shown.plot.resize(560, 220);
+  VelocityPlot::Line line{QStringLiteral("prediction"), {QColor(255, 0, 0), {5, 3}, 0}, {}, {}};
+  for (int i = 0; i <= 200; ++i) {
+    line.time.push_back(i / 200.0);
+    line.velocity.push_back(0.3 * std::sin(M_PI * i / 200));
+  }
+  shown.plot.setPredictions({line});
+  shown.plot.refresh();
+  const QImage image = shown.canvas->grab().toImage();
+  std::vector<bool> seen;
+  for (int x = 0; x < image.width(); ++x) {
+    bool red = false;
+    for (int y = 0; y < image.height(); ++y) {
+      const QRgb pixel = image.pixel(x, y);
+      red = red || (qRed(pixel) > 150 && qGreen(pixel) < 80);
+    }
+    seen.push_back(red);
+  }
+  const auto first = std::find(seen.begin(), seen.end(), true), last = std::find(seen.rbegin(), seen.rend(), true).base();
+  ASSERT_GT(last - first, 100);
+  EXPECT_GT(std::count(first, last, false), (last - first) / 6);
 }
 
 TEST(VelocityPlot, ADragZoomsInAndNewPointsDoNotZoomOut) {
@@ -75,7 +104,7 @@ TEST(VelocityPlot, FreezeHoldsThePictureAndLosesNothing) {
 TEST(VelocityPlot, IsExportedAsItIsDrawn) {
   Shown shown;
   shown.add(0, 30);
-  shown.plot.setPredictions({{QStringLiteral("jerk"), Qt::red, {0, 1}, {0, 0.5}}});
+  shown.plot.setPredictions({{QStringLiteral("jerk"), {Qt::red, {5, 3}, 0}, {0, 1}, {0, 0.5}}});
   const QList<QByteArray> lines = exported(shown.plot);
   EXPECT_EQ(lines[0], "line,time_s,velocity_m_per_s");
   EXPECT_EQ(lines[30], "\"hand\",0.28999999999999998,2.9000000000000004");

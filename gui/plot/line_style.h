@@ -1,0 +1,14 @@
+#pragma once
+#include <QColor>
+#include <vector>
+
+namespace reachlab::gui::plot {
+
+/// A prediction's line. Dashes and marks tell it from others without its colour.
+struct LineStyle {
+  QColor colour;
+  std::vector<double> dashes;  // lengths of dash and gap in turn, in widths of the line
+  int mark = 0;                // index of a shape
+};
+
+}  // namespace reachlab::gui::plot
