@@ -47,15 +47,12 @@ TEST(Instruments, AreToldOfARunAndTheRecordingSaysWhen) {
 
 TEST(Instruments, AreRefusedOnAVirtualClock) {
   const TemporaryFolder folder;
-  const Ended ended = reach("run dingwell --device simulated --fast --data " + folder.path() + " --instrument lsl",
-                            "LD_LIBRARY_PATH=" + (std::filesystem::path(REACHLAB_BINARY_DIR) / "tests/fakes").string());
-  EXPECT_EQ(ended.exitCode, 2);
-  EXPECT_NE(ended.err.find("there are instruments, which are on the real clock"), std::string::npos) << ended.err;
+  EXPECT_TRUE(says(reach("run dingwell --device simulated --fast --data " + folder.path() + " --instrument lsl",
+                         "LD_LIBRARY_PATH=" + (std::filesystem::path(REACHLAB_BINARY_DIR) / "tests/fakes").string()),
+                   2, "there are instruments, which are on the real clock"));
 }
 
 TEST(Instruments, AMissingLibraryIsSaid) {
   const TemporaryFolder folder;
-  const Ended ended = reach("run dingwell --device simulated --data " + folder.path() + " --instrument lsl");
-  EXPECT_EQ(ended.exitCode, 3);
-  EXPECT_NE(ended.err.find("liblsl.so"), std::string::npos) << ended.err;
+  EXPECT_TRUE(says(reach("run dingwell --device simulated --data " + folder.path() + " --instrument lsl"), 3, "liblsl.so"));
 }

@@ -53,8 +53,8 @@ inline void expectTheOneForm(const std::string& arguments, const Ended& ended) {
     EXPECT_TRUE(!told || isHead || std::regex_match(line, below)) << "reach " << arguments << "\n" << ended.err;
   }
   EXPECT_TRUE(told) << "reach " << arguments << "\n" << ended.err;
-  for (const char* foreign :
-       {"not in range", "Could not convert", "required", "json.exception", "syntax error", "parse error", "std::", " INT", " FLOAT"})
+  for (const char* foreign : {"not in range", "Could not convert", "required", "json.exception", "syntax error", "parse error",
+                              "std::", "filesystem error", "bad_alloc", " INT", " FLOAT"})
     EXPECT_EQ(ended.err.find(foreign), std::string::npos) << "reach " << arguments << "\n" << ended.err;
   if (const char* list = std::getenv("REACHLAB_MESSAGES"))
     std::ofstream(list, std::ios::app) << "$ reach " << arguments << "\n" << ended.err;
@@ -69,6 +69,13 @@ inline Ended reach(const std::string& arguments, const std::string& environment 
   Ended ended{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contentOf(folder / "out"), contentOf(folder / "err")};
   expectTheOneForm(arguments, ended);
   return ended;
+}
+
+/// Whether a command ended with this number, and these words are on its standard error.
+inline testing::AssertionResult says(const Ended& ended, int exitCode, const std::string& words) {
+  if (ended.exitCode == exitCode && ended.err.find(words) != std::string::npos) return testing::AssertionSuccess();
+  return testing::AssertionFailure() << "exit " << ended.exitCode << " for " << exitCode << ", looked for: " << words << "\n"
+                                     << ended.err.substr(0, 4000);
 }
 
 /// Runs a line of bash in which $REACH is the program; for redirections, pipes and limits of its own.

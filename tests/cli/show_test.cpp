@@ -66,8 +66,7 @@ TEST(Show, AndExportNameALogThatCannotBeRead) {
   std::ofstream(other) << "no log";
   for (const std::string command : {"show ", "show --json ", "export --format csv "}) {
     const Ended ended = reach(command + recorded.data);
-    EXPECT_EQ(ended.exitCode, 3) << command;
-    EXPECT_NE(ended.err.find(other), std::string::npos) << command << ended.err;
+    EXPECT_TRUE(says(ended, 3, other)) << command;
     EXPECT_NE(ended.err.find("1 of 2 logs"), std::string::npos) << command << ended.err;
     EXPECT_NE(ended.out, "") << command;
   }
@@ -76,9 +75,7 @@ TEST(Show, AndExportNameALogThatCannotBeRead) {
 
 TEST(Show, RefusesWhatIsNotThere) {
   const Recorded recorded;
-  const Ended number = reach("show --trial 4 " + recorded.log);
-  EXPECT_EQ(number.exitCode, 2);
-  EXPECT_NE(number.err.find("allowed: 1 to 3"), std::string::npos) << number.err;
+  EXPECT_TRUE(says(reach("show --trial 4 " + recorded.log), 2, "allowed: 1 to 3"));
   EXPECT_EQ(reach("show " + recorded.log + " --figure x.svg").exitCode, 2);
   EXPECT_EQ(reach("show /nowhere").exitCode, 2);
 }

@@ -19,10 +19,7 @@ int trialsIn(const std::string& data) {
   return static_cast<int>(parseCsv(contentOf(csv / "trials.csv")).rows.size());
 }
 
-void expectOneSentence(const Ended& ended) {
-  EXPECT_EQ(ended.exitCode, 3) << ended.err;
-  EXPECT_NE(ended.err.find("standard output: cannot be written: No space left on device"), std::string::npos) << ended.err;
-}
+void expectOneSentence(const Ended& ended) { EXPECT_TRUE(says(ended, 3, "standard output: cannot be written: No space left on device")); }
 
 // What a command writes to the terminal that it is started from.
 std::string onTerminal(const std::string& command) {

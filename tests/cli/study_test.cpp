@@ -153,18 +153,14 @@ TEST_F(Study, SaysHowFarItIs) {
     if (entry.is_regular_file()) std::filesystem::last_write_time(entry.path(), when -= std::chrono::seconds(1));
   const std::string paced = reach("study status " + at("a")).out;
   EXPECT_NE(paced.find(" rate_per_s=6 left_s=15 "), std::string::npos) << paced;
-  const Ended again = run("a", "--shard 1/4");
-  EXPECT_EQ(again.exitCode, 2);
-  EXPECT_NE(again.err.find("--resume"), std::string::npos) << again.err;
+  EXPECT_TRUE(says(run("a", "--shard 1/4"), 2, "--resume"));
   EXPECT_EQ(told(run("a", "--resume")), "33 of 120 trials; 120 of 120 trials");
   EXPECT_NE(reach("study status " + at("a")).out.find("tables=yes"), std::string::npos);
   // Of one that lacks a single chunk there is no report.
   EXPECT_EQ(reach("study report " + at("a")).exitCode, 0);
   for (const auto& entry : std::filesystem::recursive_directory_iterator(at("a") + "/chunks"))
     if (entry.path().filename() == "00000007.chunk") std::filesystem::remove(entry.path());
-  const Ended report = reach("study report " + at("a"));
-  EXPECT_EQ(report.exitCode, 2);
-  EXPECT_NE(report.err.find("1 of 20 chunks are not there yet"), std::string::npos) << report.err;
+  EXPECT_TRUE(says(reach("study report " + at("a")), 2, "1 of 20 chunks are not there yet"));
 }
 
 TEST_F(Study, TellsWhatIsWrongWhereItStands) {
@@ -227,10 +223,7 @@ TEST_F(Study, ReportsOfWhatItDrawsNoStudies) {
     "criteria": ["min-hand-jerk", "min-hand-crackle"]})");
   ASSERT_EQ(reach("study " + study + " --out " + at("f")).exitCode, 0);
   const Ended report = reach("study report " + at("f"));
-  ASSERT_EQ(report.exitCode, 0) << report.err;
-  EXPECT_NE(report.err.find("min-hand-jerk: 4 virtual subjects with 10 successes; nothing is drawn from fewer than five"),
-            std::string::npos)
-      << report.err;
+  ASSERT_TRUE(says(report, 0, "min-hand-jerk: 4 virtual subjects with 10 successes; nothing is drawn from fewer than five"));
   EXPECT_NE(report.err.find("min-crackle: 4 virtual subjects with 10 successes; its criterion is not compared"), std::string::npos)
       << report.err;
 }
@@ -284,9 +277,8 @@ TEST_F(Study, ALearnerTakesWhatItLearntThroughThePlan) {
 
 TEST_F(Study, RefusesAFolderOfAnotherStudy) {
   ASSERT_EQ(run("a").exitCode, 0);
-  const Ended other = reach("study " + folder.write("small.json", std::string(kStudy) + "\n") + " --out " + at("a") + " --resume");
-  EXPECT_EQ(other.exitCode, 3);
-  EXPECT_NE(other.err.find("another study"), std::string::npos) << other.err;
+  EXPECT_TRUE(says(reach("study " + folder.write("small.json", std::string(kStudy) + "\n") + " --out " + at("a") + " --resume"), 3,
+                   "another study"));
 }
 
 }  // namespace
