@@ -34,14 +34,6 @@ TEST(ConstraintCommand, ShowsEveryDefinition) {
   EXPECT_GE(surfaces, 20);
 }
 
-TEST(ConstraintCommand, RefusesAFormulaThatIsAPoint) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write("point.json", R"({"schema_version": 1, "constraint": {"curve": ["1", "2", "3"]},
-    "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600}})");
-  const Ended ended = reach("simulate " + file + " --hand none --at 0 --until 0.1");
-  EXPECT_TRUE(ended.exitCode == 2 || ended.exitCode == 4) << ended.exitCode << ended.err;
-}
-
 TEST(ConstraintCommand, PointsAtTheCharacterOfASyntaxFault) {
   const TemporaryFolder folder;
   const std::string file = folder.write("bad.json", R"j({"schema_version": 1, "constraint": {"curve": ["cos(phi", "2", "3"]},

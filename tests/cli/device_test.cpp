@@ -62,15 +62,6 @@ TEST(Devices, AnUnknownDeviceIsAWrongUse) {
   EXPECT_EQ(reach("run chain-slow --device virtual:omni,colour=red --data " + folder.path()).exitCode, 2);
 }
 
-TEST(Devices, AVirtualDeviceRunsFastAndItsRecordingReplaysToTheBit) {
-  const TemporaryFolder folder;
-  const Ended run = reach("run chain-moderate --device virtual:premium15 --trials 2 --seed 1 --fast --data " + folder.path());
-  ASSERT_EQ(run.exitCode, 0) << run.err;
-  EXPECT_EQ(trialLines(run.out).size(), 2u);
-  const Ended replay = reach("replay " + folder.path() + "/sourcedata/*.reach --check");
-  EXPECT_EQ(replay.exitCode, 0) << replay.out << replay.err;
-}
-
 TEST(Devices, ValidateSaysBeforehandWhatADeviceCannotGive) {
   const Ended checked = reach("validate chain-fast --device virtual:omni");
   EXPECT_EQ(checked.exitCode, 0) << checked.err;

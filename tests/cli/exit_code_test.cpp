@@ -86,30 +86,10 @@ TEST(OptionWords, TellAFaultOfTheRequestByItsOption) {
 TEST(OptionWords, AreOptionsThatThereAre) {
   std::string help;
   for (const char* command : {"run", "predict", "simulate", "bench", "analyze"}) help += test::reach(std::string(command) + " --help").out;
-  for (const char* key : {"subject",
-                          "session",
-                          "trials",
-                          "run",
-                          "seed",
-                          "day",
-                          "data",
-                          "device",
-                          "fast",
-                          "resume",
-                          "disk_reserve",
-                          "sweep",
-                          "hand_mass",
-                          "unknowns",
-                          "duration",
-                          "hand_damping",
-                          "point",
-                          "scene",
-                          "method",
-                          "cutoff",
-                          "until",
-                          "participant.age",
-                          "participant.sex",
-                          "participant.handedness"}) {
+  std::istringstream keys(
+      "subject session trials run seed day data device fast resume disk_reserve sweep hand_mass unknowns duration hand_damping point scene "
+      "method cutoff until participant.age participant.sex participant.handedness");
+  for (std::string key; keys >> key;) {
     const std::string option = cli::optionOf(key);
     ASSERT_FALSE(option.empty()) << key;
     EXPECT_NE(help.find(option), std::string::npos) << option;

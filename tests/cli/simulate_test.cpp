@@ -75,42 +75,6 @@ TEST(Simulate, ADampedSpringFollowsTheClosedForm) {
   }
 }
 
-TEST(Simulate, ATypedFormulaEqualsItsCatalogueTwin) {
-  const TemporaryFolder folder;
-  const std::string task = R"(, "task": {"start": [0.3], "target": [2], "duration_s": 1,
-    "tolerance": {"position_m": 0.012, "velocity_m_per_s": 0.012, "time_s": 0.5}})";
-  const std::string typed =
-      folder.write("typed.json", onePoint(R"j({"curve": ["0", "a*cos(phi)", "b*sin(phi)"], "shape": {"a": 0.1, "b": 0.06}})j", "", task));
-  const Ended ended = reach("simulate " + typed + " --hand min-jerk");
-  ASSERT_EQ(ended.exitCode, 0) << ended.err;
-  const Table table = parseCsv(ended.out);
-  const std::size_t last = table.rows.size() - 1;
-  EXPECT_NEAR(std::pow(table.at(last, "mass1_y_m") / 0.1, 2) + std::pow(table.at(last, "mass1_z_m") / 0.06, 2), 1, 1e-12);
-}
-
-TEST(Simulate, RefusesWhatCannotBeCarriedOut) {
-  const TemporaryFolder folder;
-  const std::string noChord = folder.write("closed.json", onePoint(R"j({"curve": ["cos(phi)", "sin(phi)", "0"]})j", "",
-                                                                   R"(, "task": {"start": [0], "target": [0], "duration_s": 1,
-    "tolerance": {"position_m": 0.012, "velocity_m_per_s": 0.012, "time_s": 0.5}})"));
-  EXPECT_EQ(reach("simulate " + noChord + " --hand hold --until 0.1").exitCode, 0);
-  const Ended refused = reach("simulate " + noChord + " --hand min-jerk");
-  EXPECT_TRUE(refused.exitCode == 2 || refused.exitCode == 4) << refused.exitCode;
-  EXPECT_FALSE(refused.err.empty());
-}
-
-TEST(Simulate, AHandFromAFileIsInterpolatedAndHeld) {
-  const TemporaryFolder folder;
-  std::string text = "time_s,x_m,y_m,z_m\n";
-  for (int i = 0; i <= 20; ++i) text += std::to_string(0.05 * i) + "," + std::to_string(-0.1 + 0.01 * std::sin(0.05 * i)) + ",0,0\n";
-  const std::string file = folder.write("hand.csv", text);
-  const Ended ended = reach("simulate chain-moderate --hand " + file + " --until 1.5 --every 0.5");
-  ASSERT_EQ(ended.exitCode, 0) << ended.err;
-  const Table table = parseCsv(ended.out);
-  EXPECT_NEAR(table.at(1, "hand_x_m"), -0.1 + 0.01 * std::sin(0.5), 1e-6);
-  EXPECT_NEAR(table.at(3, "hand_x_m"), -0.1 + 0.01 * std::sin(1.0), 1e-6);
-}
-
 TEST(Simulate, WritesTheSameBytesUnderAGermanLocale) {
   const Ended plain = reach("simulate parallel --hand min-jerk --until 0.5");
   const Ended german = reach("simulate parallel --hand min-jerk --until 0.5", "LC_ALL=de_DE.UTF-8");

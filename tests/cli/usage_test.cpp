@@ -61,7 +61,10 @@ TEST(Usage, WrongWordsEndWithTwoAndASentence) {
   for (const char* words :
        {"", "fly", "run", "run chain-moderate", "run nothing-like-it --device simulated", "simulate chain-moderate --hand fly",
         "predict chain-moderate --criterion min-effort", "list planets", "run chain-moderate --device teleport:x --fast",
-        "run chain-moderate --device simulated --fast --subject a_b", "simulate chain-moderate --hand none --until -1"}) {
+        "run chain-moderate --device simulated --fast --subject a_b", "simulate chain-moderate --hand none --until -1",
+        "run chain-moderate --device simulated --fast --trials 1 --age NaN --data not-made",
+        "predict chain-moderate --criterion min-hand-jerk --duration nan",
+        "predict chain-moderate --criterion min-hand-jerk --hand-mass nan", "simulate chain-moderate --hand min-jerk --until -inf"}) {
     const Ended ended = reach(words);
     EXPECT_EQ(ended.exitCode, 2) << words << "\n" << ended.err;
     EXPECT_FALSE(ended.err.empty()) << words;
@@ -184,16 +187,4 @@ TEST(Usage, ValidateAcceptsEveryShippedFile) {
   const Ended ended = reach("validate " REACHLAB_SOURCE_DIR "/resources/experiments/*.json " REACHLAB_SOURCE_DIR
                             "/resources/plans/*.json " REACHLAB_SOURCE_DIR "/constraints/definitions/*.json");
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
-}
-
-// A number that reads like a default would be recorded, or silently replaced by one.
-TEST(Usage, RefusesNumbersThatAreNotFinite) {
-  for (const char* arguments :
-       {"run chain-moderate --device simulated --fast --trials 1 --age NaN --data not-made",
-        "predict chain-moderate --criterion min-hand-jerk --duration nan",
-        "predict chain-moderate --criterion min-hand-jerk --hand-mass nan", "simulate chain-moderate --hand min-jerk --until -inf"}) {
-    const Ended ended = reach(arguments);
-    EXPECT_EQ(ended.exitCode, 2) << arguments;
-    EXPECT_FALSE(ended.err.empty()) << arguments;
-  }
 }
