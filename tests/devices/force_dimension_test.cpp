@@ -2,7 +2,7 @@
 
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <initializer_list>
 #include <utility>
 
 #include "base/error.h"
@@ -172,21 +172,15 @@ TEST_F(ForceDimension, WhatTheLibraryDoesNotTellIsOfItsModel) {
     fakeDhd().maxForce = told;
     return openForceDimension(0, "device x", false)->info();
   };
-  for (const auto& [type, force, millimetres] : {std::tuple{63, 20, 150},
-                                                 {33, 12, 75},
-                                                 {34, 12, 75},
-                                                 {36, 12, 75},
-                                                 {35, 12, 75},
-                                                 {37, 12, 75},
-                                                 {104, 12, 75},
-                                                 {105, 12, 75},
-                                                 {60, 8, 40},
-                                                 {-1, 8, 40},
-                                                 {38, 8, 40},
-                                                 {106, 8, 40}}) {
-    EXPECT_EQ(infoOf(type, -1).maxForce, force) << type;
-    EXPECT_NEAR(infoOf(type, 0).workspaceRadius, 1e-3 * millimetres, 1e-15) << type;
-  }
+  const auto expectModel = [&](std::initializer_list<int> types, double force, double millimetres) {
+    for (const int type : types) {
+      EXPECT_EQ(infoOf(type, -1).maxForce, force) << type;
+      EXPECT_NEAR(infoOf(type, 0).workspaceRadius, 1e-3 * millimetres, 1e-15) << type;
+    }
+  };
+  expectModel({63}, 20, 150);
+  expectModel({33, 34, 36, 35, 37, 104, 105}, 12, 75);
+  expectModel({60, -1, 38, 106}, 8, 40);
   EXPECT_EQ(infoOf(33, 7.5).maxForce, 7.5);
   EXPECT_EQ(infoOf(33, std::numeric_limits<double>::quiet_NaN()).maxForce, 12);
   const haptics::DeviceInfo info = infoOf(33, -1);

@@ -2,7 +2,6 @@
 
 #include <cstdint>
 #include <limits>
-#include <map>
 
 #include "sim/haptics/lateness.h"
 
@@ -20,26 +19,15 @@ TEST(LatenessHistogram, TakesAnyDuration) {
 
 // Sixteen buckets an octave: of a duration and one far above it, the half is told by the upper edge of its bucket.
 TEST(LatenessHistogram, ADurationIsToldByTheUpperEdgeOfItsBucket) {
-  for (const auto& [duration, edge] : std::map<std::int64_t, double>{{0, 0},
-                                                                     {1, 1},
-                                                                     {15, 15},
-                                                                     {16, 16},
-                                                                     {31, 31},
-                                                                     {32, 33},
-                                                                     {33, 33},
-                                                                     {34, 35},
-                                                                     {63, 63},
-                                                                     {64, 67},
-                                                                     {67, 67},
-                                                                     {68, 71},
-                                                                     {1000, 1023},
-                                                                     {1024, 1087},
-                                                                     {1'000'000, 1'015'807}}) {
+  constexpr std::int64_t kDurations[] = {0, 1, 15, 16, 31, 32, 33, 34, 63, 64, 67, 68, 1000, 1024, 1'000'000};
+  constexpr double kEdges[] = {0, 1, 15, 16, 31, 33, 33, 35, 63, 67, 67, 71, 1023, 1087, 1'015'807};
+  for (std::size_t i = 0; i < std::size(kEdges); ++i) {
+    const std::int64_t duration = kDurations[i];
     LatenessHistogram histogram;
     histogram.add(duration);
     EXPECT_EQ(histogram.percentile(0.5), static_cast<double>(duration)) << "never above the longest";
     histogram.add(10'000'000'000);
-    EXPECT_EQ(histogram.percentile(0.5), edge) << duration;
+    EXPECT_EQ(histogram.percentile(0.5), kEdges[i]) << duration;
     EXPECT_EQ(histogram.percentile(0), 0) << "nothing is below the shortest";
     EXPECT_EQ(histogram.percentile(0.51), 1e10);
     EXPECT_EQ(histogram.max(), 1e10);

@@ -71,31 +71,12 @@ TEST(HostileLog, LabelsAreLabelsBecauseTheyBecomeNamesOfFiles) {
 
 TEST(HostileLog, EveryNumberIsWithinItsBounds) {
   const TemporaryFolder folder;
-  const std::vector<std::pair<const char*, json>> cases{{"run", 0},
-                                                        {"run", -3},
-                                                        {"run", 100000},
-                                                        {"run", 1e300},
-                                                        {"run", 2.5},
-                                                        {"run", "1"},
-                                                        {"run", nullptr},
-                                                        {"first_run", -1},
-                                                        {"first_trial", 0},
-                                                        {"first_trial", 5e9},
-                                                        {"block", -1},
-                                                        {"day", -1},
-                                                        {"pause_s", -1},
-                                                        {"seed", -1},
-                                                        {"seed", 1e30},
-                                                        {"sampling_hz", 0},
-                                                        {"sampling_hz", -1},
-                                                        {"device_max_force_n", -1},
-                                                        {"sample_every_ticks", 0},
-                                                        {"sample_every_ticks", 4294967297},
-                                                        {"practice", 1},
-                                                        {"notes", 3},
-                                                        {"trials", 7},
-                                                        {"participant", "F"}};
-  for (const auto& [key, value] : cases) expectRefusal(logWith(folder, [&, k = key, v = value](json& j) { j[k] = v; }), key);
+  const json cases = json::parse(R"([["run", 0], ["run", -3], ["run", 100000], ["run", 1e300], ["run", 2.5], ["run", "1"], ["run", null],
+    ["first_run", -1], ["first_trial", 0], ["first_trial", 5e9], ["block", -1], ["day", -1], ["pause_s", -1],
+    ["seed", -1], ["seed", 1e30], ["sampling_hz", 0], ["sampling_hz", -1], ["device_max_force_n", -1],
+    ["sample_every_ticks", 0], ["sample_every_ticks", 4294967297], ["practice", 1], ["notes", 3], ["trials", 7],
+    ["participant", "F"]])");
+  for (const json& c : cases) expectRefusal(logWith(folder, [&](json& j) { j[c[0].get<std::string>()] = c[1]; }), c[0]);
   expectRefusal(logWith(folder, [](json& j) { j["trials"] = {{{"index", -1}, {"foreperiod_ms", 0}, {"catch", false}}}; }), "index");
   expectRefusal(logWith(folder, [](json& j) { j["table"] = 3; }), "table: is no object");
   expectRefusal(logWith(folder, [](json& j) { j.erase("clock"); }), "clock: is missing");

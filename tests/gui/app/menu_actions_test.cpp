@@ -117,57 +117,20 @@ class MenuActions : public AtTheWindow {
 
   // What each test below triggers.
   static QStringList tested() {
-    return {"Experiment/New/*",
-            "Experiment/Open…",
-            "Experiment/Inspect a dataset…",
-            "Experiment/Analyse a dataset…",
-            "Experiment/Open recent/*",
-            "Experiment/Shipped/*",
-            "Experiment/Session plan…",
-            "Experiment/Save",
-            "Experiment/Save as…",
-            "Experiment/Quit",
-            "Edit/Undo*",
-            "Edit/Redo*",
-            "Edit/Choose or type a constraint…",
-            "Trial/Start",
-            "Trial/Abort",
-            "Trial/Repeat",
-            "Trial/Resume the session",
-            "Trial/End run",
-            "Trial/Next subject",
-            "View/Whole scene",
-            "View/Along x",
-            "View/Along y",
-            "View/Along z",
-            "View/Masses side by side",
-            "View/Surfaces as wire frame",
-            "View/Forces on the hand",
-            "View/View from/*",
-            "View/Parallel projection",
-            "View/Stereo, for red and cyan glasses",
-            "View/Look of the scene/Trace of the hand",
-            "View/Look of the scene/Arrow of the force",
-            "View/Look of the scene/No depth cue",
-            "View/Look of the scene/Grid below",
-            "View/Look of the scene/Grid and shadows",
-            "View/Look of the scene/surfaceOpacity",
-            "View/Look of the scene/Colours/*",
-            "View/Look of the scene/Scene from a file…",
-            "View/Look of the scene/Remove the scene from a file",
-            "View/Light theme",
-            "View/Record pictures for a film…",
-            "View/Subject's screen",
-            "View/Save picture…",
-            "View/Subject's screen on/*",
-            "View/Subject's screen shows/*",
-            "View/Subject's language/*",
-            "View/Sounds/volume",
-            "View/Without sound",
-            "View/Docks/*",
-            "Help/Manual",
-            "Help/Keys and mouse",
-            "Help/About"};
+    return QString::fromUtf8(
+               "Experiment/New/*; Experiment/Open…; Experiment/Inspect a dataset…; Experiment/Analyse a dataset…; "
+               "Experiment/Open recent/*; Experiment/Shipped/*; Experiment/Session plan…; Experiment/Save; Experiment/Save as…; "
+               "Experiment/Quit; Edit/Undo*; Edit/Redo*; Edit/Choose or type a constraint…; Trial/Start; Trial/Abort; Trial/Repeat; "
+               "Trial/Resume the session; Trial/End run; Trial/Next subject; View/Whole scene; View/Along x; View/Along y; "
+               "View/Along z; View/Masses side by side; View/Surfaces as wire frame; View/Forces on the hand; View/View from/*; "
+               "View/Parallel projection; View/Stereo, for red and cyan glasses; View/Look of the scene/Trace of the hand; "
+               "View/Look of the scene/Arrow of the force; View/Look of the scene/No depth cue; View/Look of the scene/Grid below; "
+               "View/Look of the scene/Grid and shadows; View/Look of the scene/surfaceOpacity; View/Look of the scene/Colours/*; "
+               "View/Look of the scene/Scene from a file…; View/Look of the scene/Remove the scene from a file; View/Light theme; "
+               "View/Record pictures for a film…; View/Subject's screen; View/Save picture…; View/Subject's screen on/*; "
+               "View/Subject's screen shows/*; View/Subject's language/*; View/Sounds/volume; View/Without sound; View/Docks/*; "
+               "Help/Manual; Help/Keys and mouse; Help/About")
+        .split(QLatin1String("; "));
   }
 };
 

@@ -235,11 +235,6 @@ TEST_F(Gltf, IsReadByAProcessOfItsOwn) {
 
 // Sixteen files, each damaged in one place; among them all that VTK's own importer fell over.
 TEST_F(Gltf, RefusesDamagedFilesInWords) {
-  const auto with = [](const char* pointer, const Json& value) {
-    Json json = good();
-    json[Json::json_pointer(pointer)] = value;
-    return json.dump();
-  };
   Json badIndex = good();
   {
     std::string bytes(42, '\0');
@@ -249,28 +244,19 @@ TEST_F(Gltf, RefusesDamagedFilesInWords) {
   }
   Json circle = good();
   circle["nodes"][0]["children"] = {0};
-  const std::string files[] = {"",
-                               "{",
-                               "[]",
-                               "{\"asset\": {\"version\": \"2.0\"}}",
-                               with("/accessors/0/count", 3'000'000'000u),
-                               with("/accessors/0/count", 4),
-                               with("/accessors/0/byteOffset", 4'000'000'000u),
-                               with("/accessors/0/componentType", 9),
-                               with("/accessors/1/componentType", 5126),
-                               with("/accessors/0/type", "SCALAR"),
-                               with("/accessors/0/bufferView", 7),
-                               with("/bufferViews/0/byteOffset", 1'000'000),
-                               with("/bufferViews/0/buffer", 3),
-                               with("/meshes/0/primitives/0/attributes/POSITION", 99),
-                               with("/meshes/0/primitives/0/indices", 12),
-                               with("/meshes/0/primitives/0/material", 5),
-                               with("/nodes/0/mesh", 8),
-                               with("/nodes/0/matrix", {1, 2, 3}),
-                               with("/scenes/0/nodes", {4}),
-                               with("/buffers/0/uri", "missing.bin"),
-                               badIndex.dump(),
-                               circle.dump()};
+  std::vector<std::string> files{"", "{", "[]", R"({"asset": {"version": "2.0"}})", badIndex.dump(), circle.dump()};
+  const Json damaged =
+      Json::parse(R"([["/accessors/0/count", 3000000000], ["/accessors/0/count", 4], ["/accessors/0/byteOffset", 4000000000],
+    ["/accessors/0/componentType", 9], ["/accessors/1/componentType", 5126], ["/accessors/0/type", "SCALAR"],
+    ["/accessors/0/bufferView", 7], ["/bufferViews/0/byteOffset", 1000000], ["/bufferViews/0/buffer", 3],
+    ["/meshes/0/primitives/0/attributes/POSITION", 99], ["/meshes/0/primitives/0/indices", 12],
+    ["/meshes/0/primitives/0/material", 5], ["/nodes/0/mesh", 8], ["/nodes/0/matrix", [1, 2, 3]], ["/scenes/0/nodes", [4]],
+    ["/buffers/0/uri", "missing.bin"]])");
+  for (const Json& one : damaged) {
+    Json json = good();
+    json[Json::json_pointer(one[0].get<std::string>())] = one[1];
+    files.push_back(json.dump());
+  }
   for (const std::string& text : files) {
     const std::string words = said(text);
     EXPECT_FALSE(words.empty()) << text.substr(0, 300);
