@@ -35,7 +35,6 @@ TEST(StudyMemory, IsWhatIsSaidOfATrialAndNotItsSignals) {
   const double bytesATrial = (many - few) / 800;
   EXPECT_GT(bytesATrial, sizeof(AnalyzedTrial) / 2.0) << "something is kept, or nothing was measured";
   EXPECT_LT(bytesATrial, 2000);
-  RecordProperty("bytes_a_trial", static_cast<int>(bytesATrial));
 }
 
 }  // namespace

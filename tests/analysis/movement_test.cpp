@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstdio>
 
 #include "analysis/measures/measures.h"
 #include "tests/analysis/synthetic.h"
@@ -79,8 +78,6 @@ TEST(Onset, OfSimulatedTrialsIsWhereItWasPutWithSmallBiasAndSpread) {
     errors.push_back(signals.movement.onset - truth);
   }
   const MeanSd e = computeMeanSd(errors);
-  std::printf("onset at 5 %% of peak, 200 simulated trials, 20 um noise, 10 Hz filter: bias %.2f ms, spread (SD) %.2f ms\n", 1e3 * e.mean,
-              1e3 * e.sd);
   EXPECT_LT(std::abs(e.mean), 0.005);  // half a sample
   EXPECT_LT(e.sd, 0.005);
 }

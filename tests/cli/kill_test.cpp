@@ -2,7 +2,6 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
-#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -10,11 +9,9 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <random>
-#include <sstream>
 #include <thread>
 
 #include "sim/record/log/whole_file.h"
@@ -27,7 +24,7 @@
 namespace reachlab::cli {
 namespace {
 
-using Clock = std::chrono::system_clock;  // what a file's time of writing is told in
+using Clock = std::chrono::steady_clock;
 
 int killCount() {
   const char* asked = std::getenv("REACHLAB_KILLS");
@@ -37,7 +34,6 @@ int killCount() {
 struct Ending {
   int status = 0;
   std::string out;
-  Clock::time_point killed;
 };
 
 // Runs `reach`, and kills it `seconds` after it has printed so many lines; a negative time lets it end by itself.
@@ -72,7 +68,6 @@ Ending runAndKill(std::vector<std::string> arguments, double seconds, int afterL
   if (seconds >= 0) {
     while (lines < afterLines && !ended) std::this_thread::sleep_for(std::chrono::microseconds(200));
     std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-    ending.killed = Clock::now();
     ::kill(child, SIGKILL);
   }
   ::waitpid(child, &ending.status, 0);
@@ -110,8 +105,6 @@ TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
   ASSERT_EQ(good.trials().size(), 30u);
 
   std::mt19937_64 random(6);
-  std::vector<double> silences;  // [ms] from the last write to the kill
-  int midTrial = 0;
   for (int k = 0; k < killCount(); ++k) {
     const std::string data = folder / ("kill" + std::to_string(k));
     const int after = static_cast<int>(random() % 30);
@@ -135,17 +128,10 @@ TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
         EXPECT_TRUE(sameResult(trial.result, good.trials()[finished].result)) << "kill " << k << ", trial " << trial.trial;
         ++finished;
       } else {
-        ++midTrial;
         EXPECT_EQ(trial.result.outcome, trial::Outcome::Interrupted);
       }
     }
     EXPECT_GE(finished, lines.size()) << "kill " << k;
-    if (finished > 0 && finished < 30) {
-      struct stat status {};
-      ::stat(runs[0].path.c_str(), &status);
-      const auto written = std::chrono::seconds(status.st_mtim.tv_sec) + std::chrono::nanoseconds(status.st_mtim.tv_nsec);
-      silences.push_back(std::chrono::duration<double, std::milli>(killed.killed.time_since_epoch() - written).count());
-    }
     EXPECT_TRUE(record::replayRun(log).identical()) << "kill " << k << ": " << record::replayRun(log).firstDifference;
 
     // What is left of the order is done by --resume, with the results that the unbroken run has.
@@ -170,10 +156,6 @@ TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
     std::filesystem::remove_all(data);
     if (HasFailure()) return;
   }
-  std::sort(silences.begin(), silences.end());
-  if (!silences.empty())
-    std::printf("%zu kills within a run, %d within a trial; last write before the kill: median %.1f ms, longest %.1f ms\n", silences.size(),
-                midTrial, silences[silences.size() / 2], silences.back());
 }
 
 TEST(Kill, OfAnExportLeavesTheLogAsItWasAndNoHalfFile) {

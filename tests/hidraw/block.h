@@ -1,7 +1,6 @@
 #pragma once
 #include <gtest/gtest.h>
 
-#include <cstdio>
 #include <string>
 
 #include "tests/cli/program.h"
@@ -12,7 +11,6 @@ namespace reachlab::devices {
 struct Block {
   int trials = 0, successes = 0, lostToTime = 0;
 };
-/// Prints it as well, with what the loop says of its time.
 inline Block judge(const test::Ended& run) {
   Block block;
   for (const auto& line : test::trialLines(run.out)) {
@@ -20,10 +18,6 @@ inline Block judge(const test::Ended& run) {
     if (line.at("outcome") == "success") ++block.successes;
     if (line.contains("reason") && line.at("reason") == "timing") ++block.lostToTime;
   }
-  if (run.exitCode != 0) std::printf("%s%s", run.out.c_str(), run.err.c_str());
-  const std::size_t at = run.err.find("loop: ");
-  std::printf("%d trials, %d successes, %d lost to time; %s\n", block.trials, block.successes, block.lostToTime,
-              at == std::string::npos ? run.err.c_str() : run.err.substr(at, run.err.find('\n', at) - at).c_str());
   return block;
 }
 

@@ -114,7 +114,6 @@ TEST_F(ArmOverHidraw, ABlockOfReachesWhoseEncoderWrapsInEachOfThem) {
   const Block block = judge(run);
   EXPECT_EQ(block.trials, 3) << run.out << run.err;
   EXPECT_EQ(block.successes + block.lostToTime, 3) << run.out << run.err;
-  RecordProperty("trials_lost_to_time", block.lostToTime);
   EXPECT_GE(firmware.wraps, 3);
   EXPECT_GT(firmware.answers, 1000);
   EXPECT_GT(firmware.most, 0) << "the object was felt";
@@ -250,7 +249,6 @@ TEST(SpaceMouseOverHidraw, ABlockOfReachesAtItsOwnRateWithTheLoopAtOneKilohertz)
   ASSERT_EQ(run.exitCode, 0) << run.out << run.err;
   const Block block = judge(run);
   EXPECT_EQ(block.trials, 3) << run.out << run.err;
-  RecordProperty("trials_lost_to_time", block.lostToTime);
   EXPECT_GT(firmware.reports, 100);
   EXPECT_NE(run.err.find("ticks/s"), std::string::npos) << run.err;
 }

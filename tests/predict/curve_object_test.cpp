@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <iostream>
 
 #include "base/error.h"
 #include "constraints/geometry/arc_curve.h"
@@ -178,7 +177,6 @@ TEST(CurveObject, ErrorFallsWithTheUnknownsTo1e8) {
   double before = INFINITY;
   for (const int unknowns : {24, 36, 54, 81}) {
     const double onBent = compare(*with(bent, unknowns), *settled), onStraight = compare(*with(straight, unknowns), *linear);
-    std::cout << "measured: " << unknowns << " unknowns, error of the peak: ellipse " << onBent << ", straight line " << onStraight << '\n';
     EXPECT_LT(std::max(onBent, onStraight), before / 3);
     before = std::max(onBent, onStraight);
   }

@@ -4,7 +4,6 @@
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <cmath>
-#include <cstdio>
 
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
@@ -334,8 +333,7 @@ TEST_P(AgainstReference, ProfilesAndCostAgree) {
       error = std::max(error, std::abs(position - (o == 0 ? hand.position : x[o - 1])) / prediction->duration);
     }
   }
-  std::printf("[ measured ] %-28s error of the peak %.1e, condition %.1e\n", c.name.c_str(), error / peak, prediction->condition);
-  EXPECT_LT(error, kOfThePeak * peak);
+  EXPECT_LT(error, kOfThePeak * peak) << c.name << ", condition " << prediction->condition;
   EXPECT_NEAR(prediction->cost / reference.cost, 1, kOfThePeak);
 }
 
