@@ -9,7 +9,6 @@
 #include <regex>
 #include <set>
 #include <thread>
-#include <sstream>
 
 #include "analysis/report/wording.h"
 #include "analysis/report/write_analysis.h"

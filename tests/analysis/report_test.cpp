@@ -1,6 +1,5 @@
 #include "analysis/report/report.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

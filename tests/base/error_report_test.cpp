@@ -1,6 +1,5 @@
 #include "base/system/error_report.h"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/time.h>
 #include <unistd.h>
@@ -11,7 +10,6 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <thread>
-#include <tuple>
 
 #include "base/fault.h"
 #include "base/system/helper_program.h"

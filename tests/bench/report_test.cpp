@@ -1,7 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <set>
-
 #include "bench/sampled_hand.h"
 #include "bench/suite.h"
 

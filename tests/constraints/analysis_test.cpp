@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
-#include <random>
 #include <tuple>
 
 #include "base/error.h"

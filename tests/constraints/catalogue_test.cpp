@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 #include "base/fault.h"
 #include "constraints/catalogue/generated_catalogue.h"

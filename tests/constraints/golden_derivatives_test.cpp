@@ -1,7 +1,6 @@
 // Derivatives of every definition against values that SymPy and mpmath computed (golden_derivatives.py, committed beside this file).
 #include <gtest/gtest.h>
 
-#include <bit>
 #include <charconv>
 #include <cmath>
 #include <cstring>

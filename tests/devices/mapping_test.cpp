@@ -4,11 +4,8 @@
 
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <numbers>
 #include <random>
-
-#include <unistd.h>
 
 #include "base/error.h"
 #include "base/fault.h"

@@ -4,8 +4,6 @@
 
 #include <cmath>
 #include <deque>
-#include <limits>
-#include <random>
 
 #include "base/error.h"
 #include "tests/devices/arm_poses.h"

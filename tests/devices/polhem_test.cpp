@@ -1,6 +1,5 @@
 #include "devices/serial/polhem_device.h"
 
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <pty.h>
@@ -11,7 +10,6 @@
 #include <cerrno>
 #include <cmath>
 #include <cstdio>
-#include <limits>
 #include <mutex>
 #include <random>
 #include <thread>

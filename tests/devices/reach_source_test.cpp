@@ -1,7 +1,6 @@
 #include "devices/replay/reach_source.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <filesystem>
 #include <fstream>

@@ -4,10 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <unistd.h>
 
 #include <filesystem>
-#include <fstream>
 
 #include "base/error.h"
 #include "base/fault.h"

@@ -4,11 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
-#include <filesystem>
 #include <limits>
-#include <random>
-#include <regex>
 
 #include "analysis/figure/ticks.h"
 #include "base/error.h"

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <functional>
 #include <memory>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #include "sim/haptics/tick_order.h"

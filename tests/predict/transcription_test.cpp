@@ -6,7 +6,6 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "base/error.h"
 #include "base/math/gauss_legendre.h"

@@ -3,7 +3,6 @@
 #include <sys/resource.h>
 
 #include <charconv>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>

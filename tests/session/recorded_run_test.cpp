@@ -3,7 +3,6 @@
 
 #include <chrono>
 #include <filesystem>
-#include <utility>
 
 #include "base/fault.h"
 #include "tests/session/recorded_runs.h"

@@ -7,7 +7,6 @@
 #include <array>
 #include <atomic>
 #include <csignal>
-#include <limits>
 #include <memory>
 #include <thread>
 

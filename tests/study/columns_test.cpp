@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numeric>
 
 #include "analysis/study/run_study.h"
 #include "analysis/study/trial_row.h"

@@ -2,7 +2,6 @@
 #include <QComboBox>
 #include <QLabel>
 #include <QMouseEvent>
-#include <QUndoStack>
 
 #include "constraints/constraint.h"
 #include "constraints/geometry/task_path.h"

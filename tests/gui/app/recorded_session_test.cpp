@@ -6,15 +6,12 @@
 #include <QProcess>
 #include <QPushButton>
 #include <QTableWidget>
-#include <QTemporaryDir>
 #include <QTest>
-#include <QUndoStack>
 #include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <regex>
 #include <set>
-#include <sstream>
 
 #include "analysis/dataset.h"
 #include "analysis/tables.h"

@@ -1,6 +1,4 @@
-#include <QAction>
 #include <QFile>
-#include <QLabel>
 #include <QTableWidget>
 
 #include "gui/docks/session_dock.h"

@@ -6,7 +6,6 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QTest>
-#include <numeric>
 
 namespace reachlab::gui::docks {
 namespace {

@@ -4,7 +4,6 @@
 #include <QComboBox>
 #include <QPushButton>
 #include <QSpinBox>
-#include <QTableView>
 #include <QTableWidget>
 #include <cmath>
 #include <map>

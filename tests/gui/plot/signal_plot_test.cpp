@@ -6,7 +6,6 @@
 #include <QComboBox>
 #include <QFile>
 #include <QTemporaryDir>
-#include <QTest>
 #include <cmath>
 
 namespace reachlab::gui::plot {

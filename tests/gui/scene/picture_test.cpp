@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <QTest>
-#include <array>
 #include <map>
 
 #include "gui/scene/scene_actors.h"
