@@ -37,6 +37,21 @@ class AtTheWindow : public ::testing::Test {
     return found;
   }
 
+  /// Replaces what a field holds, and takes it over where Enter is asked for.
+  template <typename Field>
+  static void type(Field* field, const char* text, bool enter = true) {
+    field->setFocus();
+    field->selectAll();
+    QTest::keyClicks(field, QLatin1String(text));
+    if (enter) QTest::keyClick(field, Qt::Key_Return);
+  }
+  bool waitForPhase(trial::Phase phase) const {
+    return QTest::qWaitFor([&] { return window_->session().run() != nullptr && window_->session().run()->latest().phase == phase; }, 20000);
+  }
+  bool waitForTrialsEnd() const {
+    return QTest::qWaitFor([&] { return window_->session().lastTrial().has_value(); }, 20000);
+  }
+
   QTemporaryDir folder_;
   session::SessionRequest request_;
   std::unique_ptr<app::MainWindow> window_;

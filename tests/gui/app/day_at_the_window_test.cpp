@@ -15,11 +15,8 @@
 #include <QScrollArea>
 #include <QSpinBox>
 #include <QTableWidget>
-#include <QTemporaryDir>
 #include <QTest>
 #include <QToolButton>
-#include <QWindow>
-#include <fstream>
 
 #include "gui/app/main_window.h"
 #include "gui/session/remembered_session.h"
@@ -98,7 +95,7 @@ TEST_F(Day, AStrayKeyNeitherStartsNorRepeatsATrial) {
   EXPECT_EQ(window.session().run(), nullptr);
   clickIntoScene();
   key(Qt::Key_Space);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial().has_value(); }, 20000));
+  ASSERT_TRUE(waitForTrialsEnd());
   ASSERT_TRUE(QTest::qWaitFor([&] { return !window.session().underWay(); }, 5000));
   const std::string log = window.session().run()->logPath();
   key(Qt::Key_R);
@@ -125,6 +122,7 @@ TEST_F(Day, TheSubjectsScreenHasTheKeysAndShowsNoNumberNameOrKey) {
   ASSERT_NE(screen, nullptr);
   ASSERT_TRUE(QTest::qWaitForWindowExposed(screen));
   QApplication::setActiveWindow(screen);
+  EXPECT_TRUE(screen->isFullScreen());
   EXPECT_EQ(screen->cursor().shape(), Qt::BlankCursor);
   const auto* overlay = screen->findChild<scene::SceneOverlay*>();
   const QRegularExpression forOthers(QStringLiteral("\\d|Space|mm|chain|\\bF\\b"));
@@ -135,11 +133,11 @@ TEST_F(Day, TheSubjectsScreenHasTheKeysAndShowsNoNumberNameOrKey) {
   look();
   QTest::keyClick(screen->windowHandle(), Qt::Key_Space);
   ASSERT_NE(window.session().run(), nullptr) << "the experimenter's keys work here";
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().run()->latest().phase == trial::Phase::Armed; }, 20000));
+  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
   QTest::qWait(50);
   look();
   QTest::keyClick(screen->windowHandle(), Qt::Key_Escape);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial().has_value(); }, 5000));
+  ASSERT_TRUE(waitForTrialsEnd());
   EXPECT_EQ(window.session().lastTrial()->result.outcome, trial::Outcome::Aborted);
   EXPECT_TRUE(screen->isVisible()) << "Esc aborts the trial and leaves the screen";
   QTest::qWait(50);
@@ -152,24 +150,18 @@ TEST_F(Day, TheSubjectsScreenHasTheKeysAndShowsNoNumberNameOrKey) {
 TEST_F(Day, AChangeInMidRunIsAskedAboutAndDroppedIfTheRunIsToGoOn) {
   MainWindow& window = open();
   window.nextTrial();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().run()->latest().phase == trial::Phase::Armed; }, 20000));
+  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
   auto* masses = find<QLineEdit>("masses");
-  const auto type = [&] {
-    masses->setFocus();
-    masses->selectAll();
-    QTest::keyClicks(masses, QStringLiteral("1 1"));
-    QTest::keyClick(masses, Qt::Key_Return);
-  };
   {
     const AnswerBox box(QStringLiteral("Continue it"));
-    type();
+    type(masses, "1 1");
     EXPECT_TRUE(box.text().startsWith(QStringLiteral("0 of 3 trials are done."))) << box.text().toStdString();
   }
   EXPECT_NE(window.session().run(), nullptr);
   EXPECT_EQ(masses->text(), QStringLiteral("5 x 0.6")) << "what holds is shown again";
   {
     const AnswerBox box(QStringLiteral("End the run"));
-    type();
+    type(masses, "1 1");
     EXPECT_TRUE(box.asked());
   }
   EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{1, 1}));
@@ -191,7 +183,7 @@ TEST_F(Day, ClosingAsksWhileARunIsOpenOrAChangeUnsaved) {
   window.edits().undo();
   EXPECT_FALSE(window.isWindowModified());
   window.nextTrial();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().run()->latest().phase == trial::Phase::Armed; }, 20000));
+  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
   {
     const AnswerBox box(QStringLiteral("Continue it"));
     EXPECT_FALSE(window.close());
@@ -292,7 +284,7 @@ TEST_F(Day, TheEndOfARunShowsItsCountsAndLeadsToTheNextSubject) {
 TEST_F(Day, ARunThatIsEndedEarlyAsksAndSaysWhereItIsSaved) {
   MainWindow& window = open();
   window.nextTrial();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().run()->latest().phase == trial::Phase::Armed; }, 20000));
+  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
   {
     const AnswerBox box(QStringLiteral("Continue it"));
     window.endRun();
@@ -417,7 +409,7 @@ TEST_F(Day, EpsilonOfTheRunIsTheAnalysissAndFailedTrialsStayOut) {
 TEST_F(Day, WhatRestsIsNotDrawnAgain) {
   MainWindow& window = open();
   window.nextTrial();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().run()->latest().phase == trial::Phase::Armed; }, 20000));
+  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
   // However long the settling takes: once it rests, no picture is drawn in forty frames.
   std::int64_t before = -1;
   ASSERT_TRUE(

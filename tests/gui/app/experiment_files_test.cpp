@@ -86,16 +86,6 @@ TEST_F(Files, ASavedChangeIsInTheFileAndTheStarGoes) {
   EXPECT_FALSE(window.isWindowModified());
 }
 
-TEST_F(Files, ANewExperimentIsNotSavedYet) {
-  MainWindow& window = open();
-  window.beginNew(templates().back());
-  EXPECT_EQ(window.session().experiment().name, "untitled");
-  EXPECT_EQ(window.session().experiment().object.kind, experiment::ObjectKind::Body);
-  EXPECT_TRUE(window.isWindowModified());
-  window.edits().undo();
-  EXPECT_EQ(window.session().experiment().name, "ellipse");
-}
-
 TEST_F(Files, ADroppedFileIsOpenedAndRemembered) {
   request_.what = "chain-moderate";
   MainWindow& window = open();

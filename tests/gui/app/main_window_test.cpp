@@ -4,7 +4,6 @@
 
 #include <QApplication>
 #include <QComboBox>
-#include <QWindow>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
 #include <QLabel>
@@ -12,10 +11,8 @@
 #include <QPushButton>
 #include <QSet>
 #include <QTableWidget>
-#include <QTemporaryDir>
 #include <QTest>
 #include <QTreeWidget>
-#include <QUndoStack>
 #include <cmath>
 #include <fstream>
 #include <regex>
@@ -60,9 +57,6 @@ class Window : public AtTheWindow {
   void press(Qt::MouseButton button, const QPoint& at) const { QTest::mousePress(window_->windowHandle(), button, {}, inWindow(at)); }
   void moveTo(const QPoint& at) const { QTest::mouseMove(window_->windowHandle(), inWindow(at)); }
   void release(Qt::MouseButton button, const QPoint& at) const { QTest::mouseRelease(window_->windowHandle(), button, {}, inWindow(at)); }
-  bool waitForPhase(trial::Phase phase) const {
-    return QTest::qWaitFor([&] { return window_->session().run() != nullptr && window_->session().run()->latest().phase == phase; }, 20000);
-  }
 };
 
 TEST_F(Window, StartsWithItsDocksAndAPicture) {
@@ -104,7 +98,7 @@ TEST_F(Window, AReachByThePointerTurnsTheSemaphoreGreenSucceedsAndIsRecorded) {
   }
   ASSERT_TRUE(waitForPhase(trial::Phase::Done));
   release(Qt::LeftButton, to);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial().has_value(); }, 5000));
+  ASSERT_TRUE(waitForTrialsEnd());
   const trial::TrialResult result = window.session().lastTrial()->result;
   EXPECT_EQ(result.outcome, trial::Outcome::Success) << trial::nameOf(result.reason) << " by " << result.by;
   EXPECT_TRUE(seen.contains(trial::Semaphore::Neutral));
@@ -228,30 +222,13 @@ TEST_F(Window, RightDragTurnsTheCameraAndLeavesTheHand) {
   EXPECT_EQ(ownHand(window.view().frame()), hand);
 }
 
-TEST_F(Window, AbortAndRepeatPutTheSameTrialUpAgain) {
-  MainWindow& window = open();
-  window.nextTrial();
-  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
-  QTest::keyClick(&window, Qt::Key_Escape);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial().has_value(); }, 5000));
-  EXPECT_EQ(window.session().lastTrial()->result.outcome, trial::Outcome::Aborted);
-  QTest::keyClick(&window, Qt::Key_R, Qt::ControlModifier);
-  EXPECT_EQ(window.session().run()->trialCount(), 4u);
-}
-
 TEST_F(Window, AnEditIsCheckedAppliedAndUndone) {
   MainWindow& window = open();
   auto* masses = find<QLineEdit>("masses");
-  const auto type = [&](const char* text) {
-    masses->setFocus();
-    masses->selectAll();
-    QTest::keyClicks(masses, QLatin1String(text));
-    QTest::keyClick(masses, Qt::Key_Return);
-  };
-  type("0.4 -1");
+  type(masses, "0.4 -1");
   EXPECT_TRUE(find<QLabel>("objectFaults")->isVisible());
   EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
-  type("0.4 0.1 0.1");
+  type(masses, "0.4 0.1 0.1");
   EXPECT_FALSE(find<QLabel>("objectFaults")->isVisible());
   EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.4, 0.1, 0.1}));
   EXPECT_EQ(window.view().plan().massRadius.size(), 3u);
@@ -264,11 +241,6 @@ TEST_F(Window, AWrongEntryIsNamedWhileItIsTypedAndClearsWhenItIsRight) {
   MainWindow& window = open();
   auto* masses = find<QLineEdit>("masses");
   auto* faults = find<QLabel>("objectFaults");
-  const auto typed = [&](QLineEdit* field, const char* text) {
-    field->setFocus();
-    field->selectAll();
-    QTest::keyClicks(field, QLatin1String(text));
-  };
   const struct {
     const char *text, *says;
   } entries[] = {{"0.6 x", "masses: \"x\" is no number"},
@@ -277,7 +249,7 @@ TEST_F(Window, AWrongEntryIsNamedWhileItIsTypedAndClearsWhenItIsRight) {
                  {"0.6 -0.6", "mass 2: -0.6 kg; allowed: more than 0"},
                  {"0 x 0.6", "masses: none; allowed: 1 to 512"}};
   for (const auto& entry : entries) {
-    typed(masses, entry.text);
+    type(masses, entry.text, false);
     EXPECT_TRUE(faults->isVisible()) << entry.text;
     EXPECT_TRUE(faults->text().startsWith(QLatin1String(entry.says))) << faults->text().toStdString();
     EXPECT_NE(masses->styleSheet(), QString());
@@ -285,31 +257,27 @@ TEST_F(Window, AWrongEntryIsNamedWhileItIsTypedAndClearsWhenItIsRight) {
     EXPECT_TRUE(faults->text().startsWith(QLatin1String(entry.says))) << faults->text().toStdString();
     EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
   }
-  typed(masses, "0.2 0.2");
+  type(masses, "0.2 0.2", false);
   EXPECT_FALSE(faults->isVisible());
   EXPECT_EQ(masses->styleSheet(), QString());
-  typed(find<QLineEdit>("stiffness"), "900 900");
+  type(find<QLineEdit>("stiffness"), "900 900", false);
   EXPECT_TRUE(faults->text().startsWith(QStringLiteral("springs: 2 numbers; allowed: 1"))) << faults->text().toStdString();
   auto* via = find<QLineEdit>("taskVia");
-  typed(via, "0.1 0");
+  type(via, "0.1 0", false);
   EXPECT_EQ(find<QLabel>("taskFaults")->text().toStdString(), "via: 2 numbers; allowed: 0 to 60, in groups of 3");
-  typed(via, "0.1 0 0");
-  QTest::keyClick(via, Qt::Key_Return);
+  type(via, "0.1 0 0");
   EXPECT_EQ(window.session().experiment().task->via, (std::vector<Vec3>{{0.1, 0, 0}}));
-  typed(via, "");
-  QTest::keyClick(via, Qt::Key_Return);
+  type(via, "");
   auto* start = find<QLineEdit>("taskStart");
-  typed(start, "0 1");
+  type(start, "0 1", false);
   EXPECT_EQ(find<QLabel>("taskFaults")->text().toStdString(), "start: 2 numbers; allowed: 1 (phi)");
   auto* duration = find<QDoubleSpinBox>("taskDuration");
-  duration->setFocus();
-  duration->selectAll();
-  QTest::keyClicks(duration, QStringLiteral("-3"));
+  type(duration, "-3", false);
   EXPECT_TRUE(find<QLabel>("taskFaults")->text().contains(QStringLiteral("time T: -3 s; allowed: 0.05 to 60 s")));
   QTest::keyClick(duration, Qt::Key_Return);
   EXPECT_TRUE(find<QLabel>("taskFaults")->text().contains(QStringLiteral("; 10.2 s is kept")));
   EXPECT_EQ(duration->value(), 10.2);
-  typed(start, "0");
+  type(start, "0", false);
   EXPECT_FALSE(find<QLabel>("taskFaults")->text().contains(QStringLiteral("start")));
 }
 
@@ -344,27 +312,20 @@ TEST_F(Window, ADecimalCommaInABoxIsToldAndNeverDropped) {
   auto* stiffness = find<QDoubleSpinBox>("couplingStiffness");
   auto* faults = find<QLabel>("couplingFaults");
   for (const char* wrong : {"0,6", "1,000", "6 kg"}) {
-    stiffness->setFocus();
-    stiffness->selectAll();
-    QTest::keyClicks(stiffness, QLatin1String(wrong));
+    type(stiffness, wrong, false);
     EXPECT_TRUE(faults->isVisible()) << wrong;
     EXPECT_TRUE(faults->text().contains(QLatin1Char('"') + QLatin1String(wrong) + QLatin1Char('"'))) << faults->text().toStdString();
     QTest::keyClick(stiffness, Qt::Key_Return);
     EXPECT_EQ(stiffness->value(), 900) << wrong;
   }
   EXPECT_EQ(window.session().experiment().coupling->stiffness, 900);
-  stiffness->selectAll();
-  QTest::keyClicks(stiffness, QStringLiteral("5e2"));
-  QTest::keyClick(stiffness, Qt::Key_Return);
+  type(stiffness, "5e2");
   EXPECT_EQ(window.session().experiment().coupling->stiffness, 500);
 }
 
 TEST_F(Window, ItGoesWithAnEntryUnderWay) {
   open();
-  auto* springs = find<QLineEdit>("stiffness");
-  springs->setFocus();
-  springs->selectAll();
-  QTest::keyClicks(springs, QStringLiteral("850"));
+  type(find<QLineEdit>("stiffness"), "850", false);
   window_.reset();  // the field is left while the window goes
 }
 
@@ -394,7 +355,7 @@ TEST_F(Window, PredictionsStandOnThePlotAndAreComparedWithASimulatedTrial) {
     criteria->item(i, 0)->setCheckState(wanted ? Qt::Checked : Qt::Unchecked);
   }
   window.nextTrial();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial().has_value(); }, 20000));
+  ASSERT_TRUE(waitForTrialsEnd());
   EXPECT_EQ(window.session().lastTrial()->result.outcome, trial::Outcome::Success);
   QTest::qWait(100);
   auto* table = window.predictions().findChild<QTableWidget*>();
@@ -504,19 +465,6 @@ TEST_F(Window, ClosedInATrialItKeepsTheTrialAsInterrupted) {
   ASSERT_EQ(read.trials().size(), 1u);
   EXPECT_EQ(read.trials()[0].result.outcome, trial::Outcome::Interrupted);
   EXPECT_TRUE(read.closed());
-}
-
-TEST_F(Window, TheSubjectsScreenShowsTheSceneAlone) {
-  MainWindow& window = open();
-  window.toggleSubjectWindow();
-  QTest::qWait(50);
-  QWidget* subject = nullptr;
-  for (QWidget* top : QApplication::topLevelWidgets())
-    if (top->windowTitle().contains(QStringLiteral("subject"))) subject = top;
-  ASSERT_NE(subject, nullptr);
-  EXPECT_TRUE(subject->isFullScreen());
-  window.toggleSubjectWindow();
-  QTest::qWait(50);
 }
 
 }  // namespace

@@ -8,14 +8,11 @@
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QInputDialog>
-#include <QLabel>
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QSettings>
 #include <QSlider>
-#include <QTableWidget>
-#include <QUndoStack>
 #include <QWidgetAction>
 #include <functional>
 #include <map>
@@ -156,6 +153,7 @@ TEST_F(MenuActions, OfFilesReadAndWrite) {
   for (const Template& from : templates()) {
     trigger((QStringLiteral("Experiment/New/") + QLatin1String(from.title)).toUtf8());
     EXPECT_EQ(window.session().experiment(), newExperiment(from).experiment()) << from.title;
+    EXPECT_TRUE(window.isWindowModified()) << "it is not saved yet";
     window.edits().setClean();
   }
   {
