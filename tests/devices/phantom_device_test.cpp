@@ -31,18 +31,26 @@ using test::fakeHd;
 class Phantom : public ::testing::Test {
  protected:
   Phantom() { test::resetFakeHd(); }
+  // A device that is served at each call, and told this force.
   struct Ticks {
-    haptics::HapticDevice* device = nullptr;
+    explicit Ticks(const Vec3& f = {}, const PhantomDevice::Options& options = {}, bool starts = true) : force(f), device(options) {
+      if (starts) start();
+    }
+    void start() {
+      device.startClock(
+          [](void* context) noexcept {
+            auto& ticks = *static_cast<Ticks*>(context);
+            ++ticks.count;
+            ticks.sample = ticks.device.read();
+            ticks.device.write(ticks.force);
+          },
+          this);
+    }
     int count = 0;
     Vec3 force;
     haptics::DeviceSample sample;
+    PhantomDevice device;
   };
-  static void tick(void* context) noexcept {
-    auto& ticks = *static_cast<Ticks*>(context);
-    ++ticks.count;
-    ticks.sample = ticks.device->read();
-    ticks.device->write(ticks.force);
-  }
   static double feltAlongX(const std::string& name = "") { return fakeHd().devices[name].force[0]; }
 };
 
@@ -62,9 +70,7 @@ TEST_F(Phantom, ReadsItsLimitsFromTheDevice) {
 }
 
 TEST_F(Phantom, OneCallIsOneFrameWithOneTickInMetresAndNewtons) {
-  PhantomDevice device({});
-  Ticks ticks{&device, 0, {1, -2, 0.5}, {}};
-  device.startClock(tick, &ticks);
+  Ticks ticks({1, -2, 0.5});
   fakeHd().devices[""].position[0] = 12;
   fakeHd().devices[""].position[2] = -34;
   test::stepFakeHd();
@@ -74,17 +80,15 @@ TEST_F(Phantom, OneCallIsOneFrameWithOneTickInMetresAndNewtons) {
   EXPECT_TRUE(ticks.sample.hasOrientation);
   EXPECT_EQ(feltAlongX(), 1);
   EXPECT_EQ(fakeHd().devices[""].force[1], -2);
-  device.stopClock();
+  ticks.device.stopClock();
   EXPECT_EQ(fakeHd().violations, 0);
 }
 
 TEST_F(Phantom, CallsInTheDocumentedOrder) {
   {
-    PhantomDevice device({});
-    Ticks ticks{&device, 0, {1, 0, 0}, {}};
-    device.startClock(tick, &ticks);
+    Ticks ticks({1, 0, 0});
     test::stepFakeHd();
-    device.stopClock();
+    ticks.device.stopClock();
   }
   const std::vector<std::string> expected{"hdInitDevice:",    "hdEnable:force",  "hdEnable",     "hdEnable",       "hdScheduleAsynchronous",
                                           "hdStartScheduler", "hdStopScheduler", "hdUnschedule", "hdDisableDevice"};
@@ -94,18 +98,16 @@ TEST_F(Phantom, CallsInTheDocumentedOrder) {
 
 TEST_F(Phantom, TwoDevicesShareTheSchedulerAndNotTheForce) {
   fakeHd().devices["Left"], fakeHd().devices["Right"];
-  PhantomDevice left({"Left"}), right({"Right"});
-  Ticks first{&left, 0, {1, 0, 0}, {}}, second{&right, 0, {2, 0, 0}, {}};
-  left.startClock(tick, &first);
-  right.startClock(tick, &second);
+  Ticks first({1, 0, 0}, {"Left"}, false), second({2, 0, 0}, {"Right"}, false);
+  first.start(), second.start();
   test::stepFakeHd();
   EXPECT_EQ(feltAlongX("Left"), 1);
   EXPECT_EQ(feltAlongX("Right"), 2);
-  left.stopClock();
+  first.device.stopClock();
   test::stepFakeHd();
   EXPECT_TRUE(fakeHd().schedulerRuns) << "the other one still needs it";
   EXPECT_EQ(second.count, 2);
-  right.stopClock();
+  second.device.stopClock();
   EXPECT_FALSE(fakeHd().schedulerRuns);
   EXPECT_EQ(fakeHd().violations, 0);
 }
@@ -121,10 +123,8 @@ TEST_F(Phantom, EveryRefusalAtOpeningIsSaidInTheLibrarysWordsAndLeavesNothingOpe
   }
   for (const char* call : {"hdScheduleAsynchronous", "hdStartScheduler"}) {
     test::resetFakeHd();
-    PhantomDevice device({});
-    Ticks ticks{&device, 0, {}, {}};
     fakeHd().failures[call] = 0x0304;
-    EXPECT_THROW(device.startClock(tick, &ticks), ResourceError) << call;
+    EXPECT_THROW(Ticks(), ResourceError) << call;
   }
 }
 
@@ -139,16 +139,14 @@ TEST_F(Phantom, AnErrorAtEachCallOfAFrameNeverLeavesAForceThatNobodyAskedFor) {
     for (const std::uint32_t error : {0x0100u, 0x0101u, 0x0102u, 0x0103u, 0x0104u, 0x0200u, 0x0201u, 0x0202u, 0x0203u, 0x0204u, 0x0300u,
                                       0x0301u, 0x0302u, 0x0303u, 0x0304u, 0x0400u, 0x0401u, 0x0402u, 0x0500u, 0x0501u, 0x0600u}) {
       test::resetFakeHd();
-      PhantomDevice device({});
-      Ticks ticks{&device, 0, {0.5, 0, 0}, {}};
       fakeHd().devices[""].position[0] = 40;
-      device.startClock(tick, &ticks);
+      Ticks ticks({0.5, 0, 0});
       test::stepFakeHd();
       ASSERT_EQ(feltAlongX(), 0.5);
       fakeHd().failures[call] = error;
       for (int i = 0; i < 30; ++i) {
         test::stepFakeHd();
-        const bool off = device.health() == haptics::DeviceHealth::Lost || device.health() == haptics::DeviceHealth::Failed;
+        const bool off = ticks.device.health() == haptics::DeviceHealth::Lost || ticks.device.health() == haptics::DeviceHealth::Failed;
         ASSERT_LE(std::abs(feltAlongX()), 0.5) << call << std::hex << error;
         ASSERT_TRUE(i == 0 || !off || feltAlongX() == 0) << call << std::hex << error;
         ASSERT_TRUE(!ticks.sample.valid || std::abs(ticks.sample.position.x - 0.04) < 1e-12) << call << std::hex << error << ": a jump";
@@ -158,9 +156,7 @@ TEST_F(Phantom, AnErrorAtEachCallOfAFrameNeverLeavesAForceThatNobodyAskedFor) {
 }
 
 TEST_F(Phantom, WarmMotorsHoldTheForceToTheContinuousOne) {
-  PhantomDevice device({});
-  Ticks ticks{&device, 0, {3, 0, 0}, {}};
-  device.startClock(tick, &ticks);
+  Ticks ticks({3, 0, 0});
   test::stepFakeHd();
   ASSERT_EQ(feltAlongX(), 3);
   fakeHd().failures["hdEndFrame"] = 0x0200;
@@ -172,31 +168,27 @@ TEST_F(Phantom, WarmMotorsHoldTheForceToTheContinuousOne) {
 }
 
 TEST_F(Phantom, AFailedDeviceIsReadyAgainAfterASecondWithoutAnErrorAndItsForcesAreSwitchedOn) {
-  PhantomDevice device({});
-  Ticks ticks{&device, 0, {1, 0, 0}, {}};
-  device.startClock(tick, &ticks);
+  Ticks ticks({1, 0, 0});
   fakeHd().failures["hdEndFrame"] = 0x0203;
   test::stepFakeHd();
   fakeHd().devices[""].forceOutput = false;  // by its own software
-  ASSERT_EQ(device.health(), haptics::DeviceHealth::Failed);
+  ASSERT_EQ(ticks.device.health(), haptics::DeviceHealth::Failed);
   for (int i = 0; i < 900; ++i) test::stepFakeHd();
   ASSERT_EQ(feltAlongX(), 0);
   for (int i = 0; i < 200; ++i) test::stepFakeHd();
-  EXPECT_EQ(device.health(), haptics::DeviceHealth::Ready) << "what latches the force off until it is reset is the loop";
+  EXPECT_EQ(ticks.device.health(), haptics::DeviceHealth::Ready) << "what latches the force off until it is reset is the loop";
   EXPECT_EQ(feltAlongX(), 1);
 }
 
 TEST_F(Phantom, AnErrorIsTheDevicesThatItNames) {
   fakeHd().devices["Left"], fakeHd().devices["Right"];
-  PhantomDevice left({"Left"}), right({"Right"});
-  Ticks first{&left, 0, {1, 0, 0}, {}}, second{&right, 0, {2, 0, 0}, {}};
-  left.startClock(tick, &first);
-  right.startClock(tick, &second);
+  Ticks first({1, 0, 0}, {"Left"}, false), second({2, 0, 0}, {"Right"}, false);
+  first.start(), second.start();
   test::stepFakeHd();
   fakeHd().errors.push_back({0x0302, test::fakeHdHandle("Right")});  // asked for first in the left one's frame
   test::stepFakeHd();
-  EXPECT_EQ(left.health(), haptics::DeviceHealth::Ready);
-  EXPECT_EQ(right.health(), haptics::DeviceHealth::Lost);
+  EXPECT_EQ(first.device.health(), haptics::DeviceHealth::Ready);
+  EXPECT_EQ(second.device.health(), haptics::DeviceHealth::Lost);
   EXPECT_EQ(feltAlongX("Left"), 1);
   EXPECT_EQ(feltAlongX("Right"), 0);
 }
@@ -247,9 +239,7 @@ TEST_F(Phantom, AnOpenSafetySwitchReleasesItWhereItIsAskedFor) {
     test::resetFakeHd();
     PhantomDevice::Options options;
     options.deadMan = deadMan;
-    PhantomDevice device(options);
-    Ticks ticks{&device, 0, {}, {}};
-    device.startClock(tick, &ticks);
+    Ticks ticks({}, options);
     for (const bool closed : {true, false, true}) {
       fakeHd().devices[""].switchClosed = closed;
       test::stepFakeHd();
@@ -277,11 +267,9 @@ TEST_F(Phantom, ASecondDeviceIsOpenedWhileTheSchedulerStandsStill) {
 
 TEST_F(Phantom, ACallThatComesAfterTheEndTouchesNothing) {
   {
-    PhantomDevice device({});
-    Ticks ticks{&device, 0, {1, 0, 0}, {}};
-    device.startClock(tick, &ticks);
+    Ticks ticks({1, 0, 0});
     test::stepFakeHd();
-    device.stopClock();
+    ticks.device.stopClock();
     const int ticked = ticks.count;
     test::callLateFakeHd();
     EXPECT_EQ(ticks.count, ticked);
@@ -307,19 +295,15 @@ TEST_F(Phantom, AnErrorOfWhatIsOnlyDescribedIsNoReasonAgainstIt) {
 }
 
 TEST_F(Phantom, AForceThatIsNoNumberIsNoForce) {
-  PhantomDevice device({});
-  Ticks ticks{&device, 0, {std::numeric_limits<double>::quiet_NaN(), 0, 0}, {}};
-  device.startClock(tick, &ticks);
+  Ticks ticks({std::numeric_limits<double>::quiet_NaN(), 0, 0});
   test::stepFakeHd();
   EXPECT_EQ(feltAlongX(), 0);
 }
 
 TEST_F(Phantom, TheSecondPathSwitchesItsForcesOff) {
-  PhantomDevice device({});
-  Ticks ticks{&device, 0, {1, 0, 0}, {}};
-  device.startClock(tick, &ticks);
+  Ticks ticks({1, 0, 0});
   test::stepFakeHd();
-  EXPECT_TRUE(device.stopForce());
+  EXPECT_TRUE(ticks.device.stopForce());
   EXPECT_EQ(feltAlongX(), 0);
   test::stepFakeHd();
   EXPECT_EQ(feltAlongX(), 1) << "and a new force switches them on again";
@@ -328,9 +312,7 @@ TEST_F(Phantom, TheSecondPathSwitchesItsForcesOff) {
 TEST_F(Phantom, GivesButtonsVelocityAndTheHandlesTurn) {
   PhantomDevice::Options options;
   options.deviceVelocity = true;
-  PhantomDevice device(options);
-  Ticks ticks{&device, 0, {}, {}};
-  device.startClock(tick, &ticks);
+  Ticks ticks({}, options);
   auto& one = fakeHd().devices[""];
   one.buttons = 5;
   one.velocity[0] = 100, one.velocity[1] = -200, one.velocity[2] = 300;
@@ -350,11 +332,9 @@ TEST_F(Phantom, GivesButtonsVelocityAndTheHandlesTurn) {
   EXPECT_EQ(ticks.sample.reports, 1u);
   const double expected[] = {std::cos(1.0), 0.6 * std::sin(1.0), 0, 0.8 * std::sin(1.0)};
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(ticks.sample.orientation[i], expected[i], 1e-14) << i;
-  device.stopClock();
+  ticks.device.stopClock();
   test::resetFakeHd();
-  PhantomDevice plain({});
-  Ticks others{&plain, 0, {}, {}};
-  plain.startClock(tick, &others);
+  Ticks others;
   test::stepFakeHd();
   EXPECT_FALSE(others.sample.hasVelocity) << "unless it is asked for";
 }
@@ -409,11 +389,9 @@ TEST_F(Phantom, AForceThatTheTickDoesNotRenewIsNone) {
 }
 
 TEST_F(Phantom, WhatIsWrongIsToldInTheLibrarysWords) {
-  PhantomDevice device({});
-  Ticks ticks{&device, 0, {}, {}};
-  device.startClock(tick, &ticks);
+  Ticks ticks;
   test::stepFakeHd();
-  EXPECT_EQ(device.healthText(), "");
+  EXPECT_EQ(ticks.device.healthText(), "");
   for (const auto& [code, health] : {std::pair{0x0200u, haptics::DeviceHealth::Warm},
                                      {0x0203u, haptics::DeviceHealth::Failed},
                                      {0x0200u, haptics::DeviceHealth::Failed},
@@ -421,45 +399,39 @@ TEST_F(Phantom, WhatIsWrongIsToldInTheLibrarysWords) {
                                      {0x0203u, haptics::DeviceHealth::Lost}}) {
     fakeHd().failures["hdEndFrame"] = code;
     test::stepFakeHd();
-    EXPECT_EQ(device.health(), health) << std::hex << code;
+    EXPECT_EQ(ticks.device.health(), health) << std::hex << code;
   }
-  EXPECT_EQ(device.healthText(), "HD_EXCEEDED_MAX_VELOCITY (0x0203)");
+  EXPECT_EQ(ticks.device.healthText(), "HD_EXCEEDED_MAX_VELOCITY (0x0203)");
 }
 
 TEST_F(Phantom, EveryFaultOfTheDeviceIsALossAndNoOtherIs) {
   for (const std::uint32_t error : {0x0300u, 0x0301u, 0x0302u, 0x0303u, 0x0304u, 0x02FFu, 0x0305u}) {
     test::resetFakeHd();
-    PhantomDevice device({});
-    Ticks ticks{&device, 0, {}, {}};
-    device.startClock(tick, &ticks);
+    Ticks ticks;
     fakeHd().failures["hdEndFrame"] = error;
     test::stepFakeHd();
-    EXPECT_EQ(device.health() == haptics::DeviceHealth::Lost, error >= 0x0300 && error <= 0x0304) << std::hex << error;
+    EXPECT_EQ(ticks.device.health() == haptics::DeviceHealth::Lost, error >= 0x0300 && error <= 0x0304) << std::hex << error;
   }
 }
 
 TEST_F(Phantom, AnArgumentThatItDoesNotKnowIsTheTurnOfItsHandleOnce) {
   for (const std::uint32_t error : {0x0100u, 0x0104u}) {
     test::resetFakeHd();
-    PhantomDevice device({});
-    Ticks ticks{&device, 0, {}, {}};
-    device.startClock(tick, &ticks);
+    Ticks ticks;
     fakeHd().errors.push_back(error);
     test::stepFakeHd();
-    EXPECT_EQ(device.health(), haptics::DeviceHealth::Ready) << std::hex << error;
+    EXPECT_EQ(ticks.device.health(), haptics::DeviceHealth::Ready) << std::hex << error;
     fakeHd().errors.push_back(error);
     test::stepFakeHd();
-    EXPECT_EQ(device.health(), haptics::DeviceHealth::Failed) << "it is not asked for any more";
+    EXPECT_EQ(ticks.device.health(), haptics::DeviceHealth::Failed) << "it is not asked for any more";
   }
   PhantomDevice::Options other;
   fakeHd().devices["Other"];
   other.name = "Other";
-  PhantomDevice device(other);
-  Ticks ticks{&device, 0, {}, {}};
-  device.startClock(tick, &ticks);
+  Ticks ticks({}, other);
   fakeHd().errors.push_back({0x0105, test::fakeHdHandle("Other")});
   test::stepFakeHd();
-  EXPECT_EQ(device.health(), haptics::DeviceHealth::Failed) << "no error of an argument";
+  EXPECT_EQ(ticks.device.health(), haptics::DeviceHealth::Failed) << "no error of an argument";
 }
 
 // Warm: held to the continuous force in its own direction, where that is known and the force is larger.
@@ -467,9 +439,7 @@ TEST_F(Phantom, WarmMotorsKeepTheForcesDirection) {
   for (const double continuous : {1.0, 0.0}) {
     test::resetFakeHd();
     fakeHd().continuousForce = continuous;
-    PhantomDevice device({});
-    Ticks ticks{&device, 0, {1.2, 0, -1.6}, {}};
-    device.startClock(tick, &ticks);
+    Ticks ticks({1.2, 0, -1.6});
     fakeHd().failures["hdEndFrame"] = 0x0200;
     test::stepFakeHd();
     test::stepFakeHd();
