@@ -31,30 +31,11 @@ std::string refusal(const ConstraintSpec& spec) {
   return refusalOf([&] { makeConstraint(spec, "here"); }, "accepted");
 }
 
-// A cusp is a double root of |r_phi|^2, which rounding blurs over the root of a double's last place.
-constexpr double kPlace = 1e-8;
-
 std::vector<double> cuspsOf(const Constraint& c, double lo, double hi) {
   std::vector<double> found;
   for (const Place& place : computeRegularity(c, (lo + hi) / 2).places)
     if (place.kind == PlaceKind::Cusp && place.at >= lo && place.at <= hi) found.push_back(place.at);
   return found;
-}
-
-TEST(Cusps, AreFoundWhereTheCurveTurnsBack) {
-  const auto expect = [](const std::string& name, const std::map<std::string, double>& shape, std::vector<double> places) {
-    const Constraint c = named(name, shape);
-    const std::vector<double> found = cuspsOf(c, -0.01, 2 * kPi - 0.01);
-    ASSERT_EQ(found.size(), places.size()) << name;
-    for (std::size_t i = 0; i < places.size(); ++i) EXPECT_NEAR(found[i], places[i], kPlace) << name;
-  };
-  expect("astroid", {}, {0, kPi / 2, kPi, 3 * kPi / 2});
-  expect("cardioid", {}, {0});
-  expect("nephroid", {}, {0, kPi});
-  expect("deltoid", {}, {0, 2 * kPi / 3, 4 * kPi / 3});
-  expect("epicycloid", {{"cusps", 5}}, {0, 2 * kPi / 5, 4 * kPi / 5, 6 * kPi / 5, 8 * kPi / 5});
-  expect("epitrochoid", {{"d_m", 0.02}, {"a_m", 0.08}}, {0, 2 * kPi / 3, 4 * kPi / 3});
-  expect("ellipse", {}, {});
 }
 
 TEST(Cusps, ANearCuspIsNone) {

@@ -66,6 +66,13 @@ const PortCalls kFakeCalls{
     [](int, void*, std::size_t) { return 0L; },
 };
 
+template <class... Instruments>
+std::unique_ptr<record::InstrumentLink> linked(Instruments... one) {
+  std::vector<std::unique_ptr<Instrument>> instruments;
+  (instruments.push_back(std::move(one)), ...);
+  return linkInstruments(std::move(instruments));
+}
+
 class Triggers : public testing::Test {
  protected:
   void SetUp() override { port = {}; }
@@ -159,9 +166,7 @@ std::vector<record::RecordedEvent> eventsOf(record::InstrumentLink& link, int tr
 
 // The trial of a made run: armed at 20 ms, go 5 ms later, onset at 50 ms, end at 250 ms; even trials fail.
 TEST_F(Triggers, WhatHappenedIsFoundAtTheTicksThatTheRecordingHasItAt) {
-  std::vector<std::unique_ptr<Instrument>> instruments;
-  instruments.push_back(openParallelPort("parallel", "/dev/parport0", {}, kFakeCalls));
-  const auto link = linkInstruments(std::move(instruments));
+  const auto link = linked(openParallelPort("parallel", "/dev/parport0", {}, kFakeCalls));
   EXPECT_EQ(link->names(), "parallel");
   const auto events = eventsOf(*link, 2);
   std::vector<std::pair<std::uint64_t, std::string>> found;
@@ -193,9 +198,7 @@ TEST_F(Triggers, BytesComeOutOfALineAndGoIn) {
   std::vector<Arrival> arrived;
   std::atomic<int> count{0};
   std::vector<record::RecordedEvent> events;
-  std::vector<std::unique_ptr<Instrument>> instruments;
-  instruments.push_back(openByteLine("box", name, {{1, 2, 4}, 0}, 115200));
-  const auto link = linkInstruments(std::move(instruments));
+  const auto link = linked(openByteLine("box", name, {{1, 2, 4}, 0}, 115200));
   {
     std::jthread box([&](const std::stop_token& stop) {
       while (!stop.stop_requested()) {
@@ -237,9 +240,7 @@ class LabStreamingLayer : public testing::Test {
 };
 
 TEST_F(LabStreamingLayer, MarkersAndTheHandGoOutUnderTheTicksOwnTimes) {
-  std::vector<std::unique_ptr<Instrument>> instruments;
-  instruments.push_back(openLabStreaming("lsl"));
-  const auto link = linkInstruments(std::move(instruments));
+  const auto link = linked(openLabStreaming("lsl"));
   const auto events = eventsOf(*link, 2);
   const test::FakeLsl& lsl = test::fakeLsl();
   ASSERT_EQ(lsl.streams.size(), 2u);
@@ -272,9 +273,7 @@ TEST_F(LabStreamingLayer, MarkersAndTheHandGoOutUnderTheTicksOwnTimes) {
 
 TEST_F(LabStreamingLayer, GivesBackWhatItTook) {
   {
-    std::vector<std::unique_ptr<Instrument>> instruments;
-    instruments.push_back(openLabStreaming("lsl"));
-    const auto link = linkInstruments(std::move(instruments));
+    const auto link = linked(openLabStreaming("lsl"));
     (void)eventsOf(*link, 1);
     (void)eventsOf(*link, 1);
     EXPECT_EQ(test::fakeLsl().streams.size(), 4u) << "streams of their own for each run";
@@ -285,9 +284,7 @@ TEST_F(LabStreamingLayer, GivesBackWhatItTook) {
 
 TEST_F(LabStreamingLayer, ThatTakesNothingAnyMoreIsLeftOut) {
   test::fakeLsl().takesNothing = true;
-  std::vector<std::unique_ptr<Instrument>> instruments;
-  instruments.push_back(openLabStreaming("lsl"));
-  const auto link = linkInstruments(std::move(instruments));
+  const auto link = linked(openLabStreaming("lsl"));
   (void)eventsOf(*link, 1);
   const auto warnings = link->takeWarnings();
   ASSERT_EQ(warnings.size(), 1u);
@@ -490,10 +487,7 @@ struct Diarist final : Instrument {
 TEST_F(Triggers, EveryInstrumentIsToldEverythingAndOneThatFailsNothingMore) {
   const auto one = std::make_shared<Diarist::Book>(), two = std::make_shared<Diarist::Book>();
   two->failsAt = "onset 1";
-  std::vector<std::unique_ptr<Instrument>> instruments;
-  instruments.push_back(std::make_unique<Diarist>("one", one));
-  instruments.push_back(std::make_unique<Diarist>("two", two));
-  const auto link = linkInstruments(std::move(instruments));
+  const auto link = linked(std::make_unique<Diarist>("one", one), std::make_unique<Diarist>("two", two));
   EXPECT_EQ(link->names(), "one; two");
   EXPECT_EQ(link->massesEvery(), 0u);
   const auto events = eventsOf(*link, 2);

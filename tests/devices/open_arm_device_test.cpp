@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "tests/devices/arm_poses.h"
 #include "tests/refusal.h"
+#include "tests/devices/fakes/fake_message_line.h"
 
 namespace reachlab::devices {
 namespace {
@@ -43,12 +44,6 @@ class FakePort final : public HidPort {
   std::shared_ptr<Line> line_;
 };
 
-struct Wish final : ForceSource {
-  Vec3 force;
-  Vec3 newest() noexcept override { return force; }
-  std::int64_t now() const noexcept override { return 0; }
-};
-
 class OpenArmOverAPort : public ::testing::Test {
  protected:
   OpenArmOverAPort() {
@@ -77,7 +72,7 @@ class OpenArmOverAPort : public ::testing::Test {
   OpenArm::Options options;
   std::shared_ptr<Line> line = std::make_shared<Line>();
   std::unique_ptr<OpenArm> arm;
-  Wish wish;
+  test::StandingForce wish;
   haptics::DeviceSample sample;
 };
 

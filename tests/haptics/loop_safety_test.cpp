@@ -99,6 +99,17 @@ class LoopSafety : public ::testing::Test {
     loop->tryCommand(trial::Command::NextTrial);
     ASSERT_TRUE(until([&] { return device->lastForce > 1.2; }));
   }
+  bool isDone() {
+    const TickState* state = loop->takeLatest();
+    return state != nullptr && state->phase == trial::Phase::Done;
+  }
+  void expectLost(DeviceFault fault) {
+    ASSERT_TRUE(until([&] { return loop->fault() == fault; }));
+    ASSERT_TRUE(until([&] { return isDone(); }));
+    loop->stop();
+    EXPECT_EQ(loop->engine().state().result.reason, trial::Reason::DeviceLost);
+    EXPECT_EQ(device->lastForce, 0);
+  }
 
   experiment::Experiment experiment;
   std::shared_ptr<FailingDevice> device;
@@ -108,27 +119,13 @@ class LoopSafety : public ::testing::Test {
 TEST_F(LoopSafety, FrozenReportsEndInZeroAndTheTrialIsLost) {
   engage();
   device->frozen = true;
-  ASSERT_TRUE(until([&] { return loop->fault() == DeviceFault::Silent; }));
-  ASSERT_TRUE(until([&] {
-    const TickState* state = loop->takeLatest();
-    return state != nullptr && state->phase == trial::Phase::Done;
-  }));
-  loop->stop();
-  EXPECT_EQ(loop->engine().state().result.reason, trial::Reason::DeviceLost);
-  EXPECT_EQ(device->lastForce, 0);
+  expectLost(DeviceFault::Silent);
 }
 
 TEST_F(LoopSafety, AJumpUnderForceEndsInZeroAndTheTrialIsLost) {
   engage();
   device->jump = true;
-  ASSERT_TRUE(until([&] { return loop->fault() == DeviceFault::Jump; }));
-  ASSERT_TRUE(until([&] {
-    const TickState* state = loop->takeLatest();
-    return state != nullptr && state->phase == trial::Phase::Done;
-  }));
-  loop->stop();
-  EXPECT_EQ(loop->engine().state().result.reason, trial::Reason::DeviceLost);
-  EXPECT_EQ(device->lastForce, 0);
+  expectLost(DeviceFault::Jump);
 }
 
 TEST_F(LoopSafety, AfterAResetForceMayReturn) {
@@ -136,10 +133,7 @@ TEST_F(LoopSafety, AfterAResetForceMayReturn) {
   device->jump = true;
   ASSERT_TRUE(until([&] { return loop->fault() != DeviceFault::None; }));
   device->jump = false;
-  ASSERT_TRUE(until([&] {
-    const TickState* state = loop->takeLatest();
-    return state != nullptr && state->phase == trial::Phase::Done;
-  }));
+  ASSERT_TRUE(until([&] { return isDone(); }));
   loop->resetFault();
   ASSERT_TRUE(until([&] { return loop->fault() == DeviceFault::None; }));
 }

@@ -73,9 +73,12 @@ class OneStation : public testing::Test {
     int process = 0;
     if (std::ifstream(folder_ / "endpoint.pid") >> process) ::kill(process, SIGKILL);
   }
-  void TearDown() override {
+  void close() {
     endEndpoint();
     if (station_) (void)station_->close();
+  }
+  void TearDown() override {
+    close();
     run_.reset();
     station_.reset();
   }
@@ -136,6 +139,13 @@ class OneStation : public testing::Test {
   }
   static bool never(const StationNews&) { return false; }
   static bool begun(const StationNews& news) { return news.begun; }
+  // Station 2, told by the conductor to put up the first trial.
+  void beginAsFollower() {
+    open(2, false);
+    showCard(1, true);
+    tell(1, LinkEvent::Kind::Arm, 1);
+    EXPECT_TRUE(pollUntil(begun).begun);
+  }
   std::optional<LinkEvent> sent(LinkEvent::Kind kind) {
     for (LinkEvent event; memory().eventsOut.tryPop(event);)
       if (event.kind == kind) return event;
@@ -225,8 +235,7 @@ TEST_F(OneStation, TheConductorArmsWhenEveryLineIsGoodAndSaysWhyNot) {
   station_->stop();
   EXPECT_TRUE(pollUntil([](const StationNews& news) { return news.finished; }).finished);
   EXPECT_TRUE(sent(LinkEvent::Kind::Finish));
-  endEndpoint();
-  (void)station_->close();
+  close();
   EXPECT_TRUE(noted("simulated with limp hands over this link (round trip 2.0 ms")) << "what was checked is in the log";
 }
 
@@ -250,14 +259,10 @@ TEST_F(OneStation, NothingIsArmedThatWouldNotComeToRestOverThisLine) {
 
 // The loop runs on while the log is being closed, and samples come on.
 TEST_F(OneStation, WhatIsGivenToTheCopyLastIsInTheLogToo) {
-  open(2, false);
-  showCard(1, true);
-  tell(1, LinkEvent::Kind::Arm, 1);
-  EXPECT_TRUE(pollUntil(begun).begun);
+  beginAsFollower();
   std::jthread other = sendFrom(1);
   (void)pollUntil(never, 0.3);
-  endEndpoint();
-  (void)station_->close();
+  close();
   other.request_stop();
   other.join();
   const record::RunLog log = record::RunLog::open(run_->logPath());
@@ -267,27 +272,20 @@ TEST_F(OneStation, WhatIsGivenToTheCopyLastIsInTheLogToo) {
 }
 
 TEST_F(OneStation, TheConductorsOutcomeIsKeptBesideWhatTheCopyHereCameTo) {
-  open(2, false);
-  showCard(1, true);
-  tell(1, LinkEvent::Kind::Arm, 1);
-  EXPECT_TRUE(pollUntil(begun).begun);
+  beginAsFollower();
   tell(1, LinkEvent::Kind::Interrupt, 1);
   EXPECT_TRUE(pollUntil([](const StationNews& news) { return news.ended.has_value(); }).ended);
   tell(1, LinkEvent::Kind::Ended, 1, trial::Outcome::Interrupted);
   const StationNews told = pollUntil([](const StationNews& news) { return news.words.size() >= 2; });
   ASSERT_EQ(told.words.size(), 2u);
   EXPECT_EQ(told.words[1], "trial 1: interrupted by the conductor's copy, which counts; aborted (experimenter) by the copy here");
-  endEndpoint();
-  (void)station_->close();
+  close();
   EXPECT_TRUE(noted("trial 1: outcome interrupted by the conductor, station 1; aborted (experimenter) here, where the copies were"));
 }
 
 // The other stood still for a moment, which ended its trial, and goes on sending. Its word comes in mid-trial or after the end.
 TEST_F(OneStation, ATrialThatAnyStationBrokeOffIsBrokenOffForAll) {
-  open(2, false);
-  showCard(1, true);
-  tell(1, LinkEvent::Kind::Arm, 1);
-  EXPECT_TRUE(pollUntil(begun).begun);
+  beginAsFollower();
   const std::jthread other = sendFrom(1);
   tell(1, LinkEvent::Kind::Ended, 1, trial::Outcome::Interrupted);
   const StationNews ended = pollUntil([](const StationNews& news) { return news.ended.has_value(); });
@@ -296,17 +294,13 @@ TEST_F(OneStation, ATrialThatAnyStationBrokeOffIsBrokenOffForAll) {
 }
 
 TEST_F(OneStation, AWordThatComesAfterTheEndBreaksTheTrialOffForAll) {
-  open(2, false);
-  showCard(1, true);
-  tell(1, LinkEvent::Kind::Arm, 1);
-  EXPECT_TRUE(pollUntil(begun).begun);
+  beginAsFollower();
   tell(1, LinkEvent::Kind::Interrupt, 1);
   EXPECT_TRUE(pollUntil([](const StationNews& news) { return news.ended.has_value(); }).ended);
   tell(1, LinkEvent::Kind::Ended, 1, trial::Outcome::Success);
   const StationNews told = pollUntil([](const StationNews& news) { return news.words.size() >= 2; }, 0.5);
   ASSERT_EQ(told.words.size(), 1u) << "the outcome is aborted at both";
-  endEndpoint();
-  (void)station_->close();
+  close();
   EXPECT_TRUE(noted("trial 1: outcome aborted (experimenter) by the one that broke it off, station 2; aborted (experimenter) here"));
 }
 
