@@ -6,39 +6,19 @@ Everything but the predictions is computed here from the definitions of docs/ana
 scipy's. The program interpolates its predictions over the duration and stops its fits at 1e-9 of the cost, so the agreement asked for is
 not that of a closed form: see TOLERANCE.
 """
-import math, pathlib, subprocess, sys, tempfile
+import math, pathlib, sys, tempfile
 
 import numpy as np
 import pandas as pd
-from scipy import interpolate, optimize, signal
+from scipy import interpolate, optimize
 
-REACH, RATE, CUTOFF = sys.argv[1], 100.0, 10.0
+from motion_signals import CUTOFF, RATE, differentiate, lowPass, reach
+
 EXPERIMENT, T_TASK = "chain-slow", 2.25
 TOLERANCE = {"onset_s": 2e-5, "duration_s": 4e-5, "amplitude_m_per_s": 4e-5, "epsilon_fit_m_per_s": 2e-6, "r2": 1e-6,
              "r2 of foreign hands": 1e-6}  # of T, T, A, A, 1, 1
 FIRST, LAST, STEP = -0.6, 1.6, 1 / 200  # the person's mean movement: its grid of s
 worst = {}
-
-
-def reach(*arguments):
-    done = subprocess.run([REACH, *map(str, arguments)], capture_output=True, text=True)
-    if done.returncode:
-        sys.exit(f"reach {' '.join(map(str, arguments))}: exit {done.returncode}: {done.stderr}")
-    return done.stdout
-
-
-def lowPass(x):
-    b, a = signal.butter(2, CUTOFF, fs=RATE)
-    return signal.filtfilt(b, a, x, axis=0, padtype="odd", padlen=9)
-
-
-def differentiate(x):
-    v = np.empty_like(x)
-    v[1:-1] = (x[2:] - x[:-2]) * RATE / 2
-    v[2:-2] = (8 * (x[3:-1] - x[1:-3]) - (x[4:] - x[:-4])) * RATE / 12
-    v[0] = (4 * x[1] - 3 * x[0] - x[2]) * RATE / 2
-    v[-1] = (3 * x[-1] - 4 * x[-2] + x[-3]) * RATE / 2
-    return v
 
 
 def windowOf(rows, event):

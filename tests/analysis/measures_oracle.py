@@ -3,22 +3,16 @@
 
 Signals come from the BIDS motion files, measures are computed here from their definitions (docs/analysis.md), and compared to 1e-10.
 """
-import math, pathlib, shutil, subprocess, sys, tempfile
+import math, pathlib, shutil, sys, tempfile
 
 import numpy as np
 import pandas as pd
 from scipy import signal, stats
 
-REACH, TOLERANCE = sys.argv[1], 1e-10
-RATE, CUTOFF, SHARE = 100.0, 10.0, 0.05
+from motion_signals import RATE, differentiate, lowPass, reach
+
+TOLERANCE, SHARE = 1e-10, 0.05
 worst = {}
-
-
-def reach(*arguments):
-    done = subprocess.run([REACH, *map(str, arguments)], capture_output=True, text=True)
-    if done.returncode:
-        sys.exit(f"reach {' '.join(map(str, arguments))}: exit {done.returncode}: {done.stderr}")
-    return done.stdout
 
 
 def same(what, got, wanted):
@@ -26,20 +20,6 @@ def same(what, got, wanted):
         return
     apart = abs(got - wanted) / max(1.0, abs(wanted)) if wanted is not None and not pd.isna(got) else math.inf
     worst[what] = max(worst.get(what, 0.0), apart)
-
-
-def lowPass(x, rate):
-    b, a = signal.butter(2, CUTOFF, fs=rate)
-    return signal.filtfilt(b, a, x, axis=0, padtype="odd", padlen=9)
-
-
-def differentiate(x):
-    v = np.empty_like(x)
-    v[1:-1] = (x[2:] - x[:-2]) * RATE / 2
-    v[2:-2] = (8 * (x[3:-1] - x[1:-3]) - (x[4:] - x[:-4])) * RATE / 12
-    v[0] = (4 * x[1] - 3 * x[0] - x[2]) * RATE / 2
-    v[-1] = (3 * x[-1] - 4 * x[-2] + x[-3]) * RATE / 2
-    return v
 
 
 def movementIn(speed, rate):
