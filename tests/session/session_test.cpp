@@ -92,22 +92,6 @@ class PlannedSession : public testing::Test {
   TemporaryFolder folder_;
 };
 
-TEST_F(PlannedSession, TakesTheNextNumberWhenAnotherProgramHasTakenItsOwn) {
-  SessionRequest r = request("chain-moderate");
-  BlockToRun first = planSession(r).blocks.at(0), second = first;
-  takeFreeRun(first, r.place, false);
-  EXPECT_EQ(first.configuration.run, 1);
-  record::writeMadeRun(first.logPath, 1, record::madeConfiguration());
-  takeFreeRun(second, r.place, false);
-  EXPECT_EQ(second.configuration.run, 2);
-  EXPECT_EQ(second.configuration.firstRun, 2);
-  EXPECT_NE(second.logPath, first.logPath);
-  r.run = 2;
-  BlockToRun asked = planSession(r).blocks.at(0);
-  record::writeMadeRun(second.logPath, 1, record::madeConfiguration());
-  EXPECT_THROW(takeFreeRun(asked, r.place, true), FaultError) << "a number that was asked for is not exchanged";
-}
-
 TEST_F(PlannedSession, OfAnExperimentIsOneBlockWithItsTrialsInOrder) {
   SessionRequest r = request("chain-moderate");
   r.trials = 4;
@@ -455,13 +439,6 @@ TEST_F(PlannedSession, LeavesALogThatCannotBeReadOutAndSaysSo) {
   EXPECT_NE(session.notice.unreadable[0].find("run-02"), std::string::npos) << session.notice.unreadable[0];
   EXPECT_EQ(session.blocks[0].configuration.run, 3);
   EXPECT_EQ(indicesOf(session.blocks[0]), (std::vector<int>{1, 2}));
-}
-
-TEST_F(PlannedSession, RefusesATaskThatCannotBeCarriedOut) {
-  const std::string text = R"({ "schema_version": 1, "constraint": { "name": "line", "shape": { "length_m": 0.2 } },
-      "object": { "kind": "point", "masses_kg": [1], "stiffness_n_per_m": [] }, "coupling": { "stiffness_n_per_m": 600 },
-      "task": { "start": [0], "target": [0], "duration_s": 1, "tolerance": { "position_m": 0.01, "velocity_m_per_s": 0.01, "time_s": 0.5 } } })";
-  EXPECT_THROW(planSession(request(write("still.json", text))), FaultError);
 }
 
 TEST_F(PlannedSession, TellsTheFaultsOfAPlansExperimentOnce) {
