@@ -10,7 +10,6 @@
 #include <set>
 #include <thread>
 
-#include "analysis/report/wording.h"
 #include "analysis/report/write_analysis.h"
 #include "analysis/tables.h"
 #include "analysis/trials/experiment_difference.h"

@@ -6,7 +6,6 @@
 
 #include "analysis/conclusions/fit_window.h"
 #include "analysis/conclusions/near_predictions.h"
-#include "base/fault.h"
 
 namespace reachlab::analysis {
 namespace {

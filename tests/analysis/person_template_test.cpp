@@ -7,7 +7,6 @@
 #include <numbers>
 #include <random>
 
-#include "analysis/measures/movement.h"
 #include "base/math/minimum_jerk.h"
 
 namespace reachlab::analysis {

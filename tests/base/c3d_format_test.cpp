@@ -4,7 +4,6 @@
 #include <limits>
 
 #include "base/c3d_file.h"
-#include "base/error.h"
 #include "tests/refusal.h"
 
 /// The bytes of a C3D file, laid out here by hand after the format's guide (c3d.org): the writer is held against them, and the reader reads

@@ -4,11 +4,8 @@
 
 #include <limits>
 
-#include "base/error.h"
 #include "base/system/os.h"
 #include "bench/extrapolation.h"
-#include "bench/linear_reference.h"
-#include "bench/suite.h"
 #include "tests/refusal.h"
 
 namespace reachlab::bench {

@@ -7,8 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "base/error.h"
-#include "base/fault.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "tests/cli/program.h"

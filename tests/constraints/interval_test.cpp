@@ -8,7 +8,6 @@
 #include <tuple>
 
 #include "constraints/formula/formula.h"
-#include "constraints/formula/parser.h"
 
 namespace reachlab::constraints {
 namespace {

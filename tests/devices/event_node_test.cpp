@@ -9,11 +9,9 @@
 #include <filesystem>
 #include <fstream>
 
-#include "base/error.h"
 #include "base/fault.h"
 #include "base/system/os.h"
 #include "devices/driver/registry.h"
-#include "devices/make_device.h"
 #include "tests/devices/driver_answers.h"
 #include "tests/devices/fakes/fake_input.h"
 #include "tests/refusal.h"

@@ -10,7 +10,6 @@
 #include "devices/hid/open_serial_arm.h"
 #include "devices/hid/report_descriptor.h"
 #include "devices/hot_plug.h"
-#include "devices/make_device.h"
 #include "tests/devices/driver_answers.h"
 #include "tests/devices/fakes/fake_hidapi.h"
 #include "tests/refusal.h"

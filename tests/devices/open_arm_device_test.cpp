@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "tests/devices/arm_poses.h"
-#include "tests/refusal.h"
 #include "tests/devices/fakes/fake_message_line.h"
 
 namespace reachlab::devices {

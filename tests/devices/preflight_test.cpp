@@ -5,7 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
 #include "devices/make_device.h"
 #include "devices/preflight/reach_demand.h"
 #include "devices/virtual/loop_stability.h"

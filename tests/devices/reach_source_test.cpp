@@ -6,9 +6,7 @@
 #include <fstream>
 
 #include "base/c3d_file.h"
-#include "base/error.h"
 #include "base/fault.h"
-#include "devices/replay/replayed_reach.h"
 #include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "sim/dynamics/compile.h"
-#include "sim/dynamics/hand/hand_path.h"
 #include "tests/dynamics/held_segment.h"
 #include "tests/dynamics/make_experiment.h"
 

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "base/error.h"
 #include "sim/dynamics/compile.h"
 #include "sim/experiment/experiment.h"
 #include "tests/dynamics/held_segment.h"

@@ -3,7 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 #include "tests/refusal.h"

@@ -5,7 +5,6 @@
 #include <functional>
 #include <string>
 
-#include "base/fault.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"

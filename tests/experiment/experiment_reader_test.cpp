@@ -3,7 +3,6 @@
 #include <numbers>
 #include <string>
 
-#include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 #include "tests/refusal.h"

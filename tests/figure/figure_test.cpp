@@ -7,7 +7,6 @@
 #include <limits>
 
 #include "analysis/figure/ticks.h"
-#include "base/error.h"
 #include "base/fault.h"
 
 namespace reachlab::figure {

@@ -7,7 +7,6 @@
 #include <mutex>
 #include <thread>
 
-#include "base/error.h"
 #include "base/system/os.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/haptics/haptic_loop.h"

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include "base/fault.h"
 #include "base/system/os.h"
 #include "sim/experiment/resources.h"
 #include "tests/haptics/armed_at_once.h"

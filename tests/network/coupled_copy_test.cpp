@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "base/error.h"
 #include "base/ticks.h"
 #include "network/link_check/two_hands.h"
 #include "sim/experiment/experiment.h"

@@ -13,7 +13,6 @@
 
 #include "base/fault.h"
 #include "base/math/minimum_jerk.h"
-#include "base/math/seeded.h"
 #include "base/ticks.h"
 #include "constraints/constraint.h"
 #include "network/link/station_replay.h"

@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "base/error.h"
-#include "base/fault.h"
 #include "sim/predict/line/modes.h"
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"

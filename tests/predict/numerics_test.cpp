@@ -8,7 +8,6 @@
 #include "base/error.h"
 #include "sim/predict/numerics/double_double.h"
 #include "sim/predict/numerics/lane_matrix.h"
-#include "sim/predict/numerics/piecewise_series.h"
 #include "sim/predict/numerics/work_limit.h"
 
 namespace reachlab::predict {

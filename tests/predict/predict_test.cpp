@@ -8,7 +8,6 @@
 #include <limits>
 #include <numbers>
 
-#include "base/error.h"
 #include "base/fault.h"
 #include "sim/predict/line/line_object.h"
 #include "sim/predict/line/symmetric_prediction.h"

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "base/error.h"
 #include "base/fault.h"
 #include "tests/predict/objects.h"
 #include "tests/refusal.h"

@@ -7,10 +7,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/error.h"
-#include "base/math/gauss_legendre.h"
-#include "sim/predict/line/flat_output.h"
-#include "sim/predict/line/modes.h"
 #include "sim/predict/numerics/hyper_dual.h"
 #include "sim/predict/transcription/path_check.h"
 #include "tests/predict/objects.h"

@@ -17,7 +17,6 @@
 #include <map>
 #include <string>
 
-#include "base/error.h"
 #include "base/fault.h"
 #include "tests/record/made_run.h"
 #include "tests/refusal.h"

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "tests/refusal.h"
 

@@ -9,7 +9,6 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/system/os.h"
-#include "sim/record/export/tidy_csv.h"
 #include "sim/record/log/atomic_file.h"
 #include "sim/record/log/records.h"
 #include "sim/record/log/run_writer.h"

@@ -8,7 +8,6 @@
 
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
-#include "sim/session/checked_programme.h"
 #include "sim/session/programme.h"
 #include "sim/session/trial_order.h"
 #include "test_paths.h"

@@ -6,7 +6,6 @@
 
 #include "analysis/hands.h"
 #include "base/fault.h"
-#include "sim/record/export/bids.h"
 #include "sim/record/log/atomic_file.h"
 #include "sim/record/replay.h"
 #include "sim/session/recorded_session.h"

@@ -9,12 +9,9 @@
 #include <random>
 #include <utility>
 
-#include "base/math/matrix.h"
-#include "base/math/seeded.h"
 #include "sim/experiment/experiment.h"
 #include "sim/predict/predict.h"
 #include "sim/subjects/feedback_hand.h"
-#include "sim/subjects/subject_parameters.h"
 #include "tests/refusal.h"
 #include "tests/subjects/short_reach.h"
 

@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "sim/experiment/experiment.h"
-#include "sim/experiment/resources.h"
 
 namespace reachlab::trial {
 namespace {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "sim/experiment/experiment.h"
-#include "sim/experiment/resources.h"
 
 namespace reachlab::trial {
 namespace {

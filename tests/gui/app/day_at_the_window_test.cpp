@@ -25,7 +25,6 @@
 #include "gui/docks/session_dock.h"
 #include "gui/scene/scene_overlay.h"
 #include "gui/scene/scene_view.h"
-#include "gui/scene/trial_texts.h"
 #include "gui/subject/subject_window.h"
 #include "sim/experiment/experiment.h"
 #include "test_paths.h"

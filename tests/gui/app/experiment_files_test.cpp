@@ -13,7 +13,6 @@
 #include <QUrl>
 #include <fstream>
 
-#include "base/error.h"
 #include "gui/app/main_window.h"
 #include "sim/dynamics/scene.h"
 #include "sim/experiment/experiment.h"

@@ -15,7 +15,6 @@
 
 #include "analysis/dataset.h"
 #include "analysis/tables.h"
-#include "base/error.h"
 #include "base/json/json_tree.h"
 #include "base/text_file.h"
 #include "gui/app/main_window.h"

@@ -18,7 +18,6 @@
 #include "gui/docks/session_dock.h"
 #include "gui/plan/plan_composer.h"
 #include "gui/plan/start_page.h"
-#include "gui/session/session_overlay.h"
 #include "sim/record/trial_marks.h"
 #include "sim/session/programme.h"
 #include "tests/gui/answer_box.h"
