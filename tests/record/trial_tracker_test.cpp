@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -44,22 +45,13 @@ struct Made {
   std::vector<RecordedEvent> events;
 };
 
-struct Told {
-  std::uint64_t tick;
-  EventKind kind;
-  std::int32_t trial;
-  double value;
-  std::string text = {};
-  bool operator==(const Told&) const = default;
-};
-void PrintTo(const Told& t, std::ostream* out) {
-  *out << t.tick << " " << nameOf(t.kind) << " trial " << t.trial << " value " << t.value << " " << t.text;
-}
-
-std::vector<Told> toldOf(const std::vector<RecordedEvent>& events) {
-  std::vector<Told> told;
-  for (const RecordedEvent& e : events) told.push_back({e.tick, e.kind, e.trial, e.value, e.text});
-  return told;
+// Each as "tick kind trial value text".
+std::string toldOf(const std::vector<RecordedEvent>& events) {
+  std::ostringstream told;
+  for (const RecordedEvent& e : events)
+    told << (told.tellp() > 0 ? "; " : "") << e.tick << ' ' << nameOf(e.kind) << ' ' << e.trial << ' ' << e.value
+         << (e.text.empty() ? "" : " ") << e.text;
+  return told.str();
 }
 
 TEST(TrialTracker, FollowsATrialFromWhereItIsPutUpToItsEnd) {
@@ -112,11 +104,7 @@ TEST(TrialTracker, FollowsATrialFromWhereItIsPutUpToItsEnd) {
   EXPECT_NEAR(t.elapsed, 60 * 1.0003e-3, 1e-12) << "from the go signal by the computer's clock";
   EXPECT_TRUE(t.complete);
   EXPECT_EQ(t.droppedTicks + t.missedTicks + t.clampedTicks, 0u);
-  EXPECT_EQ(toldOf(run.events), (std::vector<Told>{{100, EventKind::TrialStart, 4, 2},
-                                                   {110, EventKind::Armed, 4, 0},
-                                                   {140, EventKind::Go, 4, 0},
-                                                   {190, EventKind::Onset, 4, 0},
-                                                   {200, EventKind::TrialEnd, 4, 2}}));
+  EXPECT_EQ(toldOf(run.events), "100 trial_start 4 2; 110 armed 4 0; 140 go 4 0; 190 onset 4 0; 200 trial_end 4 2");
   run.until(260);
   EXPECT_EQ(run.tracker.trial().lastTick, 200u) << "what comes after the end is not of the trial";
   EXPECT_EQ(run.events.size(), 5u);
@@ -263,7 +251,7 @@ TEST(TrialTracker, NoTrialBeginsInIdleOrWithoutANumber) {
   run.tick.missedTicks = 2;
   EXPECT_FALSE(run.next().started);
   EXPECT_FALSE(run.tracker.underWay());
-  EXPECT_EQ(toldOf(run.events), (std::vector<Told>{{1, EventKind::TicksMissed, 0, 2}})) << "of no trial";
+  EXPECT_EQ(toldOf(run.events), "1 ticks_missed 0 2") << "of no trial";
 }
 
 TEST(TrialTracker, CountsDroppedMissedAndClampedTicks) {
@@ -284,11 +272,7 @@ TEST(TrialTracker, CountsDroppedMissedAndClampedTicks) {
   EXPECT_EQ(t.missedTicks, 7u);
   EXPECT_EQ(t.clampedTicks, 6u);
   EXPECT_EQ(t.lastTick, 29u);
-  EXPECT_EQ(toldOf(run.events), (std::vector<Told>{{0, EventKind::TrialStart, 1, 0},
-                                                   {14, EventKind::TicksMissed, 1, 3},
-                                                   {15, EventKind::ClampBegin, 1, 0},
-                                                   {20, EventKind::TicksMissed, 1, 4},
-                                                   {21, EventKind::ClampEnd, 1, 0}}));
+  EXPECT_EQ(toldOf(run.events), "0 trial_start 1 0; 14 ticks_missed 1 3; 15 clamp_begin 1 0; 20 ticks_missed 1 4; 21 clamp_end 1 0");
 }
 
 TEST(TrialTracker, TellsWhenTheDeviceIsLostAndBack) {
@@ -298,20 +282,20 @@ TEST(TrialTracker, TellsWhenTheDeviceIsLostAndBack) {
   run.until(6);
   run.facts.deviceValid = true;
   run.until(9);
-  EXPECT_EQ(toldOf(run.events), (std::vector<Told>{{3, EventKind::DeviceLost, 0, 0}, {6, EventKind::DeviceBack, 0, 0}}));
+  EXPECT_EQ(toldOf(run.events), "3 device_lost 0 0; 6 device_back 0 0");
 }
 
 TEST(TrialTracker, TellsEachWayInWhichAStepDidNotEndWellWhereItBegins) {
   using dynamics::StepStatus;
+  const auto number = [](StepStatus status) { return std::to_string(static_cast<int>(status)); };
   Made run;
   for (const StepStatus status : {StepStatus::Ok, StepStatus::Capped, StepStatus::Capped, StepStatus::NotFinite, StepStatus::Ok,
                                   StepStatus::Ok, StepStatus::Capped}) {
     run.facts.status = status;
     run.next();
   }
-  EXPECT_EQ(toldOf(run.events), (std::vector<Told>{{1, EventKind::StepFault, 0, static_cast<double>(StepStatus::Capped)},
-                                                   {3, EventKind::StepFault, 0, static_cast<double>(StepStatus::NotFinite)},
-                                                   {6, EventKind::StepFault, 0, static_cast<double>(StepStatus::Capped)}}));
+  EXPECT_EQ(toldOf(run.events), std::string("1 step_fault 0 ") + number(StepStatus::Capped) + "; 3 step_fault 0 " +
+                                    number(StepStatus::NotFinite) + "; 6 step_fault 0 " + number(StepStatus::Capped));
 }
 
 // An intervention has ended when it has been away for 100 ticks.
@@ -328,15 +312,12 @@ TEST(TrialTracker, AnInterventionThatComesAndGoesIsOne) {
   at(129, haptics::intervention::kHeldBack);
   at(130, 0);
   run.until(500);
-  EXPECT_EQ(toldOf(run.events), (std::vector<Told>{{10, EventKind::Intervention, 0, 1, "heat"},
-                                                   {20, EventKind::Intervention, 0, 1, "held_back"},
-                                                   {130, EventKind::Intervention, 0, 0, "heat"},
-                                                   {230, EventKind::Intervention, 0, 0, "held_back"}}));
+  EXPECT_EQ(toldOf(run.events),
+            "10 intervention 0 1 heat; 20 intervention 0 1 held_back; 130 intervention 0 0 heat; 230 intervention 0 0 held_back");
   at(600, haptics::intervention::kHeat);
   at(602, 0);
   run.until(604);
-  EXPECT_EQ(toldOf(std::vector<RecordedEvent>{run.events.back()}), (std::vector<Told>{{600, EventKind::Intervention, 0, 1, "heat"}}))
-      << "and begins again";
+  EXPECT_EQ(toldOf(std::vector<RecordedEvent>{run.events.back()}), "600 intervention 0 1 heat") << "and begins again";
 }
 
 TEST(TrialTracker, ATrialThatBreaksOffIsInterruptedByTheProgramWhereItStands) {
