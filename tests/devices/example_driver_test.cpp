@@ -2,9 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-#include <sstream>
-
+#include "base/text_file.h"
 #include "test_paths.h"
 #include "tests/until.h"
 
@@ -13,15 +11,9 @@ namespace {
 
 using reachlab::test::until;
 
-std::string textOf(const std::string& file) {
-  std::ifstream in(std::string(REACHLAB_SOURCE_DIR "/") + file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
-
 TEST(ExampleDriver, IsTheOneOfTheManualsPage) {
-  const std::string example = textOf("tests/devices/example_driver.h"), page = textOf("docs/write-a-driver.md");
+  const std::string example = readTextFile(REACHLAB_SOURCE_DIR "/tests/devices/example_driver.h"),
+                    page = readTextFile(REACHLAB_SOURCE_DIR "/docs/write-a-driver.md");
   ASSERT_FALSE(example.empty());
   EXPECT_NE(page.find(example), std::string::npos) << "docs/write-a-driver.md shows another text than the one that is tested";
 }

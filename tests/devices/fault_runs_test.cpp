@@ -54,16 +54,22 @@ class Rig {
  public:
   virtual ~Rig() = default;
   virtual std::shared_ptr<haptics::HapticDevice> open() = 0;
-  virtual void moveTo(const Vec3& world) = 0;
   /// One millisecond of the device and its I/O; then `tick`, unless the tick hangs.
   virtual void advance(const std::function<void()>& tick) = 0;
   /// What the device's motors were last told, in its own unit: 0 is none.
   virtual double told() const = 0;
-  virtual void set(Fault kind, bool active) = 0;
+  void moveTo(const Vec3& world) { place = world; }
+  void set(Fault kind, bool active) { faults[static_cast<std::size_t>(kind)] = active; }
+  bool has(Fault kind) const { return faults[static_cast<std::size_t>(kind)]; }
   bool knows(Fault kind) const { return kind == Fault::Gap || kind == Fault::Stall || knowsOwn(kind); }
   virtual bool knowsOwn(Fault kind) const = 0;
   virtual double toldLimit() const = 0;
   virtual bool refuses() const { return false; }
+
+ protected:
+  Vec3 seen() const { return place + (has(Fault::Jump) ? Vec3{0.05, 0, 0} : Vec3{}); }
+  Vec3 place;
+  std::array<bool, 8> faults{};
 };
 
 /// Behind a PolledDevice that is stepped.
@@ -79,21 +85,11 @@ class PolledRig : public Rig {
     polled_->step();
     if (tick) tick();
   }
-  void moveTo(const Vec3& world) override { place = world; }
-  void set(Fault kind, bool active) override { faults[static_cast<std::size_t>(kind)] = active; }
-  bool has(Fault kind) const { return faults[static_cast<std::size_t>(kind)]; }
   bool refuses() const override { return has(Fault::Refusal); }
 
  protected:
   virtual std::shared_ptr<Transport> transport() = 0;
   virtual void serve() = 0;  // the device's own millisecond
-  Vec3 seen() const {
-    Vec3 at = place;
-    if (has(Fault::Jump)) at += Vec3{0.05, 0, 0};
-    return at;
-  }
-  Vec3 place;
-  std::array<bool, 8> faults{};
   std::shared_ptr<PolledDevice> polled_;
 };
 
@@ -302,30 +298,25 @@ class PhantomRig final : public Rig {
   }
   void advance(const std::function<void()>& tick) override {
     auto& fake = test::fakeHd();
-    Vec3 at = place_;
-    if (faults_[static_cast<std::size_t>(Fault::Jump)]) at += Vec3{0.05, 0, 0};
+    const Vec3 at = seen();
     auto& one = fake.devices[""];
-    one.position[0] = faults_[static_cast<std::size_t>(Fault::NotANumber)] ? std::numeric_limits<double>::quiet_NaN() : 1e3 * at.x;
+    one.position[0] = has(Fault::NotANumber) ? std::numeric_limits<double>::quiet_NaN() : 1e3 * at.x;
     one.position[1] = 1e3 * at.y, one.position[2] = 1e3 * at.z;
-    if (faults_[static_cast<std::size_t>(Fault::Unplug)]) fake.failures["hdEndFrame"] = 0x0302;
-    if (faults_[static_cast<std::size_t>(Fault::Refusal)]) fake.failures["hdSetDoublev"] = 0x0203;
+    if (has(Fault::Unplug)) fake.failures["hdEndFrame"] = 0x0302;
+    if (has(Fault::Refusal)) fake.failures["hdSetDoublev"] = 0x0203;
     tick_ = tick;
     if (tick) test::stepFakeHd();  // a tick that hangs holds the scheduler
     tick_ = nullptr;
   }
-  void moveTo(const Vec3& world) override { place_ = world; }
   double told() const override {
     const auto& f = test::fakeHd().devices[""].force;
     return std::hypot(f[0], f[1], f[2]);
   }
   double toldLimit() const override { return 3.3; }
-  void set(Fault kind, bool active) override { faults_[static_cast<std::size_t>(kind)] = active; }
 
  private:
   std::shared_ptr<PhantomDevice> device_;
   std::function<void()> tick_;
-  Vec3 place_;
-  std::array<bool, 8> faults_{};
 };
 
 class VirtualRig final : public Rig {
@@ -340,10 +331,8 @@ class VirtualRig final : public Rig {
   void advance(const std::function<void()>& tick) override {
     if (tick) tick();
   }
-  void moveTo(const Vec3& world) override { place_ = world; }
   double told() const override { return 0; }
   double toldLimit() const override { return 8.5; }
-  void set(Fault kind, bool active) override { faults_[static_cast<std::size_t>(kind)] = active; }
 
  private:
   struct Hand final : haptics::HapticDevice {
@@ -351,17 +340,14 @@ class VirtualRig final : public Rig {
     haptics::DeviceInfo info() const override { return {}; }
     haptics::DeviceSample read() noexcept override {
       haptics::DeviceSample sample;
-      sample.position = rig.place_;
-      if (rig.faults_[static_cast<std::size_t>(Fault::Jump)]) sample.position += Vec3{0.05, 0, 0};
-      sample.valid = !rig.faults_[static_cast<std::size_t>(Fault::Silence)];
+      sample.position = rig.seen();
+      sample.valid = !rig.has(Fault::Silence);
       return sample;
     }
     void write(const Vec3&) noexcept override {}
     VirtualRig& rig;
   };
   std::shared_ptr<VirtualDevice> device_;
-  Vec3 place_;
-  std::array<bool, 8> faults_{};
 };
 
 /// What the loop tells the device, tick for tick.
