@@ -1,18 +1,31 @@
 #pragma once
 #include <string>
+#include <vector>
 
 #include "base/error.h"
+#include "base/fault.h"
 
 namespace reachlab {
 
-/// The sentence with which `work` is refused, or `done` where it was not.
-template <class Work>
+/// The sentence with which `work` is refused, or `done` where it was not. A refusal of another type than `Refused` is thrown on.
+template <class Refused = Error, class Work>
 std::string refusalOf(const Work& work, const std::string& done = {}) {
   try {
     work();
     return done;
-  } catch (const Error& refusal) {
+  } catch (const Refused& refusal) {
     return refusal.what();
+  }
+}
+
+/// The faults for which `work` is refused; none where it was not.
+template <class Work>
+std::vector<Fault> faultsToldBy(const Work& work) {
+  try {
+    work();
+    return {};
+  } catch (const FaultError& refusal) {
+    return refusal.faults;
   }
 }
 

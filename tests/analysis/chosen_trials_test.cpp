@@ -12,6 +12,7 @@
 #include "sim/record/trial_marks.h"
 #include "tests/analysis/recorded.h"
 #include "tests/analysis/whole_dataset.h"
+#include "tests/refusal.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -83,12 +84,7 @@ TEST(ChosenTrials, OfAnotherProgramsMotionFilesAreRefusedByTheName) {
   const TemporaryFolder folder;
   std::filesystem::create_directories(folder.path() + "/sub-01/motion");
   std::ofstream(folder.path() + "/sub-01/motion/sub-01_task-walk_tracksys-imu_motion.tsv") << "0\t1\n";
-  try {
-    (void)indexMotionFiles(folder.path());
-    FAIL();
-  } catch (const FaultError& error) {
-    EXPECT_NE(std::string(error.what()).find("not of Reachlab: tracksys-imu"), std::string::npos) << error.what();
-  }
+  EXPECT_NE(refusalOf<FaultError>([&] { (void)indexMotionFiles(folder.path()); }).find("not of Reachlab: tracksys-imu"), std::string::npos);
 }
 
 TEST(Marks, ExcludeATrialWithItsReasonAndMoveOnsetAndEnd) {

@@ -22,6 +22,7 @@
 #include "test_paths.h"
 #include "tests/analysis/recorded.h"
 #include "tests/analysis/whole_dataset.h"
+#include "tests/refusal.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -162,12 +163,7 @@ TEST(Dataset, OfBidsFilesThatAnotherProgramHasChangedIsRefusedWhereItsNumbersWou
       const std::string before = record::readWholeFile(entry.path().string()), after = std::regex_replace(before, text, instead);
       EXPECT_NE(before, after);
       std::ofstream(entry.path(), std::ios::binary) << after;
-      std::string refusal;
-      try {
-        (void)analyzeTrials(openDataset(folder.path()).input, quick());
-      } catch (const FaultError& error) {
-        refusal = error.what();
-      }
+      const std::string refusal = reachlab::refusalOf<FaultError>([&] { (void)analyzeTrials(openDataset(folder.path()).input, quick()); });
       std::ofstream(entry.path(), std::ios::binary) << before;
       return refusal;
     }

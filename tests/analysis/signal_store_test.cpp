@@ -6,6 +6,7 @@
 #include <csignal>
 
 #include "base/error.h"
+#include "tests/refusal.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -34,13 +35,8 @@ TEST(SignalStore, SaysWhenTheDiskTakesNoMore) {
   const auto old = std::signal(SIGXFSZ, SIG_IGN);
   const struct rlimit small { 1 << 20, before.rlim_max };
   ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &small), 0);
-  std::string refusal;
   SignalStore store(10);
-  try {
-    store.put(std::vector<double>(1 << 19, 1.0));
-  } catch (const ResourceError& e) {
-    refusal = e.what();
-  }
+  const std::string refusal = refusalOf<ResourceError>([&] { store.put(std::vector<double>(1 << 19, 1.0)); });
   setrlimit(RLIMIT_FSIZE, &before);
   std::signal(SIGXFSZ, old);
   EXPECT_NE(refusal.find("the temporary file of the analysis cannot be written: File too large"), std::string::npos) << refusal;

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/fault.h"
+#include "tests/refusal.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -48,13 +49,9 @@ INSTANTIATE_TEST_SUITE_P(Ends, CatenaryWay, testing::Values(std::pair{-0.4, 0.9}
 
 TEST(CurveWay, FromAPlaceToItselfIsRefused) {
   const Constraint circle = makeConstraint({.name = "circle", .curve = {}, .surface = {}, .shape = {}});
-  try {
-    CurveWay(circle, 0.4, 0.4);
-    FAIL();
-  } catch (const FaultError& error) {
-    ASSERT_EQ(error.faults.size(), 1u);
-    EXPECT_EQ(error.faults[0].key, "task.target");
-  }
+  const std::vector<Fault> faults = faultsToldBy([&] { CurveWay(circle, 0.4, 0.4); });
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_EQ(faults[0].key, "task.target");
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 
 #include "base/fault.h"
 #include "constraints/constraint.h"
+#include "tests/refusal.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -14,12 +15,10 @@ constexpr double kRounding = 1e-15;  // a few roundings of numbers below 1
 // 0*log(phi) is 0 where it has a value, and it has none below 0: simplified to 0 it would go on there without a word.
 TEST(TypedFormula, WhatCancelsOutWithTheEndOfItsDomainIsRefused) {
   const auto faultOf = [](const std::string& y) -> std::string {
-    try {
+    const std::vector<Fault> faults = faultsToldBy([&] {
       makeConstraint({.name = "", .curve = {"phi/10", y, "phi/5"}, .surface = {}, .shape = {}});
-      return {};
-    } catch (const FaultError& fault) {
-      return fault.faults.at(0).key + ": " + fault.faults.at(0).what;
-    }
+    });
+    return faults.empty() ? "" : faults[0].key + ": " + faults[0].what;
   };
   EXPECT_EQ(faultOf("0*log(phi)").find("constraint.curve[1]: log(phi) cancels out"), 0u) << faultOf("0*log(phi)");
   for (const char* y : {"0*sqrt(phi)", "log(phi) - log(phi)", "asin(phi)/asin(phi)", "0*acos(phi)", "0*phi^0.3", "log(phi)^0"})

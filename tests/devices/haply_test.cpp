@@ -166,12 +166,8 @@ class HaplyOverALine : public ::testing::Test {
     return device;
   }
   std::string refusalOf(const HaplyInverse3::Options& options = {}) {
-    try {
-      HaplyInverse3(options, [this] { return std::make_unique<test::FakeMessageLink>(line); });
-      return "opened";
-    } catch (const ResourceError& error) {
-      return error.what();
-    }
+    return reachlab::refusalOf<ResourceError>(
+        [&] { HaplyInverse3(options, [this] { return std::make_unique<test::FakeMessageLink>(line); }); }, "opened");
   }
   std::shared_ptr<test::FakeMessageLine> line = std::make_shared<test::FakeMessageLine>();
   test::StandingForce wish;

@@ -204,13 +204,9 @@ TEST(PolledDevice, OneThatNeverReportsIsRefusedWithItsReasonAndClosed) {
     const auto transport = std::make_shared<Scripted>();
     transport->answer = Exchange::Nothing;
     transport->why = why;
-    try {
-      PolledDevice device(transport, 20);
-      return std::string("opened");
-    } catch (const ResourceError& error) {
-      EXPECT_EQ(transport->closed, 1);
-      return std::string(error.what());
-    }
+    const std::string said = reachlab::refusalOf<ResourceError>([&] { PolledDevice device(transport, 20); }, "opened");
+    EXPECT_EQ(transport->closed, 1);
+    return said;
   };
   EXPECT_EQ(refusalOf(""), "scripted: it was opened, but no report came within 20 ms");
   EXPECT_EQ(refusalOf("too old"), "scripted: it was opened, but no report came within 20 ms: too old");

@@ -491,14 +491,9 @@ TEST_F(Phantom, BothWaysToServeItAreTimed) {
 }
 
 TEST(SharedLibrary, OneThatIsNotThereIsRefusedWithAllNamesAndTheLoadersWords) {
-  try {
-    const SharedLibrary library({"libnowhere.so.7", "libnowhere.so"});
-    FAIL();
-  } catch (const ResourceError& error) {
-    const std::string said = error.what();
-    EXPECT_TRUE(said.starts_with("libnowhere.so.7: ")) << said;
-    EXPECT_NE(said.find("; looked for libnowhere.so.7, libnowhere.so where the loader looks"), std::string::npos) << said;
-  }
+  const std::string said = refusalOf<ResourceError>([] { const SharedLibrary library({"libnowhere.so.7", "libnowhere.so"}); });
+  EXPECT_TRUE(said.starts_with("libnowhere.so.7: ")) << said;
+  EXPECT_NE(said.find("; looked for libnowhere.so.7, libnowhere.so where the loader looks"), std::string::npos) << said;
   const SharedLibrary found({"libnowhere.so", "libm.so.6", "libc.so.6"});
   EXPECT_EQ(found.name(), "libm.so.6") << "the first that there is";
   EXPECT_NE(found.find("cos"), nullptr);

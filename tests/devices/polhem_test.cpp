@@ -362,15 +362,10 @@ TEST(Polhem, GivesItsPlaceAndGetsItsForce) {
 TEST(Polhem, AnArmThatNeverReportsIsRefusedAndNamedADeviceOnce) {
   Firmware firmware;
   firmware.silent = true;
-  try {
-    open(firmware);
-    FAIL();
-  } catch (const ResourceError& error) {
-    const std::string said = error.what();
-    EXPECT_TRUE(said.starts_with("device polhem:" + firmware.path + ": ")) << said;
-    EXPECT_EQ(said.find("device ", 1), std::string::npos) << said;
-    EXPECT_NE(said.find("no report came within 2000 ms"), std::string::npos) << said;
-  }
+  const std::string said = refusalOf<ResourceError>([&] { open(firmware); });
+  EXPECT_TRUE(said.starts_with("device polhem:" + firmware.path + ": ")) << said;
+  EXPECT_EQ(said.find("device ", 1), std::string::npos) << said;
+  EXPECT_NE(said.find("no report came within 2000 ms"), std::string::npos) << said;
 }
 
 TEST(Polhem, WhatIsNoSerialLineIsRefusedInTheSystemsWords) {

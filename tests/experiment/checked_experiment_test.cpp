@@ -10,17 +10,13 @@
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
+#include "tests/refusal.h"
 
 namespace reachlab::experiment {
 namespace {
 
 std::vector<Fault> faultsOfText(const std::string& text) {
-  try {
-    openExperimentText(text, "x.json");
-    return {};
-  } catch (const FaultError& error) {
-    return error.faults;
-  }
+  return faultsToldBy([&] { openExperimentText(text, "x.json"); });
 }
 
 struct Edit {

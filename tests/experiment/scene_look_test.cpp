@@ -7,6 +7,7 @@
 
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
+#include "tests/refusal.h"
 
 namespace reachlab::experiment {
 namespace {
@@ -19,13 +20,8 @@ std::string fileWith(const std::string& look) {
 }
 
 std::string toldOf(const std::string& look) {
-  try {
-    parseExperiment(fileWith(look), "x.json");
-    return "none";
-  } catch (const FaultError& refusal) {
-    const std::string text = refusal.what();
-    return text.substr(text.find("look"));
-  }
+  const std::string text = refusalOf<FaultError>([&] { parseExperiment(fileWith(look), "x.json"); });
+  return text.empty() ? "none" : text.substr(text.find("look"));
 }
 
 std::string withCamera(const std::string& camera) { return "{ \"cameras\": [" + camera + "] }"; }

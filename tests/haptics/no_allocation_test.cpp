@@ -7,6 +7,7 @@
 #include "sim/haptics/haptic_loop.h"
 #include "tests/bare_reach.h"
 #include "tests/haptics/scripted_device.h"
+#include "tests/refusal.h"
 
 namespace reachlab::haptics {
 namespace {
@@ -75,12 +76,8 @@ TEST(TickEngine, RefusesScenesThatCannotShareARecord) {
     experiment::Experiment other = first;
     change(other);
     const std::vector<experiment::CompiledExperiment> scenes{experiment::CompiledExperiment(first), experiment::CompiledExperiment(other)};
-    try {
-      TickEngine engine(scenes, EngineOptions{});
-      return "";
-    } catch (const FaultError& error) {
-      return error.faults.at(0).key;
-    }
+    const std::vector<Fault> faults = faultsToldBy([&] { TickEngine engine(scenes, EngineOptions{}); });
+    return faults.empty() ? "" : faults[0].key;
   };
   EXPECT_EQ(refusedKey([](experiment::Experiment& e) { e.forceLimit = 3; }), "force_limit_n");
   EXPECT_EQ(refusedKey([](experiment::Experiment& e) { e.task->rest.seconds = 0.7; }), "task.rest_s");

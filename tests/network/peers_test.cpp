@@ -251,12 +251,8 @@ TEST_F(Peers, WhoWasAnsweredStandsInTheOrderOfTheNamesAndNeedsNoKeyThere) {
 TEST_F(Peers, AStationWithTheConductorsNameIsRefused) {
   initConductor(at("lab"), "left");
   initStation(at("right"), "left");
-  try {
-    addStation(at("lab"), at("right/request.pem"));
-    FAIL();
-  } catch (const FaultError& error) {
-    EXPECT_EQ(error.faults.at(0).what, "is of a station named \"left\", which is the conductor's name");
-  }
+  EXPECT_EQ(faultsToldBy([&] { addStation(at("lab"), at("right/request.pem")); }).at(0).what,
+            "is of a station named \"left\", which is the conductor's name");
   EXPECT_FALSE(fs::exists(at("lab/for-left")));
 }
 
@@ -274,13 +270,9 @@ TEST_F(Peers, ARequestThatItsOwnKeyDidNotSignIsRefused) {
     const Bio out(BIO_new_file(at("changed.pem").c_str(), "w"));
     PEM_write_bio_X509_REQ(out.get(), request.get());
   }
-  try {
-    addStation(at("lab"), at("changed.pem"));
-    FAIL();
-  } catch (const FaultError& error) {
-    EXPECT_EQ(error.faults.at(0).what, "is not signed by its own key");
-    EXPECT_EQ(error.faults.at(0).place->file, at("changed.pem"));
-  }
+  const Fault fault = faultsToldBy([&] { addStation(at("lab"), at("changed.pem")); }).at(0);
+  EXPECT_EQ(fault.what, "is not signed by its own key");
+  EXPECT_EQ(fault.place->file, at("changed.pem"));
 }
 
 }  // namespace

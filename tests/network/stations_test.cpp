@@ -22,6 +22,7 @@
 #include "sim/haptics/tick_order.h"
 #include "sim/record/log/recorder.h"
 #include "tests/record/made_run.h"
+#include "tests/refusal.h"
 
 // Two whole stations, engine, sink, rings and log, on clocks of the test: the link between them is a function, so what is judged never
 // depends on how busy the computer is.
@@ -324,13 +325,9 @@ TEST_F(StationsOnClocks, LogsThatAreOfNoOneRunAreRefused) {
   run(good);
   const auto sayOf = [&](const std::vector<std::string>& logs) -> std::string {
     const std::string path = folder_ / "refused_log.reach";
-    try {
-      mergeStations(logs, record::madeConfiguration(), path);
-    } catch (const FaultError& error) {
-      EXPECT_FALSE(std::filesystem::exists(path));
-      return error.what();
-    }
-    return "";
+    const std::string said = refusalOf<FaultError>([&] { mergeStations(logs, record::madeConfiguration(), path); });
+    EXPECT_EQ(std::filesystem::exists(path), said.empty());
+    return said;
   };
   EXPECT_NE(sayOf({logOf(0)}).find("one of each station"), std::string::npos);
   EXPECT_NE(sayOf({logOf(0), logOf(0)}).find("two are of station 1"), std::string::npos);

@@ -9,6 +9,7 @@
 #include "sim/predict/numerics/double_double.h"
 #include "sim/predict/numerics/lane_matrix.h"
 #include "sim/predict/numerics/work_limit.h"
+#include "tests/refusal.h"
 
 namespace reachlab::predict {
 namespace {
@@ -219,11 +220,8 @@ TEST(WorkLimit, RefusesOnceAllThatWasSpentIsTooMuch) {
   EXPECT_NO_THROW(WorkLimit().spend(1.5e10));
   EXPECT_NO_THROW(WorkLimit::hold(3e7));
   EXPECT_THROW(WorkLimit::hold(3.01e7), RefusedError);
-  try {
-    WorkLimit::hold(5e7);
-  } catch (const RefusedError& refused) {
-    EXPECT_NE(std::string(refused.what()).find("5.0e+07 numbers at once; allowed: up to 3e+07"), std::string::npos) << refused.what();
-  }
+  const std::string said = refusalOf<RefusedError>([] { WorkLimit::hold(5e7); });
+  EXPECT_NE(said.find("5.0e+07 numbers at once; allowed: up to 3e+07"), std::string::npos) << said;
 }
 
 }  // namespace

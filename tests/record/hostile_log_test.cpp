@@ -16,6 +16,7 @@
 #include "sim/record/recover.h"
 #include "sim/record/replay.h"
 #include "tests/record/made_run.h"
+#include "tests/refusal.h"
 
 namespace reachlab::record {
 namespace {
@@ -45,14 +46,10 @@ std::string logWith(const TemporaryFolder& folder, Edit&& edit) {
 }
 
 void expectRefusal(const std::string& path, const std::string& key) {
-  try {
-    RunLog::open(path);
-    FAIL() << key << ": opened";
-  } catch (const FaultError& refusal) {
-    EXPECT_TRUE(std::string(refusal.what()).starts_with(path)) << refusal.what();
-    EXPECT_NE(std::string(refusal.what()).find(key), std::string::npos) << refusal.what();
-    EXPECT_EQ(std::string(refusal.what()).find("json.exception"), std::string::npos) << refusal.what();
-  }
+  const std::string said = toText(faultsToldBy([&] { RunLog::open(path); }));
+  EXPECT_TRUE(said.starts_with(path)) << key << ": " << said;
+  EXPECT_NE(said.find(key), std::string::npos) << said;
+  EXPECT_EQ(said.find("json.exception"), std::string::npos) << said;
 }
 
 TEST(HostileLog, AnEditedButHonestConfigurationIsRead) {

@@ -280,14 +280,7 @@ TEST(LogReader, OneThatIsMovedReadsOn) {
 TEST(LogReader, RefusesWhatIsNoLogInWords) {
   const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
-  const auto refusal = [&] {
-    try {
-      const LogReader reader(path);
-      return std::string("opened");
-    } catch (const Error& error) {
-      return std::string(error.what()).substr(path.size());
-    }
-  };
+  const auto refusal = [&] { return refusalOf([&] { const LogReader reader(path); }, path + "opened").substr(path.size()); };
   EXPECT_EQ(refusal(), ": cannot be opened: No such file or directory");
   const std::string damaged = ": not a log of reachlab, or its first 16 bytes are damaged";
   writeFileAtomically(path, "");

@@ -163,12 +163,7 @@ TEST(Replay, ATableOfOtherMassesOrHandsIsRefused) {
     const std::string path = folder / "table_log.reach";
     std::filesystem::remove(path);
     LogWriter::create(path).append(RecordType::Configuration, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-    try {
-      replayRun(RunLog::open(path));
-      return std::string("replayed");
-    } catch (const FaultError& refusal) {
-      return std::string(refusal.what()).substr(path.size());
-    }
+    return reachlab::refusalOf<FaultError>([&] { replayRun(RunLog::open(path)); }, path + "replayed").substr(path.size());
   };
   const ChannelTable& t = recorded.table;
   const std::string words = ": table: has not the masses, hands, forces and cursor of its experiment, so the run cannot be simulated again";

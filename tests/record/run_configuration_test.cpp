@@ -85,12 +85,7 @@ TEST(RunConfiguration, ALabelIsUpToSixtyLettersAndDigits) {
   }
   RunConfiguration c = madeConfiguration();
   c.subject = "a b", c.session = "c/d", c.task = "";
-  try {
-    checkConfiguration(c);
-    FAIL();
-  } catch (const FaultError& refusal) {
-    EXPECT_EQ(refusal.faults.size(), 3u) << "each by itself";
-  }
+  EXPECT_EQ(faultsToldBy([&] { checkConfiguration(c); }).size(), 3u) << "each by itself";
 }
 
 TEST(RunConfiguration, AnAgeIsZeroTo130YearsOrNotTold) {

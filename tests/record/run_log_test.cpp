@@ -420,12 +420,8 @@ TEST(FindLogs, OfADatasetASessionASubjectOrAFile) {
   EXPECT_EQ(found("plain"), (std::vector<std::string>{"a_log.reach", "b_log.reach"})) << "sorted";
   EXPECT_EQ(found("data/sourcedata/notes.txt"), (std::vector<std::string>{"notes.txt"})) << "a file is taken as it is";
   const auto refusal = [&](const std::string& path) {
-    try {
-      findLogs(folder / path);
-      return std::string("found");
-    } catch (const FaultError& error) {
-      return std::string(error.what()).substr((folder / path).string().size());
-    }
+    return refusalOf<FaultError>([&] { findLogs(folder / path); }, (folder / path).string() + "found")
+        .substr((folder / path).string().size());
   };
   EXPECT_EQ(refusal("data/sub-01/ses-09"), ": no logs (…_log.reach) in this folder");
   EXPECT_EQ(refusal("nothing"), ": no such log or folder");

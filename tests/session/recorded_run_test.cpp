@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/fault.h"
+#include "tests/refusal.h"
 #include "tests/session/recorded_runs.h"
 
 // One run from its log to the dataset.
@@ -102,13 +103,9 @@ TEST_F(Recorded, ARunWithoutATrialLeavesAnOrderlyLog) {
 }
 
 TEST_F(Recorded, TheVirtualClockIsRefusedToAHandInRealTimeBeforeAnythingIsWritten) {
-  try {
-    RecordedRun run(block(), std::make_unique<Hand>(0.1, false), options());
-    FAIL();
-  } catch (const FaultError& error) {
-    EXPECT_EQ(error.faults.at(0).key, "fast");
-    EXPECT_NE(error.faults.at(0).what.find("scripted"), std::string::npos);
-  }
+  const Fault fault = faultsToldBy([&] { RecordedRun run(block(), std::make_unique<Hand>(0.1, false), options()); }).at(0);
+  EXPECT_EQ(fault.key, "fast");
+  EXPECT_NE(fault.what.find("scripted"), std::string::npos);
   EXPECT_TRUE(recordedRuns(request_.place).empty());
 }
 

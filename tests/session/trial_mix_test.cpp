@@ -13,6 +13,7 @@
 #include "sim/session/checked_programme.h"
 #include "sim/session/plan.h"
 #include "sim/session/trial_order.h"
+#include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 
 // The order of kinds and targets within a block, counted trial by trial.
@@ -27,12 +28,7 @@ PlanBlock blockOf(const std::string& settings) {
 }
 
 std::string faultsOf(const std::string& settings) {
-  try {
-    blockOf(settings);
-    return "";
-  } catch (const FaultError& error) {
-    return error.what();
-  }
+  return refusalOf<FaultError>([&] { blockOf(settings); });
 }
 
 const std::string kThreeKinds = R"("kinds": { "null": {}, "field": {}, "channel": {} })";
@@ -100,12 +96,7 @@ TEST(TrialMix, OfMoreThanAThousandBlocksIsRefusedBeforeTheyAreLookedAt) {
   const auto faultOf = [](int blocks) -> std::string {
     std::string text = R"({ "schema_version": 1, "trials": 1, "blocks": [)";
     for (int i = 0; i < blocks; ++i) text += (i == 0 ? "" : ",") + std::string(R"({ "experiment": "free-point" })");
-    try {
-      (void)parsePlan(text + "] }", "p.json");
-      return "";
-    } catch (const FaultError& error) {
-      return error.what();
-    }
+    return refusalOf<FaultError>([&] { (void)parsePlan(text + "] }", "p.json"); });
   };
   EXPECT_EQ(faultOf(1000), "");
   EXPECT_NE(faultOf(1001).find("blocks: has 1001 blocks"), std::string::npos) << faultOf(1001);
@@ -274,12 +265,7 @@ TEST(BlockScenes, AreKindsTimesTargetsWithTheirChangesAndWaysBack) {
 }
 
 std::string scenesRefused(const std::string& experiment, const std::string& settings) {
-  try {
-    scenesOf(blockOf(settings), experiment::openExperiment(experiment));
-    return "";
-  } catch (const FaultError& error) {
-    return error.what();
-  }
+  return refusalOf<FaultError>([&] { scenesOf(blockOf(settings), experiment::openExperiment(experiment)); });
 }
 
 TEST(BlockScenes, RefuseChangesThatTheExperimentOrTheRecordDoesNotAllow) {
@@ -309,15 +295,10 @@ TEST(BlockScenes, ACheckedPlanNamesTheLineOfAKindOfThePlanOrOfTheBlock) {
                "{ \"schema_version\": 1, \"trials\": 2,\n  \"kinds\": { \"a\": {},\n    \"b\": { \"object.masses_kg\": [-1] } },\n"
                "  \"blocks\": [ { \"experiment\": \"free-point\" }, { \"experiment\": \"free-point\" },\n"
                "    { \"experiment\": \"free-point\", \"kinds\": { \"a\": {},\n      \"c\": { \"object.kind\": \"chain\" } } } ] }");
-  try {
-    checkedProgramme(file);
-    FAIL();
-  } catch (const FaultError& error) {
-    const std::string said = error.what();
-    EXPECT_NE(said.find("p.json:3:"), std::string::npos) << said;
-    EXPECT_NE(said.find("p.json:6:"), std::string::npos) << said;
-    EXPECT_EQ(said.find("p.json:3:"), said.rfind("p.json:3:")) << "told once for both blocks\n" << said;
-  }
+  const std::string said = refusalOf<FaultError>([&] { checkedProgramme(file); });
+  EXPECT_NE(said.find("p.json:3:"), std::string::npos) << said;
+  EXPECT_NE(said.find("p.json:6:"), std::string::npos) << said;
+  EXPECT_EQ(said.find("p.json:3:"), said.rfind("p.json:3:")) << "told once for both blocks\n" << said;
 }
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "gui/model/model_reader.h"
 #include "gui/model/model_stream.h"
 #include "gui/model/vrml.h"
+#include "tests/refusal.h"
 
 namespace reachlab::gui::model {
 namespace {
@@ -52,17 +53,6 @@ Vec3 middleOf(const ModelPart& part) {
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   return 0.5 * (low + high);
-}
-
-// What is said; empty: it was read.
-template <typename Read>
-std::string saidOf(Read read) {
-  try {
-    read();
-  } catch (const FaultError& e) {
-    return toText(e.faults);
-  }
-  return {};
 }
 
 std::string vrml(const std::string& body) { return "#VRML V2.0 utf8\n" + body; }
@@ -137,7 +127,7 @@ TEST(Vrml, RefusesDamagedFilesInWords) {
       {vrml(bomb), "more than 500000 triangles"},
   };
   for (const auto& [text, word] : files) {
-    const std::string said = saidOf([&, &text = text] { return readVrml(text, "bad.wrl"); });
+    const std::string said = refusalOf<FaultError>([&, &text = text] { return readVrml(text, "bad.wrl"); });
     EXPECT_NE(said.find(word), std::string::npos) << text.substr(0, 120) << "\n  said: " << said;
     EXPECT_EQ(said.find("bad.wrl"), 0u) << said;
     EXPECT_LT(said.size(), 400u) << said;
@@ -160,7 +150,7 @@ TEST(Vrml, MutantsAreReadOrRefused) {
         default: text.replace(at, length, random() % 2 == 0 ? " -99999 " : " } "); break;
       }
     }
-    const std::string said = saidOf([&] { check(readVrml(text, "mutant.wrl"), "mutant.wrl"); });
+    const std::string said = refusalOf<FaultError>([&] { check(readVrml(text, "mutant.wrl"), "mutant.wrl"); });
     refused += !said.empty();
   }
   EXPECT_GT(refused, kMutants / 4);
@@ -183,7 +173,7 @@ TEST(ModelStream, MutantsOfTheReadersAnswerAreReadOrRefused) {
     std::string mutant = good;
     for (std::size_t n = 1 + random() % 6; n-- > 0;) mutant[random() % mutant.size()] = static_cast<char>(random());
     if (random() % 3 == 0) mutant.resize(random() % mutant.size());
-    refused += !saidOf([&] { return readStream(mutant, "x"); }).empty();
+    refused += !refusalOf<FaultError>([&] { return readStream(mutant, "x"); }).empty();
   }
   EXPECT_GT(refused, 500);
 }
@@ -219,7 +209,7 @@ class Gltf : public ::testing::Test {
   }
   std::string said(const std::string& text, const char* name = "scene.gltf") {
     const std::string file = fileOf(text, name);
-    return saidOf([&] { return readModel(file); });
+    return refusalOf<FaultError>([&] { return readModel(file); });
   }
   QTemporaryDir folder_;
 };
@@ -335,7 +325,7 @@ TEST_F(ModelReaders, ReadALargeFileUpToTheBoundThatIsTold) {
   EXPECT_EQ(readModel(fileOf(QStringLiteral("large.wrl"), text)).parts.size(), readVrml(kTable, "table.wrl").parts.size());
   while (text.size() < 65'000'000) text += line;
   const std::string larger = fileOf(QStringLiteral("larger.wrl"), text);
-  EXPECT_NE(saidOf([&] { return readModel(larger); }).find("64 MB"), std::string::npos);
+  EXPECT_NE(refusalOf<FaultError>([&] { return readModel(larger); }).find("64 MB"), std::string::npos);
 }
 
 TEST_F(ModelReaders, TheNewestWinsAndWaitsForNobodyInTheWindow) {
