@@ -113,9 +113,7 @@ TEST(EveryPlant, KeepsItsEnergyWhereNothingTakesIt) {
       SCOPED_TRACE(std::string(c.name) + ", " + method + ": " + scene.choice.form);
       const HandSample hand{c.hand, {}, true};
       const double before = scene.plant->energy(hand), moving = 0.5 * dot(observed(*scene.plant)[0].v, observed(*scene.plant)[0].v);
-      ASSERT_EQ(run(
-                    *scene.plant, [&](double) { return hand; }, 0.3),
-                StepStatus::Ok);
+      ASSERT_EQ(run(*scene.plant, hand, 0.3), StepStatus::Ok);
       EXPECT_NEAR(scene.plant->energy(hand), before, (std::string(method) == "stiff" ? 1e-6 : 1e-10) * (1 + std::abs(before)));
       EXPECT_GT(std::abs(0.5 * dot(observed(*scene.plant)[0].v, observed(*scene.plant)[0].v) - moving), 1e-4) << "it was moved";
     }
@@ -202,13 +200,7 @@ TEST(EveryPlant, TheCouplingForceIsTheSpringsAndDampersOfTheHand) {
     else e.coupling->damping = 3;
     const Scene scene = begun(c, "auto", 1e-3);
     ASSERT_TRUE(scene.plant) << c.name;
-    ASSERT_EQ(run(
-                  *scene.plant,
-                  [&](double) {
-                    return HandSample{c.hand, {}, true};
-                  },
-                  0.02),
-              StepStatus::Ok);
+    ASSERT_EQ(run(*scene.plant, HandSample{c.hand, {}, true}, 0.02), StepStatus::Ok);
     const HandSample hand{c.hand + Vec3{0.02, -0.01, 0.03}, {0.3, 0.5, -0.2}, true};
     const std::vector<MassState> m = observed(*scene.plant, hand);
     if (e.object.kind != ObjectKind::Body) {
@@ -254,13 +246,7 @@ TEST(EveryPlant, ThatIsPutUpAgainMovesToTheBitAsANewOneDoes) {
 TEST(EveryPlant, TellsWhatItsLastStepMayErrBy) {
   for (const Case& c : cases()) {
     const Scene scene = begun(c, "auto", 1e-3);
-    ASSERT_EQ(run(
-                  *scene.plant,
-                  [&](double) {
-                    return HandSample{c.hand, {}, true};
-                  },
-                  0.05),
-              StepStatus::Ok);
+    ASSERT_EQ(run(*scene.plant, HandSample{c.hand, {}, true}, 0.05), StepStatus::Ok);
     if (scene.choice.method == "exact") EXPECT_EQ(scene.plant->errorEstimate(), 0) << c.name;
     else EXPECT_LT(scene.plant->errorEstimate(), 1e-13) << c.name;
   }

@@ -187,8 +187,7 @@ TEST(HeldObject, PutUpAnewItMovesAsANewOneDoes) {
     const std::vector<double> start(e.constraint.name == "free" ? 3 : 1, 0.3);
     const Scene used = inMotion(e), fresh = compileScene(e);
     used.shared->setExtraAcceleration(std::vector<double>(static_cast<std::size_t>(used.shared->rateCount()), 2.0));
-    (void)run(
-        *used.plant, [](double) { return handAt(0); }, 0.02);
+    (void)run(*used.plant, handAt(0), 0.02);
     EXPECT_NE(used.shared->work(0), 0);
     for (const Scene* s : {&used, &fresh}) {
       s->plant->placeAtRest(start);
@@ -196,9 +195,7 @@ TEST(HeldObject, PutUpAnewItMovesAsANewOneDoes) {
         EXPECT_EQ(s->shared->work(h), 0);
         EXPECT_LT(norm(s->shared->couplingForceOf(h)), 1e-9) << "hands rest at the object's start";
       }
-      ASSERT_EQ(run(
-                    *s->plant, [](double) { return handAt(0); }, 0.05),
-                StepStatus::Ok);
+      ASSERT_EQ(run(*s->plant, handAt(0), 0.05), StepStatus::Ok);
       EXPECT_GT(norm(s->shared->couplingForceOf(1)), 1e-3) << "and stay there";
     }
     const auto a = used.shared->places(), b = fresh.shared->places(), c = used.shared->rates(), d = fresh.shared->rates();

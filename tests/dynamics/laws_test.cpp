@@ -20,13 +20,7 @@ TEST(Rk4, ErrorFallsSixteenfoldWhenTheStepIsHalved) {
   const auto at = [&](const char* method, double dt) {
     const Scene scene = compileScene(e, {method, dt, 0});
     scene.plant->place(std::array{0.3}, std::array{1.0});
-    EXPECT_EQ(run(
-                  *scene.plant,
-                  [](double) {
-                    return HandSample{{0.1, 0, 0}, {}, true};
-                  },
-                  0.2, dt),
-              StepStatus::Ok);
+    EXPECT_EQ(run(*scene.plant, HandSample{{0.1, 0, 0}, {}, true}, 0.2, dt), StepStatus::Ok);
     const MassState mass = observed(*scene.plant)[0];
     return std::array{mass.q[0], mass.qRate[0]};
   };
@@ -163,9 +157,7 @@ TEST(Cusps, APointAtRestOnOneSaysThatNothingTellsWhereItGoes) {
   const Scene scene = compileScene(onCurve(bead(), "0.1*cos(phi)^3", "0.1*sin(phi)^3", "0"));
   scene.plant->placeAtRest(std::array{0.0});
   const HandSample hand{{0.05, 0.02, 0}, {}, true};  // it pulls along the tangent of the tip and across
-  EXPECT_EQ(run(
-                *scene.plant, [&](double) { return hand; }, 0.1),
-            StepStatus::NoContinuation);
+  EXPECT_EQ(run(*scene.plant, hand, 0.1), StepStatus::NoContinuation);
   EXPECT_NE(scene.plant->stopReason().find("cusp"), std::string::npos);
   const MassState mass = observed(*scene.plant, hand)[0];
   EXPECT_TRUE(isFinite(mass.r) && isFinite(mass.v));
@@ -298,9 +290,7 @@ TEST(Ends, OfALineStopAMassThatAHandPullsWithItsSpeed) {
   scene.plant->placeAtRest(std::array{0.0});
   const HandSample hand{observed(*scene.plant)[0].r + Vec3{1, 0, 0}, {}, true};
   const double before = scene.plant->energy(hand);
-  ASSERT_EQ(run(
-                *scene.plant, [&](double) { return hand; }, 1),
-            StepStatus::AtEnd);
+  ASSERT_EQ(run(*scene.plant, hand, 1), StepStatus::AtEnd);
   EXPECT_NEAR(observed(*scene.plant)[0].q[0], 1, 1e-9);
   EXPECT_GT(observed(*scene.plant)[0].v.x, 0.1);
   EXPECT_NEAR(scene.plant->energy(hand) / before, 1, 1e-6) << "a cubic through both ends of the step";

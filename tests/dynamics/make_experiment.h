@@ -49,6 +49,11 @@ inline StepStatus run(Plant& plant, const HandFunction& hand, double seconds, do
     if (const StepStatus status = plant.step(makeSegment(hand, i * dt, dt), dt); status != StepStatus::Ok) return status;
   return StepStatus::Ok;
 }
+/// With a hand that stands.
+inline StepStatus run(Plant& plant, const HandSample& hand, double seconds, double dt = 1e-3) {
+  return run(
+      plant, [&](double) { return hand; }, seconds, dt);
+}
 inline HandSample noHand(double) { return {}; }
 
 inline std::vector<MassState> observed(const Plant& plant, const HandSample& hand = {}) {

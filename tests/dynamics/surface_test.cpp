@@ -111,13 +111,7 @@ TEST(Surface, WithinItsEdgesATickCostsWhatItCostsWithoutThem) {
     if (!ended) c.domain = {};
     const auto plant = makeChartPlant(held(), c, nullptr, {"abm", 0});
     plant->place(std::array{0.1, 0.1}, std::array{0.2, -0.1});
-    EXPECT_EQ(run(
-                  *plant,
-                  [](double) {
-                    return HandSample{{0.01, 0.01, 0}, {}, true};
-                  },
-                  0.3),
-              StepStatus::Ok);
+    EXPECT_EQ(run(*plant, HandSample{{0.01, 0.01, 0}, {}, true}, 0.3), StepStatus::Ok);
     return plant->rhsEvaluations();
   };
   EXPECT_EQ(spent(true), spent(false));
