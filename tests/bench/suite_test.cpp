@@ -84,17 +84,5 @@ TEST(Suite, TheCheapestRowIsTheFirstOfTheLeastPriceThatErrsNoMoreThanAllowed) {
   EXPECT_EQ(cheapest(rows, "S1", 1, [](const Row& r) { return r.method == "exact"; })->method, "exact");
 }
 
-TEST(Suite, UnknownNamesAreRefused) {
-  SuiteOptions options;
-  std::vector<std::string> refusals;
-  options.scenes = {"S9"};
-  EXPECT_ANY_THROW(runSuite(
-      options, [](const std::string&) {}, refusals));
-  options.scenes = {"S6"};
-  options.methods = {"euler"};
-  EXPECT_ANY_THROW(runSuite(
-      options, [](const std::string&) {}, refusals));
-}
-
 }  // namespace
 }  // namespace reachlab::bench

@@ -12,9 +12,10 @@ namespace {
 
 experiment::CompiledExperiment chain() { return experiment::openExperiment("chain-slow"); }
 
+const auto nobody = [](const QString&) {};
+
 TEST(DeviceDialog, TheMouseIsSeenInTheWindowItself) {
-  DeviceDialog dialog(
-      chain(), QStringLiteral("mouse"), [](const QString&) {}, nullptr);
+  DeviceDialog dialog(chain(), QStringLiteral("mouse"), nobody, nullptr);
   EXPECT_FALSE(dialog.findChild<QPushButton*>(QStringLiteral("deviceOpen"))->isEnabled());
 }
 
@@ -40,8 +41,7 @@ TEST(DeviceDialog, ShowsADeviceLiveAndLetsItGo) {
 }
 
 TEST(DeviceDialog, ADeviceThatCannotBeHadIsSaidInItsWords) {
-  DeviceDialog dialog(
-      chain(), QStringLiteral("hid:NOWHERE"), [](const QString&) {}, nullptr);
+  DeviceDialog dialog(chain(), QStringLiteral("hid:NOWHERE"), nobody, nullptr);
   dialog.openOrLetGo();
   bool said = false;
   for (const QLabel* label : dialog.findChildren<QLabel*>())
