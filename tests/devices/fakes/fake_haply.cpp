@@ -131,15 +131,8 @@ void FakeHaply::setPlugged(bool plugged, const std::string& id) {
   deviceOf(id).plugged = plugged;
 }
 
-std::vector<std::string> FakeHaply::firstMessages() const {
-  const std::lock_guard lock(mutex_);
-  return heard_;
-}
-
 void FakeHaply::hear(const std::string& text) {
   const std::lock_guard lock(mutex_);
-  constexpr std::size_t kKept = 16;
-  if (heard_.size() < kKept) heard_.push_back(text);
   const Json message = Json::parse(text, nullptr, false);
   if (!message.is_object() || !message.contains("inverse3")) return;
   for (const Json& command : message["inverse3"])

@@ -45,8 +45,6 @@ class FakeHaply {
   Vec3 lastForce(const std::string& id = kFirst) const;
   std::uint64_t forces(const std::string& id = kFirst) const;
   double largestForce(const std::string& id = kFirst) const;
-  /// Named in the messages in the order heard, for the protocol's sake.
-  std::vector<std::string> firstMessages() const;
 
   /// Whether the device is in the service's list.
   void setPlugged(bool plugged, const std::string& id = kFirst);
@@ -76,7 +74,6 @@ class FakeHaply {
   mutable std::mutex mutex_;
   std::vector<Device> devices_;
   std::function<Vec3(double)> law_;
-  std::vector<std::string> heard_;
   std::atomic<bool> ending_{false};
   std::atomic<int> listener_{-1};
   std::set<int> connections_;

@@ -146,7 +146,6 @@ void hdMakeCurrentDevice(std::uint32_t handle) {
   const std::lock_guard lock(mutex);
   current = handle;
 }
-std::uint32_t hdGetCurrentDevice() { return current; }
 
 void hdBeginFrame(std::uint32_t handle) {
   const std::lock_guard lock(mutex);
@@ -201,7 +200,6 @@ void hdDisable(std::uint32_t what) {
     std::memset(device->force, 0, sizeof device->force);
   }
 }
-std::uint8_t hdIsEnabled(std::uint32_t) { return 1; }
 
 void hdGetDoublev(std::uint32_t what, double* values) {
   const std::lock_guard lock(mutex);
@@ -304,12 +302,9 @@ unsigned long hdScheduleAsynchronous(std::uint32_t (*callback)(void*), void* dat
   everScheduled.push_back(scheduled.back());
   return nextHandle++;
 }
-void hdScheduleSynchronous(std::uint32_t (*callback)(void*), void* data, std::uint16_t) { callback(data); }
 void hdUnschedule(unsigned long handle) {
   const std::lock_guard lock(mutex);
   state.calls.push_back("hdUnschedule");
   std::erase_if(scheduled, [&](const Scheduled& one) { return one.handle == handle; });
 }
-std::uint8_t hdWaitForCompletion(unsigned long, std::uint32_t) { return 0; }
-double hdGetSchedulerTimeStamp() { return 0; }
 }
