@@ -27,7 +27,6 @@ MethodChoice chosen(const std::string& asked, const ObjectModel& model, SceneFac
 std::string refused(const std::string& asked, const ObjectModel& model, const SceneFacts& facts = {}) {
   return refusalOf([&] { (void)chosen(asked, model, facts); });
 }
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 TEST(ChooseMethod, AutoTakesTheMethodThatTheFastestModeBears) {
   for (const char* asked : {"auto", ""}) {

@@ -12,7 +12,6 @@ using experiment::Experiment;
 using experiment::ObjectKind;
 
 Experiment bead() { return makeExperiment(ObjectKind::Point, {1}, {}); }
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 // Whole turns are taken off phi where it has become large, and added again for who asks.
 TEST(FarAlong, OnACircleManyTurnsOnTheDigitsOfThePlaceAreKept) {

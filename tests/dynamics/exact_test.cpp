@@ -49,8 +49,7 @@ TEST(ExactPlant, ModesAndMatrixAgreeForAHandOfEveryDegree) {
 
 // In space a hand pulls along all three axes at once, each another way. 1e-8 m is what RK4 errs by in half a second.
 TEST(ExactPlant, EveryOtherMethodMovesAChainInSpaceAsItDoes) {
-  experiment::Experiment e = makeChain(3, 0.5, 400, {600, 5});
-  e.constraint.name = "free";
+  experiment::Experiment e = free(makeChain(3, 0.5, 400, {600, 5}));
   e.object.damping.assign(2, 2);
   e.object.gravity = {1, -9.81, 0.5};
   const HandFunction hand = [](double t) {

@@ -23,15 +23,8 @@ Experiment chainOfThree() {
   e.hands = {{1, {400}, {4}, {}}, {3, {250}, {1.5}, {}}, {0, {50, 100, 150}, {1, 0.5, 2}, {}}};
   return e;
 }
-Experiment free(Experiment e) {
-  e.constraint.name = "free";
-  return e;
-}
-Experiment onLoop(Experiment e) { return onCurve(std::move(e), "0.1*cos(phi)", "0.07*sin(phi)", "0.03*sin(2*phi)"); }
 Experiment bodyOf(std::vector<experiment::Hand> hands) {
-  Experiment e = makeExperiment(ObjectKind::Body, {2}, {}, {600, 0});
-  e.constraint.name = "free";
-  e.object.inertia = {{{0.02, 0.002, -0.004}, {0.002, 0.03, 0.001}, {-0.004, 0.001, 0.025}}};
+  Experiment e = makeBody();
   e.hands = std::move(hands);
   return e;
 }

@@ -371,9 +371,7 @@ TEST(Ends, AJumpInAPeriodIsMetLikeAnEnd) {
 
 // Euler's top, its axes of inertia turned against the body's: what nothing turns keeps R I R^T omega in the world.
 TEST(Body, OfAnyInertiaKeepsItsAngularMomentum) {
-  experiment::Experiment e = makeExperiment(experiment::ObjectKind::Body, {2}, {}, {600, 0});
-  e.constraint.name = "free";
-  e.object.inertia = {{{0.02, 0.002, -0.004}, {0.002, 0.03, 0.001}, {-0.004, 0.001, 0.025}}};
+  const experiment::Experiment e = makeBody();
   const Scene scene = freeScene(e, {0, 0, 0}, {0, 0, 0});
   scene.plant->setAngularVelocity({1, 2, 3});
   const auto momentum = [&] {

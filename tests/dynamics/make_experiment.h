@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -30,6 +31,20 @@ inline experiment::Experiment onCurve(experiment::Experiment e, const std::strin
   e.constraint.curve = {x, y, z};
   return e;
 }
+inline experiment::Experiment onLoop(experiment::Experiment e) {
+  return onCurve(std::move(e), "0.1*cos(phi)", "0.07*sin(phi)", "0.03*sin(2*phi)");
+}
+inline experiment::Experiment free(experiment::Experiment e) {
+  e.constraint.name = "free";
+  return e;
+}
+/// A free body, its axes of inertia turned against its own where nothing else is given.
+inline experiment::Experiment makeBody(const std::array<std::array<double, 3>, 3>& inertia = {
+                                           {{0.02, 0.002, -0.004}, {0.002, 0.03, 0.001}, {-0.004, 0.001, 0.025}}}) {
+  experiment::Experiment e = free(makeExperiment(experiment::ObjectKind::Body, {2}, {}));
+  e.object.inertia = inertia;
+  return e;
+}
 inline experiment::Experiment onSurface(const std::string& x, const std::string& y, const std::string& z) {
   experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {1}, {});
   e.constraint.surface = {x, y, z};
@@ -55,6 +70,8 @@ inline StepStatus run(Plant& plant, const HandSample& hand, double seconds, doub
       plant, [&](double) { return hand; }, seconds, dt);
 }
 inline HandSample noHand(double) { return {}; }
+
+inline bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 inline std::vector<MassState> observed(const Plant& plant, const HandSample& hand = {}) {
   std::vector<MassState> masses(static_cast<std::size_t>(plant.massCount()));

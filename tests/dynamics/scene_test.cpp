@@ -13,7 +13,6 @@ namespace {
 using experiment::Experiment;
 using experiment::ObjectKind;
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 Experiment bead() { return makeExperiment(ObjectKind::Point, {1}, {}, {600, 5}); }
 Experiment from(Experiment e, std::vector<double> start, std::vector<double> target) {
   e.task.emplace().start = std::move(start);
@@ -44,15 +43,14 @@ TEST(Scene, AStepIsAboveNothingAndFinite) {
 }
 
 TEST(Scene, AStartHasAsManyNumbersAsTheConstraint) {
-  Experiment line = bead(), free = bead(), sphere = onSurface("0.1*cos(u)*cos(v)", "0.1*sin(u)*cos(v)", "0.1*sin(v)");
-  free.constraint.name = "free";
+  const Experiment line = bead(), open = free(bead()), sphere = onSurface("0.1*cos(u)*cos(v)", "0.1*sin(u)*cos(v)", "0.1*sin(v)");
   EXPECT_EQ(refused(from(line, {1}, {2})), "");
   EXPECT_EQ(refused(from(sphere, {1, 0.2}, {2, 0.1})), "");
-  EXPECT_EQ(refused(from(free, {1, 2, 3}, {2, 1, 0})), "");
+  EXPECT_EQ(refused(from(open, {1, 2, 3}, {2, 1, 0})), "");
   EXPECT_TRUE(has(refused(from(line, {1, 2}, {2})), "the start has 2 numbers where the constraint has 1"));
   EXPECT_TRUE(has(refused(from(sphere, {1}, {2, 0.1})), "the start has 1 numbers where the constraint has 2"));
-  EXPECT_TRUE(has(refused(from(free, {1, 2}, {2, 1, 0})), "the start has 2 numbers where the constraint has 3"));
-  EXPECT_EQ(refused(from(free, {-1, 2, std::numeric_limits<double>::quiet_NaN()}, {2, 1, 0})), "the start is not finite");
+  EXPECT_TRUE(has(refused(from(open, {1, 2}, {2, 1, 0})), "the start has 2 numbers where the constraint has 3"));
+  EXPECT_EQ(refused(from(open, {-1, 2, std::numeric_limits<double>::quiet_NaN()}, {2, 1, 0})), "the start is not finite");
 }
 
 TEST(Scene, AStartLiesWithinTheDomainOrOnItsEnds) {
@@ -82,12 +80,7 @@ TEST(Scene, ObjectsAreRefusedWhereTheyCannotMove) {
 }
 
 TEST(Scene, AnInertiaIsSymmetricAndPositiveDefinite) {
-  const auto with = [](std::array<std::array<double, 3>, 3> inertia) {
-    Experiment body = makeExperiment(ObjectKind::Body, {2}, {}, {600, 0});
-    body.constraint.name = "free";
-    body.object.inertia = inertia;
-    return refused(body);
-  };
+  const auto with = [](const std::array<std::array<double, 3>, 3>& inertia) { return refused(makeBody(inertia)); };
   EXPECT_EQ(with({{{2, 0.3, 0.1}, {0.3, 3, 0.2}, {0.1, 0.2, 4}}}), "");
   EXPECT_EQ(with({{{2, 0, 0}, {0, 3, 0}, {0, 0, 2e-12}}}), "") << "thin, but a body";
   for (const auto& wrong : {std::array<std::array<double, 3>, 3>{{{2, 0.3, 0.1}, {0.31, 3, 0.2}, {0.1, 0.2, 4}}},
@@ -104,10 +97,7 @@ TEST(Scene, AnInertiaIsSymmetricAndPositiveDefinite) {
 
 TEST(Scene, ItsFormTellsWhatIsComputed) {
   const auto form = [](const Experiment& e) { return compileScene(e).choice.form; };
-  Experiment body = makeExperiment(ObjectKind::Body, {2}, {}, {600, 0});
-  body.constraint.name = "free";
-  body.object.inertia = {{{0.01, 0, 0}, {0, 0.02, 0}, {0, 0, 0.025}}};
-  EXPECT_EQ(form(body), "rigid body, 13 states");
+  EXPECT_EQ(form(makeBody({{{0.01, 0, 0}, {0, 0.02, 0}, {0, 0, 0.025}}})), "rigid body, 13 states");
   EXPECT_EQ(form(ellipse(0.1, 0.06)), "curve in phi, 2 states");
   EXPECT_EQ(form(onCurve(makeChain(3, 0.5, 100), "0.1*cos(phi)", "0.06*sin(phi)", "0")), "curve in phi, 6 states");
   EXPECT_EQ(form(onSurface("0.1*cos(u)*cos(v)", "0.08*sin(u)*cos(v)", "0.1*sin(v)")),

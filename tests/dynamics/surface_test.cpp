@@ -13,8 +13,6 @@ namespace {
 using experiment::Experiment;
 using experiment::ObjectKind;
 
-bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 ObjectModel held() {
   ObjectModel m;
   m.mass = {0.7};
