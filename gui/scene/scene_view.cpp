@@ -436,7 +436,7 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
       if (d.dragged && static_cast<QMouseEvent*>(event)->button() == Qt::LeftButton) {
         d.widget->unsetCursor();
         const TaskPlace place = *std::exchange(d.dragged, {});
-        if (d.moved) Q_EMIT placeDropped(place);
+        Q_EMIT placeDropped(place);
         return true;
       }
       if (static_cast<QMouseEvent*>(event)->button() == Qt::LeftButton) d.reaching = false;

@@ -95,7 +95,7 @@ TEST(PlaceUnder, IsTheNearestThatIsDrawnWhereThePixelIsBeside) {
       const int along = surface ? 300 : 50'000, across = surface ? 300 : 0;
       for (int i = 0; i <= along; ++i)
         for (int j = 0; j <= across; ++j) least = std::min(least, apart(shown.at(double(i) / along, across == 0 ? 0 : double(j) / across)));
-      EXPECT_LE(apart(*found), least + 1) << name << " at " << x << ' ' << y;
+      EXPECT_LE(apart(*found), least + 0.05) << name << " at " << x << ' ' << y;
     }
   }
 }
