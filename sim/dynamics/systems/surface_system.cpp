@@ -7,13 +7,16 @@
 namespace reachlab::dynamics {
 namespace {
 
-constexpr double kContinuous = 1e-9;                      // of a millimetre and of the surface's size: what counts as no jump
-constexpr double kRounding = 1e-12;                       // of |r|, for a surface may lie far away
-constexpr double kMargin = 1e-5;                          // of the argument's size
-constexpr int kWaitForFar = 3;                            // the same where a pole is not near enough yet
-constexpr int kWaitAfterNothing = 16;                     // looks to leave out where there was none
-constexpr double kNear = 0.3;                             // of the largest |r_u| (or |r_v|) seen: nearer, a pole is looked for
-constexpr double kEnter = 0.4, kLeave = 0.6;              // of a parameter: radius of the polar chart
+constexpr double kContinuous = 1e-9;          // of a millimetre and of the surface's size: what counts as no jump
+constexpr double kRounding = 1e-12;           // of |r|, for a surface may lie far away
+constexpr double kMargin = 1e-5;              // of the argument's size
+constexpr int kWaitAfterNothing = 16;         // looks to leave out where there was no pole
+constexpr int kWaitForFar = 3;                // the least where one is not near enough yet
+constexpr double kTick = 1e-3;                // [s] the longest step
+constexpr double kNear = 0.3;                 // of the largest |r_u| (or |r_v|) seen: nearer, a pole is looked for
+constexpr double kEnter = 0.4, kLeave = 0.6;  // of a parameter: radius of the polar chart
+constexpr double kAside = 0.8;                // of |r_u|^2: the part across r_uv, which does not shrink
+constexpr double kBeyond = 2;                 // of a parameter: a search that goes so far from the mass ends, and begins again later
 constexpr double kOnePoint = 1e-12, kSameTangent = 1e-9;  // of the largest |r_u| or |r_v|: a pole's line and its tangents
 constexpr double kFlatPole = 1e-12;                       // squared sine: the tangents out of a pole span a plane
 constexpr double kBeside = 0.05;  // of a parameter, from a line at which the formula ends: r_u may grow without bound
@@ -38,12 +41,8 @@ Settled SurfaceSystem::chooseChart(State& y) noexcept {
   const double byU = dot(p.rU, p.rU) / largestU, byV = dot(p.rV, p.rV) / largestV;
   if (std::min(byU, byV) >= kNear * kNear || waiting > 0) return Settled::Same;
   const int likely = byU < byV ? 1 : 0;
-  const Pole first = findPole(y, likely);
-  if (const Pole found = first != Pole::Found && std::max(byU, byV) < kNear * kNear ? findPole(y, 1 - likely) : first;
-      found != Pole::Found) {
-    waiting = first == Pole::Far || found == Pole::Far ? kWaitForFar : kWaitAfterNothing;
-    return Settled::Same;
-  }
+  waiting = kWaitAfterNothing;
+  if (!findPole(y, likely) && !(std::max(byU, byV) < kNear * kNear && findPole(y, 1 - likely))) return Settled::Same;
   const Vec3 v = y[2] * p.rU + y[3] * p.rV;
   const std::array<double, 2> q = polar.toLocal(y[0], y[1]);
   active = polar.surface();
@@ -63,7 +62,7 @@ void SurfaceSystem::leavePolar(State& y) noexcept {
   inPolar = false;
 }
 
-SurfaceSystem::Pole SurfaceSystem::findPole(const State& y, int fixed) noexcept {
+bool SurfaceSystem::findPole(const State& y, int fixed) noexcept {
   const auto at = [&](double angle, double across) {
     return fixed == 1 ? constraints::evaluate(surface, angle, across) : constraints::evaluate(surface, across, angle);
   };
@@ -73,18 +72,28 @@ SurfaceSystem::Pole SurfaceSystem::findPole(const State& y, int fixed) noexcept 
     const constraints::SurfacePoint p = at(angle, across);
     const Vec3 along = fixed == 1 ? p.rU : p.rV;
     const double change = dot(along, p.rUv) / dot(p.rUv, p.rUv);
+    // Towards a pole the whole of r_(other) shrinks along r_uv.
+    if (round == 0 && dot(along, along) - change * dot(along, p.rUv) > kAside * dot(along, along)) {
+      waiting = kWaitForFar;
+      return false;
+    }
     if (!std::isfinite(change)) break;
     across -= change;
-    if (std::abs(change) < 1e-16 * std::abs(across)) break;
+    if (std::abs(change) < 1e-16 * std::abs(across) || std::abs(across - from) > kBeyond) break;
   }
-  if (!std::isfinite(across) || across == from) return Pole::None;
-  if (std::abs(across - from) > kEnter) return Pole::Far;
+  if (!std::isfinite(across) || across == from) return false;
+  if (const double away = std::abs(across - from) - kEnter; away > 0) {
+    // Half of the looks in which the mass could be near enough.
+    const double looks = 0.5 * away / (kLookEvery * kTick * std::abs(fixed == 1 ? y[3] : y[2]));
+    if (looks < waiting) waiting = std::max(kWaitForFar, static_cast<int>(looks));
+    return false;
+  }
   // A pole: the whole line is one point, and the tangents out of it are A cos(k angle) + B sin(k angle). It winds k times in 2 pi.
   const double largest = std::sqrt(std::max(largestU, largestV)), reach = 0.1 * (from - across);
   const constraints::SurfacePoint pole = at(angle, across);
   const Vec3 out = fixed == 1 ? pole.rV : pole.rU, turn = pole.rUv;
   const double oo = dot(out, out), ot = dot(out, turn), tt = dot(turn, turn), determinant = oo * tt - ot * ot;
-  if (!(determinant > kFlatPole * oo * tt)) return Pole::None;
+  if (!(determinant > kFlatPole * oo * tt)) return false;
   const auto phaseAt = [&](double by, double winding) {  // NaN where the tangents are not of that form
     const constraints::SurfacePoint p = at(angle + by, across);
     const Vec3 there = fixed == 1 ? p.rV : p.rU;
@@ -102,14 +111,14 @@ SurfaceSystem::Pole SurfaceSystem::findPole(const State& y, int fixed) noexcept 
     winding = (phaseAt(by, winding) + 2 * std::numbers::pi * turns) / by;
   }
   if (const double whole = std::nearbyint(winding); std::abs(winding - whole) < 1e-12 * kMost) winding = whole;
-  if (!(winding > 1 / kMost && winding < kMost)) return Pole::None;
+  if (!(winding > 1 / kMost && winding < kMost)) return false;
   for (int i = 0; i < 3; ++i) {
     const double beside = angle + 2.1 * i / winding;
     if (!(norm(at(beside + 2 * std::numbers::pi / winding, across + reach).r - at(beside, across + reach).r) <= kOnePoint * largest))
-      return Pole::None;
+      return false;
   }
   polar = {surface, fixed, across, from > across ? 1.0 : -1.0, winding};
-  return Pole::Found;
+  return true;
 }
 
 void SurfaceSystem::findBranch(std::span<const double> q, std::span<const double> qRate) noexcept {

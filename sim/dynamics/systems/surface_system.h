@@ -25,6 +25,7 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
   static constexpr double kThin = 1e-3;        // of the same: below, a typed surface may come to an apex within the next steps
   static constexpr double kLong = 1;           // [m^2] |r_u|^2 or |r_v|^2 above which the rates' tolerance would show in the speed
   static constexpr double kShows = 5e-11;      // of the speed: what a rounding of u or v may change
+  static constexpr int kLookEvery = 4;         // steps between looks for a pole
   static constexpr double kTightening = 0.01;  // of the tolerance, where the rates nearly cancel in the velocity
   using State = Numbers<4>;
 
@@ -137,7 +138,6 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
     met = {};
     rounded = !degenerate && careful && roundingShows(y);
     if (degenerate || rounded) return Settled::Lost;
-    constexpr int kLookEvery = 4;
     return ++ticks % kLookEvery != 0 ? Settled::Same : chooseChart(y);
   }
   Settled chooseChart(State& y) noexcept;
@@ -164,9 +164,8 @@ struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
     largestArea = std::max(largestArea, watch == nullptr || startArea == 0 ? area : std::min(area, kSteeper * startArea));
   }
   /// The pole ahead, where the lines of parameter `fixed` = const collapse, if a pole exists. Newton on r_(other) = 0 along the line finds
-  /// it. A check round the whole line confirms it.
-  enum class Pole { None, Far, Found };
-  Pole findPole(const State& y, int fixed) noexcept;
+  /// it. A check round the whole line confirms it. Where it is still far `waiting` says for how many looks.
+  bool findPole(const State& y, int fixed) noexcept;
   bool wantsSubSteps(const State& y, double dt) const noexcept { return careful || (watch != nullptr && !seesWayOf(y, dt)); }
   /// The longest sub-step, at most `most` [s], that misses nothing of the surface.
   double reach(const State& y, const State& dy, double most) const noexcept { return watch == nullptr ? most : reachSeen(y, dy, most); }
