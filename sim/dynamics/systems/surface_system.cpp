@@ -4,19 +4,19 @@
 #include <limits>
 #include <numbers>
 
+#include "base/ticks.h"
+
 namespace reachlab::dynamics {
 namespace {
 
-constexpr double kContinuous = 1e-9;          // of a millimetre and of the surface's size: what counts as no jump
-constexpr double kRounding = 1e-12;           // of |r|, for a surface may lie far away
-constexpr double kMargin = 1e-5;              // of the argument's size
-constexpr int kWaitAfterNothing = 16;         // looks to leave out where there was no pole
-constexpr int kWaitForFar = 3;                // the least where one is not near enough yet
-constexpr double kTick = 1e-3;                // [s] the longest step
-constexpr double kNear = 0.3;                 // of the largest |r_u| (or |r_v|) seen: nearer, a pole is looked for
-constexpr double kEnter = 0.4, kLeave = 0.6;  // of a parameter: radius of the polar chart
-constexpr double kAside = 0.8;                // of |r_u|^2: the part across r_uv, which does not shrink
-constexpr double kBeyond = 2;                 // of a parameter: a search that goes so far from the mass ends, and begins again later
+constexpr double kContinuous = 1e-9;                      // of a millimetre and of the surface's size: what counts as no jump
+constexpr double kRounding = 1e-12;                       // of |r|, for a surface may lie far away
+constexpr double kMargin = 1e-5;                          // of the argument's size
+constexpr int kWaitAfterNothing = 16;                     // looks to leave out where there was no pole
+constexpr int kWaitForFar = 3;                            // the least where one is not near enough yet
+constexpr double kNear = 0.3;                             // of the largest |r_u| (or |r_v|) seen: nearer, a pole is looked for
+constexpr double kEnter = 0.4, kLeave = 0.6;              // of a parameter: radius of the polar chart
+constexpr double kAside = 0.8;                            // of |r_u|^2: the part across r_uv, which does not shrink
 constexpr double kOnePoint = 1e-12, kSameTangent = 1e-9;  // of the largest |r_u| or |r_v|: a pole's line and its tangents
 constexpr double kFlatPole = 1e-12;                       // squared sine: the tangents out of a pole span a plane
 constexpr double kBeside = 0.05;  // of a parameter, from a line at which the formula ends: r_u may grow without bound
@@ -79,12 +79,12 @@ bool SurfaceSystem::findPole(const State& y, int fixed) noexcept {
     }
     if (!std::isfinite(change)) break;
     across -= change;
-    if (std::abs(change) < 1e-16 * std::abs(across) || std::abs(across - from) > kBeyond) break;
+    if (std::abs(change) < 1e-16 * std::abs(across)) break;
   }
   if (!std::isfinite(across) || across == from) return false;
   if (const double away = std::abs(across - from) - kEnter; away > 0) {
     // Half of the looks in which the mass could be near enough.
-    const double looks = 0.5 * away / (kLookEvery * kTick * std::abs(fixed == 1 ? y[3] : y[2]));
+    const double looks = 0.5 * away / (kLookEvery * kTickSeconds * std::abs(fixed == 1 ? y[3] : y[2]));
     if (looks < waiting) waiting = std::max(kWaitForFar, static_cast<int>(looks));
     return false;
   }
