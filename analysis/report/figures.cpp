@@ -21,7 +21,7 @@ CriterionLook lookOf(const std::vector<Criterion>& criteria) {
     case Criterion::MinHandForceChange: return {palette::kGreen, Dash::DashDot, {86, 220, 110}, {55, 125, 0}};
     case Criterion::MinComAcceleration: return {palette::kOrange, Dash::Dashed, {190, 150, 255}, {110, 70, 190}};
     case Criterion::MinHandCrackle: return {palette::kOrange, Dash::DashDot, kGreyOnDark, kGreyOnLight};
-    default: return {palette::kBlack, Dash::Solid, kGreyOnDark, kGreyOnLight};  // one that has no look of its own yet
+    default: return {palette::kBlack, Dash::Solid, kGreyOnDark, kGreyOnLight};  // a criterion that is missing in this table
   }
 }
 

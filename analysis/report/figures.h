@@ -49,7 +49,8 @@ NamedFigure adaptationFigure(const Analysis& analysis);
 /// All figures of the study that have something to show.
 std::vector<NamedFigure> makeFigures(const Analysis& analysis, const std::optional<TruthRecovery>& recovery);
 
-/// How a criterion is drawn everywhere: on paper, and in the window on its dark or light ground.
+/// How figures draw a criterion, and its colours in the window on a dark or light ground. The window has dashes and marks of
+/// gui/plot/criterion_style.h, because it shows seven criteria at once.
 struct CriterionLook {
   figure::Color color;
   figure::Dash dash;

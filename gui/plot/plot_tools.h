@@ -39,7 +39,8 @@ inline QwtText axisTitle(const QString& text) {
 
 /// Canvas and grid of a plot, in the theme's colours. The plot owns both.
 inline QwtPlotCanvas* dress(QwtPlot& plot) {
-  QwtPainter::setPolylineSplitting(false);  // each of its pieces begins a dash anew, and pieces shorter than a dash look solid
+  // Qwt would draw a line in pieces and start the dashes again in each. In a small plot a piece is shorter than a dash and looks solid.
+  QwtPainter::setPolylineSplitting(false);
   auto* canvas = new QwtPlotCanvas(&plot);
   canvas->setFrameStyle(QFrame::NoFrame);
   canvas->setAutoFillBackground(true);
