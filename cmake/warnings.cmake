@@ -62,14 +62,19 @@ endfunction()
 # namespaces of a library must then differ.
 function(reachlab_unity target)
   if(REACHLAB_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 8)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
   endif()
 endfunction()
 
-# reachlab_library(<name> DEPENDS <public libraries…> PRIVATE <private libraries…> ROOMS <sub-folders…>): the .cpp files of this folder and
-# of its rooms as one target.
+# reachlab_compile_quickly(<target>): nobody waits for what it computes, so a dev build spends two thirds of the time on it. A release is unchanged.
+function(reachlab_compile_quickly target)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)
+endfunction()
+
+# reachlab_library(<name> [COMPUTES] DEPENDS <public libraries…> PRIVATE <private libraries…> ROOMS <sub-folders…>): the .cpp files of this folder and
+# of its rooms as one target. COMPUTES says that its speed counts in a dev build too.
 function(reachlab_library name)
-  cmake_parse_arguments(ARG "" "" "DEPENDS;PRIVATE;ROOMS" ${ARGN})
+  cmake_parse_arguments(ARG "COMPUTES" "" "DEPENDS;PRIVATE;ROOMS" ${ARGN})
   set(patterns ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   foreach(room IN LISTS ARG_ROOMS)
     list(APPEND patterns ${CMAKE_CURRENT_SOURCE_DIR}/${room}/*.cpp)
@@ -79,6 +84,9 @@ function(reachlab_library name)
   target_include_directories(${name} PUBLIC ${PROJECT_SOURCE_DIR})
   target_link_libraries(${name} PUBLIC ${ARG_DEPENDS} PRIVATE ${ARG_PRIVATE} reachlab_warnings)
   reachlab_unity(${name})
+  if(NOT ARG_COMPUTES)
+    reachlab_compile_quickly(${name})
+  endif()
 endfunction()
 
 # reachlab_test(<folder> <libraries…>): tests/<folder>/*_test.cpp as one GoogleTest program, each test known to ctest.

@@ -11,6 +11,8 @@ Eigen::VectorXd symmetricEigenvalues(const Eigen::MatrixXd& matrix) {
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(matrix, Eigen::EigenvaluesOnly).eigenvalues();
 }
 
-Eigen::VectorXd singularValues(const Eigen::MatrixXd& matrix) { return Eigen::BDCSVD<Eigen::MatrixXd>(matrix).singularValues(); }
+Eigen::VectorXd singularValues(const Eigen::MatrixXd& matrix) {
+  return Eigen::JacobiSVD<Eigen::MatrixXd, Eigen::NoQRPreconditioner>(matrix).singularValues();
+}
 
 }  // namespace reachlab

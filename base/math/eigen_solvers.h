@@ -12,7 +12,7 @@ SymmetricEigen solveSymmetric(const Eigen::MatrixXd& matrix);
 /// The values alone.
 Eigen::VectorXd symmetricEigenvalues(const Eigen::MatrixXd& matrix);
 
-/// Singular values, the largest first.
+/// Singular values of a square matrix, the largest first.
 Eigen::VectorXd singularValues(const Eigen::MatrixXd& matrix);
 
 }  // namespace reachlab
