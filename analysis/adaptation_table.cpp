@@ -23,42 +23,31 @@ AdaptationTrial seen(const AnalyzedTrial& trial, bool rotated) {
 
 void row(Sheet& table, const std::string& subject, const std::string& block, const AdaptationSeries& series, bool rotated,
          const Learning& learning = {}) {
-  const auto count = [&](auto&& is) { return static_cast<std::size_t>(std::count_if(series.begin(), series.end(), is)); };
-  table.cell(subject).cell(block).cell(rotated ? "deg" : "field");
-  table.count(series.size());
-  table.count(count([](const AdaptationTrial& t) { return !t.perturbation; }));
-  table.count(count([](const AdaptationTrial& t) { return t.response.has_value(); }));
+  const auto count = [&](auto&& is) { return std::count_if(series.begin(), series.end(), is); };
+  table.cells(subject, block, rotated ? "deg" : "field", series.size(), count([](const AdaptationTrial& t) { return !t.perturbation; }),
+              count([](const AdaptationTrial& t) { return t.response.has_value(); }));
   std::string remark;
   try {
     const AdaptationFit fit = fitAdaptation(series, kResamples, 1);
-    table.cell(fit.count == StateCount::One ? "one" : fit.count == StateCount::Two ? "two" : "undecided");
+    table.cells(fit.count == StateCount::One ? "one" : fit.count == StateCount::Two ? "two" : "undecided");
     for (const LearningFit* of : {&fit.two, &fit.one}) {
-      for (std::size_t k = 0; k < of->states.size(); ++k) {
-        table.number(of->states[k].retention).bounds(of->intervals[k][0]);
-        table.number(of->states[k].learningRate).bounds(of->intervals[k][1]);
-      }
-      table.number(std::sqrt(of->meanSquare));
+      for (std::size_t k = 0; k < of->states.size(); ++k)
+        table.cells(of->states[k].retention, of->intervals[k][0], of->states[k].learningRate, of->intervals[k][1]);
+      table.cells(std::sqrt(of->meanSquare));
     }
   } catch (const RefusedError& error) {
-    table.cell("");
-    constexpr int kNumbers = 3 * 2 * 3 + 2;  // three states, retention and rate with their intervals; two residuals
-    for (int i = 0; i < kNumbers; ++i) table.number(kNotMeasured);
+    constexpr int kCells = 1 + 3 * 2 * 3 + 2;  // the count; three states, retention and rate with their intervals; two residuals
+    for (int i = 0; i < kCells; ++i) table.cells("");
     remark = error.what();
   }
-  table.number(learning.plateau);
+  table.cells(learning.plateau);
   for (const bool angles : {false, true})
     for (const double deviation : {learning.first, learning.last, learning.afterEffect})
-      table.number(angles == rotated ? deviation : kNotMeasured);
-  table.cell(remark);
-  table.endRow();
+      table.cells(angles == rotated ? deviation : kNotMeasured);
+  table.row(remark);
 }
 
-}  // namespace
-
-void writeAdaptationTable(const Analysis& analysis, const TableWriter& write) {
-  const auto people = taughtTrials(analysis);
-  if (people.empty()) return;
-  Sheet table(write, "adaptation.csv");
+void adaptationTable(const std::map<std::string, TaughtTrials>& people, Sheet& table) {
   for (const auto& [subject, person] : people) {
     AdaptationSeries all;
     std::map<int, AdaptationSeries> blocks;
@@ -69,7 +58,13 @@ void writeAdaptationTable(const Analysis& analysis, const TableWriter& write) {
     for (const auto& [block, series] : blocks) row(table, subject, std::to_string(block), series, person.rotated);
     row(table, subject, kAllTogether, all, person.rotated, learningOf(person));
   }
-  table.flush();
+}
+
+}  // namespace
+
+void writeAdaptationTable(const Analysis& analysis, const TableWriter& write) {
+  const auto people = taughtTrials(analysis);
+  if (!people.empty()) writeSheet(write, "adaptation.csv", people, adaptationTable);
 }
 
 }  // namespace reachlab::analysis

@@ -6,8 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "analysis/table_columns.h"
-#include "base/table_text.h"
+#include "analysis/sheet.h"
 #include "base/ticks.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/log/log.h"
@@ -80,7 +79,7 @@ std::vector<HandSignals> signalsOf(const record::ChannelTable& table, const reco
   return hands;
 }
 
-void addRun(const record::RunLog& run, TableText& table) {
+void addRun(const record::RunLog& run, Sheet& table) {
   const record::RunConfiguration& c = run.configuration();
   for (const record::RecordedTrial& trial : run.trials()) {
     if (trial.result.onsetTick == 0 || !trial.complete) continue;
@@ -95,14 +94,15 @@ void addRun(const record::RunLog& run, TableText& table) {
     const TogetherMeasures together = measureTogether(signalsOf(c.table, rows, first, last), c.samplingHz);
     for (std::size_t hand = 0; hand < together.hands.size(); ++hand) {
       const HandMeasures& m = together.hands[hand];
-      table.cell(c.subject).cell(c.session).whole(c.run).whole(trial.trial).cell(c.condition).cell(trial::nameOf(trial.result.outcome));
-      table.whole(static_cast<long long>(hand + 1)).cell(record::devicesOf(c).at(hand).name);
-      for (const double value : {m.peakSpeed, m.path, m.peakForce, m.meanForce, m.work, m.positiveWork, m.share, m.lag, m.lagCorrelation,
-                                 together.internalForce, together.peakInternalForce})
-        table.number(value);
-      table.endRow();
+      table.row(c.subject, c.session, c.run, trial.trial, c.condition, trial::nameOf(trial.result.outcome), hand + 1,
+                record::devicesOf(c).at(hand).name, m.peakSpeed, m.path, m.peakForce, m.meanForce, m.work, m.positiveWork, m.share, m.lag,
+                m.lagCorrelation, together.internalForce, together.peakInternalForce);
     }
   }
+}
+
+void addRuns(const std::vector<record::RunLog>& runs, Sheet& table) {
+  for (const record::RunLog& run : runs) addRun(run, table);
 }
 
 }  // namespace
@@ -144,27 +144,15 @@ TogetherMeasures measureTogether(const std::vector<HandSignals>& hands, double r
   return together;
 }
 
-std::string handsTable(const std::vector<record::RunLog>& runs) {
-  TableText table(',', "");
-  for (const record::ColumnMeaning& column : tableColumns("hands.csv")) table.cell(column.column);
-  table.endRow();
-  bool any = false;
-  for (const record::RunLog& run : runs) {
-    if (run.configuration().table.hands < 2) continue;
-    any = true;
-    addRun(run, table);
-  }
-  return any ? table.text() : std::string();
-}
-
 std::string handsTable(const DatasetIndex& dataset) {
   const bool several = std::any_of(dataset.conditions.begin(), dataset.conditions.end(),
                                    [](const Condition& condition) { return condition.experiment().hands.size() > 1; });
-  if (!several) return {};
   std::vector<record::RunLog> runs;
-  for (const RunProvenance& run : dataset.runs)
-    if (run.file.ends_with(record::kLogEnding)) runs.push_back(record::RunLog::open(run.file));  // else read from a dataset without logs
-  return handsTable(runs);
+  for (const RunProvenance& run : dataset.runs) {
+    if (!several || !run.file.ends_with(record::kLogEnding)) continue;  // read from a dataset without logs
+    if (record::RunLog log = record::RunLog::open(run.file); log.configuration().table.hands > 1) runs.push_back(std::move(log));
+  }
+  return runs.empty() ? std::string() : sheetText("hands.csv", runs, addRuns);
 }
 
 }  // namespace reachlab::analysis

@@ -35,9 +35,8 @@ struct HandSignals {
 /// `rate` [Hz]. All signals of one length.
 TogetherMeasures measureTogether(const std::vector<HandSignals>& hands, double rate);
 
-/// A row for each hand of each trial with a movement, in runs in which several hands hold the object. Empty without such a run.
-std::string handsTable(const std::vector<record::RunLog>& runs);
-/// The same table for the analysed runs. Only logs with several hands are opened again. Throws ResourceError.
+/// A row for each hand of each trial with a movement, in the analysed runs in which several hands hold the object. Empty without such a run.
+/// Only their logs are opened again. Throws ResourceError.
 std::string handsTable(const DatasetIndex& dataset);
 
 }  // namespace reachlab::analysis

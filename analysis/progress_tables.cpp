@@ -5,59 +5,45 @@
 namespace reachlab::analysis {
 namespace {
 
-void successTableText(const Analysis& analysis, const TableWriter& write) {
-  Sheet table(write, "success_table.csv");
+/// Successes, trials, their share and its interval [%].
+void addShare(Sheet& table, std::size_t successes, std::size_t trials, const Bounds& interval) {
+  table.row(successes, trials, 100.0 * static_cast<double>(successes) / static_cast<double>(trials),
+            Bounds{100 * interval.low, 100 * interval.high});
+}
+
+void successRows(const Analysis& analysis, Sheet& table) {
   for (const SuccessCell& cell : analysis.success) {
-    table.cell(cell.subject).whole(cell.day).cell(analysis.conditions[cell.condition].name);
-    table.count(cell.successes);
-    table.count(cell.trials).number(100.0 * static_cast<double>(cell.successes) / static_cast<double>(cell.trials));
-    table.bounds(Bounds{100 * cell.interval.low, 100 * cell.interval.high});
-    table.endRow();
+    table.cells(cell.subject, cell.day, analysis.conditions[cell.condition].name);
+    addShare(table, cell.successes, cell.trials, cell.interval);
   }
-  table.flush();
 }
 
-void learningTable(const Analysis& analysis, const TableWriter& write) {
-  Sheet table(write, "learning.csv");
+void learningTable(const Analysis& analysis, Sheet& table) {
   for (const LearningPoint& p : analysis.learning) {
-    table.cell(p.subject).cell(p.session).cell(analysis.conditions[p.condition].name).whole(p.firstTrial).whole(p.lastTrial);
-    table.count(p.successes);
-    table.count(p.trials).number(100.0 * static_cast<double>(p.successes) / static_cast<double>(p.trials));
-    table.bounds(Bounds{100 * p.interval.low, 100 * p.interval.high});
-    table.endRow();
+    table.cells(p.subject, p.session, analysis.conditions[p.condition].name, p.firstTrial, p.lastTrial);
+    addShare(table, p.successes, p.trials, p.interval);
   }
-  table.flush();
 }
 
-void effectsTable(const Analysis& analysis, const TableWriter& write) {
-  Sheet table(write, "effects.csv");
+void effectsTable(const Analysis& analysis, Sheet& table) {
   for (const Effect& e : analysis.effects) {
     const auto place = [&](int i) { return e.ofDay ? "D" + std::to_string(i) : analysis.conditions[static_cast<std::size_t>(i)].name; };
-    table.cell(e.ofDay ? "day" : "condition")
-        .cell(e.ofDay ? analysis.conditions[e.condition].name : "")
-        .cell(place(e.from))
-        .cell(place(e.to));
-    table.count(e.people).number(e.points.mean).bounds(e.pointsInterval);
     const Bounds logits = e.logitInterval;
-    table.number(std::exp(e.logit.mean)).bounds(logits.finite() ? Bounds{std::exp(logits.low), std::exp(logits.high)} : logits);
-    table.number(e.people > 1 ? e.p : kNotMeasured);
-    table.endRow();
+    table.row(e.ofDay ? "day" : "condition", e.ofDay ? analysis.conditions[e.condition].name : "", place(e.from), place(e.to), e.people,
+              e.points.mean, e.pointsInterval, std::exp(e.logit.mean),
+              logits.finite() ? Bounds{std::exp(logits.low), std::exp(logits.high)} : logits, e.people > 1 ? e.p : kNotMeasured);
   }
-  for (const LearningSlope& s : analysis.slopes) {
-    table.cell("slope").cell(analysis.conditions[s.condition].name).cell("").cell("");
-    table.count(s.people).number(s.perHundred).bounds(s.interval).number(kNotMeasured).bounds(std::nullopt);
-    table.number(s.people > 1 ? s.p : kNotMeasured);
-    table.endRow();
-  }
-  table.flush();
+  for (const LearningSlope& s : analysis.slopes)
+    table.row("slope", analysis.conditions[s.condition].name, "", "", s.people, s.perHundred, s.interval, kNotMeasured,
+              std::optional<Bounds>(), s.people > 1 ? s.p : kNotMeasured);
 }
 
 }  // namespace
 
 void writeProgressTables(const Analysis& analysis, const TableWriter& write) {
-  successTableText(analysis, write);
-  learningTable(analysis, write);
-  effectsTable(analysis, write);
+  writeSheet(write, "success_table.csv", analysis, successRows);
+  writeSheet(write, "learning.csv", analysis, learningTable);
+  writeSheet(write, "effects.csv", analysis, effectsTable);
 }
 
 }  // namespace reachlab::analysis

@@ -9,12 +9,10 @@
 #include <optional>
 #include <thread>
 
+#include "analysis/sheet.h"
 #include "analysis/steps.h"
-#include "analysis/table_columns.h"
-#include "analysis/tables.h"
 #include "base/math/minimum_jerk.h"
 #include "base/math/seeded.h"
-#include "base/table_text.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -278,20 +276,20 @@ TruthRecovery recover(const Analysis& analysis, int studies, std::uint64_t seed,
   return out;
 }
 
-std::string recoveryTable(const TruthRecovery& recovery) {
-  TableText table(',', "");
-  for (const record::ColumnMeaning& column : tableColumns("recovery.csv")) table.cell(column.column);
-  table.endRow();
+namespace {
+
+void recoveryRows(const TruthRecovery& recovery, Sheet& table) {
   for (std::size_t t = 0; t < recovery.counts.size(); ++t)
-    for (std::size_t n = 0; n < recovery.counts[t].size(); ++n) {
-      table.cell(nameOfCandidate(recovery.candidates[t]))
-          .cell(n < recovery.candidates.size() ? nameOfCandidate(recovery.candidates[n]) : "undecided");
-      table.whole(static_cast<long long>(recovery.counts[t][n])).endRow();
-    }
+    for (std::size_t n = 0; n < recovery.counts[t].size(); ++n)
+      table.row(nameOfCandidate(recovery.candidates[t]),
+                n < recovery.candidates.size() ? nameOfCandidate(recovery.candidates[n]) : "undecided", recovery.counts[t][n]);
   for (const OtherTruth& other : recovery.others)
     for (const auto& [named, count] : {std::pair("right", other.right), {"wrong", other.wrong}, {"undecided", other.undecided}})
-      table.cell(other.name).cell(named).whole(static_cast<long long>(count)).endRow();
-  return table.text();
+      table.row(other.name, named, count);
 }
+
+}  // namespace
+
+std::string recoveryTable(const TruthRecovery& recovery) { return sheetText("recovery.csv", recovery, recoveryRows); }
 
 }  // namespace reachlab::analysis

@@ -23,14 +23,15 @@ class Sheet {
   Sheet(const Sheet&) = delete;
   Sheet& operator=(const Sheet&) = delete;
 
-  Sheet& cell(std::string_view text) { return table_.cell(text), *this; }
-  Sheet& number(double value) { return table_.number(value), *this; }
-  Sheet& whole(long long value) { return table_.whole(value), *this; }
-  Sheet& count(std::size_t value) { return whole(static_cast<long long>(value)); }
-  /// Both ends, or two empty cells where there is no interval.
-  Sheet& bounds(const std::optional<Bounds>& bounds) {
-    const bool known = bounds && bounds->finite();
-    return number(known ? bounds->low : kNotMeasured).number(known ? bounds->high : kNotMeasured);
+  /// Cells as in TableText. An interval fills two, its ends, which are empty where there is none.
+  template <class... Cells>
+  Sheet& cells(const Cells&... values) {
+    return (add(values), ..., *this);
+  }
+  template <class... Cells>
+  void row(const Cells&... values) {
+    cells(values...);
+    endRow();
   }
   void endRow() {
     constexpr std::size_t kPiece = std::size_t{1} << 20;
@@ -40,10 +41,35 @@ class Sheet {
   void flush() { write_(name_, table_.takeText()); }
 
  private:
+  template <class Cell>
+  void add(const Cell& value) {
+    table_.cells(value);
+  }
+  void add(const std::optional<Bounds>& bounds) {
+    const bool known = bounds && bounds->finite();
+    table_.cells(known ? bounds->low : kNotMeasured, known ? bounds->high : kNotMeasured);
+  }
+  void add(const Bounds& bounds) { add(std::optional(bounds)); }
+
   const TableWriter& write_;
   std::string name_;
   TableText table_{',', ""};
 };
+
+/// A whole table: `fill` adds the rows of `content` to the sheet.
+template <class Content>
+void writeSheet(const TableWriter& write, const char* file, const Content& content, void (*fill)(const Content&, Sheet&),
+                const std::vector<std::string>& further = {}) {
+  Sheet sheet(write, file, further);
+  fill(content, sheet);
+  sheet.flush();
+}
+template <class Content>
+std::string sheetText(const char* file, const Content& content, void (*fill)(const Content&, Sheet&)) {
+  std::string text;
+  writeSheet([&](const std::string&, std::string_view piece) { text += piece; }, file, content, fill);
+  return text;
+}
 
 // The tables, a file for each kind.
 void writeTrialTables(const Analysis& analysis, const TableWriter& write);

@@ -34,20 +34,20 @@ constexpr record::ColumnMeaning kShared[] = {
     {"sd_movement_time_s", "Standard deviation (n - 1) of that time"}};
 
 constexpr std::string_view kMeasures = "MEASURES";        // all of `measures`, here
-constexpr std::string_view kConclusions = "CONCLUSIONS";  // all columns of conclusions.csv, here
+constexpr std::string_view kConclusions = "CONCLUSIONS";  // all columns of conclusions.csv, which comes before, here
 constexpr std::string_view kChoice = "Choice of the analysis that differs from the asked ones; as asked: none";
 
-const std::map<std::string_view, Columns>& tables() {
-  static std::map<std::string_view, Columns> kTables{
+/// A table's columns: names of shared ones, then those of its own, among which further shared ones may be.
+struct Table {
+  std::string_view file, shared;
+  Columns own;
+};
+
+const std::vector<Table>& tables() {
+  static const std::vector<Table> kTables{
       {"trials.csv",
-       {{"subject"},
-        {"session"},
-        {"run"},
-        {"block"},
-        {"trial"},
-        {"day"},
-        {"condition"},
-        {"kind", "Kind of the trial in the plan; empty where its block has no kinds"},
+       "subject session run block trial day condition",
+       {{"kind", "Kind of the trial in the plan; empty where its block has no kinds"},
         {"target",
          "Target of the trial in the plan, from 1, such as 3, and 3-back on the way back from it; empty where its block has one scene"},
         {"phase",
@@ -67,36 +67,26 @@ const std::map<std::string_view, Columns>& tables() {
          "Paper's epsilon of the last mass's velocity against the criterion that the column names, time-scaled to its prediction; empty if not "
          "used"}}},
       {"profiles.csv",
-       {{"condition"},
-        {"subject"},
-        {"session"},
-        {"run"},
-        {"trial"},
-        {"percent"},
-        {"time_s"},
-        {"hand_m_per_s", "Hand's velocity, time-scaled to the condition's mean duration"},
+       "condition subject session run trial percent time_s",
+       {{"hand_m_per_s", "Hand's velocity, time-scaled to the condition's mean duration"},
         {"object_m_per_s", "Last mass's velocity, time-scaled to the condition's mean duration"}}},
       {"mean_profiles.csv",
-       {{"condition"},
-        {"percent"},
-        {"time_s"},
-        {"trials", "Trials that the mean is over"},
+       "condition percent time_s",
+       {{"trials", "Trials that the mean is over"},
         {"hand_mean_m_per_s", "Mean velocity of the hand over the used trials"},
         {"hand_sd_m_per_s", "Standard deviation (n - 1) of the hand's velocity"},
         {"object_mean_m_per_s", "Mean velocity of the last mass over the used trials"},
         {"object_sd_m_per_s", "Standard deviation (n - 1) of the last mass's velocity"}}},
       {"predictions.csv",
-       {{"condition"},
-        {"criterion"},
-        {"predicted_duration_s", "T that was predicted for"},
+       "condition criterion",
+       {{"predicted_duration_s", "T that was predicted for"},
         {"percent", "Place in the prediction, from its beginning (0) to T (100)"},
         {"time_s", "Time since the onset that the rule for trials would find, so that it lies beside them; negative before it"},
         {"hand_m_per_s", "Predicted velocity of the hand, neither cut nor stretched nor filtered"},
         {"object_m_per_s", "Predicted velocity of the last mass, neither cut nor stretched"}}},
       {"ranking.csv",
-       {{"condition"},
-        {"signal"},
-        {"rank", "Place of the criterion by the paper's epsilon, 1 is the least; a description, conclusions are in conclusions.csv"},
+       "condition signal",
+       {{"rank", "Place of the criterion by the paper's epsilon, 1 is the least; a description, conclusions are in conclusions.csv"},
         {"criterion"},
         {"epsilon_m_per_s", "Paper's epsilon over all samples of the used trials"},
         {"epsilon_low_m_per_s", "Lower end of the 95 % t interval of people's epsilons; empty for one person"},
@@ -108,20 +98,11 @@ const std::map<std::string_view, Columns>& tables() {
         {"trials", "Trials that the errors are over"},
         {"subjects", "Subjects that the trials are from"}}},
       {"series.csv",
-       {{"subject"},
-        {"session"},
-        {"run"},
-        {"block"},
-        {"day"},
-        {"condition"},
-        {"signal"},
-        {"criterion"},
-        {"epsilon_m_per_s", "Paper's epsilon over all samples of the run's used trials"},
-        {"trials", "Used trials of the run"}}},
+       "subject session run block day condition signal criterion",
+       {{"epsilon_m_per_s", "Paper's epsilon over all samples of the run's used trials"}, {"trials", "Used trials of the run"}}},
       {"fits.csv",
-       {{"condition"},
-        {"subject"},
-        {"criterion", "Candidate: an optimality criterion, or reference, a minimum jerk of the hand that ignores the object"},
+       "condition subject",
+       {{"criterion", "Candidate: an optimality criterion, or reference, a minimum jerk of the hand that ignores the object"},
         {"equivalent", "Criteria that predict the same hand, with ; between"},
         {"epsilon_fit_m_per_s", "Fitted epsilon: root of the mean squared residual over the windows' samples, unweighted"},
         {"r2", "1 less the weighted sum of squared residuals over that of the velocity"},
@@ -147,12 +128,8 @@ const std::map<std::string_view, Columns>& tables() {
         {"decided", "1: this subject's trials of this condition are decided for the criterion"},
         {"reason", "Why this subject's trials of this condition are decided for no criterion; empty where they are"}}},
       {"fit_trials.csv",
-       {{"condition"},
-        {"subject"},
-        {"session"},
-        {"run"},
-        {"trial"},
-        {"fold", "Fold of the trial, 0 to 4: its score is with the shape that the other folds chose"},
+       "condition subject session run trial",
+       {{"fold", "Fold of the trial, 0 to 4: its score is with the shape that the other folds chose"},
         {"criterion", "Candidate: an optimality criterion, or reference"},
         {"onset_s", "Fitted onset, since arming"},
         {"duration_s", "Fitted duration"},
@@ -162,17 +139,14 @@ const std::map<std::string_view, Columns>& tables() {
         {"score", "ln S, held out; lower is nearer"},
         {"own_score", "ln S of the trial for the mean of the person's other trials"}}},
       {"residuals.csv",
-       {{"condition"},
-        {"subject"},
-        {"session"},
-        {"run"},
-        {"trial"},
-        {"time_s", "Time of the sample since arming"},
+       "condition subject session run trial",
+       {{"time_s", "Time of the sample since arming"},
         {"phase", "The same from 0 at the onset to 1 at the end of the person's own mean movement, laid over the trial"},
         {"weight", "Weight of the squared residual in S, inverse of the squared scatter of the person's own trials at that phase"},
         {"velocity_m_per_s", "Hand's velocity along the path, filtered"},
         {"residual_*", "Velocity less the fit of the candidate that the column names; empty where it was not compared"}}},
       {"conclusions.csv",
+       "",
        {{"condition", "Condition; all: every condition together"},
         {"unit", "What the test is over: subjects, or one subject's trials"},
         {"criterion", "Candidate: an optimality criterion, or reference"},
@@ -208,26 +182,20 @@ const std::map<std::string_view, Columns>& tables() {
          "One-sided p of that share, corrected for the number of other candidates; with 0.125 or more and p below 0.01 it does not fit"},
         {"subjects", "Subjects that were judged"},
         {"trials", "Trials that were judged"}}},
-      {"alternative_scores.csv", {{"choice", kChoice}, {kConclusions}}},
+      {"alternative_scores.csv", "", {{"choice", kChoice}, {kConclusions}}},
       {"exclusions.csv",
-       {{"condition"},
-        {"subject"},
-        {"rule", "Why trials are in no profile, error and fit; used: they are in them"},
+       "condition subject",
+       {{"rule", "Why trials are in no profile, error and fit; used: they are in them"},
         {"trials", "Number of this subject's trials in this condition to which the rule applied"}}},
       {"success_table.csv",
-       {{"subject"},
-        {"day"},
-        {"condition"},
-        {"successes"},
-        {"trials", "Attempts: successes and failures; aborted and interrupted trials are none"},
+       "subject day condition successes",
+       {{"trials", "Attempts: successes and failures; aborted and interrupted trials are none"},
         {"success_percent"},
         {"low_percent"},
         {"high_percent"}}},
       {"learning.csv",
-       {{"subject"},
-        {"session"},
-        {"condition"},
-        {"first_trial", "First attempt of the group, counted through all the subject's sessions, from 1"},
+       "subject session condition",
+       {{"first_trial", "First attempt of the group, counted through all the subject's sessions, from 1"},
         {"last_trial", "Last attempt of the group, counted likewise"},
         {"successes"},
         {"trials", "Attempts of the group"},
@@ -235,8 +203,8 @@ const std::map<std::string_view, Columns>& tables() {
         {"low_percent"},
         {"high_percent"}}},
       {"adaptation.csv",
-       {{"subject"},
-        {"block", "Block of the plan, or all: every trial of the subject in order"},
+       "subject",
+       {{"block", "Block of the plan, or all: every trial of the subject in order"},
         {"unit", "field: response and perturbation as shares of the trained field; deg: as angles of the cursor's rotation"},
         {"trials", "Trials with a movement"},
         {"channel_trials", "Trials of them in a channel, which clamps the error to zero"},
@@ -273,6 +241,7 @@ const std::map<std::string_view, Columns>& tables() {
         {"after_effect_deg", "The same in the first five trials without a rotation after the training, else in those of its last quarter"},
         {"remark", "Why nothing is fitted; empty where it is"}}},
       {"effects.csv",
+       "",
        {{"effect", "day: a later day less the day before; condition: one less another; slope: of success against trial number"},
         {"condition", "Condition of a day's effect or slope; empty where two are compared"},
         {"from", "What the difference is taken from"},
@@ -286,9 +255,8 @@ const std::map<std::string_view, Columns>& tables() {
         {"odds_ratio_high", "Upper end of that interval"},
         {"p", "Two-sided p; of days and of conditions by the logits, corrected by Holm's method"}}},
       {"conditions.csv",
-       {{"condition"},
-        {"experiment"},
-        {"task_duration_s", "Duration that the task asks for"},
+       "condition experiment",
+       {{"task_duration_s", "Duration that the task asks for"},
         {"success", "Number of successes"},
         {"failure", "Number of failures"},
         {"aborted", "Number of aborted trials"},
@@ -314,12 +282,8 @@ const std::map<std::string_view, Columns>& tables() {
         {"hand_masses_tried_kg", "Masses of the hand between which the fits search, with ; between; one: it was given"},
         {"hand_damping_n_s_per_m", "Damping of the hand in the predictions"}}},
       {"hands.csv",
-       {{"subject"},
-        {"session"},
-        {"run"},
-        {"trial"},
-        {"condition"},
-        {"outcome", "How the trial was judged: success, failure, aborted or interrupted"},
+       "subject session run trial condition",
+       {{"outcome", "How the trial was judged: success, failure, aborted or interrupted"},
         {"hand", "Number of the hand, from 1, in the order of the experiment's hands"},
         {"device", "Device of this hand, as it names itself"},
         {"sampled_peak_speed_m_per_s", "Largest estimated speed of this hand over the recorded samples of the movement"},
@@ -336,6 +300,7 @@ const std::map<std::string_view, Columns>& tables() {
          "RMS over samples of the force that cancels between hands: half of the sum of sizes less the size of the sum"},
         {"internal_force_peak_n", "Largest of that force"}}},
       {"alternatives.csv",
+       "",
        {{"choice", kChoice},
         {"condition", "Condition; all: every condition together"},
         {"criterion", "Criterion that the movements follow by this analysis; empty where none is named"},
@@ -344,37 +309,49 @@ const std::map<std::string_view, Columns>& tables() {
         {"p", "Two-sided p against its nearest rival"},
         {"changed", "1: another criterion is named than in the analysis as asked, or none in place of one, or one in place of none"}}},
       {"recovery.csv",
+       "",
        {{"truth",
          "Candidate by which the simulated subjects planned, or reference. Other truths by a candidate: other-hand-masses, with a mass drawn from the "
          "range; own-skew and own-warp, ahead of the plan or behind it by 2 to 10 % of the duration, in the whole movement or in each half. Truths that "
          "are no candidate: mean-of-two and two-in-turn, of two candidates; hand-snap, a minimum snap of the hand; two-submovements"},
         {"named", "What the rule named: a candidate, or undecided; of other truths right, wrong or undecided"},
         {"studies", "Simulated studies of this truth that were named so"}}}};
-  static const bool kComplete = [] {
-    Columns allMeasures;
-    for (const Measure& measure : measures()) allMeasures.push_back({measure.name, measure.sentence});
-    const Columns conclusions = kTables.at("conclusions.csv");
-    for (auto& [file, columns] : kTables) {
-      const auto replace = [&](std::string_view name, const Columns& by) {
-        const auto at = std::find_if(columns.begin(), columns.end(), [&](const auto& c) { return c.column == name; });
-        if (at != columns.end()) columns.insert(columns.erase(at), by.begin(), by.end());
-      };
-      replace(kMeasures, allMeasures), replace(kConclusions, conclusions);
-      for (record::ColumnMeaning& column : columns)
-        for (const record::ColumnMeaning& shared : kShared)
-          if (column.meaning.empty() && column.column == shared.column) column = shared;
-    }
-    return true;
-  }();
-  static_cast<void>(kComplete);
   return kTables;
+}
+
+record::ColumnMeaning shared(std::string_view name) {
+  const auto known = std::find_if(std::begin(kShared), std::end(kShared), [&](const auto& column) { return column.column == name; });
+  return known != std::end(kShared) ? *known : record::ColumnMeaning{name};
+}
+
+std::map<std::string_view, Columns> columnsOfTables() {
+  std::map<std::string_view, Columns> all;
+  for (const Table& table : tables()) {
+    Columns& columns = all[table.file];
+    for (std::string_view rest = table.shared; !rest.empty();) {
+      const std::size_t end = std::min(rest.find(' '), rest.size());
+      columns.push_back(shared(rest.substr(0, end)));
+      rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    for (const record::ColumnMeaning& own : table.own) {
+      if (own.column == kMeasures) {
+        for (const Measure& measure : measures()) columns.push_back({measure.name, measure.sentence});
+      } else if (own.column == kConclusions) {
+        columns.insert(columns.end(), all.at("conclusions.csv").begin(), all.at("conclusions.csv").end());
+      } else {
+        columns.push_back(own.meaning.empty() ? shared(own.column) : own);
+      }
+    }
+  }
+  return all;
 }
 
 }  // namespace
 
 std::span<const record::ColumnMeaning> tableColumns(std::string_view file) {
-  const auto found = tables().find(file);
-  if (found == tables().end()) return {};
+  static const std::map<std::string_view, Columns> kAll = columnsOfTables();
+  const auto found = kAll.find(file);
+  if (found == kAll.end()) return {};
   return found->second;
 }
 

@@ -31,77 +31,64 @@ double errorFor(const AnalyzedTrial& trial, const ConditionResult& result, Crite
   return kNotMeasured;
 }
 
-void trialsTable(const Analysis& analysis, const TableWriter& write) {
-  const std::vector<Criterion> criteria = allCriteria(analysis);
+std::vector<std::string> epsilonColumns(const Analysis& analysis) {
   std::vector<std::string> columns;
   for (const char* what : {"hand", "object"})
-    for (const Criterion c : criteria) columns.push_back(std::string("epsilon_") + what + "_" + columnOf(c) + "_m_per_s");
-  Sheet table(write, "trials.csv", columns);
-  for (const AnalyzedTrial& t : analysis.trials) {
-    table.cell(t.key.subject).cell(t.key.session).whole(t.key.run).whole(t.key.block).whole(t.key.trial).whole(t.key.day);
-    table.cell(analysis.conditions[t.condition].name).cell(t.key.kind).cell(t.key.target).cell(t.practice ? "practice" : "recorded");
-    table.cell(trial::nameOf(t.result.outcome));
-    table.cell(t.result.reason == trial::Reason::None ? "" : trial::nameOf(t.result.reason)).whole(t.result.mass).number(t.result.by);
-    table.whole(t.used()).cell(t.exclusion).whole(t.measures.beforeGo).whole(t.otherWay);
-    for (const Measure& measure : measures()) table.number(t.measures.*measure.value);
-    for (const bool object : {false, true})
-      for (const Criterion c : criteria) table.number(errorFor(t, analysis.results[t.condition], c, object));
-    table.endRow();
-  }
-  table.flush();
+    for (const Criterion c : allCriteria(analysis)) columns.push_back(std::string("epsilon_") + what + "_" + columnOf(c) + "_m_per_s");
+  return columns;
 }
 
-void profilesTable(const Analysis& analysis, const TableWriter& write) {
-  Sheet table(write, "profiles.csv");
+void trialsTable(const Analysis& analysis, Sheet& table) {
+  const std::vector<Criterion> criteria = allCriteria(analysis);
+  for (const AnalyzedTrial& t : analysis.trials) {
+    table.cells(t.key.subject, t.key.session, t.key.run, t.key.block, t.key.trial, t.key.day, analysis.conditions[t.condition].name,
+                t.key.kind, t.key.target, t.practice ? "practice" : "recorded", trial::nameOf(t.result.outcome),
+                t.result.reason == trial::Reason::None ? "" : trial::nameOf(t.result.reason), t.result.mass, t.result.by, t.used(),
+                t.exclusion, t.measures.beforeGo, t.otherWay);
+    for (const Measure& measure : measures()) table.cells(t.measures.*measure.value);
+    for (const bool object : {false, true})
+      for (const Criterion c : criteria) table.cells(errorFor(t, analysis.results[t.condition], c, object));
+    table.endRow();
+  }
+}
+
+void profilesTable(const Analysis& analysis, Sheet& table) {
   for (const AnalyzedTrial& t : analysis.trials) {
     if (!t.used()) continue;
     const TrialProfile profile = analysis.profileOf(t);
     const double mean = analysis.results[t.condition].duration.mean, factor = profile.duration / mean;
-    for (std::size_t i = 0; i < kProfilePoints; ++i) {
-      table.cell(analysis.conditions[t.condition].name).cell(t.key.subject).cell(t.key.session).whole(t.key.run).whole(t.key.trial);
-      table.whole(static_cast<long long>(i)).number(mean * static_cast<double>(i) / 100);
-      table.number(factor * profile.hand[i]).number(factor * profile.object[i]);
-      table.endRow();
-    }
+    for (std::size_t i = 0; i < kProfilePoints; ++i)
+      table.row(analysis.conditions[t.condition].name, t.key.subject, t.key.session, t.key.run, t.key.trial, i,
+                mean * static_cast<double>(i) / 100, factor * profile.hand[i], factor * profile.object[i]);
   }
-  table.flush();
 }
 
-void exclusionsTable(const Analysis& analysis, const TableWriter& write) {
-  Sheet table(write, "exclusions.csv");
+void exclusionsTable(const Analysis& analysis, Sheet& table) {
   std::map<std::tuple<std::size_t, std::string, std::string>, std::size_t> counts;
   for (const AnalyzedTrial& t : analysis.trials) ++counts[{t.condition, t.key.subject, t.used() ? "used" : t.exclusion}];
   for (const auto& [which, count] : counts) {
     const auto& [condition, subject, rule] = which;
-    table.cell(analysis.conditions[condition].name).cell(subject).cell(rule).count(count);
-    table.endRow();
+    table.row(analysis.conditions[condition].name, subject, rule, count);
   }
-  table.flush();
 }
 
-void fitTrialsTable(const Analysis& analysis, const TableWriter& write) {
-  Sheet table(write, "fit_trials.csv");
+void fitTrialsTable(const Analysis& analysis, Sheet& table) {
   for (const PersonResult& person : analysis.people) {
     if (!person.fitted) continue;
     const auto& candidates = analysis.results[person.condition].candidates.candidates;
     std::size_t place = 0;
-    for (const AnalyzedTrial* trial : fittedTrials(analysis, person)) {
-      const AnalyzedTrial& t = *trial;
+    for (const AnalyzedTrial* t : fittedTrials(analysis, person)) {
       for (std::size_t k = 0; k < candidates.size(); ++k) {
         const CandidateFit& fit = person.fit.candidates[k];
         const MovementFit& at = fit.trials[place];
-        table.cell(analysis.conditions[t.condition].name).cell(t.key.subject).cell(t.key.session).whole(t.key.run).whole(t.key.trial);
-        table.count(place % kFolds).cell(nameOfCandidate(candidates[k].criteria));
-        table.number(at.found ? at.onset : kNotMeasured).number(at.found ? at.duration : kNotMeasured);
-        table.number(at.found ? at.amplitude : kNotMeasured).number(fit.epsilon[place]);
-        table.number(at.found ? 1 - at.cost / person.rest[place] : kNotMeasured).number(fit.score[place]);
-        table.number(person.fit.own.score[place]);
-        table.endRow();
+        const auto found = [&](double value) { return at.found ? value : kNotMeasured; };
+        table.row(analysis.conditions[t->condition].name, t->key.subject, t->key.session, t->key.run, t->key.trial, place % kFolds,
+                  nameOfCandidate(candidates[k].criteria), found(at.onset), found(at.duration), found(at.amplitude), fit.epsilon[place],
+                  found(1 - at.cost / person.rest[place]), fit.score[place], person.fit.own.score[place]);
       }
       ++place;
     }
   }
-  table.flush();
 }
 
 /// Names of the candidates that any condition has, the reference last.
@@ -124,14 +111,17 @@ std::vector<double> residualsOf(const FitWindow& window, const CandidateFit& fit
   return residualsOf(window, profile, at);
 }
 
-void residualsTable(const Analysis& analysis, const TableWriter& write) {
-  const std::vector<std::string> names = allCandidates(analysis);
+std::vector<std::string> residualColumns(const Analysis& analysis) {
   std::vector<std::string> columns;
-  for (std::string name : names) {
+  for (std::string name : allCandidates(analysis)) {
     std::replace(name.begin(), name.end(), '-', '_');
     columns.push_back("residual_" + name + "_m_per_s");
   }
-  Sheet table(write, "residuals.csv", columns);
+  return columns;
+}
+
+void residualsTable(const Analysis& analysis, Sheet& table) {
+  const std::vector<std::string> names = allCandidates(analysis);
   for (const PersonResult& person : analysis.people) {
     if (!person.fitted) continue;
     const auto& candidates = analysis.results[person.condition].candidates.candidates;
@@ -145,25 +135,24 @@ void residualsTable(const Analysis& analysis, const TableWriter& write) {
       const MovementFit& own = person.fit.own.place[place];
       for (std::size_t i = 0; i < window.velocity.size(); ++i) {
         const double time = window.begin + static_cast<double>(i) / window.rate;
-        table.cell(analysis.conditions[t->condition].name).cell(t->key.subject).cell(t->key.session).whole(t->key.run).whole(t->key.trial);
-        table.number(time).number((time - own.onset) / own.duration).number(window.weight[i]).number(window.velocity[i]);
-        for (const std::string& name : names) table.number(residuals.contains(name) ? residuals[name][i] : kNotMeasured);
+        table.cells(analysis.conditions[t->condition].name, t->key.subject, t->key.session, t->key.run, t->key.trial, time,
+                    (time - own.onset) / own.duration, window.weight[i], window.velocity[i]);
+        for (const std::string& name : names) table.cells(residuals.contains(name) ? residuals[name][i] : kNotMeasured);
         table.endRow();
       }
       ++place;
     }
   }
-  table.flush();
 }
 
 }  // namespace
 
 void writeTrialTables(const Analysis& analysis, const TableWriter& write) {
-  trialsTable(analysis, write);
-  profilesTable(analysis, write);
-  exclusionsTable(analysis, write);
-  fitTrialsTable(analysis, write);
-  if (analysis.options.residuals) residualsTable(analysis, write);
+  writeSheet(write, "trials.csv", analysis, trialsTable, epsilonColumns(analysis));
+  writeSheet(write, "profiles.csv", analysis, profilesTable);
+  writeSheet(write, "exclusions.csv", analysis, exclusionsTable);
+  writeSheet(write, "fit_trials.csv", analysis, fitTrialsTable);
+  if (analysis.options.residuals) writeSheet(write, "residuals.csv", analysis, residualsTable, residualColumns(analysis));
 }
 
 }  // namespace reachlab::analysis

@@ -5,10 +5,8 @@
 #include <algorithm>
 
 #include "analysis/report/wording.h"
+#include "analysis/sheet.h"
 #include "analysis/steps.h"
-#include "analysis/table_columns.h"
-#include "analysis/tables.h"
-#include "base/table_text.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -94,17 +92,15 @@ std::string describeAlternatives(const Analysis& analysis) {
                      differ.empty() ? "" : differ + ".");
 }
 
-std::string alternativesTable(const Analysis& analysis) {
-  TableText table(',', "");
-  for (const record::ColumnMeaning& column : tableColumns("alternatives.csv")) table.cell(column.column);
-  table.endRow();
-  for (const AlternativeConclusion& row : analysis.alternatives) {
-    table.cell(row.choice).cell(row.condition).cell(row.criterion).cell(row.reason).cell(row.best);
-    if (row.p) table.number(*row.p);
-    else table.cell("");
-    table.cell(row.changed ? "1" : "0").endRow();
-  }
-  return table.text();
+namespace {
+
+void alternativeRows(const Analysis& analysis, Sheet& table) {
+  for (const AlternativeConclusion& row : analysis.alternatives)
+    table.row(row.choice, row.condition, row.criterion, row.reason, row.best, row.p, row.changed);
 }
+
+}  // namespace
+
+std::string alternativesTable(const Analysis& analysis) { return sheetText("alternatives.csv", analysis, alternativeRows); }
 
 }  // namespace reachlab::analysis

@@ -44,64 +44,74 @@ double percentOf(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
+/// Successes, trials, their share and its interval [%].
+void addShare(TableText& table, std::size_t successes, std::size_t trials) {
+  const analysis::Bounds interval = analysis::computeBinomialInterval(successes, trials);
+  table.row(successes, trials, percentOf(successes, trials), 100 * interval.low, 100 * interval.high);
+}
+
 std::string successTable(const StudyReport& report) {
   TableText table(',', "");
-  table.row({"key", "value", "successes", "trials", "success_percent", "low_percent", "high_percent"});
-  for (const SuccessAt& at : report.success) {
-    const analysis::Bounds interval = analysis::computeBinomialInterval(at.successes, at.trials);
-    table.cell(at.key).cell(at.value).whole(static_cast<long long>(at.successes)).whole(static_cast<long long>(at.trials));
-    table.number(percentOf(at.successes, at.trials)).number(100 * interval.low).number(100 * interval.high).endRow();
-  }
+  table.row("key", "value", "successes", "trials", "success_percent", "low_percent", "high_percent");
+  for (const SuccessAt& at : report.success) addShare(table.cells(at.key, at.value), at.successes, at.trials);
   return table.takeText();
 }
 
 std::string learningTable(const StudyReport& report) {
   TableText table(',', "");
-  table.row({"block", "first_trial", "last_trial", "successes", "trials", "success_percent", "low_percent", "high_percent"});
-  for (const LearningAt& at : report.learning) {
-    const analysis::Bounds interval = analysis::computeBinomialInterval(at.successes, at.trials);
-    table.cell(at.block);
-    for (const std::size_t n : {at.firstTrial, at.lastTrial, at.successes, at.trials}) table.whole(static_cast<long long>(n));
-    table.number(percentOf(at.successes, at.trials)).number(100 * interval.low).number(100 * interval.high).endRow();
-  }
+  table.row("block", "first_trial", "last_trial", "successes", "trials", "success_percent", "low_percent", "high_percent");
+  for (const LearningAt& at : report.learning) addShare(table.cells(at.block, at.firstTrial, at.lastTrial), at.successes, at.trials);
   return table.takeText();
 }
 
 std::string confusionTable(const StudyReport& report) {
   TableText table(',', "");
-  table.row({"cell", "subjects", "trials", "truth", "named", "studies"});
-  for (const Confusion& confusion : report.confusion)
-    for (std::size_t t = 0; t + 1 < confusion.named.candidates.size(); ++t)
-      for (std::size_t k = 0; k <= confusion.named.candidates.size(); ++k) {
-        table.cell(confusion.cell).whole(static_cast<long long>(confusion.subjects)).whole(static_cast<long long>(confusion.trials));
-        table.cell(analysis::nameOfCandidate(confusion.named.candidates[t]));
-        table.cell(k < confusion.named.candidates.size() ? analysis::nameOfCandidate(confusion.named.candidates[k]) : "undecided");
-        table.whole(static_cast<long long>(confusion.named.counts[t][k])).endRow();
-      }
+  table.row("cell", "subjects", "trials", "truth", "named", "studies");
+  for (const Confusion& c : report.confusion) {
+    const auto& names = c.named.candidates;
+    for (std::size_t t = 0; t + 1 < names.size(); ++t)
+      for (std::size_t k = 0; k <= names.size(); ++k)
+        table.row(c.cell, c.subjects, c.trials, analysis::nameOfCandidate(names[t]),
+                  k < names.size() ? analysis::nameOfCandidate(names[k]) : "undecided", c.named.counts[t][k]);
+  }
   return table.takeText();
 }
 
 std::string powerTable(const StudyReport& report) {
   TableText table(',', "");
-  table.row({"truth", "cell", "subjects", "trials", "studies", "right", "wrong", "right_percent"});
-  for (const PowerAt& at : report.power) {
-    table.cell(at.truth).cell(at.cell);
-    for (const std::size_t n : {at.subjects, at.trials, at.studies, at.right, at.wrong}) table.whole(static_cast<long long>(n));
-    table.number(percentOf(at.right, at.studies)).endRow();
-  }
+  table.row("truth", "cell", "subjects", "trials", "studies", "right", "wrong", "right_percent");
+  for (const PowerAt& at : report.power)
+    table.row(at.truth, at.cell, at.subjects, at.trials, at.studies, at.right, at.wrong, percentOf(at.right, at.studies));
   return table.takeText();
 }
 
 std::string smallestTable(const StudyReport& report) {
   TableText table(',', "");
-  table.row({"truth", "cell", "level_percent", "subjects", "trials"});
+  table.row("truth", "cell", "level_percent", "subjects", "trials");
   for (const SmallestDesign& at : report.smallest) {
-    table.cell(at.truth).cell(at.cell).number(100 * at.level);
-    if (at.subjects == 0) table.missing().missing();
-    else table.whole(static_cast<long long>(at.subjects)).whole(static_cast<long long>(at.trials));
-    table.endRow();
+    const auto known = [&](std::size_t count) { return at.subjects > 0 ? std::optional(count) : std::nullopt; };
+    table.row(at.truth, at.cell, 100 * at.level, known(at.subjects), known(at.trials));
   }
   return table.takeText();
+}
+
+figure::Panel percentPanel(const std::string& x, const std::string& y) {
+  figure::Panel panel;
+  panel.x.label = x;
+  panel.y.label = y;
+  panel.y.from = 0.0;
+  panel.y.to = 100.0;
+  return panel;
+}
+
+template <class Key>
+void addLines(std::map<Key, figure::Series>& lines, figure::Panel& panel) {
+  int i = 0;
+  for (auto& [key, line] : lines) {
+    line.color = palette::series(i);
+    line.marker = figure::markerOf(i++);
+    panel.series.push_back(std::move(line));
+  }
 }
 
 // One panel a varied key.
@@ -111,11 +121,7 @@ figure::Figure successFigure(const StudyReport& report) {
   for (const SuccessAt& at : report.success)
     if (std::find(keys.begin(), keys.end(), at.key) == keys.end()) keys.push_back(at.key);
   for (const std::string& key : keys) {
-    figure::Panel panel;
-    panel.x.label = key;
-    panel.y.label = "Success (%)";
-    panel.y.from = 0.0;
-    panel.y.to = 100.0;
+    figure::Panel panel = percentPanel(key, "Success (%)");
     figure::Series series;
     series.color = palette::kBlue;
     series.marker = figure::MarkerShape::Circle;
@@ -153,17 +159,8 @@ figure::Figure learningFigure(const StudyReport& report) {
     line.y.push_back(percentOf(at.successes, at.trials));
   }
   if (lines.empty() || lines.begin()->second.x.size() < 2) return out;
-  figure::Panel panel;
-  panel.x.label = "Trial of the block";
-  panel.y.label = "Success (%)";
-  panel.y.from = 0.0;
-  panel.y.to = 100.0;
-  int i = 0;
-  for (auto& [block, line] : lines) {
-    line.color = palette::series(i);
-    line.marker = figure::markerOf(i++);
-    panel.series.push_back(std::move(line));
-  }
+  figure::Panel panel = percentPanel("Trial of the block", "Success (%)");
+  addLines(lines, panel);
   panel.legend = lines.size() > 1 ? figure::LegendPlace::Right : figure::LegendPlace::None;
   out.panels.push_back(std::move(panel));
   return out;
@@ -177,12 +174,8 @@ figure::Figure powerFigure(const StudyReport& report) {
     if (std::find(populations.begin(), populations.end(), std::pair{at.truth, at.cell}) == populations.end())
       populations.emplace_back(at.truth, at.cell);
   for (const auto& [truth, cell] : populations) {
-    figure::Panel panel;
+    figure::Panel panel = percentPanel("Subjects", "Right (%), rules at 80 and 95");
     panel.title = analysis::shortened(cell.empty() ? truth : truth + " · " + cell, 44);
-    panel.x.label = "Subjects";
-    panel.y.label = "Right (%), rules at 80 and 95";
-    panel.y.from = 0.0;
-    panel.y.to = 100.0;
     std::map<std::size_t, figure::Series> lines;
     for (const PowerAt& at : report.power) {
       if (at.truth != truth || at.cell != cell) continue;
@@ -191,12 +184,7 @@ figure::Figure powerFigure(const StudyReport& report) {
       line.x.push_back(static_cast<double>(at.subjects));
       line.y.push_back(percentOf(at.right, at.studies));
     }
-    int i = 0;
-    for (auto& [trials, line] : lines) {
-      line.color = palette::series(i);
-      line.marker = figure::markerOf(i++);
-      panel.series.push_back(std::move(line));
-    }
+    addLines(lines, panel);
     panel.rules.push_back({80, false, ""});  // words beside them would lie under the legend
     panel.rules.push_back({95, false, ""});
     panel.legend = figure::LegendPlace::Right;

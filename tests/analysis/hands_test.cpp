@@ -94,7 +94,7 @@ TEST(MeasureTogether, OfNobodyIsNothing) {
   for (const double x : {fresh.peakSpeed, fresh.path, fresh.peakForce, fresh.meanForce, fresh.work, fresh.positiveWork, fresh.share,
                          fresh.lag, fresh.lagCorrelation})
     EXPECT_EQ(x, 0);
-  EXPECT_EQ(handsTable(std::vector<record::RunLog>{}), "") << "no table where no two hands were recorded";
+  EXPECT_EQ(handsTable(DatasetIndex{}), "") << "no table where no two hands were recorded";
 }
 
 }  // namespace
