@@ -11,10 +11,6 @@
 namespace reachlab::analysis {
 namespace {
 
-std::vector<predict::Criterion> drawnCriteria(const AnalysisOptions& options) {
-  return options.drawn.empty() ? comparedCriteria(options) : options.drawn;
-}
-
 predict::PredictOptions howOf(const AnalysisOptions& options) {
   predict::PredictOptions how;
   how.handMass = options.handMass;
@@ -43,7 +39,7 @@ void addPredictions(const Condition& condition, const AnalysisOptions& options, 
     return;
   }
   const predict::PredictOptions how = howOf(options);
-  for (const predict::Criterion criterion : drawnCriteria(options)) {
+  for (const predict::Criterion criterion : options.drawn.empty() ? predict::orAll(options.criteria) : options.drawn) {
     if (!holdsFor(condition, criterion)) {
       result.refusals.push_back(
           fmt::format("{}: it differs between directions, and the trials to several targets are taken together", nameOf(criterion)));
@@ -135,13 +131,6 @@ void summarise(Analysis& analysis, std::size_t condition) {
   result.object = object.result();
   result.handEpsilon = makeEpsilonTable(trials, result.signals.size(), false);
   result.objectEpsilon = makeEpsilonTable(trials, result.signals.size(), true);
-}
-
-std::vector<predict::Criterion> comparedCriteria(const AnalysisOptions& options) {
-  if (!options.criteria.empty()) return options.criteria;
-  std::vector<predict::Criterion> all;
-  for (int i = 0; i < predict::kCriterionCount; ++i) all.push_back(static_cast<predict::Criterion>(i));
-  return all;
 }
 
 bool holdsFor(const Condition& condition, predict::Criterion criterion) {

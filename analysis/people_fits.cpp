@@ -45,7 +45,7 @@ void fitPeople(Analysis& analysis, std::size_t condition, const FittingProgress&
     if (windows.size() >= kFewestTrials) {
       if (result.candidates.candidates.empty()) {
         CandidateOptions how;
-        how.criteria = comparedCriteria(analysis.options);
+        how.criteria = predict::orAll(analysis.options.criteria);
         std::erase_if(how.criteria, [&](predict::Criterion c) { return !holdsFor(analysis.conditions[condition], c); });
         how.handMasses = analysis.options.handMasses;
         how.handMass = analysis.options.handMass;

@@ -8,8 +8,6 @@ namespace reachlab::analysis {
 // The steps of AnalysisBuilder::finish, in their order. The trials lie sorted by condition and subject.
 
 std::span<AnalyzedTrial> trialsOf(Analysis& analysis, std::size_t condition);
-/// The criteria of the options, or all of them where the options name none.
-std::vector<predict::Criterion> comparedCriteria(const AnalysisOptions& options);
 /// The prediction is that of every trial of the condition. The torques of an arm depend on the direction, so (2) needs a single target.
 bool holdsFor(const Condition& condition, predict::Criterion criterion);
 /// What the fits of a used trial are made to, with weights 1.

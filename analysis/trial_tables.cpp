@@ -9,18 +9,16 @@ namespace reachlab::analysis {
 namespace {
 
 using predict::Criterion;
-using predict::kCriterionCount;
 
 /// Criteria that were predicted in any condition, in the paper's order: the columns of the trial table.
 std::vector<Criterion> allCriteria(const Analysis& analysis) {
   std::vector<Criterion> out;
-  for (int i = 0; i < kCriterionCount; ++i)
-    for (const ConditionResult& result : analysis.results)
-      if (std::any_of(result.signals.begin(), result.signals.end(),
-                      [&](const PredictedSignal& p) { return p.criterion == static_cast<Criterion>(i); })) {
-        out.push_back(static_cast<Criterion>(i));
-        break;
-      }
+  for (const Criterion criterion : predict::kAllCriteria) {
+    const auto predicts = [&](const PredictedSignal& p) { return p.criterion == criterion; };
+    if (std::any_of(analysis.results.begin(), analysis.results.end(),
+                    [&](const ConditionResult& r) { return std::any_of(r.signals.begin(), r.signals.end(), predicts); }))
+      out.push_back(criterion);
+  }
   return out;
 }
 

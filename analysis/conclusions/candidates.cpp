@@ -22,13 +22,6 @@ bool dependsOnHandMass(predict::Criterion criterion) {
          criterion == predict::Criterion::MinComAcceleration;
 }
 
-std::vector<predict::Criterion> wanted(const CandidateOptions& options) {
-  if (!options.criteria.empty()) return options.criteria;
-  std::vector<predict::Criterion> all;
-  for (int i = 0; i < predict::kCriterionCount; ++i) all.push_back(static_cast<predict::Criterion>(i));
-  return all;
-}
-
 struct Shape {
   std::vector<double> phi;  // at the task's T
   double fastest = 0;       // [rad/s]
@@ -138,7 +131,7 @@ CandidateSet makeCandidates(const experiment::CompiledExperiment& compiled, cons
   out.masses.erase(std::unique(out.masses.begin(), out.masses.end()), out.masses.end());
   std::vector<Draft> drafts;
   double fastest = 0;
-  for (const predict::Criterion criterion : wanted(options)) {
+  for (const predict::Criterion criterion : predict::orAll(options.criteria)) {
     Draft draft{criterion, {}, {}};
     std::string why;
     for (const double mass : dependsOnHandMass(criterion) ? out.masses : std::vector<double>{out.masses.front()}) {

@@ -48,7 +48,7 @@ std::vector<Alternative> alternativesTo(const AnalysisOptions& asked) {
   }
   if (!asked.includeFailures) add("with failed trials", [](AnalysisOptions& o) { o.includeFailures = true; });
   if (!asked.includePractice) add("with practice trials", [](AnalysisOptions& o) { o.includePractice = true; });
-  const std::vector<predict::Criterion> compared = comparedCriteria(asked);
+  const std::vector<predict::Criterion> compared = predict::orAll(asked.criteria);
   if (compared.size() > 2)
     for (const predict::Criterion left : compared)
       add(fmt::format("without {}", predict::nameOf(left)), [&](AnalysisOptions& o) {

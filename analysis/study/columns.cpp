@@ -57,6 +57,12 @@ std::string underscored(std::string name) {
   return name;
 }
 
+std::vector<std::string> allCriteria() {
+  std::vector<std::string> names;
+  for (const predict::Criterion criterion : predict::kAllCriteria) names.emplace_back(predict::nameOf(criterion));
+  return names;
+}
+
 constexpr int kOutcomes = static_cast<int>(trial::Outcome::Interrupted) + 1, kReasons = static_cast<int>(trial::kLastReason) + 1;
 
 std::string plainWord(const std::string& json) { return json.size() > 1 && json.front() == '"' ? json.substr(1, json.size() - 2) : json; }
@@ -91,12 +97,7 @@ Needs needsOf(const Design& design) {
   return needs;
 }
 
-std::vector<std::string> criteriaOf(const Design& design) {
-  if (!design.criteria.empty()) return design.criteria;
-  std::vector<std::string> all;
-  for (int i = 0; i < predict::kCriterionCount; ++i) all.emplace_back(predict::nameOf(static_cast<predict::Criterion>(i)));
-  return all;
-}
+std::vector<std::string> criteriaOf(const Design& design) { return design.criteria.empty() ? allCriteria() : design.criteria; }
 
 std::size_t identityColumns(const Design& design) { return (design.planText.empty() ? 4 : 9) + design.axes.size(); }
 
@@ -172,10 +173,8 @@ std::vector<Fault> measureProblems(const Design& design) {
       faults.push_back({fmt::format("measures[{}]", i), fmt::format("\"{}\" stands here twice", name), "each measure once"});
     seen.push_back(name);
   }
-  std::vector<std::string> criteria;
-  for (int i = 0; i < predict::kCriterionCount; ++i) criteria.emplace_back(predict::nameOf(static_cast<predict::Criterion>(i)));
   for (std::size_t i = 0; i < design.criteria.size(); ++i)
-    checkChoice(fmt::format("criteria[{}]", i), design.criteria[i], criteria, faults);
+    checkChoice(fmt::format("criteria[{}]", i), design.criteria[i], allCriteria(), faults);
   return faults;
 }
 

@@ -84,10 +84,8 @@ Json listMethods() {
 
 Json listCriteria() {
   Json rows = Json::array();
-  for (int i = 0; i < predict::kCriterionCount; ++i) {
-    const auto criterion = static_cast<predict::Criterion>(i);
+  for (const predict::Criterion criterion : predict::kAllCriteria)
     rows.push_back({{"name", predict::nameOf(criterion)}, {"description", predict::describe(criterion)}});
-  }
   return rows;
 }
 

@@ -119,9 +119,7 @@ void runPredict(const PredictArguments& arguments) {
 
 std::string footer() {
   std::string text = "Criteria:\n";
-  for (int i = 0; i < predict::kCriterionCount; ++i)
-    text += fmt::format("  {:24}{}\n", predict::nameOf(static_cast<predict::Criterion>(i)),
-                        predict::describe(static_cast<predict::Criterion>(i)));
+  for (const predict::Criterion c : predict::kAllCriteria) text += fmt::format("  {:24}{}\n", predict::nameOf(c), predict::describe(c));
   text += "Keys of --sweep:\n";
   for (const predict::SweepKey& key : predict::sweepKeys()) text += fmt::format("  {:28}{}\n", key.name, key.meaning);
   return text +

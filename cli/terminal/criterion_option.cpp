@@ -10,7 +10,7 @@ namespace reachlab::cli {
 predict::Criterion parseCriterion(const std::string& name) {
   if (const auto criterion = predict::criterionFromName(name)) return *criterion;
   std::string names;
-  for (int i = 0; i < predict::kCriterionCount; ++i) names += (i ? ", " : "") + analysis::numberedName(static_cast<predict::Criterion>(i));
+  for (const predict::Criterion c : predict::kAllCriteria) names += (names.empty() ? "" : ", ") + analysis::numberedName(c);
   throw FaultError(Fault{"--criterion", fmt::format("'{}' is not a criterion; allowed, behind the paper's numbers: {}", name, names)});
 }
 

@@ -88,8 +88,8 @@ void Inspector::fit(std::vector<analysis::ChosenTrials> chosen) {
     std::vector<std::optional<double>> epsilons;
     {
       const analysis::Analysis analysis = analysis::analyzeChosen(chosen, {}, [&] { goOnUnless(stop); });
-      for (int i = 0; !analysis.results.empty() && i < predict::kCriterionCount; ++i)
-        epsilons.push_back(fittedEpsilon(analysis, 0, static_cast<predict::Criterion>(i)));
+      if (!analysis.results.empty())
+        for (const predict::Criterion criterion : predict::kAllCriteria) epsilons.push_back(fittedEpsilon(analysis, 0, criterion));
     }
     goOnUnless(stop);
     malloc_trim(0);  // a day has hundreds of fits, each on another thread, whose heap would keep what it no longer needs

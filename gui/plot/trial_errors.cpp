@@ -11,9 +11,10 @@ namespace reachlab::gui::plot {
 
 std::vector<CriterionForecast> forecastAll(const experiment::CompiledExperiment& experiment, const std::stop_token& stop) {
   std::vector<CriterionForecast> forecasts;
-  for (int i = 0; i < predict::kCriterionCount && !stop.stop_requested(); ++i) {
+  for (const predict::Criterion criterion : predict::kAllCriteria) {
+    if (stop.stop_requested()) break;
     CriterionForecast forecast;
-    forecast.criterion = static_cast<predict::Criterion>(i);
+    forecast.criterion = criterion;
     try {
       forecast.prediction = predict::predict(experiment, forecast.criterion);
     } catch (const Error& e) {

@@ -206,7 +206,7 @@ TEST(Warnings, NameTravelTimeAndCondition) {
 }
 
 TEST(Names, AreReadBack) {
-  for (int i = 0; i < kCriterionCount; ++i) EXPECT_EQ(criterionFromName(nameOf(static_cast<Criterion>(i))), static_cast<Criterion>(i));
+  for (const Criterion criterion : kAllCriteria) EXPECT_EQ(criterionFromName(nameOf(criterion)), criterion);
   EXPECT_FALSE(criterionFromName("min-effort").has_value());
 }
 

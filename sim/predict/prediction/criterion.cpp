@@ -21,12 +21,16 @@ constexpr std::array<CriterionText, kCriterionCount> kTexts{{
 
 }  // namespace
 
+std::vector<Criterion> orAll(const std::vector<Criterion>& named) {
+  return named.empty() ? std::vector<Criterion>(kAllCriteria.begin(), kAllCriteria.end()) : named;
+}
+
 std::string_view nameOf(Criterion criterion) { return kTexts[static_cast<size_t>(criterion)].name; }
 std::string_view describe(Criterion criterion) { return kTexts[static_cast<size_t>(criterion)].words; }
 
 std::optional<Criterion> criterionFromName(std::string_view name) {
-  for (int i = 0; i < kCriterionCount; ++i)
-    if (kTexts[static_cast<size_t>(i)].name == name) return static_cast<Criterion>(i);
+  for (const Criterion criterion : kAllCriteria)
+    if (nameOf(criterion) == name) return criterion;
   return std::nullopt;
 }
 
