@@ -45,10 +45,10 @@ struct DeviceInfo {
   double viscosity = 0;        // [N s/m]
   double resolution = 0;       // [m]
   double stylusMass = 0;       // [kg] that hangs on it and is held by `guards.compensation`
-  Vec3 workspaceCentre;        // [m]
-  GuardSettings guards;
-  std::string mapping;     // device to world, as JSON (devices/mapping/mapping.h); empty: as it is
-  std::string secondPath;  // the action of `stopForce`, for messages. Empty: only the device's watchdog protects
+  Vec3 workspaceCentre = {};   // [m]
+  GuardSettings guards = {};
+  std::string mapping = {};     // device to world, as JSON (devices/mapping/mapping.h); empty: as it is
+  std::string secondPath = {};  // the action of `stopForce`, for messages. Empty: only the device's watchdog protects
 };
 
 /// A trial's cue to a hand that is simulated or replayed.

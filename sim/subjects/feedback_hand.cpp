@@ -10,6 +10,7 @@
 #include "base/ticks.h"
 #include "sim/experiment/experiment.h"
 #include "sim/predict/predict.h"
+#include "sim/subjects/plans/reach_plan.h"
 
 namespace reachlab::subjects {
 namespace {
@@ -46,14 +47,9 @@ std::shared_ptr<const FeedbackTask> makeFeedbackTask(const experiment::CompiledE
     // The least that this criterion can cost here, on a line of the same length: the scale of its weight.
     predict::PredictOptions options;
     options.handMass = spec.arm.mass;
-    experiment::Experiment line = experiment;
-    line.constraint = {};
-    line.constraint.name = "line";
-    line.constraint.shape = {{"length_m", std::clamp(way.length(), 0.01, 1.0)}};
-    line.task->start = {0};
-    line.task->target = {2 * std::numbers::pi};
-    const double scale = way.length() / std::clamp(way.length(), 0.01, 1.0);
-    cost.criterionWeight = spec.criterionWeight / (scale * scale * predict::predict(line, *spec.criterion, options)->cost);
+    const LineExperiment line = onLine(experiment, way.length());
+    cost.criterionWeight =
+        spec.criterionWeight / (line.scale * line.scale * predict::predict(line.experiment, *spec.criterion, options)->cost);
     if (*spec.criterion == predict::Criterion::MinComAcceleration) cost.criterionWeight /= object.totalMass() * object.totalMass();
   }
   return std::make_shared<const FeedbackTask>(
@@ -88,12 +84,7 @@ FeedbackHand::FeedbackHand(std::shared_ptr<const FeedbackTask> task, std::shared
 }
 
 haptics::DeviceInfo FeedbackHand::info() const {
-  haptics::DeviceInfo info;
-  info.name = "simulated";
-  info.version = "1";
-  info.virtualHand = true;
-  info.maxForce = kMostForce;
-  return info;
+  return {.name = "simulated", .version = "1", .maxForce = kMostForce, .virtualHand = true};
 }
 
 void FeedbackHand::learnFromTrace() {
@@ -265,12 +256,10 @@ haptics::DeviceSample FeedbackHand::read() noexcept {
     ++ticks_;
   }
   const ReachWay::Place place = task_->way.at(body_[0] - start);
-  haptics::DeviceSample sample;
-  sample.position =
-      (task_->cursor ? task_->way.at(0).position + aimed(place.position - task_->way.at(0).position) : place.position) + aside_;
-  sample.velocity = body_[1] * aimed(place.along) + asideSpeed_;
-  sample.hasVelocity = true;
-  return sample;
+  const Vec3 first = task_->way.at(0).position;
+  return {.position = (task_->cursor ? first + aimed(place.position - first) : place.position) + aside_,
+          .velocity = body_[1] * aimed(place.along) + asideSpeed_,
+          .hasVelocity = true};
 }
 
 void FeedbackHand::write(const Vec3& force) noexcept { felt_ = force; }

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "base/device_options.h"
 #include "base/fault.h"
 #include "base/math/elementary.h"
 #include "sim/subjects/feedback_hand.h"
@@ -52,20 +51,14 @@ Person drawPerson(std::uint64_t seed) {
 }  // namespace
 
 FeedbackSpec parseFeedbackSubject(const std::string& text) {
-  DeviceOptions options(text, "device simulated");
+  SubjectOptions options(text, feedbackParameters());
   if (options.word("kind", {"ofc"}) != "ofc") throw FaultError(Fault{"device", "simulated: kind", "ofc"});
-  const auto number = [&](std::string_view key) {
-    for (const SubjectParameter& p : feedbackParameters())
-      if (p.key == key) return options.number(std::string(key), p.usual, p.least, p.most);
-    return 0.0;
-  };
+  const auto number = [&](std::string_view key) { return options.number(key); };
   FeedbackSpec spec;
   const std::string subject = options.word("subject", {"practised", "1", "2", "3", "4", "5", "drawn"});
   const bool learner = subject != "practised";
-  const auto learning = [&](const char* key, double ofLearners) {
-    for (const SubjectParameter& p : feedbackParameters())
-      if (p.key == key) return options.number(key, learner ? ofLearners : p.usual, p.least, p.most);
-    return 0.0;
+  const auto learning = [&](std::string_view key, double ofLearners) {
+    return options.number(key, learner ? std::optional(ofLearners) : std::nullopt);
   };
   const std::string criterion = options.take("criterion").value_or("effort");
   if (criterion != "effort") {
@@ -99,7 +92,6 @@ FeedbackSpec parseFeedbackSubject(const std::string& text) {
   spec.environment = {number("field-learn-fast"), number("field-keep-fast"), number("field-learn-slow"), number("field-keep-slow")};
   spec.noise = number("noise");
   options.done();
-  if (!options.plain().empty()) throw FaultError(Fault{"device", "simulated: " + options.plain(), "KEY=VALUE"});
   if (subject == "drawn") spec.drawn = true;
   else if (learner) spec = withPerson(spec, kPeople[subject[0] - '1']);
   return spec;

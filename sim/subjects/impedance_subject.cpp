@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/device_options.h"
 #include "base/fault.h"
 #include "base/math/elementary.h"
 #include "base/ticks.h"
@@ -87,14 +86,7 @@ class ImpedanceHand final : public haptics::HapticDevice, public haptics::BlindH
     place();
   }
 
-  haptics::DeviceInfo info() const override {
-    haptics::DeviceInfo info;
-    info.name = "simulated";
-    info.version = "1";
-    info.virtualHand = true;
-    info.maxForce = 1000;
-    return info;
-  }
+  haptics::DeviceInfo info() const override { return {.name = "simulated", .version = "1", .maxForce = 1000, .virtualHand = true}; }
 
   void prepareTrial(int index, int /*scene*/ = 0) override {
     if (std::exchange(firstIsThere_, false) && index == 0) {
@@ -127,11 +119,7 @@ class ImpedanceHand final : public haptics::HapticDevice, public haptics::BlindH
 
   haptics::DeviceSample read() noexcept override {
     if (going_ && ticks_++ >= playing_.reactionTicks) advance(static_cast<std::size_t>(ticks_ - 1 - playing_.reactionTicks));
-    haptics::DeviceSample sample;
-    sample.position = place_;
-    sample.velocity = velocity_;
-    sample.hasVelocity = true;
-    return sample;
+    return {.position = place_, .velocity = velocity_, .hasVelocity = true};
   }
   void write(const Vec3& force) noexcept override { felt_ = force; }
 
@@ -210,13 +198,9 @@ class ImpedanceHand final : public haptics::HapticDevice, public haptics::BlindH
 }  // namespace
 
 ImpedanceSpec parseImpedanceSubject(const std::string& text) {
-  DeviceOptions options(text, "device simulated");
+  SubjectOptions options(text, impedanceParameters());
   static_cast<void>(options.word("kind", {"impedance"}));
-  const auto number = [&](std::string_view key) {
-    for (const SubjectParameter& p : impedanceParameters())
-      if (p.key == key) return options.number(std::string(key), p.usual, p.least, p.most);
-    return 0.0;
-  };
+  const auto number = [&](std::string_view key) { return options.number(key); };
   ImpedanceSpec spec;
   if (const auto criterion = options.take("criterion")) {
     spec.criterion = predict::criterionFromName(*criterion);
@@ -236,7 +220,6 @@ ImpedanceSpec parseImpedanceSubject(const std::string& text) {
   spec.reaction = number("reaction");
   spec.noise = number("noise");
   options.done();
-  if (!options.plain().empty()) throw FaultError(Fault{"device", "simulated: " + options.plain(), "KEY=VALUE"});
   return spec;
 }
 

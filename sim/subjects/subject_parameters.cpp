@@ -1,5 +1,9 @@
 #include "sim/subjects/subject_parameters.h"
 
+#include <algorithm>
+
+#include "base/fault.h"
+
 namespace reachlab::subjects {
 namespace {
 
@@ -79,5 +83,15 @@ constexpr SubjectParameter kPlan[] = {
 std::span<const SubjectParameter> feedbackParameters() { return kFeedback; }
 std::span<const SubjectParameter> impedanceParameters() { return kImpedance; }
 std::span<const SubjectParameter> planParameters() { return kPlan; }
+
+double SubjectOptions::number(std::string_view key, std::optional<double> otherwise) {
+  const auto p = std::find_if(parameters_.begin(), parameters_.end(), [&](const SubjectParameter& each) { return each.key == key; });
+  return DeviceOptions::number(std::string(key), otherwise.value_or(p->usual), p->least, p->most);
+}
+
+void SubjectOptions::done() const {
+  DeviceOptions::done();
+  if (!plain().empty()) throw FaultError(Fault{"device", "simulated: " + plain(), "KEY=VALUE"});
+}
 
 }  // namespace reachlab::subjects

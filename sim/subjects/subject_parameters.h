@@ -1,6 +1,10 @@
 #pragma once
+#include <optional>
 #include <span>
+#include <string>
 #include <string_view>
+
+#include "base/device_options.h"
 
 namespace reachlab::subjects {
 
@@ -18,5 +22,20 @@ std::span<const SubjectParameter> feedbackParameters();
 std::span<const SubjectParameter> impedanceParameters();
 /// The numbers of `kind=plan`, the open-loop hand.
 std::span<const SubjectParameter> planParameters();
+
+/// The options of a kind, as text. Each number lies within the range of its parameter.
+class SubjectOptions : public DeviceOptions {
+ public:
+  SubjectOptions(const std::string& text, std::span<const SubjectParameter> parameters)
+      : DeviceOptions(text, "device simulated"), parameters_(parameters) {}
+
+  /// `otherwise` stands in for the parameter's usual value. Throws FaultError.
+  double number(std::string_view key, std::optional<double> otherwise = {});
+  /// Throws FaultError for keys that were not taken, and for an item without one.
+  void done() const;
+
+ private:
+  std::span<const SubjectParameter> parameters_;
+};
 
 }  // namespace reachlab::subjects

@@ -27,13 +27,7 @@ class PartnerHand final : public haptics::HapticDevice {
   }
 
   haptics::DeviceInfo info() const override {
-    haptics::DeviceInfo info;
-    info.name = "partner";
-    info.version = "1";
-    info.virtualHand = true;
-    info.maxForce = kMaxForce;
-    info.apparentMass = spec_.handMass;
-    return info;
+    return {.name = "partner", .version = "1", .maxForce = kMaxForce, .virtualHand = true, .apparentMass = spec_.handMass};
   }
   void prepareTrial(int index, int scene = 0) override {
     if (leader_) leader_->prepareTrial(index, scene);
@@ -52,11 +46,7 @@ class PartnerHand final : public haptics::HapticDevice {
       place_ += kStep * speed_;
     }
     meant_ = to;
-    haptics::DeviceSample sample;
-    sample.position = place_;
-    sample.velocity = speed_;
-    sample.hasVelocity = true;
-    return sample;
+    return {.position = place_, .velocity = speed_, .hasVelocity = true};
   }
   void write(const Vec3& force) noexcept override { force_ = isFinite(force) ? force : Vec3{}; }
   void see(std::span<const dynamics::MassState> masses) noexcept override {

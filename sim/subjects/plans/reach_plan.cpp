@@ -52,39 +52,35 @@ ReachPlan timeForTask(const experiment::Task& task, const MakePlan& makePlan) {
   return timed.plan;
 }
 
-// The same object on a straight line: what the criteria are defined for.
-experiment::Experiment onLine(const experiment::Experiment& experiment, double length) {
-  experiment::Experiment line = experiment;
-  line.constraint = {};
-  line.constraint.name = "line";
-  line.constraint.shape = {{"length_m", length}};
-  line.task->start = {0};
-  line.task->target = {2 * std::numbers::pi};
-  if (line.object.kind == experiment::ObjectKind::Body) line.object.kind = experiment::ObjectKind::Point;
-  return line;
+std::shared_ptr<const predict::Prediction> predictLasting(double duration, const experiment::Experiment& experiment,
+                                                          const constraints::Constraint& constraint, predict::Criterion criterion,
+                                                          std::optional<double> handMass) {
+  predict::PredictOptions options;
+  options.handMass = handMass;
+  options.duration = duration;
+  return predict::predict(experiment, constraint, criterion, options);
+}
+
+// Whether every mass is at the end of a way of this length and slow enough, with lengths and speeds `scale` times those of the prediction.
+bool areThere(const predict::Prediction& prediction, double t, double length, double scale, const experiment::Tolerance& tolerance) {
+  std::vector<double> x(static_cast<std::size_t>(prediction.massCount())), v(x.size());
+  prediction.massesAt(t, x, v);
+  for (std::size_t i = 0; i < x.size(); ++i)
+    if (scale * std::abs(x[i] - length) > tolerance.position || scale * std::abs(v[i]) > tolerance.velocity) return false;
+  return true;
 }
 
 // What the criterion predicts for a way of this length, timed; `place` lays a distance from the start into the world.
 ReachPlan planByPrediction(const experiment::Experiment& experiment, double length, predict::Criterion criterion,
                            std::optional<double> handMass, std::function<Vec3(double)> place) {
-  // Ways that no line has are predicted on the nearest one: the reaches of an object on springs scale with the distance.
-  const double lineLength = std::clamp(length, kShortestLine, kLongestLine), scale = length / lineLength;
-  const experiment::Experiment line = onLine(experiment, lineLength);
-  const constraints::Constraint lineConstraint = constraints::makeConstraint(line.constraint);
-  const experiment::Task& task = *line.task;
+  const LineExperiment line = onLine(experiment, length);
+  const double scale = line.scale;
+  const constraints::Constraint lineConstraint = constraints::makeConstraint(line.experiment.constraint);
+  const experiment::Task& task = *line.experiment.task;
   return timeForTask(task, [&](double duration) {
-    predict::PredictOptions options;
-    options.handMass = handMass;
-    options.duration = duration;
-    const std::shared_ptr<const predict::Prediction> prediction = predict::predict(line, lineConstraint, criterion, options);
-    std::vector<double> x(static_cast<std::size_t>(prediction->massCount())), v(x.size());
+    const auto prediction = predictLasting(duration, line.experiment, lineConstraint, criterion, handMass);
     const auto hasLeft = [&](double t) { return scale * std::abs(prediction->handAt(t).position) > task.onset; };
-    const auto isThere = [&](double t) {
-      prediction->massesAt(t, x, v);
-      for (std::size_t i = 0; i < x.size(); ++i)
-        if (scale * std::abs(x[i] - lineLength) > task.tolerance.position || scale * std::abs(v[i]) > task.tolerance.velocity) return false;
-      return true;
-    };
+    const auto isThere = [&](double t) { return areThere(*prediction, t, line.length, scale, task.tolerance); };
     return TimedPlan{{duration, [=](double t) { return place(scale * prediction->handAt(t).position); }},
                      computeArrival(duration, hasLeft, isThere)};
   });
@@ -135,10 +131,7 @@ ReachPlan planByCurvePrediction(const experiment::Experiment& experiment, const 
   const double mass = experiment.object.masses.at(0), viscosity = experiment.object.viscosity;
   const experiment::Coupling coupling = experiment.coupling.value_or(experiment::Coupling{});
   return timeForTask(task, [&](double duration) {
-    predict::PredictOptions options;
-    options.handMass = handMass;
-    options.duration = duration;
-    const std::shared_ptr<const predict::Prediction> prediction = predict::predict(experiment, constraint, criterion, options);
+    const auto prediction = predictLasting(duration, experiment, constraint, criterion, handMass);
     const auto forceAt = [=](double t) {
       const predict::PredictedHand hand = prediction->handAt(t);
       const constraints::CurvePoint at = way->at(hand.position);
@@ -153,15 +146,9 @@ ReachPlan planByCurvePrediction(const experiment::Experiment& experiment, const 
       const Vec3 lead = leadFor(forceAt, coupling, t);
       return isFinite(lead) ? place + lead : place;
     };
-    std::vector<double> x(static_cast<std::size_t>(prediction->massCount())), v(x.size());
     const Vec3 start = handAt(0);
     const auto hasLeft = [&](double t) { return norm(handAt(t) - start) > task.onset; };
-    const auto isThere = [&](double t) {
-      prediction->massesAt(t, x, v);
-      for (std::size_t i = 0; i < x.size(); ++i)
-        if (std::abs(x[i] - way->length()) > task.tolerance.position || std::abs(v[i]) > task.tolerance.velocity) return false;
-      return true;
-    };
+    const auto isThere = [&](double t) { return areThere(*prediction, t, way->length(), 1, task.tolerance); };
     return TimedPlan{{duration, handAt}, computeArrival(duration, hasLeft, isThere)};
   });
 }
@@ -219,6 +206,18 @@ ReachPlan planByInverseDynamics(const experiment::Experiment& experiment, const 
 }
 
 }  // namespace
+
+LineExperiment onLine(const experiment::Experiment& experiment, double length) {
+  LineExperiment line{experiment, std::clamp(length, kShortestLine, kLongestLine)};
+  line.scale = length / line.length;
+  line.experiment.constraint = {};
+  line.experiment.constraint.name = "line";
+  line.experiment.constraint.shape = {{"length_m", line.length}};
+  line.experiment.task->start = {0};
+  line.experiment.task->target = {2 * std::numbers::pi};
+  if (experiment.object.kind == experiment::ObjectKind::Body) line.experiment.object.kind = experiment::ObjectKind::Point;
+  return line;
+}
 
 ReachPlan makeReachPlan(const experiment::CompiledExperiment& compiled, std::optional<predict::Criterion> criterion,
                         std::optional<double> handMass) {

@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "base/math/vec3.h"
+#include "sim/experiment/experiment.h"
 #include "sim/predict/predict.h"
 
 namespace reachlab::subjects {
@@ -13,6 +14,14 @@ struct ReachPlan {
   double duration = 0;  // [s]
   std::function<Vec3(double time)> handAt;
 };
+
+/// The same object on the straight line of the catalogue, for which the criteria are defined, for a way of this length [m]. Ways that no
+/// line has are taken on the nearest one, since the reaches of an object on springs scale with the distance.
+struct LineExperiment {
+  experiment::Experiment experiment;
+  double length = 0, scale = 1;  // [m] of the line; of the way, in lines
+};
+LineExperiment onLine(const experiment::Experiment& experiment, double length);
 
 /// The reach from start to target of this task, planned for this very object:
 ///   - on a straight line, and free in space along the chord: the prediction of the criterion (nullopt: minimum hand jerk);

@@ -135,11 +135,9 @@ SubjectSpec parseSubject(const std::string& text) {
 
 MakeSubject prepareSubjects(const experiment::CompiledExperiment& experiment, const SubjectSpec& subject) {
   const auto plan = std::make_shared<const SampledPlan>(makeReachPlan(experiment, subject.criterion, subject.handMass));
-  haptics::DeviceInfo info;
-  info.name = "simulated";
-  info.version = "1";
   return [=](std::uint64_t seed, int, std::shared_ptr<void>&) {
-    return std::make_unique<PlayedHand>(info, [=](int trial) { return carryOut(*plan, subject, seed, trial); });
+    return std::make_unique<PlayedHand>(haptics::DeviceInfo{.name = "simulated", .version = "1"},
+                                        [=](int trial) { return carryOut(*plan, subject, seed, trial); });
   };
 }
 
