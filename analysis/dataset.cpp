@@ -87,43 +87,19 @@ std::size_t conditionIndex(DatasetIndex& dataset, const ConditionName& named, co
   return conditions.size() - 1;
 }
 
-RunProvenance provenanceOf(const record::RunConfiguration& c, std::size_t trials) {
-  RunProvenance p;
-  p.subject = c.subject;
-  p.session = c.session;
-  p.condition = record::conditionOf(c);
-  p.experiment = c.experimentName;
-  p.device = c.device;
-  p.method = c.method;
-  p.software = c.softwareVersion;
-  p.startedUtc = c.startedUtc;
-  p.clock = c.clock;
-  p.run = c.run;
-  p.block = c.block;
-  p.day = c.day;
-  p.practice = c.practice;
-  p.seed = c.seed;
-  p.samplingHz = c.samplingHz;
-  p.trials = trials;
-  return p;
-}
-
 void noteMixedDevices(DatasetIndex& dataset) {
   std::map<std::string, std::set<std::string>> devices;
-  for (const RunProvenance& run : dataset.runs) devices[run.condition].insert(run.device.substr(0, run.device.find(':')));
+  for (const AnalysedRun& run : dataset.runs) {
+    const record::RunConfiguration& c = run.configuration;
+    devices[record::conditionOf(c)].insert(c.device.substr(0, c.device.find(':')));
+  }
   for (const auto& [condition, used] : devices) {
     if (used.size() < 2) continue;
-    std::string names;
-    for (const std::string& name : used) names += (names.empty() ? "" : ", ") + name;
     dataset.notes.push_back(fmt::format(
         "{}: trials of different devices are analysed together ({}); give a subject's or a session's folder alone to keep them apart",
-        condition, names));
+        condition, fmt::join(used, ", ")));
   }
 }
-
-}  // namespace
-
-namespace {
 
 // That of one of the run's scenes, else that of a run before.
 std::optional<experiment::SquareMatrix<3>> trainedField(std::span<const experiment::CompiledExperiment> scenes, const std::string& subject,
@@ -145,7 +121,7 @@ const std::vector<experiment::CompiledExperiment>& ScenesOfRuns::of(const record
 
 void addRun(const RunSource& run, std::span<const experiment::CompiledExperiment> scenes, DatasetIndex& index, const TrialSink& sink) {
   const record::RunConfiguration& c = run.configuration;
-  index.runs.push_back(provenanceOf(c, run.trials.size()));
+  index.runs.push_back({c, run.trials.size()});
   struct Stage {
     std::size_t condition;
     RunTrials trials;
@@ -255,7 +231,6 @@ void readLogs(const std::vector<std::string>& logs, DatasetIndex& dataset, const
       const record::RunMarks marks = record::readMarks(log);
       whole.add({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, marks}, scenes);
       dataset.runs.back().file = logs[i];
-      dataset.runs.back().healthy = log.healthy();
       if (const std::string loss = record::lossOf(log); !loss.empty()) dataset.notes.push_back(loss);
       else if (!log.healthy()) dataset.notes.push_back(logs[i] + ": is being recorded into; read to its last record");
     } catch (const ResourceError& error) {

@@ -13,20 +13,16 @@
 namespace reachlab::analysis {
 
 /// One recorded run, for the report's list of analysed runs.
-struct RunProvenance {
-  std::string file, subject, session, condition, experiment, device, method, software, startedUtc, clock;
-  int run = 0, block = 0, day = 0;
-  bool practice = false;
-  std::uint64_t seed = 0;
-  double samplingHz = 0;
+struct AnalysedRun {
+  record::RunConfiguration configuration;
   std::size_t trials = 0;
-  bool healthy = true;
+  std::string file = {};
 };
 
 /// The content of a dataset without its trials.
 struct DatasetIndex {
   std::vector<Condition> conditions;
-  std::vector<RunProvenance> runs;
+  std::vector<AnalysedRun> runs;
   std::vector<std::string> notes;                              // what was left out or mended, one sentence each
   std::map<std::string, experiment::SquareMatrix<3>> trained;  // [N s/m] by subject: the viscous field of the latest run that had one
   std::vector<std::string> unreadable;                         // of those the runs that the disk did not give

@@ -306,19 +306,21 @@ void addCondition(Html& html, const Analysis& analysis, std::size_t c, const std
   addMeasures(html, analysis, c);
 }
 
-void addProvenance(Html& html, const std::vector<RunProvenance>& runs, const std::vector<std::string>& notes) {
+void addProvenance(Html& html, const std::vector<AnalysedRun>& runs, const std::vector<std::string>& notes) {
   html.heading(2, "Recordings");
   html.add(
       "<table><thead><tr><th>Subject</th><th>session</th><th>run</th><th class=\"text\">condition</th><th>trials</th><th "
       "class=\"text\">device</th>"
       "<th class=\"text\">method</th><th>seed</th><th>samples (Hz)</th><th class=\"text\">started (UTC)</th><th "
       "class=\"text\">software</th></tr></thead><tbody>");
-  for (const RunProvenance& r : runs)
+  for (const AnalysedRun& run : runs) {
+    const record::RunConfiguration& c = run.configuration;
     html.add(fmt::format(
         "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"text\">{}{}</td><td>{}</td><td class=\"text\">{}</td><td class=\"text\">{}</td>"
         "<td>{}</td><td>{:g}</td><td class=\"text\">{}</td><td class=\"text\">{}</td></tr>",
-        escaped(r.subject), escaped(r.session), r.run, escaped(r.condition), r.practice ? " (practice)" : "", r.trials, escaped(r.device),
-        escaped(r.method), r.seed, r.samplingHz, escaped(r.startedUtc), escaped(r.software)));
+        escaped(c.subject), escaped(c.session), c.run, escaped(record::conditionOf(c)), c.practice ? " (practice)" : "", run.trials,
+        escaped(c.device), escaped(c.method), c.seed, c.samplingHz, escaped(c.startedUtc), escaped(c.softwareVersion)));
+  }
   html.add("</tbody></table>");
   for (const std::string& note : notes) html.paragraph(note, "warning");
 }
@@ -340,7 +342,7 @@ std::string escaped(const std::string& text) {
 }
 
 std::string makeReport(const ReportHeader& header, const Analysis& analysis, const std::vector<NamedFigure>& figures,
-                       const std::vector<RunProvenance>& runs, const std::vector<std::string>& notes,
+                       const std::vector<AnalysedRun>& runs, const std::vector<std::string>& notes,
                        const std::optional<TruthRecovery>& recovery) {
   Html html;
   html.add(
@@ -348,7 +350,7 @@ std::string makeReport(const ReportHeader& header, const Analysis& analysis, con
   html.add("<title>Reaching: " + escaped(header.dataset) + "</title>\n<style>" + kStyle + "</style>\n</head>\n<body>");
   html.heading(1, "Reaching movements: " + header.dataset);
   std::size_t trials = 0;
-  for (const RunProvenance& run : runs) trials += run.trials;
+  for (const AnalysedRun& run : runs) trials += run.trials;
   html.paragraph(
       fmt::format("{}, {}, {} recorded, {}. Reachlab {}.", plural(analysis.subjects.size(), "subject"), plural(runs.size(), "run"),
                   plural(trials, "trial"), plural(analysis.conditions.size(), "condition"), header.version),

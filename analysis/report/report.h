@@ -18,7 +18,7 @@ struct ReportHeader {
 /// figures and measures of each condition, the methods paragraph, limits and provenance. The page needs no network and no script, and
 /// prints.
 std::string makeReport(const ReportHeader& header, const Analysis& analysis, const std::vector<NamedFigure>& figures,
-                       const std::vector<RunProvenance>& runs, const std::vector<std::string>& notes,
+                       const std::vector<AnalysedRun>& runs, const std::vector<std::string>& notes,
                        const std::optional<TruthRecovery>& recovery = {});
 
 /// Text as HTML text.

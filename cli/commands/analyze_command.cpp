@@ -374,7 +374,7 @@ void run(CLI::App& command, const AnalyzeOptions& o) {
   while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
   if (plan) {
     std::vector<std::string> starts;
-    for (const analysis::RunProvenance& r : dataset.runs) starts.push_back(r.startedUtc);
+    for (const analysis::AnalysedRun& r : dataset.runs) starts.push_back(r.configuration.startedUtc);
     checkDate(*plan, starts);
   }
   const analysis::ReportHeader header{folder, REACHLAB_VERSION, commandOf(o), plan ? describePlan(*plan) : std::vector<std::string>{},

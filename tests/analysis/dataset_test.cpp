@@ -189,17 +189,17 @@ TEST(Dataset, OfBidsFilesThatDoNotSayHowOftenHasTheRateOfItsRows) {
     auto about = nlohmann::json::parse(std::ifstream(entry.path()));
     about.at("SamplingFrequency") = 0.5;
     std::ofstream(entry.path()) << about.dump();
-    EXPECT_EQ(openDataset(folder.path()).runs.at(0).samplingHz, 0.5) << "said, however slow";
+    EXPECT_EQ(openDataset(folder.path()).runs.at(0).configuration.samplingHz, 0.5) << "said, however slow";
     ASSERT_EQ(about.erase("SamplingFrequency"), 1u);
     std::ofstream(entry.path()) << about.dump();
   }
-  EXPECT_EQ(openDataset(folder.path()).runs.at(0).samplingHz, 100);
+  EXPECT_EQ(openDataset(folder.path()).runs.at(0).configuration.samplingHz, 100);
   std::ifstream rows(motion);
   std::string first, second;
   std::getline(rows, first), std::getline(rows, second);
   rows.close();
   std::ofstream(motion) << first << '\n';
-  EXPECT_EQ(openDataset(folder.path()).runs.at(0).samplingHz, 100);
+  EXPECT_EQ(openDataset(folder.path()).runs.at(0).configuration.samplingHz, 100);
 }
 
 TEST(Dataset, OfSimulatedAndRealHandsSaysThatItMixesThem) {

@@ -11,7 +11,7 @@ namespace {
 
 const ReportHeader kHeader{"mine & <yours>", "9.8.7", "reach analyze \"mine\""};
 
-std::string reportOf(const Analysis& analysis, const std::vector<RunProvenance>& runs = {}, const std::vector<std::string>& notes = {},
+std::string reportOf(const Analysis& analysis, const std::vector<AnalysedRun>& runs = {}, const std::vector<std::string>& notes = {},
                      const std::optional<TruthRecovery>& recovery = {}) {
   std::string text = makeReport(kHeader, analysis, makeFigures(analysis, recovery), runs, notes, recovery);
   text.erase(std::remove(text.begin(), text.end(), '\n'), text.end());
