@@ -26,7 +26,6 @@ class SystemPlant : public PlantBase {
     method_.restart();
     stopped_ = StepStatus::Ok;
     fraction_ = 1;
-    error_ = 0;
   }
   void setExtraForce(const Vec3& force) noexcept override {
     extra_ = force;
@@ -61,7 +60,6 @@ class SystemPlant : public PlantBase {
     if (status == StepStatus::Ok) current_ = 1 - current_;
     if (status == StepStatus::NoContinuation) fraction_ = 0;
     stopped_ = status;
-    error_ = report.error * kTypicalPlace;
     rhs_ += report.rhs;
     return status;
   }
@@ -74,7 +72,6 @@ class SystemPlant : public PlantBase {
     system_.rate(system_.handOf(hand), now(), dy);
     system_.accelerate(now(), dy, used);
   }
-  double errorEstimate() const noexcept override { return error_; }
   std::string stopReason() const override { return system_.stopReason(stopped_, now()); }
 
  protected:
@@ -181,7 +178,6 @@ class SystemPlant : public PlantBase {
   Adaptive<System> locator_;
   std::array<State, 2> states_;  // now and after the step, by turns, without copies
   int current_ = 0;
-  double error_ = 0;
   StepStatus stopped_ = StepStatus::Ok;
 };
 

@@ -48,8 +48,6 @@ class Plant {
 
   /// Right-hand sides evaluated since construction.
   virtual std::uint64_t rhsEvaluations() const noexcept = 0;
-  /// Local error estimate of the last step as a position [m]. 0 where the method is exact.
-  virtual double errorEstimate() const noexcept { return 0; }
   /// The reason for which an AtEnd or NoContinuation step stopped, as text. Not for the haptic thread.
   virtual std::string stopReason() const { return {}; }
 };
