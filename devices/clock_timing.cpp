@@ -25,9 +25,6 @@ class TickTimes final : public haptics::RunSink {
     return true;
   }
   std::uint32_t massesEvery() const noexcept override { return 0; }
-  void announce(std::int32_t, const trial::PlannedTrial&) override {}
-  void awaitTrial(std::int32_t) override {}
-  void close() override {}
 
   haptics::LatenessHistogram jitter, age;
 

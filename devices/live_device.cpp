@@ -30,9 +30,6 @@ class LiveDevice::Intervals final : public haptics::RunSink {
     return true;
   }
   std::uint32_t massesEvery() const noexcept override { return 0; }
-  void announce(std::int32_t, const trial::PlannedTrial&) override {}
-  void awaitTrial(std::int32_t) override {}
-  void close() override {}
 
   void fill(View& view) const {
     for (std::size_t i = 0; i < kBins; ++i) view.between[i] = bins_[i].load(std::memory_order_relaxed);

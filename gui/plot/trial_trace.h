@@ -34,9 +34,6 @@ class TraceSink final : public haptics::RunSink {
   /// A mass between the ends is computed every fifth tick if it was watched when the run began. Otherwise it comes with the rows of the
   /// recording.
   std::uint32_t massesEvery() const noexcept override { return watched_.load(std::memory_order_relaxed) > 0 ? std::uint32_t{kEvery} : 0; }
-  void announce(std::int32_t, const trial::PlannedTrial&) override {}
-  void awaitTrial(std::int32_t) override {}
-  void close() override {}
 
   /// Any thread. The watched mass from 0, or -1 for the hand.
   void watch(int mass) noexcept { watched_.store(mass, std::memory_order_relaxed); }

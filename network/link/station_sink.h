@@ -32,9 +32,6 @@ class StationSink final : public haptics::RunSink, public record::FurtherColumns
         rates_(static_cast<std::uint32_t>(copy.rateCount())), linkColumns_(linkColumns(copy.peerCount())),
         given_(std::make_unique<SpscQueue<GivenSample, 4096>>()) {}
   bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override;
-  void announce(std::int32_t, const trial::PlannedTrial&) override {}
-  void awaitTrial(std::int32_t) override {}
-  void close() override {}
   /// For the latest tick.
   void fill(double* columns) const noexcept override { std::copy_n(links_.begin(), linkColumns_, columns); }
 

@@ -111,9 +111,6 @@ class StationRun {
     bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missed) noexcept override {
       return sink->onTick(state, command, missed);
     }
-    void announce(std::int32_t, const trial::PlannedTrial&) override {}
-    void awaitTrial(std::int32_t) override {}
-    void close() override {}
     void fill(double* columns) const noexcept override { sink->fill(columns); }
   };
 

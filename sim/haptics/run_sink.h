@@ -7,7 +7,8 @@
 
 namespace reachlab::haptics {
 
-/// The receiver of a run's ticks, usually the recorder, as haptic loop and conductor see it. Without a sink no tick is kept.
+/// The receiver of a run's ticks, usually the recorder, as haptic loop and conductor see it. Without a sink no tick is kept. Whoever only
+/// watches has nothing to announce, await or close.
 class RunSink {
  public:
   virtual ~RunSink() = default;
@@ -18,11 +19,11 @@ class RunSink {
   /// `onTick` looks at the inner masses and the energy only at multiples of this number of ticks. 0: never.
   virtual std::uint32_t massesEvery() const noexcept { return 1; }
   /// Controlling thread, before a trial is queued. May throw ResourceError, as all below.
-  virtual void announce(std::int32_t trial, const trial::PlannedTrial& planned) = 0;
+  virtual void announce(std::int32_t /*trial*/, const trial::PlannedTrial& /*planned*/) {}
   /// Controlling thread, after a trial has ended: returns once its record is safe on the disk.
-  virtual void awaitTrial(std::int32_t trial) = 0;
+  virtual void awaitTrial(std::int32_t /*trial*/) {}
   /// Ends the record in order.
-  virtual void close() = 0;
+  virtual void close() {}
 };
 
 }  // namespace reachlab::haptics

@@ -377,9 +377,6 @@ class Interrupts final : public RunSink {
     count += command == trial::Command::Interrupt ? 1 : 0;
     return true;
   }
-  void announce(std::int32_t, const trial::PlannedTrial&) override {}
-  void awaitTrial(std::int32_t) override {}
-  void close() override {}
   int count = 0;
 };
 

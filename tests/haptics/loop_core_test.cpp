@@ -220,9 +220,6 @@ class Asking final : public RunSink {
     return true;
   }
   std::uint32_t massesEvery() const noexcept override { return every; }
-  void announce(std::int32_t, const trial::PlannedTrial&) override {}
-  void awaitTrial(std::int32_t) override {}
-  void close() override {}
   LoopCore* core = nullptr;
   bool abandoned = true;
   std::uint32_t every = 1;

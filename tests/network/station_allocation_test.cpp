@@ -22,9 +22,6 @@ class BothSinks final : public haptics::RunSink {
     link_.onTick(state, command, missed);
     return log_.onTick(state, command, missed);
   }
-  void announce(std::int32_t, const trial::PlannedTrial&) override {}
-  void awaitTrial(std::int32_t) override {}
-  void close() override {}
 
  private:
   haptics::RunSink &link_, &log_;

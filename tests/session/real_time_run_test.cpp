@@ -43,9 +43,6 @@ class Stalls final : public haptics::LoopClock, public haptics::RunSink {
     if (gaps.count-- > 0) stall_ = std::llround(gaps.milliseconds * 1e6) + 100'000;
     return true;
   }
-  void announce(std::int32_t, const trial::PlannedTrial&) override {}
-  void awaitTrial(std::int32_t) override {}
-  void close() override {}
 
  private:
   std::vector<Gaps> ofTrials_;
@@ -138,8 +135,6 @@ TEST_F(InRealTime, TheTimingIsCheckedBeforeTheFirstTrialAndTheVerdictIsKept) {
 class LastWord final : public record::InstrumentLink {
  public:
   bool onTick(const haptics::TickState&, trial::Command, std::uint32_t) noexcept override { return true; }
-  void announce(std::int32_t, const trial::PlannedTrial&) override {}
-  void awaitTrial(std::int32_t) override {}
   void close() override { events_.push_back({.kind = record::EventKind::Instrument, .text = "the last word"}); }
   std::string names() const override { return "last-word"; }
   void begin(const record::RunConfiguration&) override { events_.push_back({.kind = record::EventKind::Instrument, .text = "the first"}); }
