@@ -205,17 +205,6 @@ record::RecordedTrial trialOf(const EventRow& row, const record::SampleRows& row
   return trial;
 }
 
-record::SampleRows rowsBetween(const record::SampleRows& rows, std::uint64_t first, std::uint64_t last) {
-  record::SampleRows part;
-  part.columns = rows.columns;
-  const auto from = std::lower_bound(rows.ticks.begin(), rows.ticks.end(), first);
-  const auto to = std::upper_bound(from, rows.ticks.end(), last);
-  part.ticks.assign(from, to);
-  const auto row = [&](auto at) { return rows.values.begin() + (at - rows.ticks.begin()) * static_cast<std::ptrdiff_t>(rows.columns); };
-  part.values.assign(row(from), row(to));
-  return part;
-}
-
 RunSource readRun(const fs::path& motion) {
   const std::string name = motion.filename().string();
   const auto sibling = [&](const std::string& ending) {
@@ -262,7 +251,7 @@ RunSource readRun(const fs::path& motion) {
     c.condition = row.text("condition");
     trial.planned.scene = sceneIn(events, events.rows[index], c);
   }
-  run.rowsOf = [rows](std::uint64_t first, std::uint64_t last) { return rowsBetween(*rows, first, last); };
+  run.rowsOf = [rows](std::uint64_t first, std::uint64_t last) { return rows->between(first, last); };
   return run;
 }
 

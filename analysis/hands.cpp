@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "analysis/sheet.h"
 #include "base/ticks.h"
@@ -14,7 +13,6 @@
 namespace reachlab::analysis {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr double kLongestLag = 0.5;  // [s]
 
 std::vector<double> speedsOf(const HandSignals& hand) {
@@ -26,7 +24,7 @@ std::vector<double> speedsOf(const HandSignals& hand) {
 // Of a(t) and b(t + lag), over what both have; NaN where one does not vary.
 double correlation(const std::vector<double>& a, const std::vector<double>& b, int lag) {
   const int n = static_cast<int>(a.size()), first = std::max(0, -lag), last = std::min(n, n - lag), count = last - first;
-  if (count < 3) return kUnknown;
+  if (count < 3) return kNotMeasured;
   double meanA = 0, meanB = 0;
   for (int i = first; i < last; ++i) meanA += a[static_cast<std::size_t>(i)], meanB += b[static_cast<std::size_t>(i + lag)];
   meanA /= count, meanB /= count;
@@ -35,11 +33,11 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b, i
     const double x = a[static_cast<std::size_t>(i)] - meanA, y = b[static_cast<std::size_t>(i + lag)] - meanB;
     aa += x * x, bb += y * y, ab += x * y;
   }
-  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : kUnknown;
+  return aa > 0 && bb > 0 ? ab / std::sqrt(aa * bb) : kNotMeasured;
 }
 
 struct Lag {
-  double seconds = kUnknown, correlation = kUnknown;
+  double seconds = kNotMeasured, correlation = kNotMeasured;
 };
 // The best shift, between samples by the parabola through its neighbours.
 Lag lagBehind(const std::vector<double>& first, const std::vector<double>& hand, double rate) {
@@ -66,13 +64,10 @@ std::vector<HandSignals> signalsOf(const record::ChannelTable& table, const reco
                       force = table.indexOf(hand == 1 ? "coupling_force_x" : name + "_coupling_force_x"),
                       work = table.indexOf(name + "_work");
     HandSignals& signals = hands[static_cast<std::size_t>(hand - 1)];
-    const auto vector = [&](std::size_t row, std::size_t column) {
-      return Vec3{rows.at(row, column), rows.at(row, column + 1), rows.at(row, column + 2)};
-    };
     for (std::size_t row = first; row < last; ++row) {
-      signals.place.push_back(vector(row, place));
-      signals.velocity.push_back(vector(row, velocity));
-      signals.force.push_back(vector(row, force));
+      signals.place.push_back(rows.vectorAt(row, place));
+      signals.velocity.push_back(rows.vectorAt(row, velocity));
+      signals.force.push_back(rows.vectorAt(row, force));
       signals.work.push_back(rows.at(row, work));
     }
   }
@@ -129,7 +124,7 @@ TogetherMeasures measureTogether(const std::vector<HandSignals>& hands, double r
     m.lagCorrelation = lag.correlation;
     together.hands.push_back(m);
   }
-  for (HandMeasures& m : together.hands) m.share = allWork > 0 ? m.positiveWork / allWork : kUnknown;
+  for (HandMeasures& m : together.hands) m.share = allWork > 0 ? m.positiveWork / allWork : kNotMeasured;
   const std::size_t count = hands.empty() ? 0 : hands.front().force.size();
   double squares = 0;
   for (std::size_t i = 0; i < count; ++i) {

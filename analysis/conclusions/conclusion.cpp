@@ -29,6 +29,13 @@ TTest compareInPerson(const PersonScores& person, std::size_t a, std::size_t b) 
   return combineTTests(tests);
 }
 
+/// One score less another of each person. `table` [person][candidate].
+std::vector<double> differencesIn(const std::vector<std::vector<double>>& table, std::size_t a, std::size_t b) {
+  std::vector<double> d;
+  for (const auto& row : table) d.push_back(row[a] - row[b]);
+  return d;
+}
+
 std::size_t leastOf(const std::vector<double>& scores) {
   return static_cast<std::size_t>(std::min_element(scores.begin(), scores.end()) - scores.begin());
 }
@@ -71,6 +78,22 @@ bool describesPoorly(const Conclusion& c) {
                           c.systematic.share * (1 - c.r2) >= kLeastSystematicSpeed * kLeastSystematicSpeed;
   const bool mixed = c.mixtureP < kMixtureLevel && c.mixture.mean >= kLeastMixture;
   return misfits || systematic || mixed || 1 - c.r2 > kMostUnexplained * (1 - c.ceiling);
+}
+
+/// What keeps several people from one conclusion.
+struct Disagreement {
+  bool few = false, differ = false, rare = false;  // too few people; some are decided otherwise; the best is not the most frequent
+};
+void decide(Conclusion& out, std::size_t reference, const Disagreement& people) {
+  if (out.score.size() < 3) out.reason = Obstacle::NothingToCompare;
+  else if (people.few) out.reason = Obstacle::TooFewSubjects;
+  else if (people.differ) out.reason = Obstacle::SubjectsDiffer;
+  else if (referenceStands(out, reference)) out.reason = Obstacle::Reference;
+  else if (!isToldFromAll(out)) out.reason = Obstacle::NotToldApart;
+  else if (people.rare) out.reason = Obstacle::SubjectsDiffer;
+  else if (!out.atEdge.empty()) out.reason = Obstacle::MassAtEdge;
+  else if (describesPoorly(out)) out.reason = Obstacle::Poor;
+  else out.reason = Obstacle::None, out.follows = out.best;
 }
 
 /// One person with the scores of candidates at the edge of the range of masses replaced by those outside it.
@@ -156,18 +179,10 @@ std::size_t PersonScores::trials() const {
 }
 
 std::string_view nameOf(Obstacle reason) {
-  switch (reason) {
-    case Obstacle::None: return "";
-    case Obstacle::TooFewTrials: return "too_few_trials";
-    case Obstacle::TooFewSubjects: return "too_few_subjects";
-    case Obstacle::Reference: return "reference";
-    case Obstacle::NotToldApart: return "not_told_apart";
-    case Obstacle::SubjectsDiffer: return "subjects_differ";
-    case Obstacle::MassAtEdge: return "mass_at_edge";
-    case Obstacle::Poor: return "poor";
-    case Obstacle::NothingToCompare: return "nothing_to_compare";
-  }
-  return "";
+  static constexpr std::string_view kNames[] = {
+      "",     "too_few_trials",    "too_few_subjects", "reference", "not_told_apart", "subjects_differ", "mass_at_edge",
+      "poor", "nothing_to_compare"};
+  return kNames[static_cast<std::size_t>(reason)];
 }
 
 Conclusion concludePerson(const PersonScores& person, std::size_t candidates, std::size_t reference,
@@ -192,12 +207,7 @@ Conclusion concludePerson(const PersonScores& person, std::size_t candidates, st
   });
   const PersonScores outside = outsideTheRange(person);
   findMassesAtEdge(out, {person}, limits, [&](std::size_t a, std::size_t b) { return compareInPerson(outside, a, b); });
-  if (candidates < 3) out.reason = Obstacle::NothingToCompare;
-  else if (referenceStands(out, reference)) out.reason = Obstacle::Reference;
-  else if (!isToldFromAll(out)) out.reason = Obstacle::NotToldApart;
-  else if (!out.atEdge.empty()) out.reason = Obstacle::MassAtEdge;
-  else if (describesPoorly(out)) out.reason = Obstacle::Poor;
-  else out.reason = Obstacle::None, out.follows = out.best;
+  decide(out, reference, {});
   out.each = {out.follows};
   return out;
 }
@@ -231,14 +241,9 @@ Conclusion concludePeople(const std::vector<PersonScores>& everyone, std::size_t
     out.trials += person.trials();
     out.each.push_back(concludePerson(person, candidates, reference, limits).follows);
   }
-  const auto differences = [&](std::size_t a, std::size_t b) {
-    std::vector<double> d;
-    for (const auto& row : table) d.push_back(row[a] - row[b]);
-    return d;
-  };
-  compareAll(out, reference, [&](std::size_t a, std::size_t b) { return computeTTest(differences(a, b)); });
+  compareAll(out, reference, [&](std::size_t a, std::size_t b) { return computeTTest(differencesIn(table, a, b)); });
   out.posterior = selectModel(evidence).protectedExceedance;
-  if (people.size() >= kFewestForSignFlip && out.rival) out.signFlipP = computeSignFlipP(differences(*out.rival, *out.best));
+  if (people.size() >= kFewestForSignFlip && out.rival) out.signFlipP = computeSignFlipP(differencesIn(table, *out.rival, *out.best));
   for (const PersonScores& person : people)
     for (const ConditionScores& c : person.conditions) {
       const double share = 1.0 / static_cast<double>(people.size()) / static_cast<double>(person.conditions.size());
@@ -260,25 +265,12 @@ Conclusion concludePeople(const std::vector<PersonScores>& everyone, std::size_t
   });
   std::vector<std::vector<double>> outside;
   for (const PersonScores& person : people) outside.push_back(scoresOf(outsideTheRange(person), candidates));
-  findMassesAtEdge(out, people, limits, [&](std::size_t a, std::size_t b) {
-    std::vector<double> d;
-    for (const auto& row : outside) d.push_back(row[a] - row[b]);
-    return computeTTest(d);
-  });
+  findMassesAtEdge(out, people, limits, [&](std::size_t a, std::size_t b) { return computeTTest(differencesIn(outside, a, b)); });
   bool differ = false;  // people who are decided for another than the best, or for different ones
   for (const auto& each : out.each)
     for (const auto& other : out.each) differ = differ || (each && other && *each != *other);
   for (const auto& each : out.each) differ = differ || (each && *each != *out.best);
-  const bool frequent = out.posterior[*out.best] >= kMinExceedance;
-  if (candidates < 3) out.reason = Obstacle::NothingToCompare;
-  else if (people.size() < kFewestSubjects) out.reason = Obstacle::TooFewSubjects;
-  else if (differ) out.reason = Obstacle::SubjectsDiffer;
-  else if (referenceStands(out, reference)) out.reason = Obstacle::Reference;
-  else if (!isToldFromAll(out)) out.reason = Obstacle::NotToldApart;
-  else if (!frequent) out.reason = Obstacle::SubjectsDiffer;
-  else if (!out.atEdge.empty()) out.reason = Obstacle::MassAtEdge;
-  else if (describesPoorly(out)) out.reason = Obstacle::Poor;
-  else out.reason = Obstacle::None, out.follows = out.best;
+  decide(out, reference, {people.size() < kFewestSubjects, differ, !(out.posterior[*out.best] >= kMinExceedance)});
   return out;
 }
 

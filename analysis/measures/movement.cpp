@@ -22,12 +22,7 @@ void findPeak(std::span<const double> speed, double rate, std::size_t first, std
 }  // namespace
 
 std::string_view nameOf(OnsetRule rule) {
-  switch (rule) {
-    case OnsetRule::Percent: return "percent";
-    case OnsetRule::Absolute: return "absolute";
-    case OnsetRule::Task: return "task";
-  }
-  return "";
+  return rule == OnsetRule::Percent ? "percent" : rule == OnsetRule::Absolute ? "absolute" : "task";
 }
 
 Movement findMovement(std::span<const double> speed, double rate, const OnsetOptions& options) {

@@ -92,16 +92,4 @@ const record::RecordedTrial& BlockRun::runTrial(const trial::PlannedTrial& plann
   return tracker_.trial();
 }
 
-record::SampleRows BlockRun::rowsBetween(std::uint64_t first, std::uint64_t last) const {
-  record::SampleRows rows;
-  rows.columns = rows_.columns;
-  for (std::size_t i = 0; i < rows_.ticks.size(); ++i) {
-    if (rows_.ticks[i] < first || rows_.ticks[i] > last) continue;
-    rows.ticks.push_back(rows_.ticks[i]);
-    const auto begin = rows_.values.begin() + static_cast<std::ptrdiff_t>(i * rows_.columns);
-    rows.values.insert(rows.values.end(), begin, begin + static_cast<std::ptrdiff_t>(rows_.columns));
-  }
-  return rows;
-}
-
 }  // namespace reachlab::study

@@ -26,8 +26,7 @@ class BlockRun {
   /// Runs one trial to its end. Valid until the next call.
   const record::RecordedTrial& runTrial(const trial::PlannedTrial& planned);
   const record::ChannelTable& table() const { return table_; }
-  /// Of the latest trial, between two ticks.
-  record::SampleRows rowsBetween(std::uint64_t first, std::uint64_t last) const;
+  const record::SampleRows& rows() const { return rows_; }  // of the latest trial
 
  private:
   struct Stages;  // of a tick (sim/haptics/tick_order.h)

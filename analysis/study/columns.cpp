@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "analysis/study/points.h"
 #include "analysis/study/trial_row.h"
 #include "analysis/table_columns.h"
 #include "base/number_range.h"
@@ -65,14 +66,12 @@ std::vector<std::string> allCriteria() {
 
 constexpr int kOutcomes = static_cast<int>(trial::Outcome::Interrupted) + 1, kReasons = static_cast<int>(trial::kLastReason) + 1;
 
-std::string plainWord(const std::string& json) { return json.size() > 1 && json.front() == '"' ? json.substr(1, json.size() - 2) : json; }
-
 Column columnOf(const VariedKey& axis) {
   Column column{axis.path, {}};
   const bool numbers = std::all_of(axis.values.begin(), axis.values.end(),
                                    [](const std::string& v) { return v.find_first_of("\"[{tfn") == std::string::npos; });
   if (!numbers)
-    for (const std::string& value : axis.values) column.words.push_back(plainWord(value));
+    for (const std::string& value : axis.values) column.words.push_back(unquoted(value));
   return column;
 }
 

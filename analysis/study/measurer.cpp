@@ -32,7 +32,7 @@ MeasuredTrial Measurer::measure(const BlockRun& run, const record::RecordedTrial
                                    {experiment_.constraint(), experiment_.experiment().task->start, experiment_.experiment().task->target},
                                    analysis::sceneOf(experiment_.experiment(), analysis::viscousFieldOf(experiment_.experiment())));
   const analysis::TrialData data =
-      trials.read(recorded, [&](std::uint64_t first, std::uint64_t last) { return run.rowsBetween(first, last); });
+      trials.read(recorded, [&](std::uint64_t first, std::uint64_t last) { return run.rows().between(first, last); });
   const analysis::TrialSignals signals = analysis::computeSignals(data, options_);
   trial.measures = analysis::computeMeasures(data, signals);
   const bool used =

@@ -23,8 +23,6 @@ std::uint64_t bitsOf(const PhiloxCounter& words) { return words[0] | static_cast
 
 double fractionOf(const PhiloxCounter& words) { return static_cast<double>(bitsOf(words) >> 11) * 0x1.0p-53; }
 
-std::string unquoted(const std::string& json) { return json.size() > 1 && json.front() == '"' ? json.substr(1, json.size() - 2) : json; }
-
 // The part behind "plan.", if the path begins so.
 std::optional<std::string> behind(const std::string& path, const char* prefix) {
   return path.starts_with(prefix) ? std::optional(path.substr(std::string_view(prefix).size())) : std::nullopt;
@@ -80,6 +78,8 @@ std::vector<int> daysOf(const session::Plan& plan) {
 }
 
 }  // namespace
+
+std::string unquoted(const std::string& json) { return json.size() > 1 && json.front() == '"' ? json.substr(1, json.size() - 2) : json; }
 
 std::int64_t pointCount(const Design& design) {
   std::int64_t count = design.samples;

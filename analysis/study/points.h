@@ -33,6 +33,8 @@ std::int64_t pairCount(const Design& design);  // points times subjects
 Point pointAt(const Design& design, std::int64_t index);
 /// Throws FaultError under "point N: KEY".
 PointTask taskOf(const Design& design, const Point& point);
+/// What is in quotes, of a text in JSON; else the text.
+std::string unquoted(const std::string& json);
 /// "coupling.stiffness_n_per_m=300, subject.noise=1". Empty if nothing is varied.
 std::string describe(const Point& point);
 /// The most that any point asks of a subject, without working the points out.

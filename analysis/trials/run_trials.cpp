@@ -10,10 +10,6 @@
 namespace reachlab::analysis {
 namespace {
 
-Vec3 vectorAt(const record::SampleRows& rows, std::size_t row, std::size_t column) {
-  return {rows.at(row, column), rows.at(row, column + 1), rows.at(row, column + 2)};
-}
-
 /// 0: the table has no such channel. No vector begins there.
 std::size_t columnOf(const record::ChannelTable& table, std::string_view name) {
   const auto found = std::find_if(table.channels.begin(), table.channels.end(), [&](const record::Channel& c) { return c.name == name; });
@@ -37,7 +33,7 @@ RunTrials::RunTrials(const record::ChannelTable& table, std::uint64_t every, con
 /// Rows may be missing (dropped, or a tick was late); between its neighbours a missing one is interpolated.
 void RunTrials::appendEvenly(TrialData& trial, const record::SampleRows& rows) const {
   const auto put = [&](std::size_t a, std::size_t b, double part) {
-    const auto mix = [&](std::size_t column) { return (1 - part) * vectorAt(rows, a, column) + part * vectorAt(rows, b, column); };
+    const auto mix = [&](std::size_t column) { return (1 - part) * rows.vectorAt(a, column) + part * rows.vectorAt(b, column); };
     trial.hand.push_back(mix(columns_.hand));
     if (columns_.handVelocity > 0) trial.velocity.push_back(mix(columns_.handVelocity));
     if (columns_.environment > 0) trial.environment.push_back(mix(columns_.environment));

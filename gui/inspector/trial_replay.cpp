@@ -69,7 +69,7 @@ scene::SceneFrame TrialReplay::frameAt(double time) const {
 double TrialReplay::forceAt(double time) const {
   if (empty()) return 0;
   const std::size_t row = rowBefore(time);
-  return norm(Vec3{rows_.at(row, force_), rows_.at(row, force_ + 1), rows_.at(row, force_ + 2)});
+  return norm(rows_.vectorAt(row, force_));
 }
 
 }  // namespace reachlab::gui::inspector

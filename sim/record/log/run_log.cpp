@@ -86,6 +86,16 @@ bool findLastTrial(LogReader& reader, TrialLink& link) {
 
 }  // namespace
 
+SampleRows SampleRows::between(std::uint64_t first, std::uint64_t last) const {
+  SampleRows part;
+  part.columns = columns;
+  const auto from = std::lower_bound(ticks.begin(), ticks.end(), first), to = std::upper_bound(from, ticks.end(), last);
+  part.ticks.assign(from, to);
+  const auto row = [&](auto at) { return values.begin() + (at - ticks.begin()) * static_cast<std::ptrdiff_t>(columns); };
+  part.values.assign(row(from), row(to));
+  return part;
+}
+
 RunLog RunLog::open(const std::string& path, LogCheck check) {
   LogReader reader(path);
   try {

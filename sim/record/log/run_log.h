@@ -88,6 +88,10 @@ struct SampleRows {
   std::vector<double> values;
   std::size_t size() const { return ticks.size(); }
   double at(std::size_t row, std::size_t column) const { return values[row * columns + column]; }
+  /// The vector whose x is in that column.
+  Vec3 vectorAt(std::size_t row, std::size_t column) const { return {at(row, column), at(row, column + 1), at(row, column + 2)}; }
+  /// The rows between two ticks, both included.
+  SampleRows between(std::uint64_t first, std::uint64_t last) const;
 };
 
 /// Everything: every record's CRC, up to the first damage. Trials: only the chain of trial records, last to first. The cost then follows
