@@ -6,7 +6,6 @@
 #include <functional>
 #include <random>
 
-#include "base/error.h"
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
 
@@ -131,12 +130,6 @@ TEST(Arm, MirroredPosturesOfAMirroredTaskCostTheSame) {
   const auto a = predict(right, Criterion::MinTorqueChange), b = predict(left, Criterion::MinTorqueChange);
   EXPECT_NEAR(a->cost / b->cost, 1, 1e-8);
   EXPECT_NEAR(a->handPeak / b->handPeak, 1, 1e-8);
-}
-
-TEST(Arm, OutOfReachIsRefused) {
-  experiment::Experiment far = dingwell();
-  far.arm.shoulder[1] = -0.7;
-  EXPECT_THROW(predict(far, Criterion::MinTorqueChange), RefusedError);
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "base/error.h"
-#include "sim/predict/line/modes.h"
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
 #include "tests/refusal.h"
@@ -48,56 +47,7 @@ double massVelocity(const Prediction& p, int mass, double t) {
   return v[mass];
 }
 
-double centreVelocity(const Prediction& p, const experiment::Experiment& e, double t) {
-  std::vector<double> x(p.massCount()), v(p.massCount());
-  p.massesAt(t, x, v);
-  double sum = e.handMass * p.handAt(t).velocity, mass = e.handMass;
-  for (int i = 0; i < p.massCount(); ++i) sum += e.object.masses[i] * v[i], mass += e.object.masses[i];
-  return sum / mass;
-}
-
-// A parallel object with given clamped frequencies.
-experiment::Experiment makeParallelWith(const Eigen::VectorXd& frequency, double duration) {
-  std::vector<double> masses, springs;
-  for (const double w : frequency) masses.push_back(1.5), springs.push_back(1.5 * w * w);
-  return makeParallel(masses, springs, duration);
-}
-
 double minimumJerk(double distance, double T, double t) { return 30 * distance / T * std::pow(t / T, 2) * std::pow(1 - t / T, 2); }
-
-TEST(Laws, HandJerkDependsOnClampedFrequenciesAlone) {
-  const experiment::Experiment chain = makeChain(3, 0.7, 400, 1.1);
-  const experiment::Experiment parallel = makeParallelWith(computeClampedModes(makeLineObject(chain, 0, 0)).frequency, 1.1);
-  const auto a = predict(chain, MinHandJerk), b = predict(parallel, MinHandJerk);
-  EXPECT_LT(difference(1.1, handOf(*a), handOf(*b)), kSame);
-  EXPECT_NEAR(a->cost / b->cost, 1, kSame);
-}
-
-TEST(Laws, ForceChangeIsHandJerkWithFreeFrequenciesAndTheCentreOfMass) {
-  for (const double handMass : {0.0, 1.0}) {
-    experiment::Experiment chain = chainModerate();
-    chain.handMass = handMass;
-    const auto force = predict(chain, MinHandForceChange);
-    const LineObject object = makeLineObject(chain, handMass, 0);
-    const auto jerk = predict(makeParallelWith(computeFreeModes(object).frequency, 1.35), MinHandJerk);
-    EXPECT_LT(difference(1.35, handOf(*jerk), [&](double t) { return centreVelocity(*force, chain, t); }), kSame);
-    EXPECT_NEAR(force->cost / (object.totalMass() * object.totalMass() * jerk->cost), 1, kSame);
-  }
-}
-
-TEST(Laws, UndampedProfilesAreSymmetricAboutTheMiddle) {
-  for (const experiment::Experiment& e : {chainModerate(), parallelPair(), dingwell()})
-    for (const Criterion c : {MinHandJerk, MinCrackle, MinHandForce, MinHandForceChange, MinComAcceleration, MinHandCrackle}) {
-      const auto p = predictWith(e, c, 0.5);
-      const double T = p->duration;
-      EXPECT_NEAR(p->handAt(T / 2).position, 0.1, 0.1 * kSame);
-      EXPECT_LT(difference(T, handOf(*p), [&](double t) { return p->handAt(T - t).velocity; }), kSame);
-      for (int m = 0; m < p->massCount(); ++m)
-        EXPECT_LT(difference(
-                      T, [&](double t) { return massVelocity(*p, m, t); }, [&](double t) { return massVelocity(*p, m, T - t); }),
-                  kSame);
-    }
-}
 
 TEST(Laws, HandDampingKeepsTheSymmetryAndObjectDampingBreaksIt) {
   const auto handDamped = predictWith(chainModerate(), MinHandForceChange, 1, 5);
@@ -119,23 +69,6 @@ TEST(Laws, StiffSpringsGiveTheMinimumJerkOfTheHand) {
             1e-6);
   EXPECT_NEAR(jerk->cost / (720 * 0.04), 1, 1e-6);
   EXPECT_NEAR(predict(stiff, MinComAcceleration)->cost / (12 * 0.04), 1, 1e-6);
-}
-
-TEST(Laws, OneMassUnderForceChangeMovesWithMinimumJerkItself) {
-  const auto p = predict(dingwell(), MinHandForceChange);
-  EXPECT_NEAR(p->cost / (9 * 720 * 0.04 / std::pow(1.35, 5)), 1, kSame);
-  EXPECT_LT(difference(
-                1.35, [](double t) { return minimumJerk(0.2, 1.35, t); }, [&](double t) { return massVelocity(*p, 0, t); }),
-            kSame);
-}
-
-TEST(Laws, CentreOfMassAndForceDifferByTheMassSquaredAlone) {
-  for (const double handMass : {0.0, 1.0}) {
-    const auto force = predictWith(parallelPair(), MinHandForce, handMass),
-               centre = predictWith(parallelPair(), MinComAcceleration, handMass);
-    EXPECT_NEAR(force->cost / (std::pow(6 + handMass, 2) * centre->cost), 1, kSame);
-    EXPECT_LT(difference(2.5, handOf(*force), handOf(*centre)), kSame);
-  }
 }
 
 TEST(Laws, HeavyHandTurnsForceChangeIntoHandJerk) {

@@ -8,8 +8,6 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/math/gauss_legendre.h"
-#include "constraints/catalogue/definition.h"
-#include "constraints/constraint.h"
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
 
@@ -138,33 +136,6 @@ TEST(SurfaceJerk, OnACylinderCostsNoMoreThanAlongTheHelixBetweenTheSamePoints) {
   const auto helix = predict(makeCurveExperiment({"0.1*cos(phi)", "0.1*sin(phi)", "0.1*phi/1.5"}, 0, 1.5, 1), Criterion::MinHandJerk);
   EXPECT_LT(free->cost, helix->cost * (1 - 1e-6));
   EXPECT_GT(free->cost, 720 * (std::pow(2 * 0.1 * std::sin(0.75), 2) + 0.01));  // of the chord, which leaves the cylinder
-}
-
-TEST(PathJerk, IsFoundOnTheWholeCatalogueExceptAcrossCusps) {
-  int refused = 0;
-  for (const constraints::Definition& definition : constraints::catalogue()) {
-    experiment::Experiment e = makeChain(1, 1, 600, 1);
-    e.constraint = {};
-    e.constraint.name = definition.name;
-    e.task->start = definition.start;
-    e.task->target = definition.target;
-    try {
-      const auto p = predict(e, Criterion::MinHandJerk);
-      // Bending only adds to the jerk along the way; the chord bounds it from below.
-      const constraints::Constraint c = constraints::makeConstraint(e.constraint);
-      const bool curve = c.kind == constraints::ConstraintKind::Curve;
-      const Vec3 from = curve ? constraints::evaluate(c.curve, definition.start[0]).r
-                              : constraints::evaluate(c.surface, definition.start[0], definition.start[1]).r;
-      const Vec3 to = curve ? constraints::evaluate(c.curve, definition.target[0]).r
-                            : constraints::evaluate(c.surface, definition.target[0], definition.target[1]).r;
-      EXPECT_GE(p->cost, 720 * dot(to - from, to - from) * (1 - kProfile)) << definition.name;
-      EXPECT_NEAR(p->handAt(1).position, p->distance, 1e-9) << definition.name;
-    } catch (const RefusedError& reason) {
-      ++refused;
-      EXPECT_NE(std::string(reason.what()).find("cusp"), std::string::npos) << definition.name << ": " << reason.what();
-    }
-  }
-  EXPECT_LT(refused, 10);
 }
 
 std::string refusalOf(const experiment::Experiment& e) {
@@ -303,19 +274,6 @@ TEST(Point, IsBehindItsSpringOnALineAndTheHandElsewhereUnlessAsked) {
   EXPECT_GT(onLine->cost, handOnLine->cost * 1.0003);
   expectMinimumJerk(*handOnLine, 0.2);
   EXPECT_THROW(predict(chainModerate(), Criterion::MinHandJerk, behind), FaultError);
-}
-
-TEST(Point, ThatIsTheHandMovesByTheLawsOfOneMass) {
-  const double mass = 1, T = 1, L = 0.2;
-  const auto cost = [&](Criterion criterion) { return predict(makeChain(1, mass, 600, T), criterion, asHand())->cost; };
-  EXPECT_NEAR(cost(Criterion::MinHandForce) / (12 * mass * mass * L * L / std::pow(T, 3)), 1, 1e-12);
-  EXPECT_NEAR(cost(Criterion::MinHandForceChange) / (720 * mass * mass * L * L / std::pow(T, 5)), 1, 1e-12);
-  EXPECT_NEAR(cost(Criterion::MinComAcceleration) / (12 * L * L / std::pow(T, 3)), 1, 1e-12);
-}
-
-TEST(CurveJerk, IsRefusedWhereItHasNoMeaning) {
-  EXPECT_THROW(predict(makeCurveExperiment({"0.1*phi^3", "0.1*phi^2", "0"}, -1, 1, 1), Criterion::MinHandJerk), RefusedError);
-  EXPECT_THROW(predict(makeCurveExperiment({"0.1*cos(phi)", "0.1*sin(phi)", "0"}, 0, 1, 1), Criterion::MinHandForce), RefusedError);
 }
 
 }  // namespace
