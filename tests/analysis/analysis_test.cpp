@@ -57,14 +57,6 @@ TEST(Study, NamesForceAndCentreOfMassTogetherBecauseTheyPredictTheSame) {
   EXPECT_NE(describeCandidate(both).find("which predict the same"), std::string::npos);
 }
 
-TEST(Study, OfOneSubjectSaysNothingAboutOtherPeople) {
-  const Analysis analysis =
-      analyzeTrials(simulatedTrials({{"moderate", compiledChain(1.35)}}, predict::Criterion::MinHandForce, 1, 1, 1, 30, 3), quickOptions());
-  EXPECT_FALSE(analysis.overall.overSubjects);
-  EXPECT_EQ(followed(analysis.overall, analysis.common), "min-hand-force");
-  EXPECT_NE(describeConclusion(analysis.overall, analysis.common).find("nothing follows about other people"), std::string::npos);
-}
-
 // People whose hands ignore the object, and of whom it is not asked whether they succeeded.
 TEST(Study, OfHandsThatIgnoreTheObjectIsNeverConcludedUpon) {
   const auto blind = [](const experiment::Experiment& e) {

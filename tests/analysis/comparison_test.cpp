@@ -36,14 +36,6 @@ TEST(PeopleMean, IsNoBetterKnownThanThePeopleAre) {
   }
 }
 
-TEST(CombineTTests, OfTwoEqualConditionsHasWelchsFreedom) {
-  const TTest one = computeTTest(kSleep);
-  const TTest both = combineTTests(std::vector<TTest>{one, one});
-  EXPECT_NEAR(both.freedom, 18, 1e-9);
-  EXPECT_NEAR(both.error, one.error / std::sqrt(2.0), 1e-12);
-  EXPECT_NEAR(both.t, one.t * std::sqrt(2.0), 1e-9);
-}
-
 TEST(SignFlip, CountsEveryExchangeOfSigns) {
   EXPECT_DOUBLE_EQ(computeSignFlipP(std::vector<double>{1, 2, 3, 4, 5, 6}), 2.0 / 64);
   EXPECT_DOUBLE_EQ(computeSignFlipP(std::vector<double>{1, -1}), 1);

@@ -15,7 +15,6 @@
 #include "analysis/trials/experiment_difference.h"
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
-#include "sim/experiment/resources.h"
 #include "sim/record/export/bids.h"
 #include "sim/record/export/column_dictionary.h"
 #include "sim/record/log/whole_file.h"
@@ -110,16 +109,6 @@ TEST(Differences, AreOfWhatIsAskedAndNotOfHowItIsWritten) {
   other.object.masses.assign(5, 0.5);
   other.task->tolerance.velocity = 0.02;
   EXPECT_EQ(differences(e, other), (std::vector<std::string>{"masses 5 x 0.5 kg", "tolerance velocity 0.02 m/s", "no coupling"}));
-}
-
-TEST(Dataset, OfTheQuietSubjectFollowsItsPlan) {
-  const TemporaryFolder folder;
-  recordRun(folder.path(), {.experiment = "chain-moderate", .device = kQuiet, .trials = 2});
-  const Analysis analysis = analyzeTrials(openDataset(folder.path()).input, quick());
-  const ConditionResult& r = analysis.results[0];
-  ASSERT_EQ(r.used, 2u);
-  ASSERT_EQ(r.handEpsilon.front().criterion, 0u);
-  EXPECT_LT(r.handEpsilon[0].epsilon, 0.1 * r.handEpsilon[1].epsilon);
 }
 
 TEST(Dataset, WithoutLogsIsReadFromItsBidsFiles) {
@@ -307,16 +296,6 @@ TEST(Analysis, ExplainsEveryColumnOfEveryTable) {
         << table;
     for (const auto& [column, entry] : dictionary.items()) EXPECT_NE(entry.at("Description"), "") << table << ": " << column;
   }
-}
-
-TEST(Analysis, OfNoSuccessIsStillAReport) {
-  const TemporaryFolder folder;
-  recordRun(folder.path(), {.experiment = "chain-moderate", .device = "replay:" + experiment::resourceFolder() + "/reaches", .trials = 2});
-  Dataset dataset = openDataset(folder.path());
-  for (TrialData& trial : dataset.input.trials) trial.result.outcome = trial::Outcome::Failure;
-  const Analysis analysis = analyzeTrials(dataset.input, quick());
-  const AnalysisFiles files = writeAnalysis(analysis, dataset, {"d", "0", "c"}, folder.path() + "/out");
-  EXPECT_NE(record::readWholeFile(files.report).find("No trial succeeded"), std::string::npos);
 }
 
 }  // namespace

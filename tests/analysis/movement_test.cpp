@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "analysis/measures/measures.h"
-#include "tests/analysis/synthetic.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -55,31 +54,6 @@ TEST(FindMovement, FindsNoneWhereTheTrialEndedBecauseTheHandNeverLeft) {
     trial.result = {trial::Outcome::Aborted, reason};
     EXPECT_FALSE(computeSignals(trial, {}).movement.found);
   }
-}
-
-TEST(Onset, OfSimulatedTrialsIsWhereItWasPutWithSmallBiasAndSpread) {
-  // Known onsets: where the planned, time-stretched velocity itself crosses 5 % of its peak. What is left is the measurement's noise,
-  // the filter and 100 Hz sampling.
-  const auto plan = predict::predict(chainExperiment(1.35), predict::Criterion::MinHandJerk);
-  OnsetOptions onset;
-  const double planned = [&] {
-    double peak = std::abs(plan->handPeak), t = 0;
-    while (plan->handAt(t).velocity < 0.05 * peak) t += 1e-5;
-    return t;
-  }();
-  std::mt19937_64 random(7);
-  std::vector<double> errors;
-  Scatter scatter;
-  scatter.shape = 0;  // a wave would move the truth itself
-  for (int i = 0; i < 200; ++i) {
-    const TrialData trial = followPlan(*plan, scatter, random);
-    const TrialSignals signals = computeSignals(trial, {});
-    const double truth = trial.taskOnset + planned * (trial.taskEnd - trial.taskOnset) / plan->duration;
-    errors.push_back(signals.movement.onset - truth);
-  }
-  const MeanSd e = computeMeanSd(errors);
-  EXPECT_LT(std::abs(e.mean), 0.005);  // half a sample
-  EXPECT_LT(e.sd, 0.005);
 }
 
 /// Up from 0 at `begin` to `height` at `top` and down to 0 at `end` in straight lines; samples.

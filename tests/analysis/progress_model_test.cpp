@@ -6,6 +6,8 @@
 #include <array>
 #include <cmath>
 
+#include "analysis/conclusions/comparison.h"
+
 namespace reachlab::analysis {
 namespace {
 
@@ -153,6 +155,22 @@ TEST(LearningSlopes, AreLeastSquaresInPointsPerHundredTrials) {
   EXPECT_NEAR(slopes[0].p, expected.test.p, 1e-9);
   all.resize(3);
   EXPECT_EQ(learningSlopes(all, 2).at(0).people, 1u) << "three trials have one";
+}
+
+// People who succeed in 3, 5 and 12 of 20 trials of three conditions, and up to two more each.
+TEST(Effects, OfConditionsAreCorrectedTogetherByHolm) {
+  std::vector<Attempt> all;
+  for (std::size_t condition = 0; condition < 3; ++condition)
+    for (int person = 0; person < 5; ++person)
+      attempts(all, std::string(1, static_cast<char>('a' + person)), "1", 1, condition, std::array{3, 5, 12}[condition] + person % 3, 20);
+  std::vector<double> own, told;
+  for (const Effect& effect : effectsOf(successTable(all), 3))
+    if (!effect.ofDay) own.push_back(effect.logit.p), told.push_back(effect.p);
+  ASSERT_EQ(own.size(), 3u);
+  EXPECT_EQ(told, adjustByHolm(own));
+  const auto least = static_cast<std::size_t>(std::min_element(own.begin(), own.end()) - own.begin());
+  EXPECT_LT(own[least], 0.3);
+  EXPECT_DOUBLE_EQ(told[least], 3 * own[least]) << "the smallest of three counts thrice";
 }
 
 }  // namespace

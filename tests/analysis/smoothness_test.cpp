@@ -36,25 +36,6 @@ TEST(LogDimensionlessJerk, HasItsKnownValues) {
   EXPECT_NEAR(computeLogDimensionlessJerk(minimumJerk(1.35, 100), 100), -5.30722, kPublishedDigits);
 }
 
-TEST(Smoothness, FallsWithEachSubmovement) {
-  double lastSparc = 0, lastJerk = 0;
-  for (int parts = 1; parts <= 4; ++parts) {
-    std::vector<double> v;
-    for (int k = 0; k < parts; ++k) {
-      const std::vector<double> one = minimumJerk(0.6, 100);
-      v.insert(v.end(), one.begin(), one.end());
-    }
-    const double sparc = computeSparc(v, 100), jerk = computeLogDimensionlessJerk(v, 100);
-    if (parts > 1) {
-      EXPECT_LT(sparc, lastSparc);
-      EXPECT_LT(jerk, lastJerk);
-    }
-    EXPECT_EQ(countPeaks(v), static_cast<std::size_t>(parts));
-    lastSparc = sparc;
-    lastJerk = jerk;
-  }
-}
-
 TEST(Smoothness, NeedsSamplesARateAndFiniteSpeeds) {
   const std::vector<double> bell{0, 2, 5, 1}, one{3}, infinite{0, INFINITY, 1};
   EXPECT_TRUE(std::isnan(computeSparc(one, 100)));

@@ -160,18 +160,6 @@ TEST(FeedbackSubject, KeepsTheSlowProcessOvernightAndAnotherTaskTakesItUp) {
   EXPECT_EQ(state->model.slow.stiffness, before.stiffness);
 }
 
-TEST(FeedbackSubject, PeopleAreDrawnFromTheirSeed) {
-  const CompiledExperiment experiment = open("chain-moderate");
-  const auto prepared = prepareFeedbackSubjects(experiment, parseFeedbackSubject("kind=ofc,subject=drawn"));
-  const auto firstOf = [&](std::uint64_t seed) {
-    std::shared_ptr<void> learnt;
-    const auto hand = prepared(seed, 0, learnt);
-    return std::static_pointer_cast<SubjectState>(learnt)->model.first.stiffness;
-  };
-  EXPECT_EQ(firstOf(1), firstOf(1));
-  EXPECT_NE(firstOf(1), firstOf(2));
-}
-
 TEST(FeedbackSubject, StandsAtTheStartBeforeItIsToldTo) {
   const CompiledExperiment experiment = open("chain-moderate");
   const auto hand = devices::makeDevice("simulated:kind=ofc", experiment, 1);
