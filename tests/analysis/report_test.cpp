@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "tests/analysis/made_analysis.h"
+#include "tests/text_parts.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -16,12 +17,6 @@ std::string reportOf(const Analysis& analysis, const std::vector<AnalysedRun>& r
   std::string text = makeReport(kHeader, analysis, makeFigures(analysis, recovery), runs, notes, recovery);
   text.erase(std::remove(text.begin(), text.end(), '\n'), text.end());
   return text;
-}
-void expectIn(const std::string& text, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part;
-}
-void expectNotIn(const std::string& text, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts) EXPECT_EQ(text.find(part), std::string::npos) << part;
 }
 
 TEST(Report, EscapesWhatHtmlWouldRead) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/analysis/made_analysis.h"
+#include "tests/text_parts.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -13,13 +14,6 @@ using predict::Criterion;
 
 const std::vector<std::vector<Criterion>> kNames{
     {Criterion::MinHandJerk}, {Criterion::MinHandForce, Criterion::MinComAcceleration}, {Criterion::MinCrackle}, {}};
-
-void expectIn(const std::string& text, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts) EXPECT_NE(text.find(part), std::string::npos) << part << "\nis not in: " << text;
-}
-void expectNotIn(const std::string& text, const std::vector<std::string>& parts) {
-  for (const std::string& part : parts) EXPECT_EQ(text.find(part), std::string::npos) << part << "\nis in: " << text;
-}
 
 Conclusion decided() {
   Conclusion c;

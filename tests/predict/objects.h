@@ -2,6 +2,7 @@
 #include <numbers>
 
 #include "sim/experiment/experiment.h"
+#include "sim/predict/predict.h"
 
 namespace reachlab::predict {
 
@@ -50,6 +51,13 @@ inline experiment::Experiment onCurve(experiment::Experiment e, std::vector<std:
   e.task->start = {from};
   e.task->target = {to};
   return e;
+}
+
+/// The hand itself moves as the criterion says, and not the one mass.
+inline PredictOptions asHand() {
+  PredictOptions options;
+  options.point = PointIs::Hand;
+  return options;
 }
 
 }  // namespace reachlab::predict

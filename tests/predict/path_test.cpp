@@ -29,12 +29,6 @@ experiment::Experiment makeSurfaceExperiment(std::vector<std::string> formula, s
   return e;
 }
 
-PredictOptions asHand() {
-  PredictOptions options;
-  options.point = PointIs::Hand;
-  return options;
-}
-
 void expectMinimumJerk(const Prediction& p, double length) {
   const double T = p.duration;
   EXPECT_NEAR(p.distance, length, kProfile * length);

@@ -43,12 +43,6 @@ experiment::Experiment uneven() {
   return e;
 }
 
-PredictOptions asHand() {
-  PredictOptions options;
-  options.point = PointIs::Hand;
-  return options;
-}
-
 struct Family {
   std::string name;
   std::function<std::unique_ptr<Prediction>()> make;

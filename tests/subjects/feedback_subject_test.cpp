@@ -7,12 +7,12 @@
 #include "cli/bench/allocation_count.h"
 #include "devices/make_device.h"
 #include "sim/experiment/experiment.h"
-#include "sim/haptics/run_conductor.h"
 #include "sim/haptics/tick_order.h"
 #include "sim/predict/predict.h"
 #include "sim/subjects/feedback_hand.h"
 #include "sim/subjects/subject_kinds.h"
 #include "sim/subjects/subject_parameters.h"
+#include "tests/subjects/conducted.h"
 
 namespace reachlab::subjects {
 namespace {
@@ -21,26 +21,9 @@ using experiment::CompiledExperiment;
 
 CompiledExperiment open(const std::string& name) { return CompiledExperiment(experiment::readExperiment(name)); }
 
-std::vector<haptics::ConductedTrial> conduct(const CompiledExperiment& experiment, std::unique_ptr<haptics::HapticDevice> hand,
-                                             int trials) {
-  std::vector<trial::PlannedTrial> planned;
-  for (int i = 0; i < trials; ++i) planned.push_back({i});
-  haptics::LoopOptions options;
-  options.virtualClock = true;
-  haptics::RunConductor run(experiment::CompiledExperiment(experiment), std::move(hand), planned, options);
-  run.start(nullptr);
-  const std::atomic<bool> stop{false};
-  std::vector<haptics::ConductedTrial> results;
-  while (const auto trial = run.runTrial(stop)) results.push_back(*trial);
-  return results;
-}
-
 int successPercent(const std::string& name, const std::string& device, int trials, std::uint64_t seed = 1) {
   const CompiledExperiment experiment = open(name);
-  const auto results = conduct(experiment, devices::makeDevice(device, experiment, seed), trials);
-  const auto successes =
-      std::count_if(results.begin(), results.end(), [](const auto& t) { return t.result.outcome == trial::Outcome::Success; });
-  return static_cast<int>(100 * successes / trials);
+  return 100 * successes(conduct(experiment, devices::makeDevice(device, experiment, seed), trials)) / trials;
 }
 
 /// One reach, tick by tick, with the hand itself in sight.

@@ -11,33 +11,19 @@
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
-#include "sim/haptics/run_conductor.h"
 #include "sim/haptics/tick_order.h"
 #include "sim/subjects/plans/played_hand.h"
 #include "sim/subjects/plans/sampled_plan.h"
 #include "sim/subjects/subject_kinds.h"
 #include "tests/refusal.h"
+#include "tests/subjects/conducted.h"
 
 namespace reachlab::subjects {
 namespace {
 
 std::vector<haptics::ConductedTrial> conduct(const experiment::Experiment& experiment, const std::string& device, std::uint64_t seed,
                                              int trials, int first = 0) {
-  haptics::LoopOptions options;
-  options.virtualClock = true;
-  std::vector<trial::PlannedTrial> planned;
-  for (int i = 0; i < trials; ++i) planned.push_back({first + i});
-  haptics::RunConductor run(experiment::CompiledExperiment(experiment), devices::makeDevice(device, experiment, seed), planned, options);
-  run.start(nullptr);
-  const std::atomic<bool> stop{false};
-  std::vector<haptics::ConductedTrial> results;
-  while (const auto trial = run.runTrial(stop)) results.push_back(*trial);
-  return results;
-}
-
-int successes(const std::vector<haptics::ConductedTrial>& trials) {
-  return static_cast<int>(
-      std::count_if(trials.begin(), trials.end(), [](const auto& t) { return t.result.outcome == trial::Outcome::Success; }));
+  return subjects::conduct(experiment::CompiledExperiment(experiment), devices::makeDevice(device, experiment, seed), trials, first);
 }
 
 // What a hand does after the go signal.
