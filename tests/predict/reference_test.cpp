@@ -2,8 +2,11 @@
 // one Taylor series over the whole movement. Nothing is shared with the program but the equations of motion.
 #include <gtest/gtest.h>
 
+#include <Eigen/LU>
 #include <boost/multiprecision/cpp_bin_float.hpp>
+#include <boost/multiprecision/eigen.hpp>
 #include <cmath>
+#include <numeric>
 
 #include "sim/predict/predict.h"
 #include "tests/predict/objects.h"
@@ -12,7 +15,8 @@ namespace reachlab::predict {
 namespace {
 
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<160>, boost::multiprecision::et_off>;
-using Row = std::vector<Real>;
+using Row = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
 // Of the hand's and the masses' largest speed (or of the distance); the costs likewise. The table of docs/benchmarks/predictions.md has 1e-9.
 constexpr double kOfThePeak = 1e-11;
@@ -26,21 +30,6 @@ struct Reference {
   std::vector<Row> output;  // positions of hand and masses, n + 1 coefficients
   double distance = 0.2, duration = 0;
 };
-
-Row unit(int n, int i) {
-  Row row(n + 1, Real(0));
-  row[i] = 1;
-  return row;
-}
-Row operator+(Row a, const Row& b) {
-  for (size_t i = 0; i < a.size(); ++i) a[i] += b[i];
-  return a;
-}
-Row operator*(const Real& f, Row a) {
-  for (Real& c : a) c *= f;
-  return a;
-}
-Row operator-(const Row& a, const Row& b) { return a + Real(-1) * b; }
 
 // States x_i, v_i, then the hand as far as it has states of its own, then the force under criterion 5.
 Reference makeReference(const experiment::Experiment& e, Criterion criterion, double handMass, double handDamping) {
@@ -62,12 +51,12 @@ Reference makeReference(const experiment::Experiment& e, Criterion criterion, do
   Reference r;
   r.n = 2 * N + handStates + (forceState ? 1 : 0);
   r.duration = e.task->duration;
-  r.a.assign(r.n, Row(r.n + 1, Real(0)));
-  r.goal.assign(r.n, Real(0));
-  const auto state = [&](int i) { return unit(r.n, i); };
+  r.a.assign(r.n, Row::Zero(r.n + 1));
+  r.goal = Row::Zero(r.n);
+  const auto state = [&](int i) -> Row { return Row::Unit(r.n + 1, i); };
   const auto x = [&](int i) { return state(i); };
   const auto v = [&](int i) { return state(N + i); };
-  const Row control = state(r.n), none = Row(r.n + 1, Real(0));
+  const Row control = state(r.n), none = Row::Zero(r.n + 1);
   Real total = handMass;
   for (const Real& mass : m) total += mass;
 
@@ -132,7 +121,7 @@ Series expand(const Reference& r, const Row& p0) {
     for (int j = 0; j < r.n; ++j)
       if (r.a[i][j] != 0) entries.push_back({i, j, r.a[i][j]});
   Series s;
-  s.x = {Row(r.n, Real(0))};
+  s.x = {Row::Zero(r.n)};
   s.p = {p0};
   Real biggest = 0;
   for (int k = 0;; ++k) {
@@ -140,7 +129,7 @@ Series expand(const Reference& r, const Row& p0) {
     for (int i = 0; i < r.n; ++i) u += r.a[i][r.n] * s.p[k][i];
     s.u.push_back(u);
     const Real factor = Real(r.duration) / (k + 1);
-    Row x(r.n), p(r.n, Real(0));
+    Row x(r.n), p = Row::Zero(r.n);
     for (int i = 0; i < r.n; ++i) x[i] = r.a[i][r.n] * u;
     for (const Entry& e : entries) {
       x[e.row] += e.value * s.x[k][e.column];
@@ -159,31 +148,7 @@ Series expand(const Reference& r, const Row& p0) {
   return s;
 }
 
-Row atEnd(const std::vector<Row>& terms) {
-  Row sum = terms[0];
-  for (size_t k = 1; k < terms.size(); ++k) sum = sum + terms[k];
-  return sum;
-}
-
-Row solve(std::vector<Row> matrix, Row right) {
-  const size_t n = right.size();
-  for (size_t c = 0; c < n; ++c) {
-    size_t pivot = c;
-    for (size_t i = c + 1; i < n; ++i)
-      if (abs(matrix[i][c]) > abs(matrix[pivot][c])) pivot = i;
-    std::swap(matrix[c], matrix[pivot]), std::swap(right[c], right[pivot]);
-    for (size_t i = c + 1; i < n; ++i) {
-      const Real f = matrix[i][c] / matrix[c][c];
-      for (size_t j = c; j < n; ++j) matrix[i][j] -= f * matrix[c][j];
-      right[i] -= f * right[c];
-    }
-  }
-  for (size_t c = n; c-- > 0;) {
-    for (size_t j = c + 1; j < n; ++j) right[c] -= matrix[c][j] * right[j];
-    right[c] /= matrix[c][c];
-  }
-  return right;
-}
+Row atEnd(const std::vector<Row>& terms) { return std::accumulate(terms.begin() + 1, terms.end(), terms[0]); }
 
 struct ReferenceProfile {
   Reference problem;
@@ -195,10 +160,8 @@ struct ReferenceProfile {
     Real x = 0, rate = 0;
     const Row& c = problem.output[o];
     for (size_t k = series.u.size(); k-- > 0;) {
-      Real term = c[problem.n] * series.u[k];
-      for (int i = 0; i < problem.n; ++i) term += c[i] * series.x[k][i];
       rate = rate * s + x;
-      x = x * s + term;
+      x = x * s + c[problem.n] * series.u[k] + c.head(problem.n).dot(series.x[k]);
     }
     return {static_cast<double>(x), static_cast<double>(rate / problem.duration)};
   }
@@ -207,18 +170,10 @@ struct ReferenceProfile {
 ReferenceProfile computeReference(const experiment::Experiment& e, Criterion criterion, double handMass, double handDamping) {
   ReferenceProfile profile;
   Reference& r = profile.problem = makeReference(e, criterion, handMass, handDamping);
-  std::vector<Row> reach(r.n, Row(r.n));
-  for (int j = 0; j < r.n; ++j) {
-    Row p0(r.n, Real(0));
-    p0[j] = 1;
-    const Row end = atEnd(expand(r, p0).x);
-    for (int i = 0; i < r.n; ++i) reach[i][j] = end[i];
-  }
-  profile.series = expand(r, solve(reach, r.goal));
-  const Row p = atEnd(profile.series.p);
-  Real cost = 0;
-  for (int i = 0; i < r.n; ++i) cost += r.goal[i] * p[i];
-  profile.cost = static_cast<double>(cost);
+  Matrix reach(r.n, r.n);
+  for (int j = 0; j < r.n; ++j) reach.col(j) = atEnd(expand(r, Row::Unit(r.n, j)).x);
+  profile.series = expand(r, reach.partialPivLu().solve(r.goal));
+  profile.cost = static_cast<double>(r.goal.dot(atEnd(profile.series.p)));
   return profile;
 }
 
@@ -342,33 +297,31 @@ INSTANTIATE_TEST_SUITE_P(Cases, AgainstReference, testing::ValuesIn(cases()),
 
 // Criterion 3 by its boundary system: z a polynomial of degree 4N+5 in t/T, 2N+3 conditions at each end; the rest follows by
 // differentiating it through the equations of motion.
-using Polynomial = std::vector<Real>;
+using Polynomial = Row;
 
 Polynomial derivative(const Polynomial& p, const Real& T) {
-  Polynomial d(p.size(), Real(0));
-  for (size_t i = 1; i < p.size(); ++i) d[i - 1] = p[i] * static_cast<int>(i) / T;
+  Polynomial d = Polynomial::Zero(p.size());
+  for (int i = 1; i < p.size(); ++i) d[i - 1] = p[i] * i / T;
   return d;
 }
 
 Real valueAt(const Polynomial& p, const Real& s) {
   Real value = 0;
-  for (size_t i = p.size(); i-- > 0;) value = value * s + p[i];
+  for (Eigen::Index i = p.size(); i-- > 0;) value = value * s + p[i];
   return value;
 }
 
 Polynomial solveBoundarySystem(int conditions, const Real& distance) {
   const int unknowns = 2 * conditions;
-  std::vector<Row> matrix(unknowns, Row(unknowns, Real(0)));
-  Row right(unknowns, Real(0));
+  Matrix matrix = Matrix::Zero(unknowns, unknowns);
   for (int order = 0; order < conditions; ++order)
     for (int power = order; power < unknowns; ++power) {
       Real c = 1;
       for (int i = 0; i < order; ++i) c *= power - i;
-      if (power == order) matrix[order][power] = c;
-      matrix[conditions + order][power] = c;
+      if (power == order) matrix(order, power) = c;
+      matrix(conditions + order, power) = c;
     }
-  right[conditions] = distance;
-  return solve(matrix, right);
+  return matrix.partialPivLu().solve(distance * Row::Unit(unknowns, conditions));
 }
 
 TEST(ObjectCrackle, AgreesWithItsBoundarySystem) {
@@ -394,8 +347,8 @@ TEST(ObjectCrackle, AgreesWithItsBoundarySystem) {
     Polynomial top = z;
     for (int i = 0; i < 2 * n + 3; ++i) top = derivative(top, T);
     Real cost = 0;
-    for (size_t i = 0; i < top.size(); ++i)
-      for (size_t j = 0; j < top.size(); ++j) cost += top[i] * top[j] * T / static_cast<int>(i + j + 1);
+    for (int i = 0; i < top.size(); ++i)
+      for (int j = 0; j < top.size(); ++j) cost += top[i] * top[j] * T / (i + j + 1);
     EXPECT_NEAR(prediction->cost / static_cast<double>(cost), 1, kOfThePeak);
 
     std::vector<double> x(n), v(n);
