@@ -117,9 +117,7 @@ void FeedbackHand::prepareTrial(int index, int /*scene*/) {
   reach.used.mass = mean.mass + sigma * person.planSd.mass * draws.boundedNormal();
   CostSpec cost = task_->cost;
   cost.duration *= std::clamp(1 + person.noise * person.timeSd * draws.boundedNormal(), kShortest, kLongest);
-  constexpr double kReactionSpread = 0.15;
-  const double reaction = person.reaction * (1 + std::min(person.noise, 1.0) * kReactionSpread * draws.boundedNormal());
-  reach.reactionTicks = static_cast<int>(std::lround(reaction / kTickSeconds));
+  reach.reactionTicks = static_cast<int>(std::lround(draws.reaction(person.reaction, person.noise) / kTickSeconds));
   reach.believed = state_->environment.current();
   const ArmSpec arm = inField(person.arm, reach.believed);
   reach.gains =

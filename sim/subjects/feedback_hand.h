@@ -47,9 +47,8 @@ class FeedbackHand final : public haptics::HapticDevice {
   void write(const Vec3& force) noexcept override;
   void see(std::span<const dynamics::MassState> masses) noexcept override;
 
-  /// The latest command [N], before its noise, and the model from which it was computed. For tests.
+  /// The latest command [N], before its noise. For tests.
   double command() const noexcept { return command_; }
-  const ModelError& model() const noexcept { return playing_.used; }
   /// Adds a disturbance [N] along the path to the felt force from now on. For tests.
   void push(double force) noexcept { push_ = force; }
 

@@ -95,9 +95,9 @@ class ImpedanceHand final : public haptics::HapticDevice, public haptics::BlindH
     }
     const ImpedanceSpec& spec = task_->spec;
     SubjectDraws draws(seed_, static_cast<std::uint64_t>(index));
-    constexpr double kLeastStretch = 0.2, kReactionSpread = 0.15;
+    constexpr double kLeastStretch = 0.2;
     const double stretch = std::max(kLeastStretch, 1 + spec.noise * spec.timeSd * draws.boundedNormal());
-    const double reaction = spec.reaction * (1 + std::min(spec.noise, 1.0) * kReactionSpread * draws.boundedNormal());
+    const double reaction = draws.reaction(spec.reaction, spec.noise);
     prepared_.reach = meanReach(*task_, *known_.plant, stretch);
     prepared_.reactionTicks = static_cast<int>(std::lround(reaction / kTickSeconds));
     prepared_.draws.resize(6 * (prepared_.reach.place.size() / kDrawTicks + 1));

@@ -62,8 +62,7 @@ Frame frameOf(const Vec3& e) {
 PlayedReach carryOut(const SampledPlan& plan, const SubjectSpec& subject, std::uint64_t seed, int trial) {
   SubjectDraws random(seed, static_cast<std::uint64_t>(trial));
   const double stretch = 1 + subject.noise * subject.timeSd * random.boundedNormal();
-  constexpr double kReactionSpread = 0.15;
-  const double reaction = subject.reaction * (1 + std::min(subject.noise, 1.0) * kReactionSpread * random.boundedNormal());
+  const double reaction = random.reaction(subject.reaction, subject.noise);
   SmoothNoise along(random), across(random), up(random);
   const double sd = subject.noise * subject.speedSd;
 
