@@ -4,23 +4,16 @@
 A virtual subject reaches in a curl field and with a rotated cursor. `reach analyze` writes its measures, and this script computes them from
 motion.tsv, channels.tsv, events.tsv and experiment.json. They agree to 1e-10."""
 import json
-import subprocess
-import sys
 import tempfile
 from pathlib import Path
 
 import numpy as np
 import pandas as pd
 
-REACH = str(Path(sys.argv[1]).resolve())
+from motion_signals import reach
+
 NORMAL = {"horizontal": [0, 1, 0], "frontal": [0, 0, 1]}
 MEASURES = ["max_perpendicular_m", "perpendicular_at_peak_speed_m", "hand_angle_deg", "hand_angle_at_radius_deg"]
-
-
-def reach(*arguments):
-    done = subprocess.run([REACH, *arguments], capture_output=True, text=True, check=False)
-    if done.returncode:
-        sys.exit(f"reach {' '.join(arguments)}: {done.stderr}")
 
 
 def measures_of(base):
@@ -61,7 +54,7 @@ def main():
         worst, beyond = 0, 0
         for kind in (experiment, field):
             data, out = f"{folder}/{kind.stem}", f"{folder}/{kind.stem}-out"
-            reach("run", str(kind), "--device", "simulated:kind=ofc", "--trials", "12", "--seed", "3", "--fast", "--data", data)
+            reach("run", kind, "--device", "simulated:kind=ofc", "--trials", "12", "--seed", "3", "--fast", "--data", data)
             reach("analyze", data, "--out", out)
             (base,) = {str(file).removesuffix("_motion.tsv") for file in Path(data).glob("sub-*/ses-*/motion/*_motion.tsv")}
             told = pd.read_csv(f"{out}/trials.csv")

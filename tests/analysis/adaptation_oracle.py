@@ -4,12 +4,12 @@
 The cost has one minimum for the data and several for the optimiser, so what must agree is the least mean square. The parameters must agree
 where the series determines them: both optimisers stop at 1e-12 of the cost, so 1e-5 of a parameter is asked for.
 """
-import json, pathlib, subprocess, sys, tempfile
+import json, pathlib, sys, tempfile
 
 import numpy as np
 from scipy.optimize import least_squares
 
-REACH = sys.argv[1]
+from motion_signals import reach
 
 
 def simulate(af, bf, as_, bs, perturbation):
@@ -46,10 +46,7 @@ with tempfile.TemporaryDirectory() as folder:
         perturbation[30:170:8] = np.nan  # channel trials among those in the field
         response = simulate(*truth, perturbation) + rng.normal(0, 0.05, len(perturbation))
         file.write_text("perturbation,response\n" + "".join(f"{'' if np.isnan(p) else repr(float(p))},{float(r)!r}\n" for p, r in zip(perturbation, response)))
-        done = subprocess.run([REACH, "adaptation", file, "--json", "--resamples", "100"], capture_output=True, text=True)
-        if done.returncode:
-            sys.exit(f"reach adaptation: exit {done.returncode}: {done.stderr}")
-        ours = json.loads(done.stdout)["two_state"]
+        ours = json.loads(reach("adaptation", file, "--json", "--resamples", "100"))["two_state"]
         theirs, mse = best(perturbation, response)
         worst["mse"] = max(worst["mse"], abs(ours["mse"] / mse - 1))
         worst["parameters"] = max(worst["parameters"], max(abs(ours[k] - v) for k, v in zip(("a_f", "b_f", "a_s", "b_s"), theirs)))
