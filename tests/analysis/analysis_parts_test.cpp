@@ -16,6 +16,7 @@
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "tests/analysis/made_analysis.h"
+#include "tests/analysis/written_tables.h"
 #include "tests/refusal.h"
 
 // What a study is made of, each by itself: counts, options, differences, candidates, signals of predictions, recovery.
@@ -289,20 +290,19 @@ TEST(Alternatives, ChangeTheConclusionOnlyWhereTheTruthIsLeftOut) {
     EXPECT_EQ(row.changed, row.choice == "without min-hand-jerk") << row.choice;
   EXPECT_NE(describeAlternatives(analysis).find(" The others are: without min-hand-jerk: "), std::string::npos);
   // Each choice has the scores of its candidates; those as asked are the conclusions'.
-  std::map<std::string, std::string> files;
-  writeTables(analysis, [&](const std::string& name, std::string_view piece) { files[name] += piece; });
-  const auto rowsOf = [&](const std::string& file, const std::string& start) {
+  std::map<std::string, std::string> files = tablesOf(analysis);
+  const auto linesOf = [&](const std::string& file, const std::string& start) {
     std::vector<std::string> out;
     std::istringstream lines(files[file]);
     for (std::string line; std::getline(lines, line);)
       if (line.starts_with(start)) out.push_back(line.substr(start.size()));
     return out;
   };
-  const std::vector<std::string> asAsked = rowsOf("alternative_scores.csv", "as asked,all,");
-  EXPECT_EQ(asAsked, rowsOf("conclusions.csv", "all,"));
+  const std::vector<std::string> asAsked = linesOf("alternative_scores.csv", "as asked,all,");
+  EXPECT_EQ(asAsked, linesOf("conclusions.csv", "all,"));
   EXPECT_EQ(asAsked.size(), 4u);
-  EXPECT_EQ(rowsOf("alternative_scores.csv", "with failed trials,all,").size(), 4u);
-  EXPECT_EQ(rowsOf("alternative_scores.csv", "without min-crackle,all,").size(), 3u);
+  EXPECT_EQ(linesOf("alternative_scores.csv", "with failed trials,all,").size(), 4u);
+  EXPECT_EQ(linesOf("alternative_scores.csv", "without min-crackle,all,").size(), 3u);
 }
 
 // What the fits try is what the options say, and each condition tells it.

@@ -5,13 +5,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <sstream>
 
 #include "analysis/report/figures.h"
 #include "analysis/report/wording.h"
-#include "analysis/tables.h"
 #include "base/fault.h"
 #include "tests/analysis/synthetic.h"
+#include "tests/analysis/written_tables.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -178,32 +177,19 @@ TEST(Study, WritesResidualsThatGiveEpsilonAndR2OfEachTrial) {
   options.residuals = true;
   const Analysis analysis =
       analyzeTrials(simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandForceChange, 1, 1, 1, 12, 3), options);
-  std::map<std::string, std::string> files;
-  writeTables(analysis, [&](const std::string& name, std::string_view piece) { files[name] += piece; });
-  const auto rowsOf = [&](const std::string& file) {
-    std::vector<std::map<std::string, std::string>> rows;
-    std::istringstream lines(files.at(file));
-    std::string header, line;
-    std::getline(lines, header);
-    while (std::getline(lines, line)) {
-      std::istringstream names(header), cells(line);
-      rows.emplace_back();
-      for (std::string name, cell; std::getline(names, name, ',') && std::getline(cells, cell, ',');) rows.back()[name] = cell;
-    }
-    return rows;
-  };
+  std::map<std::string, std::string> files = tablesOf(analysis);
   struct Sums {
     double samples = 0, squares = 0, weighted = 0, whole = 0;
   };
   std::map<std::pair<std::string, std::string>, Sums> sums;  // of trial and column
-  for (const auto& row : rowsOf("residuals.csv"))
+  for (const auto& row : rowsOf(files["residuals.csv"]))
     for (const auto& [column, cell] : row) {
       if (!column.starts_with("residual_")) continue;
       const double r = std::stod(cell), w = std::stod(row.at("weight")), v = std::stod(row.at("velocity_m_per_s"));
       Sums& s = sums[{row.at("trial"), column}];
       s.samples += 1, s.squares += r * r, s.weighted += w * r * r, s.whole += w * v * v;
     }
-  const auto fits = rowsOf("fit_trials.csv");
+  const auto fits = rowsOf(files["fit_trials.csv"]);
   EXPECT_EQ(sums.size(), fits.size());
   for (const auto& fit : fits) {
     std::string column = "residual_" + fit.at("criterion") + "_m_per_s";
@@ -214,9 +200,7 @@ TEST(Study, WritesResidualsThatGiveEpsilonAndR2OfEachTrial) {
     EXPECT_NEAR(s.weighted / s.whole, unexplained, 1e-4 * unexplained) << column;  // cost and residuals interpolate differently
   }
   options.residuals = false;
-  files.clear();
-  writeTables(analyzeTrials(simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 12, 3), options),
-              [&](const std::string& name, std::string_view piece) { files[name] += piece; });
+  files = tablesOf(analyzeTrials(simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 12, 3), options));
   EXPECT_FALSE(files.contains("residuals.csv")) << "it was not asked for";
 }
 

@@ -129,8 +129,7 @@ ConditionScores levels(std::vector<double> score, std::size_t trials = 20, doubl
 double mean(const std::vector<double>& y) { return std::accumulate(y.begin(), y.end(), 0.0) / static_cast<double>(y.size()); }
 
 TEST(Conclusion, OfAPersonWeighsConditionsAlikeWhateverTheirTrials) {
-  PersonScores one;
-  one.conditions = {levels({-3, -1, -2, 0}, 30), levels({-1, -1.5, 0, 1}, 12)};
+  PersonScores one{{}, {levels({-3, -1, -2, 0}, 30), levels({-1, -1.5, 0, 1}, 12)}};
   one.conditions[0].r2 = {0.8, 0.1, 0.2, 0.3};
   one.conditions[1].r2 = {0.9, 0.4, 0.5, 0.6};
   one.conditions[0].ceiling = 0.82, one.conditions[1].ceiling = 0.92;
@@ -157,8 +156,7 @@ TEST(Conclusion, OfAPersonWeighsConditionsAlikeWhateverTheirTrials) {
 }
 
 TEST(Conclusion, ThatTheReferenceIsBestHasNothingAgainstIt) {
-  PersonScores one;
-  one.conditions = {levels({-1, -1.2, 0, -2})};
+  PersonScores one{{}, {levels({-1, -1.2, 0, -2})}};
   const Conclusion c = concludePerson(one, kCandidates, kReference);
   EXPECT_TRUE(c.referenceFirst);
   EXPECT_EQ(c.best, 3u);
@@ -168,8 +166,7 @@ TEST(Conclusion, ThatTheReferenceIsBestHasNothingAgainstIt) {
 }
 
 TEST(Conclusion, NamesThePairsThatAreNotToldApart) {
-  PersonScores one;
-  one.conditions = {levels({-3, -1, -1.05, 0})};
+  PersonScores one{{}, {levels({-3, -1, -1.05, 0})}};
   const Conclusion c = concludePerson(one, kCandidates, kReference);
   EXPECT_EQ(c.notToldApart, (std::vector<std::pair<std::size_t, std::size_t>>{{1, 2}}));
   EXPECT_EQ(c.follows, 0u) << "it does not matter between those that are farther";
@@ -179,8 +176,7 @@ TEST(Conclusion, NamesThePairsThatAreNotToldApart) {
 TEST(Conclusion, NeedsADifferenceOfATenth) {
   EXPECT_EQ(kLeastDifference, 0.1);
   for (const double by : {0.125, 0.0625}) {
-    PersonScores one;
-    one.conditions = {levels({0, by, 1, 2}, 20, 0)};
+    PersonScores one{{}, {levels({0, by, 1, 2}, 20, 0)}};
     EXPECT_EQ(concludePerson(one, kCandidates, kReference).decided(), by > 0.1) << by;
     EXPECT_EQ(concludePerson(one, kCandidates, kReference).notToldApart.empty(), by > 0.1) << by;
   }
@@ -188,8 +184,7 @@ TEST(Conclusion, NeedsADifferenceOfATenth) {
 
 TEST(Conclusion, OfACandidateThatFitsWorseThanThePersonsOwnMeanIsPoor) {
   for (const double above : {0.04, 0.2}) {
-    PersonScores one;
-    one.conditions = {levels({-3, 0, 0, 0})};
+    PersonScores one{{}, {levels({-3, 0, 0, 0})}};
     for (const double y : one.conditions[0].score[0]) one.conditions[0].own.push_back(y - above + 0.01 * (y > -3 ? 1 : -1));
     const Obstacle expected = above > kLeastMisfit ? Obstacle::Poor : Obstacle::None;
     const Conclusion alone = concludePerson(one, kCandidates, kReference);
@@ -205,8 +200,7 @@ TEST(Conclusion, OfACandidateThatFitsWorseThanThePersonsOwnMeanIsPoor) {
 // Shares of 2.5 and 2.2 standard deviations: p = 0.006 and 0.014, normally distributed. People's shares are averaged.
 TEST(Conclusion, OfACandidateWithSystematicResidualsIsPoor) {
   for (const double deviations : {2.5, 2.2}) {
-    PersonScores one;
-    one.conditions = {levels({-3, 0, 0, 0})};
+    PersonScores one{{}, {levels({-3, 0, 0, 0})}};
     one.conditions[0].systematic.assign(kCandidates, {0.1 * deviations, 0.01, 0});
     const Obstacle expected = deviations > 2.3 ? Obstacle::Poor : Obstacle::None;
     EXPECT_EQ(concludePerson(one, kCandidates, kReference).reason, expected) << deviations;
@@ -228,8 +222,7 @@ TEST(Conclusion, OfACandidateWithSystematicResidualsIsPoor) {
 // The way towards a candidate is one-sided: away from it is no sign of a mixture. Three others are tested.
 TEST(Conclusion, OfMovementsThatGoTowardsAnotherCandidateIsPoor) {
   for (const double share : {0.3, -0.3}) {
-    PersonScores one;
-    one.conditions = {levels({-3, 0, 0, 0}, 20)};
+    PersonScores one{{}, {levels({-3, 0, 0, 0}, 20)}};
     std::vector<double> way;
     for (int i = 0; i < 20; ++i) way.push_back(share + (i % 2 == 0 ? 0.2 : -0.2) + 0.01 * i);
     std::vector<std::vector<double>> none(kCandidates, std::vector<double>(20, 0.0));
@@ -250,8 +243,7 @@ TEST(Conclusion, OfMovementsThatGoTowardsAnotherCandidateIsPoor) {
 }
 
 TEST(Conclusion, OfACandidateThatLeavesMoreSquaresThanThePersonsOwnMeanIsPoor) {
-  PersonScores one;
-  one.conditions = {levels({-3, 0, 0, 0})};
+  PersonScores one{{}, {levels({-3, 0, 0, 0})}};
   for (const double r2 : {0.93, 0.945}) {  // 1.4 and 1.1 times what the own mean leaves
     one.conditions[0].r2[0] = r2;
     const Obstacle expected = r2 < 0.935 ? Obstacle::Poor : Obstacle::None;
@@ -262,8 +254,7 @@ TEST(Conclusion, OfACandidateThatLeavesMoreSquaresThanThePersonsOwnMeanIsPoor) {
 
 // Candidate 1 is at the edge of the range of masses. A mass outside it could be as near as the best, unless it too is told from it.
 TEST(Conclusion, IsNoneWhileAMassAtTheEdgeMightBeNearer) {
-  PersonScores one;
-  one.conditions = {levels({-3, -1, 0, 0})};
+  PersonScores one{{}, {levels({-3, -1, 0, 0})}};
   ConditionScores& scores = one.conditions[0];
   scores.beyond.resize(kCandidates);
   const auto reasonOf = [&] { return concludePerson(one, kCandidates, kReference).reason; };
@@ -282,8 +273,7 @@ TEST(Conclusion, IsNoneWhileAMassAtTheEdgeMightBeNearer) {
 }
 
 TEST(Conclusion, BetweenOneCandidateAndTheReferenceIsNone) {
-  PersonScores one;
-  one.conditions = {levels({-3, 0})};
+  PersonScores one{{}, {levels({-3, 0})}};
   EXPECT_EQ(concludePerson(one, 2, 1).reason, Obstacle::NothingToCompare);
   EXPECT_EQ(concludePeople(std::vector<PersonScores>(6, one), 2, 1).reason, Obstacle::NothingToCompare);
   one.conditions = {levels({-3, 0, 1})};

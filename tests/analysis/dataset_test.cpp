@@ -11,7 +11,6 @@
 #include <thread>
 
 #include "analysis/report/write_analysis.h"
-#include "analysis/tables.h"
 #include "analysis/trials/experiment_difference.h"
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
@@ -21,6 +20,7 @@
 #include "test_paths.h"
 #include "tests/analysis/recorded.h"
 #include "tests/analysis/whole_dataset.h"
+#include "tests/analysis/written_tables.h"
 #include "tests/refusal.h"
 
 namespace reachlab::analysis {
@@ -122,11 +122,7 @@ TEST(Dataset, WithoutLogsIsReadFromItsBidsFiles) {
   const Analysis fromBids = analyzeTrials(dataset.input, quick());
   ASSERT_EQ(fromBids.trials.size(), fromLog.trials.size());
   // Every number the same to the last bit: the rows are the same, and events say when each trial was armed, left and ended.
-  std::string tables[2];
-  int which = 0;
-  for (const Analysis* analysis : {&fromLog, &fromBids})
-    writeTables(*analysis, [&, at = which++](const std::string&, std::string_view piece) { tables[at] += piece; });
-  EXPECT_EQ(tables[0], tables[1]);
+  EXPECT_EQ(tablesOf(fromLog), tablesOf(fromBids));
 }
 
 TEST(Dataset, WhoseEventsAreNoTableOfEventsIsRefusedAndNotARunWithoutTrials) {

@@ -10,30 +10,10 @@
 
 #include "analysis/table_columns.h"
 #include "tests/analysis/made_analysis.h"
+#include "tests/analysis/written_tables.h"
 
 namespace reachlab::analysis {
 namespace {
-
-using Row = std::map<std::string, std::string>;
-
-std::vector<Row> tableOf(const Analysis& analysis, const std::string& file) {
-  std::string text;
-  writeTables(analysis, [&](const std::string& name, std::string_view piece) { text += name == file ? piece : ""; });
-  std::vector<Row> rows;
-  std::vector<std::string> columns;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream cells(line + ',');
-    std::vector<std::string> row;
-    for (std::string cell; std::getline(cells, cell, ',');) row.push_back(cell);
-    if (columns.empty()) columns = row;
-    else {
-      rows.emplace_back();
-      for (std::size_t i = 0; i < columns.size(); ++i) rows.back()[columns[i]] = row.at(i);
-    }
-  }
-  return rows;
-}
 
 /// "column=cell|column=cell"; numbers as numbers: they are written with as many digits as read back equal.
 void expectCells(const Row& row, const std::string& expected) {
@@ -50,8 +30,7 @@ double numberIn(const Row& row, const std::string& column) { return std::stod(ro
 
 // Columns are named in one table and filled in order: a cell too few or too many would shift all that follow.
 TEST(Tables, HaveACellForEachColumn) {
-  std::map<std::string, std::string> files;
-  writeTables(madeStudy(), [&](const std::string& name, std::string_view piece) { files[name] += piece; });
+  const std::map<std::string, std::string> files = tablesOf(madeStudy());
   EXPECT_EQ(files.size(), 14u);
   for (const auto& [name, text] : files) {
     EXPECT_FALSE(tableColumns(name).empty()) << name;
@@ -66,7 +45,7 @@ TEST(Tables, HaveACellForEachColumn) {
 }
 
 TEST(Tables, OfEffectsGiveNoPForOnePerson) {
-  const std::vector<Row> rows = tableOf(madeStudy(), "effects.csv");
+  const std::vector<Row> rows = rowsOf(tablesOf(madeStudy())["effects.csv"]);
   ASSERT_EQ(rows.size(), 4u);
   expectCells(rows[0], "effect=day|condition=quick|from=D1|to=D2|subjects=2|difference_percent=21|low_percent=5|high_percent=37|p=0.012");
   EXPECT_NEAR(numberIn(rows[0], "odds_ratio"), 2.5, 1e-12);
