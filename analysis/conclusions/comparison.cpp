@@ -39,7 +39,7 @@ double varianceOf(std::span<const double> values, double mean) {
 // Of the same number every time that number, which a rounded sum would miss by a scatter of its own.
 double meanOf(std::span<const double> values) {
   if (std::adjacent_find(values.begin(), values.end(), std::not_equal_to<>()) == values.end()) return values.front();
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  return averageOf(values);
 }
 
 }  // namespace
@@ -122,7 +122,7 @@ PeopleMean computePeopleMean(std::span<const double> values, std::span<const dou
   PeopleMean out{computeTTest(values), computeMeanInterval(values, level)};
   if (values.size() < 2) return out;
   const boost::math::normal normal;
-  const double own = std::sqrt(std::accumulate(variance.begin(), variance.end(), 0.0)) / static_cast<double>(values.size());
+  const double own = std::sqrt(sumOf(variance)) / static_cast<double>(values.size());
   const double half = boost::math::quantile(normal, 0.5 + level / 2) * own;
   out.interval.low = std::min(out.interval.low, out.test.mean - half);
   out.interval.high = std::max(out.interval.high, out.test.mean + half);

@@ -2,20 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "analysis/conclusions/model_selection.h"
 
 namespace reachlab::analysis {
 namespace {
 
-double meanOf(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0) / static_cast<double>(v.size()); }
-
 /// Y of each candidate for one person: mean over conditions of the mean over trials.
 std::vector<double> scoresOf(const PersonScores& person, std::size_t candidates) {
   std::vector<double> out(candidates, 0.0);
   for (const ConditionScores& condition : person.conditions)
-    for (std::size_t c = 0; c < candidates; ++c) out[c] += meanOf(condition.score[c]) / static_cast<double>(person.conditions.size());
+    for (std::size_t c = 0; c < candidates; ++c) out[c] += averageOf(condition.score[c]) / static_cast<double>(person.conditions.size());
   return out;
 }
 
@@ -101,7 +98,7 @@ PersonScores outsideTheRange(const PersonScores& person) {
   PersonScores out = person;
   for (ConditionScores& condition : out.conditions)
     for (std::size_t k = 0; k < condition.beyond.size(); ++k)
-      if (!condition.beyond[k].empty() && meanOf(condition.beyond[k]) < meanOf(condition.score[k]))
+      if (!condition.beyond[k].empty() && averageOf(condition.beyond[k]) < averageOf(condition.score[k]))
         condition.score[k] = condition.beyond[k];
   return out;
 }
@@ -126,7 +123,7 @@ void findMassesAtEdge(Conclusion& out, const std::vector<PersonScores>& people, 
 double meanDifference(const ConditionScores& c, std::size_t best, std::vector<double>& difference) {
   difference = c.score[best];
   for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= c.own[i];
-  return meanOf(difference);
+  return averageOf(difference);
 }
 TTest misfitInPerson(const PersonScores& person, std::size_t best) {
   std::vector<TTest> tests;

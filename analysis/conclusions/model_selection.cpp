@@ -7,7 +7,8 @@
 #include <boost/math/special_functions/digamma.hpp>
 #include <boost/math/special_functions/gamma.hpp>
 #include <cmath>
-#include <numeric>
+
+#include "analysis/measures/statistics.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -16,8 +17,6 @@ namespace {
 using InDouble = boost::math::policies::policy<boost::math::policies::promote_double<false>>;
 double digamma(double x) { return boost::math::digamma(x, InDouble()); }
 double lgamma(double x) { return boost::math::lgamma(x, InDouble()); }
-
-double sumOf(const std::vector<double>& v) { return std::accumulate(v.begin(), v.end(), 0.0); }
 
 /// Gamma(x; alpha_c) prod_{j != c} G(x; alpha_j): Dirichlet frequencies are gamma variables over their sum.
 std::vector<double> exceedanceOf(const std::vector<double>& alpha) {

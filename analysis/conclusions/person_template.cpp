@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "analysis/measures/movement.h"
+#include "analysis/measures/statistics.h"
 #include "analysis/trials/trial_data.h"
 
 namespace reachlab::analysis {
@@ -78,10 +78,6 @@ class Lines {
   };
   std::vector<Sums> sums_;
 };
-
-double averageOf(std::span<const double> values) {
-  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
 
 /// ln T of each trial less the mean.
 std::vector<double> centredLogDurations(const std::vector<MovementFit>& places) {

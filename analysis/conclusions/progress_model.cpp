@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 #include <tuple>
 
@@ -70,9 +69,7 @@ struct Estimates {
   void add(double v, double var) { value.push_back(v), variance.push_back(var); }
   /// One number for what was added: the mean, its variance.
   void addMeanOf(const Estimates& others) {
-    const double k = static_cast<double>(others.value.size());
-    add(std::accumulate(others.value.begin(), others.value.end(), 0.0) / k,
-        std::accumulate(others.variance.begin(), others.variance.end(), 0.0) / k / k);
+    add(averageOf(others.value), averageOf(others.variance) / static_cast<double>(others.variance.size()));
   }
 };
 

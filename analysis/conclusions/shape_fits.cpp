@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <optional>
 #include <utility>
+
+#include "analysis/measures/statistics.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -36,9 +37,8 @@ double medianDuration(const ShapeFits& fits) {
 
 /// Costs are parabolas in ln P, scores are their logarithms: without scatter the score has a cusp that its own parabola misses.
 double leastCost(const std::map<int, ShapeFits>& plans, double centre) {
-  const auto sum = [](const ShapeFits& f) { return std::accumulate(f.score.begin(), f.score.end(), 0.0); };
-  const auto best =
-      std::min_element(plans.begin(), plans.end(), [&](const auto& a, const auto& b) { return sum(a.second) < sum(b.second); });
+  const auto best = std::min_element(plans.begin(), plans.end(),
+                                     [&](const auto& a, const auto& b) { return sumOf(a.second.score) < sumOf(b.second.score); });
   if (best == plans.end()) return 0;
   const auto before = plans.find(best->first - 1), after = plans.find(best->first + 1);
   if (before == plans.end() || after == plans.end()) return 0;
@@ -235,9 +235,7 @@ void ShapeFitter::fitPlans(const ProfileFamily& family, FamilyFits& out, Starts 
     const std::optional<NearerPlan> next = nearerPlan(before, out.between, after);
     if (!next || next->gain < kLeastGain) break;
     ShapeFits fresh = fitPlan(family, next->plan, out.between.trials, Starts::Nearby);
-    if (!(std::accumulate(fresh.score.begin(), fresh.score.end(), 0.0) <
-          std::accumulate(out.between.score.begin(), out.between.score.end(), 0.0)))
-      break;
+    if (!(sumOf(fresh.score) < sumOf(out.between.score))) break;
     ShapeFits& end = fresh.plan > out.between.plan ? before : after;
     end = std::exchange(out.between, std::move(fresh));
   }

@@ -1,11 +1,15 @@
 #pragma once
 #include <cmath>
 #include <cstddef>
+#include <numeric>
 #include <span>
 #include <vector>
 
 /// The few statistics that the tables need, each by its textbook formula. Pure functions for any thread.
 namespace reachlab::analysis {
+
+inline double sumOf(std::span<const double> values) { return std::accumulate(values.begin(), values.end(), 0.0); }
+inline double averageOf(std::span<const double> values) { return sumOf(values) / static_cast<double>(values.size()); }
 
 /// Mean and sample standard deviation (n - 1) of the finite values. The mean of no values and the SD of fewer than two values are NaN.
 struct MeanSd {
