@@ -207,8 +207,7 @@ void addIntervals(LearningFit& fit, const AdaptationSeries& series, int measured
 std::vector<double> simulateLearning(const std::vector<LearningState>& states, const AdaptationSeries& series) {
   std::vector<double> x, now(states.size());
   for (const AdaptationTrial& trial : series) {
-    double sum = 0;
-    for (const double part : now) sum += part;
+    const double sum = sumOf(now);
     x.push_back(sum);
     const double error = trial.perturbation ? *trial.perturbation - sum : 0;
     for (std::size_t k = 0; k < states.size(); ++k) now[k] = states[k].retention * now[k] + states[k].learningRate * error;

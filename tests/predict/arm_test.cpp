@@ -96,12 +96,7 @@ TEST(Arm, NoSeededPerturbationLowersTheCost) {
 }
 
 TEST(Arm, ProfilesAreKnownTo1e8) {
-  experiment::Experiment free = dingwell();
-  free.constraint = {};
-  free.constraint.name = "free";
-  free.task->start = {-0.1, 0, 0};
-  free.task->target = {0.15, 0, -0.08};
-  for (const experiment::Experiment& e : {free, dingwell(), parallelPair()}) {
+  for (const experiment::Experiment& e : {freely(dingwell(), {-0.1, 0, 0}, {0.15, 0, -0.08}), dingwell(), parallelPair()}) {
     PredictOptions many;
     many.unknowns = 90;
     const auto chosen = predict(e, Criterion::MinTorqueChange), fine = predict(e, Criterion::MinTorqueChange, many);

@@ -24,12 +24,6 @@ experiment::Experiment onCircle(experiment::Experiment e, double radius) {
 
 experiment::Experiment onEllipse(experiment::Experiment e) { return onCurve(std::move(e), {"0", "0.1*cos(phi)", "0.06*sin(phi)"}, 0.2, 3); }
 
-experiment::Experiment damped(experiment::Experiment e) {
-  for (double& b : e.object.damping) b = 1;
-  if (e.coupling) e.coupling->damping = 5;
-  return e;
-}
-
 // Largest difference of any velocity, of the hand's peak.
 double compare(const Prediction& a, const Prediction& b) {
   const auto n = static_cast<size_t>(b.massCount());
@@ -45,7 +39,7 @@ double compare(const Prediction& a, const Prediction& b) {
 }
 
 TEST(CurveObject, OnAStraightLineUnevenlyRunItIsTheLinearPrediction) {
-  for (const experiment::Experiment& e : {chainModerate(), parallelPair(), damped(chainModerate()), makeChain(10, 0.3, 600, 1.35)}) {
+  for (const experiment::Experiment& e : {chainModerate(), parallelPair(), damped(chainModerate(), 1, 5), makeChain(10, 0.3, 600, 1.35)}) {
     const auto line = predict(e, Criterion::MinHandJerk);
     const auto curve = predict(onCurve(e, {"0.2*(phi + 0.1*sin(2*pi*phi))", "0", "0"}, 0, 1), Criterion::MinHandJerk);
     EXPECT_LT(compare(*curve, *line), kProfile);
@@ -134,8 +128,8 @@ TEST(CurveObject, ArrivesAtRestInTheSimulator) {
   constexpr double kAtRest = 1e-10;   // [m], [m/s]
   constexpr double kOnTheWay = 1e-9;  // [m] between the masses' collocation points
   for (const experiment::Experiment& e :
-       {onEllipse(chainModerate()), onEllipse(damped(chainModerate())), onEllipse(parallelPair()), onCircle(chainModerate(), 0.08),
-        onCurve(damped(parallelPair()), {"0.05*cos(phi)", "0.02*phi", "0.05*sin(phi)"}, 1, 4)}) {
+       {onEllipse(chainModerate()), onEllipse(damped(chainModerate(), 1, 5)), onEllipse(parallelPair()), onCircle(chainModerate(), 0.08),
+        onCurve(damped(parallelPair(), 1, 5), {"0.05*cos(phi)", "0.02*phi", "0.05*sin(phi)"}, 1, 4)}) {
     const auto p = predict(e, Criterion::MinHandJerk);
     const Arrival arrival = simulate(e, *p);
     EXPECT_LT(arrival.position, kAtRest);
@@ -151,7 +145,7 @@ TEST(CurveObject, ArrivesAtRestInTheSimulator) {
 // Motions of fewer unknowns are among those of more, and all of them arrive: none may cost less.
 TEST(CurveObject, AMotionOfFewerUnknownsCostsMore) {
   constexpr double kRounding = 1e-9;
-  for (const experiment::Experiment& e : {onEllipse(chainModerate()), onEllipse(damped(parallelPair()))}) {
+  for (const experiment::Experiment& e : {onEllipse(chainModerate()), onEllipse(damped(parallelPair(), 1, 5))}) {
     const auto best = predict(e, Criterion::MinHandJerk);
     double before = INFINITY;
     for (const int unknowns : {20, 30, 40, 50}) {

@@ -53,10 +53,7 @@ TEST(Laws, HandDampingKeepsTheSymmetryAndObjectDampingBreaksIt) {
   const auto handDamped = predictWith(chainModerate(), MinHandForceChange, 1, 5);
   EXPECT_LT(difference(1.35, handOf(*handDamped), [&](double t) { return handDamped->handAt(1.35 - t).velocity; }), kSame);
 
-  experiment::Experiment damped = chainModerate();
-  for (double& b : damped.object.damping) b = 2;
-  damped.coupling->damping = 5;
-  const auto skewed = predict(damped, MinHandJerk);
+  const auto skewed = predict(damped(chainModerate(), 2, 5), MinHandJerk);
   EXPECT_NEAR(skewed->handPeakTime, 0.641, 0.001);  // 0.675 without damping
 }
 

@@ -15,10 +15,7 @@ constexpr double kDistance = 0.2;  // [m]
 constexpr double kMiss = 2e-9;     // of any state [m, m/s, sqrt(J)]; 5e-10 measured where the condition is 9e11
 
 LineObject dampedChain(int n, double mass, double stiffness, double damping) {
-  experiment::Experiment e = makeChain(n, mass, stiffness, 1);
-  for (double& b : e.object.damping) b = damping;
-  e.coupling->damping = damping;
-  return makeLineObject(e, 0, 0);
+  return makeLineObject(damped(makeChain(n, mass, stiffness, 1), damping, damping), 0, 0);
 }
 
 MinimumEnergyMotion solve(const LineObject& object, Criterion criterion, double duration) {

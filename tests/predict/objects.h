@@ -53,6 +53,32 @@ inline experiment::Experiment onCurve(experiment::Experiment e, std::vector<std:
   return e;
 }
 
+inline experiment::Experiment damped(experiment::Experiment e, double springs, double coupling, double viscosity = 0) {
+  for (double& b : e.object.damping) b = springs;
+  if (e.coupling) e.coupling->damping = coupling;
+  e.object.viscosity = viscosity;
+  return e;
+}
+
+/// The same object on a typed surface, from one pair of parameters to another.
+inline experiment::Experiment onSurface(experiment::Experiment e, std::vector<std::string> formula, std::vector<double> from,
+                                        std::vector<double> to) {
+  e = onCurve(std::move(e), {}, 0, 1);
+  e.constraint.surface = std::move(formula);
+  e.task->start = std::move(from);
+  e.task->target = std::move(to);
+  return e;
+}
+
+/// The same object free in space.
+inline experiment::Experiment freely(experiment::Experiment e, std::vector<double> from, std::vector<double> to) {
+  e.constraint = {};
+  e.constraint.name = "free";
+  e.task->start = std::move(from);
+  e.task->target = std::move(to);
+  return e;
+}
+
 /// The hand itself moves as the criterion says, and not the one mass.
 inline PredictOptions asHand() {
   PredictOptions options;

@@ -22,11 +22,7 @@ experiment::Experiment makeCurveExperiment(std::vector<std::string> formula, dou
 
 experiment::Experiment makeSurfaceExperiment(std::vector<std::string> formula, std::vector<double> from, std::vector<double> to,
                                              double duration) {
-  experiment::Experiment e = makeCurveExperiment({}, 0, 1, duration);
-  e.constraint.surface = std::move(formula);
-  e.task->start = std::move(from);
-  e.task->target = std::move(to);
-  return e;
+  return onSurface(makeChain(1, 1, 600, duration), std::move(formula), std::move(from), std::move(to));
 }
 
 void expectMinimumJerk(const Prediction& p, double length) {

@@ -27,14 +27,6 @@ experiment::Experiment damped(experiment::Experiment e) {
   return e;
 }
 
-experiment::Experiment freely(experiment::Experiment e, const std::vector<double>& start, const std::vector<double>& target) {
-  e.constraint = {};
-  e.constraint.name = "free";
-  e.task->start = start;
-  e.task->target = target;
-  return e;
-}
-
 experiment::Experiment uneven() {
   experiment::Experiment e = makeChain(3, 1, 100, 1.5);
   e.object.masses = {0.5, 1, 1.4};
@@ -70,13 +62,10 @@ std::vector<Family> families() {
   all.push_back({"object on a curve", [] {
                    return predict(onCurve(damped(uneven()), {"0.1*cos(phi)", "0.06*sin(phi)", "0"}, 0.3, 2), MinHandJerk);
                  }});
-  all.push_back({"surface", [] {
-                   experiment::Experiment e = onCurve(makeChain(1, 1, 600, 1.2), {}, 0, 1);
-                   e.constraint.surface = {"0.1*u", "0.1*v", "0.03*u*v"};
-                   e.task->start = {-0.5, 0.2};
-                   e.task->target = {0.7, 0.9};
-                   return predict(e, MinHandJerk);
-                 }});
+  all.push_back(
+      {"surface", [] {
+         return predict(onSurface(makeChain(1, 1, 600, 1.2), {"0.1*u", "0.1*v", "0.03*u*v"}, {-0.5, 0.2}, {0.7, 0.9}), MinHandJerk);
+       }});
   return all;
 }
 
@@ -189,10 +178,7 @@ TEST(Predictions, TheWayBackIsTheWayThereInReverse) {
   experiment::Experiment still = dingwell();
   still.arm.damping = {0, 0};
   still.arm.shoulder = {-0.2, -0.3};
-  experiment::Experiment surface = onCurve(makeChain(1, 1, 600, 1.2), {}, 0, 1);
-  surface.constraint.surface = {"0.1*u", "0.1*v", "0.03*u*v + 0.01*u^3"};
-  surface.task->start = {-0.5, 0.2};
-  surface.task->target = {0.7, 0.9};
+  const auto surface = onSurface(makeChain(1, 1, 600, 1.2), {"0.1*u", "0.1*v", "0.03*u*v + 0.01*u^3"}, {-0.5, 0.2}, {0.7, 0.9});
   struct Way {
     experiment::Experiment experiment;
     Criterion criterion;
@@ -366,10 +352,7 @@ TEST(PredictRefusals, OfWhatIsDefinedOnALineAlone) {
   const auto bent = onCurve(makeChain(1, 1, 600, 1), {"0.1*cos(phi)", "0.1*sin(phi)", "0"}, 0, 1);
   for (const Criterion c : {MinTorqueChange, MinCrackle, MinHandForce, MinHandForceChange, MinComAcceleration, MinHandCrackle})
     EXPECT_REFUSED(std::string(nameOf(c)) + ": defined on a straight line", predict(bent, c));
-  experiment::Experiment surface = onCurve(chainModerate(), {}, 0, 1);
-  surface.constraint.surface = {"0.1*u", "0.1*v", "0.03*u*v"};
-  surface.task->start = {0, 0.2};
-  surface.task->target = {0.7, 0.9};
+  const auto surface = onSurface(chainModerate(), {"0.1*u", "0.1*v", "0.03*u*v"}, {0, 0.2}, {0.7, 0.9});
   EXPECT_REFUSED("what hangs behind a spring needs a curve", predict(surface, MinHandJerk));
   EXPECT_REFUSED("the line must lie along x", predict(onCurve(dingwell(), {"0.1*phi", "0", "0.001*phi"}, -1, 1), MinTorqueChange));
   experiment::Experiment heavy = onCurve(chainModerate(), {"0.1*cos(phi)", "0.1*sin(phi)", "0"}, 0, 1);

@@ -184,13 +184,6 @@ struct Case {
   double handMass = 0, handDamping = 0;
 };
 
-experiment::Experiment damped(experiment::Experiment e, double springs, double coupling, double viscosity = 0) {
-  for (double& b : e.object.damping) b = springs;
-  if (e.coupling) e.coupling->damping = coupling;
-  e.object.viscosity = viscosity;
-  return e;
-}
-
 // Four parallel masses whose modes are all double.
 experiment::Experiment manyCriticallyDamped() {
   std::vector<double> masses, springs, dampers;

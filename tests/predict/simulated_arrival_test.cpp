@@ -14,12 +14,6 @@ namespace {
 
 using enum Criterion;
 
-experiment::Experiment damped(experiment::Experiment e) {
-  for (double& b : e.object.damping) b = 1.5;
-  if (e.coupling) e.coupling->damping = 3;
-  return e;
-}
-
 struct Arrival {
   double position = 0, velocity = 0;  // largest error of any mass [m], [m/s]
 };
@@ -47,14 +41,14 @@ Arrival simulate(const experiment::Experiment& e, const Prediction& prediction) 
 
 TEST(Simulator, ArrivesAtRestUnderEveryCriterion) {
   constexpr double kAtRest = 1e-10;  // [m], [m/s]
-  experiment::Experiment hardCoupling = damped(chainModerate()), viscous = chainModerate(),
+  experiment::Experiment hardCoupling = damped(chainModerate(), 1.5, 3), viscous = chainModerate(),
                          viscousTwins = makeParallel({2, 2, 1}, {80, 80, 250}, 2);
   hardCoupling.coupling->damping = 0;
-  experiment::Experiment viscousPair = damped(parallelPair());  // whose hand has a speed of its own
+  experiment::Experiment viscousPair = damped(parallelPair(), 1.5, 3);  // whose hand has a speed of its own
   viscous.object.viscosity = viscousTwins.object.viscosity = viscousPair.object.viscosity = 0.7;
   for (const experiment::Experiment& e :
-       {dingwell(), chainModerate(), parallelPair(), makeParallel({3, 2, 1}, {50, 250, 100}, 2), damped(chainModerate()),
-        damped(parallelPair()), hardCoupling, viscous, viscousTwins, viscousPair})
+       {dingwell(), chainModerate(), parallelPair(), makeParallel({3, 2, 1}, {50, 250, 100}, 2), damped(chainModerate(), 1.5, 3),
+        damped(parallelPair(), 1.5, 3), hardCoupling, viscous, viscousTwins, viscousPair})
     for (const double handMass : {0.0, 1.0})
       for (const Criterion c : {MinHandJerk, MinCrackle, MinHandForce, MinHandForceChange, MinComAcceleration, MinHandCrackle}) {
         PredictOptions options;
