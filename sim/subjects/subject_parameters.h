@@ -29,7 +29,7 @@ class SubjectOptions : public DeviceOptions {
   SubjectOptions(const std::string& text, std::span<const SubjectParameter> parameters)
       : DeviceOptions(text, "device simulated"), parameters_(parameters) {}
 
-  /// `otherwise` stands in for the parameter's usual value. Throws FaultError.
+  /// `otherwise` replaces the parameter's usual value. Throws FaultError.
   double number(std::string_view key, std::optional<double> otherwise = {});
   /// Throws FaultError for keys that were not taken, and for an item without one.
   void done() const;
