@@ -23,7 +23,7 @@ class Sheet {
   Sheet(const Sheet&) = delete;
   Sheet& operator=(const Sheet&) = delete;
 
-  /// Cells as in TableText. An interval fills two, its ends, which are empty where there is none.
+  /// Cells as in TableText. An interval fills two with its ends. Without an interval these are empty.
   template <class... Cells>
   Sheet& cells(const Cells&... values) {
     return (add(values), ..., *this);

@@ -22,7 +22,7 @@ class TableText {
   TableText& missing() { return raw(missing_); }
   void endRow();
   void row(const std::vector<std::string>& cells);
-  /// Cells by their types: texts, whole numbers (true is 1), other numbers. An optional value that is not there is a missing one.
+  /// Cells by their types: texts, whole numbers (true is 1), other numbers. An optional value that is not there is a missing value.
   template <class... Cells>
   TableText& cells(const Cells&... values) {
     return (add(values), ..., *this);

@@ -33,7 +33,7 @@ std::int64_t pairCount(const Design& design);  // points times subjects
 Point pointAt(const Design& design, std::int64_t index);
 /// Throws FaultError under "point N: KEY".
 PointTask taskOf(const Design& design, const Point& point);
-/// What is in quotes, of a text in JSON; else the text.
+/// A text in JSON without its quotes. Any other value as it is.
 std::string unquoted(const std::string& json);
 /// "coupling.stiffness_n_per_m=300, subject.noise=1". Empty if nothing is varied.
 std::string describe(const Point& point);

@@ -7,7 +7,7 @@
 
 namespace reachlab::haptics {
 
-/// The receiver of a run's ticks, usually the recorder, as haptic loop and conductor see it. Without a sink no tick is kept. Whoever only
+/// The receiver of a run's ticks, usually the recorder, as haptic loop and conductor see it. Without a sink no tick is kept. A sink that only
 /// watches has nothing to announce, await or close.
 class RunSink {
  public:

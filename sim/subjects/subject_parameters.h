@@ -31,7 +31,7 @@ class SubjectOptions : public DeviceOptions {
 
   /// `otherwise` replaces the parameter's usual value. Throws FaultError.
   double number(std::string_view key, std::optional<double> otherwise = {});
-  /// Throws FaultError for keys that were not taken, and for an item without one.
+  /// Throws FaultError for keys that were not taken, and for an item without a key.
   void done() const;
 
  private:

@@ -12,7 +12,7 @@ inline constexpr std::array kAllCriteria{Criterion::MinHandJerk,   Criterion::Mi
                                          Criterion::MinHandForce,  Criterion::MinHandForceChange, Criterion::MinComAcceleration,
                                          Criterion::MinHandCrackle};
 inline constexpr int kCriterionCount = static_cast<int>(kAllCriteria.size());
-/// The criteria that are named, or all where none is.
+/// The named criteria, or all criteria if the list is empty.
 std::vector<Criterion> orAll(const std::vector<Criterion>& named);
 std::string_view nameOf(Criterion criterion);  // "min-hand-jerk", "min-torque-change", …
 /// One line of plain words with the paper's equation number.

@@ -15,8 +15,8 @@ struct ReachPlan {
   std::function<Vec3(double time)> handAt;
 };
 
-/// The same object on the straight line of the catalogue, for which the criteria are defined, for a way of this length [m]. Ways that no
-/// line has are taken on the nearest one, since the reaches of an object on springs scale with the distance.
+/// The same object on the straight line of the catalogue, for which the criteria are defined, for a way of this length [m]. A way that no
+/// line has is taken on the nearest line, since the reaches of an object on springs scale with the distance.
 struct LineExperiment {
   experiment::Experiment experiment;
   double length = 0, scale = 1;  // [m] of the line; of the way, in lines
