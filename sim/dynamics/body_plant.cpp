@@ -1,33 +1,28 @@
 #include "sim/dynamics/systems/body_system.h"
 
-#include <fmt/format.h>
-
 #include "base/error.h"
 #include "sim/dynamics/compile.h"
 #include "sim/dynamics/make_plant.h"
-#include "sim/dynamics/methods/abm.h"
 
 namespace reachlab::dynamics {
 namespace {
 
 /// Adds what a body has beyond a point: orientation, the force at the FP, energy of rotation.
-template <template <class> class Method>
-class BodyPlant final : public SystemPlant<BodySystem, Method> {
+class BodyPlant : public SystemPlant<BodySystem> {
  public:
-  using Base = SystemPlant<BodySystem, Method>;
-  using Base::Base;
+  using SystemPlant::SystemPlant;
 
-  Vec3 couplingForce(const HandSample& hand) const noexcept override { return this->system_.handForce(pose(), hand); }
+  Vec3 couplingForce(const HandSample& hand) const noexcept override { return system_.handForce(pose(), hand); }
   double energy(const HandSample& hand) const noexcept override {
     const auto p = pose();
-    const Vec3 stretch = hand.position - p.r - p.toWorld(this->system_.fpOffset);
-    return 0.5 * this->model_.mass[0] * dot(p.v, p.v) - this->model_.mass[0] * dot(this->model_.gravity, p.r) +
-           0.5 * dot(p.turn, times(this->system_.inertia, p.turn)) + 0.5 * this->system_.springs.handStiffness[0] * dot(stretch, stretch);
+    const Vec3 stretch = hand.position - p.r - p.toWorld(system_.fpOffset);
+    return 0.5 * model_.mass[0] * dot(p.v, p.v) - model_.mass[0] * dot(model_.gravity, p.r) +
+           0.5 * dot(p.turn, times(system_.inertia, p.turn)) + 0.5 * system_.springs.handStiffness[0] * dot(stretch, stretch);
   }
   void setAngularVelocity(const Vec3& velocity) noexcept override {
     const Vec3 turn = pose().toBody(velocity);
-    this->state()[10] = turn.x, this->state()[11] = turn.y, this->state()[12] = turn.z;
-    this->restart();
+    now()[10] = turn.x, now()[11] = turn.y, now()[12] = turn.z;
+    restart();
   }
   BodyState body() const noexcept override {
     const auto p = pose();
@@ -35,7 +30,7 @@ class BodyPlant final : public SystemPlant<BodySystem, Method> {
   }
 
  private:
-  BodySystem::Pose pose() const noexcept { return BodySystem::pose(this->state()); }
+  BodySystem::Pose pose() const noexcept { return BodySystem::pose(now()); }
 };
 
 }  // namespace
@@ -59,11 +54,7 @@ BodySystem::BodySystem(const ObjectModel& model, const experiment::Object& objec
 }
 
 std::unique_ptr<Plant> makeBodyPlant(const ObjectModel& model, const experiment::Object& object, const MethodRequest& request) {
-  const BodySystem system(model, object);
-  if (request.method == "rk4") return std::make_unique<BodyPlant<Rk4>>(model, system, request.tolerance);
-  if (request.method == "stiff") return std::make_unique<BodyPlant<Stiff>>(model, system, request.tolerance);
-  if (request.method == "adaptive") return std::make_unique<BodyPlant<Adaptive>>(model, system, request.tolerance);
-  return std::make_unique<BodyPlant<Abm>>(model, system, request.tolerance);
+  return makePlant<BodyPlant>(model, BodySystem(model, object), request);
 }
 
 }  // namespace reachlab::dynamics

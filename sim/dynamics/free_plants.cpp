@@ -4,9 +4,9 @@
 namespace reachlab::dynamics {
 
 std::unique_ptr<Plant> makeFreePlant(const ObjectModel& model, const MethodRequest& request) {
-  if (model.kind == experiment::ObjectKind::Parallel) return makePlant(model, FreeSystem<0, true>(model), request);
-  if (model.count() == 1) return makePlant(model, FreeSystem<1, false>(model), request);
-  return makePlant(model, FreeSystem<0, false>(model), request);
+  if (request.method == "stiff") return makeStiffPlant<SystemPlant<FreeSystem<0>>>(model, FreeSystem<0>(model), request);
+  if (model.count() == 1) return makeExplicitPlant<SystemPlant<FreeSystem<1>>>(model, FreeSystem<1>(model), request);
+  return makeExplicitPlant<SystemPlant<FreeSystem<0>>>(model, FreeSystem<0>(model), request);
 }
 
 }  // namespace reachlab::dynamics

@@ -2,17 +2,22 @@
 #include "sim/dynamics/systems/line_system.h"
 
 namespace reachlab::dynamics {
+namespace {
+
+template <int N>
+std::unique_ptr<Plant> make(const ObjectModel& model, const LinearSpace& space, const MethodRequest& request) {
+  return makeExplicitPlant<SystemPlant<LineSystem<N>>>(model, LineSystem<N>(model, space), request);
+}
+
+}  // namespace
 
 std::unique_ptr<Plant> makeLinePlant(const ObjectModel& model, const LinearSpace& space, const MethodRequest& request) {
-  if (model.kind == experiment::ObjectKind::Parallel) {
-    if (model.count() == 2) return makePlant(model, LineSystem<2, true>(model, space), request);
-    return makePlant(model, LineSystem<0, true>(model, space), request);
-  }
+  if (request.method == "stiff") return makeStiffPlant<SystemPlant<LineSystem<0>>>(model, LineSystem<0>(model, space), request);
   switch (model.count()) {
-    case 1: return makePlant(model, LineSystem<1, false>(model, space), request);
-    case 2: return makePlant(model, LineSystem<2, false>(model, space), request);
-    case 5: return makePlant(model, LineSystem<5, false>(model, space), request);
-    default: return makePlant(model, LineSystem<0, false>(model, space), request);
+    case 1: return make<1>(model, space, request);
+    case 2: return make<2>(model, space, request);
+    case 5: return make<5>(model, space, request);
+    default: return make<0>(model, space, request);
   }
 }
 

@@ -9,7 +9,7 @@ std::unique_ptr<Plant> makeChartPlant(const ObjectModel& model, const constraint
   SurfaceSystem system(model, constraint);
   system.branches = std::move(branches);
   system.watch = constraints::SurfaceWatch::make(constraint);
-  return makePlant(model, system, request);
+  return makePlant<SystemPlant<SurfaceSystem>>(model, system, request);
 }
 
 std::unique_ptr<Plant> makeQuadricPlant(const ObjectModel& model, const constraints::Constraint& constraint, const Quadric& quadric,
@@ -17,7 +17,7 @@ std::unique_ptr<Plant> makeQuadricPlant(const ObjectModel& model, const constrai
   QuadricSystem system(model, constraint, quadric);
   system.edges = edges;
   system.apex = hasApex(quadric);
-  return makePlant(model, system, request);
+  return makePlant<SystemPlant<QuadricSystem>>(model, system, request);
 }
 
 }  // namespace reachlab::dynamics

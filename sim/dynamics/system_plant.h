@@ -9,59 +9,35 @@
 
 namespace reachlab::dynamics {
 
-/// A System stepped by a Method: the plant of every scene without an exact propagator, or with another requested method.
-template <ObjectSystem System, template <class> class Method>
+/// A System as a plant: all but the method of its steps, which SteppedPlant adds.
+template <ObjectSystem TheSystem>
 class SystemPlant : public PlantBase {
  public:
+  using System = TheSystem;
   using State = typename System::State;
 
   SystemPlant(const ObjectModel& model, System system, double tolerance)
-      : PlantBase(model), system_(std::move(system)), method_(system_, tolerance),
+      : PlantBase(model), system_(std::move(system)),
         locator_(system_, tolerance), states_{State(system_.states()), State(system_.states())} {
     for (int i = 0; i < system_.states(); ++i) now()[i] = 0;
   }
 
   void place(std::span<const double> q, std::span<const double> qRate) noexcept override {
     system_.place(q, qRate, now());
-    method_.restart();
+    restart();
     stopped_ = StepStatus::Ok;
     fraction_ = 1;
   }
   void setExtraForce(const Vec3& force) noexcept override {
     extra_ = force;
     system_.setExtraForce(force);
-    method_.restart();
+    restart();
   }
   void setCoupled(bool coupled) noexcept override {
     if (coupled == coupled_) return;
     coupled_ = coupled;
     system_.setCoupled(model_, coupled);
-    method_.restart();
-  }
-  void restart() noexcept override { method_.restart(); }
-
-  StepStatus step(const HandSegment& hand, double dt) noexcept override {
-    StepReport report;
-    fraction_ = 1;
-    if constexpr (kHas.holding)
-      if (system_.anyHeld() && !system_.release(system_.handAt(hand, 0), system_.handAt(hand, 1), now())) return noContinuation();
-    StepStatus status = method_.step(system_, hand, dt, now(), next(), report);
-    if constexpr (kHas.ends)
-      if (system_.bounded() && (status != StepStatus::Ok || !system_.inside(next()) || mayHaveTurned(dt)))
-        status = meetEnds(hand, dt, status, report);
-    if constexpr (kHas.settling)
-      if (status == StepStatus::Ok) {
-        const Settled settled = system_.settle(now(), next());
-        if (settled != Settled::Same) method_.restart();
-        if (settled == Settled::Lost) status = StepStatus::NoContinuation;
-      }
-    if constexpr (kHas.losing)
-      if ((status == StepStatus::Capped || status == StepStatus::NotFinite) && system_.lost(now())) status = StepStatus::NoContinuation;
-    if (status == StepStatus::Ok) current_ = 1 - current_;
-    if (status == StepStatus::NoContinuation) fraction_ = 0;
-    stopped_ = status;
-    rhs_ += report.rhs;
-    return status;
+    restart();
   }
 
   void observe(const HandSample& hand, std::span<MassState> masses) const noexcept override {
@@ -77,21 +53,45 @@ class SystemPlant : public PlantBase {
  protected:
   static constexpr Hooks kHas = System::kHas;
 
-  const State& state() const noexcept { return now(); }
-  State& state() noexcept { return now(); }
+  State& now() noexcept { return states_[current_]; }
+  const State& now() const noexcept { return states_[current_]; }
+  State& next() noexcept { return states_[1 - current_]; }
   void locate(std::span<MassState> masses) const noexcept override { system_.locate(now(), masses); }
+
+  /// Before the method's step. False where the motion has no continuation.
+  [[gnu::always_inline]] bool begin(const HandSegment& hand) noexcept {
+    fraction_ = 1;
+    if constexpr (kHas.holding)
+      if (system_.anyHeld() && !system_.release(system_.handAt(hand, 0), system_.handAt(hand, 1), now())) {
+        fraction_ = 0;
+        stopped_ = StepStatus::NoContinuation;
+        return false;
+      }
+    return true;
+  }
+  /// After the method's step from now() to next(), which ended with `status`. `rhs`: the right-hand sides that it took.
+  [[gnu::always_inline]] StepStatus finish(const HandSegment& hand, double dt, StepStatus status, std::uint64_t rhs) noexcept {
+    if constexpr (kHas.ends)
+      if (system_.bounded() && (status != StepStatus::Ok || !system_.inside(next()) || mayHaveTurned(dt)))
+        status = meetEnds(hand, dt, status, rhs);
+    if constexpr (kHas.settling)
+      if (status == StepStatus::Ok) {
+        const Settled settled = system_.settle(now(), next());
+        if (settled != Settled::Same) restart();
+        if (settled == Settled::Lost) status = StepStatus::NoContinuation;
+      }
+    if constexpr (kHas.losing)
+      if ((status == StepStatus::Capped || status == StepStatus::NotFinite) && system_.lost(now())) status = StepStatus::NoContinuation;
+    if (status == StepStatus::Ok) current_ = 1 - current_;
+    if (status == StepStatus::NoContinuation) fraction_ = 0;
+    stopped_ = status;
+    rhs_ += rhs;
+    return status;
+  }
 
   System system_;
 
  private:
-  State& now() noexcept { return states_[current_]; }
-  const State& now() const noexcept { return states_[current_]; }
-  State& next() noexcept { return states_[1 - current_]; }
-
-  StepStatus noContinuation() noexcept {
-    fraction_ = 0;
-    return stopped_ = StepStatus::NoContinuation;
-  }
   bool mayHaveTurned(double dt) noexcept {
     if constexpr (kHas.branches) return system_.turned(now(), next(), dt);
     return false;
@@ -99,7 +99,7 @@ class SystemPlant : public PlantBase {
 
   /// The part of the tick with every mass still on the constraint, and the state at its end. At an elastic end the rest of the tick
   /// follows.
-  StepStatus meetEnds(const HandSegment& hand, double dt, StepStatus status, StepReport& report) noexcept {
+  StepStatus meetEnds(const HandSegment& hand, double dt, StepStatus status, std::uint64_t& rhs) noexcept {
     const State before = now();
     [[maybe_unused]] const auto branch = branchNow();
     const auto takeBack = [&] {
@@ -111,14 +111,14 @@ class SystemPlant : public PlantBase {
     HandSegment rest = hand;
     // Only the method knows a step over an end that is a cusp. The locator comes up to the cusp.
     const bool seen = status == StepStatus::Ok && !system_.inside(next());
-    for (bool first = true; report.rhs < kMaxRhsPerTick; first = false) {
+    for (bool first = true; rhs < kMaxRhsPerTick; first = false) {
       typename Adaptive<System>::Meeting meeting{false, 1, now()};
       if (first && seen) meeting.beyond = next();
       locator_.restart();
-      status = locator_.stepInside(system_, rest, (1 - begun) * dt, now(), at, meeting, report);
+      status = locator_.step(system_, rest, (1 - begun) * dt, now(), at, rhs, &meeting);
       if (status == StepStatus::Ok && !meeting.met) {
         next() = at;
-        method_.restart();
+        restart();
         return StepStatus::Ok;
       }
       if (!meeting.met && !(first && seen)) {  // not an end: the method itself failed
@@ -138,7 +138,7 @@ class SystemPlant : public PlantBase {
       if (degenerate) now() = at;
       if (degenerate || !system_.bounces()) {
         fraction_ = begun;
-        method_.restart();
+        restart();
         return StepStatus::AtEnd;
       }
       rest = part(hand, begun, 1);
@@ -174,11 +174,29 @@ class SystemPlant : public PlantBase {
     return true;
   }
 
-  Method<System> method_;
   Adaptive<System> locator_;
   std::array<State, 2> states_;  // now and after the step, by turns, without copies
   int current_ = 0;
   StepStatus stopped_ = StepStatus::Ok;
+};
+
+/// `Base` (a SystemPlant) stepped by `Method`: the plant of every scene without an exact propagator, or with another requested method.
+template <class Base, template <class> class Method>
+class SteppedPlant final : public Base {
+ public:
+  SteppedPlant(const ObjectModel& model, const typename Base::System& system, double tolerance)
+      : Base(model, system, tolerance), method_(this->system_, tolerance) {}
+
+  StepStatus step(const HandSegment& hand, double dt) noexcept override {
+    if (!this->begin(hand)) return StepStatus::NoContinuation;
+    std::uint64_t rhs = 0;
+    const StepStatus status = method_.step(this->system_, hand, dt, this->now(), this->next(), rhs);
+    return this->finish(hand, dt, status, rhs);
+  }
+  void restart() noexcept override { method_.restart(); }
+
+ private:
+  Method<typename Base::System> method_;
 };
 
 }  // namespace reachlab::dynamics

@@ -19,9 +19,6 @@ namespace {
 using namespace reachlab;
 using namespace reachlab::dynamics;
 
-template <class System>
-using Passing = AbmWith<System, CuspAdaptive>;
-
 std::unique_ptr<Plant> makePlantOf(const bench::BenchScene& scene) {
   const ObjectModel model = makeObjectModel(scene.experiment);
   const constraints::Constraint constraint = constraints::makeConstraint(scene.experiment.constraint);
@@ -33,12 +30,13 @@ std::unique_ptr<Plant> makePlantOf(const bench::BenchScene& scene) {
   }
   double speed = 0;  // [m] the largest |r_phi|
   for (int k = 0; k < 64; ++k) speed = std::max(speed, norm(constraints::evaluate(constraint.curve, k * 2 * std::numbers::pi / 64).rPhi));
-  using Chain = BatchSystem<1, false, false>;
-  using Bead = CurveSystem<1, false, false>;
-  using Hard = CurveSystem<1, false, true>;
-  if (model.count() > 1) return std::make_unique<SystemPlant<Chain, Abm>>(model, Chain(model, constraint, speed), 0);
-  if (scene.name == "S2a") return std::make_unique<SystemPlant<Bead, Abm>>(model, Bead(model, constraint, speed), 0);
-  return std::make_unique<SystemPlant<Hard, Passing>>(model, Hard(model, constraint, speed), 0);
+  using Chain = SystemPlant<BatchSystem<1, false>>;
+  using Bead = SystemPlant<CurveSystem<1, false>>;
+  using Hard = SystemPlant<CurveSystem<1, true>>;
+  const MethodRequest abm{"abm", 0};
+  if (model.count() > 1) return makeExplicitPlant<Chain>(model, {model, constraint, speed}, abm);
+  if (scene.name == "S2a") return makeExplicitPlant<Bead>(model, {model, constraint, speed}, abm);
+  return makeExplicitPlant<Hard, CuspAdaptive>(model, {model, constraint, speed}, abm);
 }
 }  // namespace
 

@@ -43,7 +43,6 @@ std::array<double, 3> truth(const Follower& f, double t) {
 struct Followed {
   double error = 0;
   std::uint64_t rhs = 0, most = 0;  // right-hand sides, and most in a tick
-  double estimate = 0;              // largest of a step
   StepStatus status = StepStatus::Ok;
 };
 template <class Method>
@@ -53,13 +52,12 @@ Followed follow(const Follower& f, Method& method, double seconds, double dt) {
   y.values = {1, 0, f.second};
   const int ticks = static_cast<int>(std::lround(seconds / dt));
   for (int i = 0; i < ticks; ++i) {
-    StepReport report;
-    run.status = method.step(f, makeSegment(hand, i * dt, dt), dt, y, next, report);
+    std::uint64_t rhs = 0;
+    run.status = method.step(f, makeSegment(hand, i * dt, dt), dt, y, next, rhs);
     if (run.status != StepStatus::Ok) return run;
     y = next;
-    run.rhs += report.rhs;
-    run.most = std::max(run.most, report.rhs);
-    run.estimate = std::max(run.estimate, report.error);
+    run.rhs += rhs;
+    run.most = std::max(run.most, rhs);
   }
   const std::array<double, 3> expected = truth(f, seconds);
   for (int i = 0; i < 3; ++i) run.error = std::max(run.error, std::abs(y[i] - expected[static_cast<std::size_t>(i)]));
@@ -84,8 +82,6 @@ TEST(Method, TheAdaptivePairKeepsToItsTolerance) {
     const Followed run = follow<Adaptive<Follower>>({.w = 30}, tolerance, 2, 0.5);
     EXPECT_LT(run.error, 2000 * tolerance) << "some hundred sub-steps of what 30 rad/s makes of it";
     EXPECT_GT(run.error, 1e-4 * tolerance) << "and not much finer";
-    EXPECT_GT(run.estimate, 0.01 * tolerance);
-    EXPECT_LT(run.estimate, 100 * tolerance);
   }
   EXPECT_EQ(follow<Adaptive<Follower>>({.w = 0.1}, 1e-3, 1, 0.1).most, 12u) << "one sub-step where it is enough";
 }
@@ -106,11 +102,11 @@ TEST(Method, WhatNeedsMoreThanAThousandRightHandSidesATickIsCapped) {
   Adaptive<Follower> method(f, 0);
   Numbers<3> y, next;
   y.values = {1, 0, 2};
-  StepReport report;
-  EXPECT_EQ(method.step(f, makeSegment(hand, 0, 0.1), 0.1, y, next, report), StepStatus::Capped);
-  EXPECT_GT(report.rhs, 900u);
-  EXPECT_LE(report.rhs, 1000u);
-  EXPECT_EQ(report.rhs, static_cast<std::uint64_t>(f.evaluations));
+  std::uint64_t rhs = 0;
+  EXPECT_EQ(method.step(f, makeSegment(hand, 0, 0.1), 0.1, y, next, rhs), StepStatus::Capped);
+  EXPECT_GT(rhs, 900u);
+  EXPECT_LE(rhs, 1000u);
+  EXPECT_EQ(rhs, static_cast<std::uint64_t>(f.evaluations));
 }
 
 TEST(Method, ANumberThatIsNoneIsTold) {
@@ -161,10 +157,8 @@ TEST(Method, AdamsSumsPowersUpToTheSeventhExactly) {
   y.values = {0, 0};
   std::uint64_t rhs = 0;
   for (int i = 0; i < 30; ++i) {
-    StepReport report;
-    ASSERT_EQ(method.step({}, makeSegment(slope, i * 0.05, 0.05), 0.05, y, next, report), StepStatus::Ok);
+    ASSERT_EQ(method.step({}, makeSegment(slope, i * 0.05, 0.05), 0.05, y, next, rhs), StepStatus::Ok);
     y = next;
-    rhs += report.rhs;
     const double t = (i + 1) * 0.05;
     EXPECT_NEAR(y[0], std::pow(t, 8) + t * t * t, 1e-12 * (1 + std::pow(t, 8))) << i;
     EXPECT_NEAR(y[1], std::pow(t, 5), 1e-12 * (1 + std::pow(t, 5))) << i;
@@ -183,29 +177,26 @@ TEST(Method, AdamsLeavesToThePairWhatItCannotDo) {
   EXPECT_LT(within.rhs, 200u * 2 + 7 * 14 + 40);
 }
 
-TEST(Method, AdamsEstimatesNoMoreThanItAllows) {
+TEST(Method, AdamsTakesOneRightHandSideATickOnceItHasAHistory) {
   using Abm = AbmWith<Follower, Adaptive>;
   const Follower f{.w = 1};
   Abm method(f, 1e-8);
   Numbers<3> y, next;
   y.values = {1, 0, 2};
   for (int i = 0; i < 20; ++i) {
-    StepReport report;
-    ASSERT_EQ(method.step(f, makeSegment(hand, i * 1e-3, 1e-3), 1e-3, y, next, report), StepStatus::Ok);
+    std::uint64_t rhs = 0;
+    ASSERT_EQ(method.step(f, makeSegment(hand, i * 1e-3, 1e-3), 1e-3, y, next, rhs), StepStatus::Ok);
     y = next;
-    if (i < 6) EXPECT_EQ(report.rhs, i == 0 ? 14u : 13u) << i;
-    else EXPECT_EQ(report.rhs, 1u) << i;
-    if (i >= 6) {
-      EXPECT_EQ(report.error, 0.5e-8) << i;
-    }
+    if (i < 6) EXPECT_EQ(rhs, i == 0 ? 14u : 13u) << i;
+    else EXPECT_EQ(rhs, 1u) << i;
   }
   method.restart();
-  StepReport report;
-  (void)method.step(f, makeSegment(hand, 0.02, 1e-3), 1e-3, y, next, report);
-  EXPECT_EQ(report.rhs, 14u) << "its history is forgotten";
-  StepReport other;
-  (void)method.step(f, makeSegment(hand, 0.021, 5e-4), 5e-4, y, next, other);
-  EXPECT_EQ(other.rhs, 14u) << "and is of no use for another step";
+  std::uint64_t rhs = 0;
+  (void)method.step(f, makeSegment(hand, 0.02, 1e-3), 1e-3, y, next, rhs);
+  EXPECT_EQ(rhs, 14u) << "its history is forgotten";
+  rhs = 0;
+  (void)method.step(f, makeSegment(hand, 0.021, 5e-4), 5e-4, y, next, rhs);
+  EXPECT_EQ(rhs, 14u) << "and is of no use for another step";
 }
 
 TEST(Method, ASubStepGrowsAsItsErrorAllows) {

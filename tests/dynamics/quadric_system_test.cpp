@@ -42,7 +42,7 @@ TEST(QuadricSystem, OnlyWhoObservesPaysForTheSearchOfParameters) {
   const constraints::Constraint on = sphere();
   const ObjectModel model = bead();
   const QuadricSystem system(model, on, *fitQuadric(on.surface, on.domain, {0.4, 1}));
-  const std::unique_ptr<Plant> plant = makePlant(model, system, {"auto", 0});
+  const std::unique_ptr<Plant> plant = makePlant<SystemPlant<QuadricSystem>>(model, system, {"auto", 0});
   const std::array start{0.4, 1.0};
   plant->placeAtRest(start);
   HandPath path;

@@ -62,8 +62,8 @@ class AbmWith {
  public:
   using State = typename System::State;
   AbmWith(const System& system, double tolerance)
-      : fallback_(system, tolerance), limit_((tolerance > 0 ? tolerance : kDefaultTolerance) / 2),
-        maxCorrection_(limit_ / adams::kCorrectorError), rows_(static_cast<std::size_t>(Rows::count(system.states()))) {
+      : fallback_(system, tolerance), maxCorrection_((tolerance > 0 ? tolerance : kDefaultTolerance) / 2 / adams::kCorrectorError),
+        rows_(static_cast<std::size_t>(Rows::count(system.states()))) {
     State scale(system.states());
     for (int i = 0; i < system.states(); ++i) scale[i] = system.scale(i);
     for (int c = 0; c < rowCount(); ++c) rows_[c].scale = Rows::load(scale, c);
@@ -74,23 +74,22 @@ class AbmWith {
   }
 
   [[gnu::flatten]] StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next,
-                                   StepReport& report) noexcept {
+                                   std::uint64_t& rhs) noexcept {
     if constexpr (System::kHas.gliding)
       if (system.glide(dt, y, next)) {  // exact, and leaves the history behind
         restart();
         return StepStatus::Ok;
       }
-    if (count_ == 0 || dt != dt_) begin(system, hand, dt, y, report);
-    if (count_ < adams::kHistory) return stepOtherwise(system, hand, y, next, report);
+    if (count_ == 0 || dt != dt_) begin(system, hand, dt, y, rhs);
+    if (count_ < adams::kHistory) return stepOtherwise(system, hand, y, next, rhs);
     if constexpr (System::kHas.care)
-      if (system.wantsSubSteps(y, dt)) return stepOtherwise(system, hand, y, next, report);
+      if (system.wantsSubSteps(y, dt)) return stepOtherwise(system, hand, y, next, rhs);
     const auto end = system.handOf(endOf(hand));
     const int n = system.states();
     State predicted(n), f(n);
     for (int c = 0; c < rowCount(); ++c) Rows::store(mulAdd(dt, rows_[c].ahead, Rows::load(y, c)), predicted, c);
     system.rate(end, predicted, f);
-    report.rhs += 1;
-    report.error = limit_;
+    ++rhs;
     Lanes deviation[Rows::kCapacity];
     Marks noticeable{}, bad{};
     for (int c = 0; c < rowCount(); ++c) {
@@ -102,9 +101,9 @@ class AbmWith {
       bad |= adams::beyond<Lanes>(correction, most);
     }
     if (anyLane(noticeable)) {
-      if (anyLane(bad)) return stepOtherwise(system, hand, y, next, report);
+      if (anyLane(bad)) return stepOtherwise(system, hand, y, next, rhs);
       system.rate(end, next, f);
-      report.rhs += 1;
+      ++rhs;
       Marks broken{};
       for (int c = 0; c < rowCount(); ++c) {
         deviation[c] = Rows::load(f, c) - rows_[c].sums[0];
@@ -177,10 +176,10 @@ class AbmWith {
     for (int c = 0; c < rowCount(); ++c) rows_[c].keep(Rows::load(f, c) - rows_[c].sums[0]);
     if (count_ < adams::kHistory) ++count_;
   }
-  [[gnu::noinline]] void begin(const System& system, const HandSegment& hand, double dt, const State& y, StepReport& report) noexcept {
+  [[gnu::noinline]] void begin(const System& system, const HandSegment& hand, double dt, const State& y, std::uint64_t& rhs) noexcept {
     State f(system.states());
     system.rate(system.handAt(hand, 0), y, f);
-    report.rhs += 1;
+    ++rhs;
     for (Row& row : rows_) {
       for (Lanes& sum : row.sums) sum = Lanes{};
       row.weighted = Lanes{};
@@ -191,25 +190,22 @@ class AbmWith {
   }
   /// One tick by the fallback.
   [[gnu::noinline]] StepStatus stepOtherwise(const System& system, const HandSegment& hand, const State& y, State& next,
-                                             StepReport& report) noexcept {
-    const StepStatus status = fallback_.step(system, hand, dt_, y, next, report);
+                                             std::uint64_t& rhs) noexcept {
+    const StepStatus status = fallback_.step(system, hand, dt_, y, next, rhs);
     if (status != StepStatus::Ok) return failed(status);
     State f(system.states());
     system.rate(system.handAt(hand, 1), next, f);
-    report.rhs += 1;
+    ++rhs;
     if (!isFinite(f)) return failed(StepStatus::NotFinite);
     keep(f);
     return StepStatus::Ok;
   }
 
   Fallback<System> fallback_;
-  double limit_, maxCorrection_;  // of the scale and the state
+  double maxCorrection_;  // of the scale and the state
   double dt_ = 0;
   int count_ = 0;
   std::vector<Row> rows_;
 };
-
-template <class System>
-using Abm = AbmWith<System, Adaptive>;
 
 }  // namespace reachlab::dynamics

@@ -4,7 +4,6 @@
 
 #include "sim/dynamics/hand/hand_segment.h"
 #include "sim/dynamics/methods/dense_output.h"
-#include "sim/dynamics/object/step_report.h"
 #include "sim/dynamics/systems/system.h"
 
 namespace reachlab::dynamics {
@@ -19,39 +18,70 @@ class Adaptive {
   Adaptive(const System&, double tolerance) : tolerance_(tolerance > 0 ? tolerance : kDefaultTolerance) {}
   void restart() noexcept { last_ = 0; }
 
-  StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next, StepReport& report) noexcept {
-    double reached = 0;
-    return advance(system, hand, dt, y, next, reached, report, [](auto&&...) { return false; });
-  }
-
   /// The meeting of a mass with an end of the constraint within the tick.
   struct Meeting {
     bool met = false;
     double share = 1;  // of dt: the last moment with every mass on the constraint, to rounding; where the step failed, if not Ok
     State beyond;      // just behind it
   };
-  /// The tick up to the first meeting. `y` is the state at the meeting, or at the end of the tick. The moment is found in the dense output
-  /// of the sub-step that crosses, so that a meeting costs four right-hand sides.
-  StepStatus stepInside(const System& system, const HandSegment& hand, double dt, const State& y0, State& y, Meeting& meeting,
-                        StepReport& report) noexcept {
-    State inside = y0;
-    double reached = 0;
-    const auto meets = [&](const auto& rate, double t, double h, const State& from, const auto& k, const State& to) {
-      const bool ends = !system.inside(to);
-      if (!ends && !mayHaveTurned(system, from, to, h)) return false;
-      const auto dense = dop853::makeDenseOutput<System::kStates>(rate, t, h, from, k, to);
-      report.rhs += 4;
-      inside = from;
-      meeting.beyond = to;
-      const double outside = ends ? 1 : findTurnOutside(system, dense, from, meeting.beyond);
-      if (outside == 0) return false;
-      meeting.met = true;
-      reached = t + findLastInside(system, dense, outside, inside, meeting.beyond) * h;
-      return true;
-    };
-    const StepStatus status = advance(system, hand, dt, y0, y, reached, report, meets);
-    meeting.share = reached / dt;
-    if (meeting.met) y = inside;
+  /// `rhs` counts right-hand sides. With a `meeting` the tick ends at the first one, and `y` is the state there.
+  StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y0, State& y, std::uint64_t& rhs,
+                  Meeting* meeting = nullptr) noexcept {
+    const int n = system.states();
+    auto k = dop853::makeStages<System::kStates>(n);
+    State trial(n);
+    const auto rate = [&](double time, const State& at, State& slope) { system.rate(system.handAt(hand, time / dt), at, slope); };
+    Allowance allowed(system, tolerance_);
+    y = y0;
+    rate(0, y, k[0]);
+    int used = 1, looks = 0;  // right-hand sides, and what looking ahead cost in their unit
+    double t = 0, h = last_ > 0 ? std::min(last_, dt) : dt, growth = kGrowth;
+    StepStatus status = StepStatus::Ok;
+    bool met = false;
+    while (t < dt) {
+      double sight = dt;  // no sub-step may lead farther, the last one neither
+      if constexpr (System::kHas.sight) {
+        sight = system.reach(y, k[0], kNearlyLast * h);
+        h = std::min(h, sight);
+        looks += system.sightCost();
+      }
+      const bool lastPart = t + kNearlyLast * h >= dt && dt - t <= sight;
+      if (lastPart) h = dt - t;
+      allowed.lookAt(y);
+      double error = dop853::attempt<System::kStates>(rate, allowed, t, h, y, k, trial);
+      used += dop853::kStages - 1;
+      error = allowed.atEnd(y, trial, error);
+      const double factor = dop853::growth(error, growth);
+      if (error <= 1) {
+        growth = kGrowth;
+        if constexpr (System::kHas.ends)
+          if (meeting != nullptr && meets(system, rate, h, k, trial, t, y, *meeting, rhs)) {
+            met = true;
+            break;
+          }
+        t = lastPart ? dt : t + h;
+        y = trial;
+        last_ = lastPart ? std::max(last_, h * factor) : h * factor;
+        if (!lastPart) {
+          rate(t, y, k[0]);
+          ++used;
+        }
+      } else {
+        growth = 1;
+        last_ = h * factor;
+        status = std::isfinite(error) ? StepStatus::Capped : StepStatus::NotFinite;
+        if (t + h * factor == t) break;
+      }
+      h *= factor;
+      if (t < dt && used + looks + dop853::kStages > kMaxRhsPerTick) {
+        if (!(status == StepStatus::NotFinite && error > 1)) status = StepStatus::Capped;
+        break;
+      }
+    }
+    rhs += static_cast<std::uint64_t>(used);
+    if (meeting != nullptr) meeting->met = met, meeting->share = t / dt;
+    if (t >= dt || met) return StepStatus::Ok;
+    last_ = 0;
     return status;
   }
 
@@ -60,6 +90,21 @@ class Adaptive {
   static constexpr double kRounding = 4.5e-16;  // of phi, two units in its last place: a smaller error cannot be reached
   static constexpr double kNearlyLast = 1.01;   // of a sub-step: a shorter rest is taken in one sub-step
 
+  /// Whether a mass meets an end in the sub-step of h from y at t to `to`. Then y and t become the last ones with every mass on the
+  /// constraint. They are found in the dense output of the sub-step, so that a meeting costs four right-hand sides.
+  template <class Rate>
+  static bool meets(const System& system, const Rate& rate, double h, const dop853::Stages<System::kStates>& k, const State& to, double& t,
+                    State& y, Meeting& meeting, std::uint64_t& rhs) noexcept {
+    const bool ends = !system.inside(to);
+    if (!ends && !mayHaveTurned(system, y, to, h)) return false;
+    const auto dense = dop853::makeDenseOutput<System::kStates>(rate, t, h, y, k, to);
+    rhs += 4;
+    meeting.beyond = to;
+    const double outside = ends ? 1 : findTurnOutside(system, dense, y, meeting.beyond);
+    if (outside == 0) return false;
+    t += findLastInside(system, dense, outside, y, meeting.beyond) * h;
+    return true;
+  }
   static bool mayHaveTurned(const System& system, const State& from, const State& to, double h) noexcept {
     if constexpr (System::kHas.branches) return system.turned(from, to, h);
     return false;
@@ -148,70 +193,6 @@ class Adaptive {
     double tolerance_;
     double steep_ = 1;  // how many times more than usual a unit of phi moves a mass
   };
-
-  /// Sub-steps from 0 to dt, until `stops(rate, t, h, y, stages, next)` returns true for an accepted sub-step. `t` returns the time
-  /// reached.
-  template <class Stops>
-  StepStatus advance(const System& system, const HandSegment& hand, double dt, const State& y0, State& y, double& t, StepReport& report,
-                     const Stops& stops) noexcept {
-    const int n = system.states();
-    auto k = dop853::makeStages<System::kStates>(n);
-    State trial(n);
-    const auto rate = [&](double time, const State& at, State& slope) { system.rate(system.handAt(hand, time / dt), at, slope); };
-    Allowance allowed(system, tolerance_);
-    y = y0;
-    rate(0, y, k[0]);
-    int rhs = 1, looks = 0;  // right-hand sides, and what looking ahead cost in their unit
-    double h = last_ > 0 ? std::min(last_, dt) : dt, growth = kGrowth;
-    t = 0;
-    report.error = 0;
-    StepStatus status = StepStatus::Ok;
-    bool stopped = false;
-    while (t < dt && !stopped) {
-      double sight = dt;  // no sub-step may lead farther, the last one neither
-      if constexpr (System::kHas.sight) {
-        sight = system.reach(y, k[0], kNearlyLast * h);
-        h = std::min(h, sight);
-        looks += system.sightCost();
-      }
-      const bool lastPart = t + kNearlyLast * h >= dt && dt - t <= sight;
-      if (lastPart) h = dt - t;
-      allowed.lookAt(y);
-      double error = dop853::attempt<System::kStates>(rate, allowed, t, h, y, k, trial);
-      rhs += dop853::kStages - 1;
-      error = allowed.atEnd(y, trial, error);
-      const double factor = dop853::growth(error, growth);
-      if (error <= 1) {
-        growth = kGrowth;
-        report.error += tolerance_ * error;
-        stopped = stops(rate, t, h, y, k, trial);
-        if (stopped) break;
-        t = lastPart ? dt : t + h;
-        y = trial;
-        last_ = lastPart ? std::max(last_, h * factor) : h * factor;
-        if (!lastPart) {
-          rate(t, y, k[0]);
-          ++rhs;
-        }
-      } else {
-        growth = 1;
-        last_ = h * factor;
-        status = std::isfinite(error) ? StepStatus::Capped : StepStatus::NotFinite;
-        if (t + h * factor == t) break;
-      }
-      h *= factor;
-      if (t < dt && rhs + looks + dop853::kStages > kMaxRhsPerTick) {
-        if (!(status == StepStatus::NotFinite && error > 1)) status = StepStatus::Capped;
-        break;
-      }
-    }
-    report.rhs += static_cast<std::uint64_t>(rhs);
-    if (t < dt && !stopped) {
-      last_ = 0;
-      return status;
-    }
-    return StepStatus::Ok;
-  }
 
   double tolerance_;
   double last_ = 0;  // [s] size of the last good sub-step

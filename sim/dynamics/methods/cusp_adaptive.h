@@ -23,7 +23,7 @@ class CuspAdaptive {
     last_ = 0;
   }
 
-  StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next, StepReport& report) noexcept {
+  StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next, std::uint64_t& rhs) noexcept {
     bool timeAlone = false;  // where |r_phi| is large: phi is smooth in time there
     bool narrow = false;     // many sub-steps are regular there
     if constexpr (System::kHas.pieces) {
@@ -31,15 +31,12 @@ class CuspAdaptive {
       narrow = system.meetsNarrow(y, dt);
     }
     if (timeAlone || nearest(system, y).speed > kFar * system.speedScale) {
-      StepReport tried;
+      std::uint64_t tried = 0;
       const StepStatus status = regular_.step(system, hand, dt, y, next, tried);
-      report.rhs += tried.rhs;
-      if (timeAlone || narrow || (status == StepStatus::Ok && tried.rhs < kSuspicious)) {
-        report.error = tried.error;
-        return status;
-      }
+      rhs += tried;
+      if (timeAlone || narrow || (status == StepStatus::Ok && tried < kSuspicious)) return status;
     }
-    return pass(system, hand, dt, y, next, report);
+    return pass(system, hand, dt, y, next, rhs);
   }
 
  private:
@@ -175,7 +172,7 @@ class CuspAdaptive {
     }
   };
 
-  StepStatus pass(const System& system, const HandSegment& hand, double dt, const State& y0, State& next, StepReport& report) noexcept {
+  StepStatus pass(const System& system, const HandSegment& hand, double dt, const State& y0, State& next, std::uint64_t& rhs) noexcept {
     Passage p{system, hand, dt, tolerance_};
     const int n = p.n;
     for (int i = 0; i < n; ++i) p.y[i] = y0[i];
@@ -199,7 +196,6 @@ class CuspAdaptive {
       const double factor = dop853::growth(error, growth);
       if (error <= 1) {
         growth = kGrowth;
-        report.error += tolerance_ * error;
         if (!finished && !(p.trial[n] > p.y[n]) && !onCusp) {
           status = StepStatus::Capped;
           break;
@@ -221,7 +217,7 @@ class CuspAdaptive {
         break;
       }
     }
-    report.rhs += static_cast<std::uint64_t>(p.rhs);
+    rhs += static_cast<std::uint64_t>(p.rhs);
     if (p.y[n] < dt) {
       last_ = 0;
       return status == StepStatus::Ok ? StepStatus::Capped : status;

@@ -1,6 +1,5 @@
 #pragma once
 #include "sim/dynamics/hand/hand_segment.h"
-#include "sim/dynamics/object/step_report.h"
 #include "sim/dynamics/systems/system.h"
 
 namespace reachlab::dynamics {
@@ -14,7 +13,7 @@ class Rk4 {
   void restart() noexcept {}
 
   [[gnu::flatten]] StepStatus step(const System& system, const HandSegment& hand, double dt, const State& y, State& next,
-                                   StepReport& report) noexcept {
+                                   std::uint64_t& rhs) noexcept {
     const int n = system.states();
     State k1(n), k2(n), k3(n), k4(n), at(n);
     const auto begin = system.handOf(startOf(hand)), middle = system.handAt(hand, 0.5), end = system.handOf(endOf(hand));
@@ -30,7 +29,7 @@ class Rk4 {
       next[i] = mulAdd(dt / 6, mulAdd(2, k2[i] + k3[i], k1[i] + k4[i]), y[i]);
       check = mulAdd(next[i], 0.0, check);
     }
-    report.rhs += 4;
+    rhs += 4;
     return check == 0 ? StepStatus::Ok : StepStatus::NotFinite;
   }
 };

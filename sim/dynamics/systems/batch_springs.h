@@ -20,7 +20,7 @@ struct BatchMotion {
 };
 
 /// Springs and masses in lanes. The numbers of lanes without a mass are zero.
-template <int Batches, bool Parallel>
+template <int Batches>
 struct BatchSprings {
   struct Row {
     LaneBatch inverseMass{}, handStiffness{}, handDamping{};
@@ -30,16 +30,19 @@ struct BatchSprings {
     LaneMarks<kBatchLanes> used{};
   };
   std::vector<Row> row;
+  bool parallel;  // every mass has a separate spring to the hand and no neighbours
   Vec3 gravity, extraForce;
 
-  explicit BatchSprings(const ObjectModel& model) : row(static_cast<std::size_t>(batchesFor(model.count()))), gravity(model.gravity) {
+  explicit BatchSprings(const ObjectModel& model)
+      : row(static_cast<std::size_t>(batchesFor(model.count()))), parallel(model.kind == experiment::ObjectKind::Parallel),
+        gravity(model.gravity) {
     row[0].first[0] = 1;
     for (int i = 0; i < model.count(); ++i) {
       Row& own = row[i / kBatchLanes];
       own.inverseMass[i % kBatchLanes] = 1 / model.mass[i];
       own.drag[i % kBatchLanes] = model.viscosity / model.mass[i];
       own.used[i % kBatchLanes] = -1;
-      if (Parallel || i + 1 >= model.count()) continue;
+      if (parallel || i + 1 >= model.count()) continue;
       own.stiffness[i % kBatchLanes] = model.stiffness[i];
       own.damping[i % kBatchLanes] = model.damping[i];
     }
@@ -59,9 +62,9 @@ struct BatchSprings {
     const Row& s = row[o];
     const LaneBatch x = motions[o].r[k], v = motions[o].v[k];
     LaneBatch force = s.first * component(extraForce, k);
-    if (Parallel || o == 0)
+    if (o == 0 || parallel)
       force = mulAdd(s.handStiffness, component(hand.position, k) - x, mulAdd(s.handDamping, component(hand.velocity, k) - v, force));
-    if constexpr (!Parallel) {
+    if (!parallel) {
       const BatchMotion& after = motions[o + 1 < batches() ? o + 1 : o];
       const LaneBatch own = mulAdd(s.stiffness, next(x, after.r[k]) - x, s.damping * (next(v, after.v[k]) - v));
       force += own - previous(tension, own);

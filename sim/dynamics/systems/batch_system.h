@@ -10,10 +10,10 @@ namespace reachlab::dynamics {
 
 /// The equations of CurveSystem for two and more masses, eight at a time in the lanes of vector registers. `Batches` is the number of
 /// registers for the masses, or 0 for as many as they need. Lanes without a mass rest at the start of the first mass.
-template <int Batches, bool Parallel, bool Tangential>
-struct BatchSystem : CurvePlaces<0, Batches * kBatchLanes, Tangential>, SpaceSystem<BatchSprings<Batches, Parallel>> {
+template <int Batches, bool Tangential>
+struct BatchSystem : CurvePlaces<0, Batches * kBatchLanes, Tangential>, SpaceSystem<BatchSprings<Batches>> {
   using Places = CurvePlaces<0, Batches * kBatchLanes, Tangential>;
-  using Space = SpaceSystem<BatchSprings<Batches, Parallel>>;
+  using Space = SpaceSystem<BatchSprings<Batches>>;
   using Places::curve, Places::rates, Space::springs, typename Space::Hand;
   static constexpr int kStates = 2 * Batches * kBatchLanes;
   using State = Numbers<kStates>;

@@ -13,7 +13,7 @@ inline Vec3 times(const Matrix3& m, const Vec3& v) noexcept {
 /// A rigid body in free space. The force of the hand acts at the FP, at `fpOffset` from the centre of mass in body axes, and so also turns
 /// the body. c_i of Eq. 7 are force and moment. y = (r, v, quaternion w x y z, angular velocity in body axes).
 ///   m r'' = F + m g - lambda v,   q' = q (0, w)/2,   I w' = R^T ((R offset) x F) - w x I w
-struct BodySystem : SpaceSystem<Springs<1, true>> {
+struct BodySystem : SpaceSystem<Springs<1>> {
   static constexpr int kStates = 13;
   static constexpr bool kSecondOrder = false;
   static constexpr Hooks kHas{.settling = true};

@@ -16,9 +16,9 @@ namespace reachlab::dynamics {
 ///   Not passed (jump, pole, end, spike): what `at_end` says.
 /// A mass rests in a kink into which both sides push it, as soon as its swing would last less than kSwing of a step. It leaves the kink
 /// when a side pulls it out.
-template <int N, bool Parallel>
-struct BrokenCurveSystem : SpaceSystem<Springs<N, Parallel>> {
-  using Space = SpaceSystem<Springs<N, Parallel>>;
+template <int N>
+struct BrokenCurveSystem : SpaceSystem<Springs<N>> {
+  using Space = SpaceSystem<Springs<N>>;
   using Space::springs, typename Space::Hand;
   static constexpr int kStates = 2 * N;
   static constexpr bool kTangential = true;

@@ -7,10 +7,10 @@ namespace reachlab::dynamics {
 /// false: y = (phi_i, omega_i), phi' = omega, |r_phi|^2 omega' = r_phi.(F/m - r_phiphi omega^2). Tangential = true: y = (phi_i, v_i) with v
 /// the speed along the curve. phi' = v/|r_phi|, v' = r_phi.F/(m |r_phi|). This form has neither omega^2 nor 1/M and suits curves that are
 /// hard somewhere.
-template <int N, bool Parallel, bool Tangential>
-struct CurveSystem : CurvePlaces<N, N, Tangential>, SpaceSystem<Springs<N, Parallel>> {
+template <int N, bool Tangential>
+struct CurveSystem : CurvePlaces<N, N, Tangential>, SpaceSystem<Springs<N>> {
   using Places = CurvePlaces<N, N, Tangential>;
-  using Space = SpaceSystem<Springs<N, Parallel>>;
+  using Space = SpaceSystem<Springs<N>>;
   using Places::curve, Places::n, Space::springs, typename Space::Hand;
   static constexpr Hooks kHas{.ends = true, .settling = true, .leadRate = Tangential};
   static constexpr int kStates = 2 * N;

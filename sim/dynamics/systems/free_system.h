@@ -4,9 +4,9 @@
 namespace reachlab::dynamics {
 
 /// A point, chain or parallel object in free space, y = (r_1 … r_N, v_1 … v_N). For all methods except the exact method.
-template <int N, bool Parallel>
-struct FreeSystem : SpaceSystem<Springs<N, Parallel>> {
-  using Space = SpaceSystem<Springs<N, Parallel>>;
+template <int N>
+struct FreeSystem : SpaceSystem<Springs<N>> {
+  using Space = SpaceSystem<Springs<N>>;
   using Space::springs, typename Space::Hand;
   static constexpr int kStates = 6 * N;
   static constexpr bool kSecondOrder = true;

@@ -6,7 +6,7 @@ namespace reachlab::dynamics {
 
 /// A chain or parallel object on a straight line, y = (x_1 … x_N, v_1 … v_N) in metres along it. For the methods that an experimenter may
 /// request instead of the exact method.
-template <int N, bool Parallel>
+template <int N>
 struct LineSystem {
   static constexpr int kStates = 2 * N;
   static constexpr bool kSecondOrder = true;
@@ -16,7 +16,7 @@ struct LineSystem {
     double r, v;
   };
 
-  Springs<N, Parallel> springs;
+  Springs<N> springs;
   LinearSpace space;
   double length;
   Vec3 axis;

@@ -10,7 +10,7 @@ namespace reachlab::dynamics {
 /// A point on a surface of second degree in world coordinates, y = (r, v). r'' = f - n (n.f + v.H v)/n.n with n the gradient, H = 2A and f
 /// = F/m. There is no parametrisation and so no pole. The parameters are computed only on request. On a sphere without forces the motion is
 /// a great circle in closed form.
-struct QuadricSystem : SpaceSystem<Springs<1, true>> {
+struct QuadricSystem : SpaceSystem<Springs<1>> {
   static constexpr int kStates = 6;
   static constexpr bool kSecondOrder = true;
   static constexpr Hooks kHas{

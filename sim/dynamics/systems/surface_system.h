@@ -14,7 +14,7 @@ namespace reachlab::dynamics {
 
 /// A point on a surface in the parameters of the surface, or in a polar chart near a pole. Poles are found during the motion on any
 /// surface. y = (u, v, u', v'), Eq. (13): G q'' = a^T (F/m - w), w = r_uu u'^2 + 2 r_uv u'v' + r_vv v'^2.
-struct SurfaceSystem : SpaceSystem<Springs<1, true>> {
+struct SurfaceSystem : SpaceSystem<Springs<1>> {
   static constexpr int kStates = 4;
   static constexpr bool kSecondOrder = true;
   static constexpr Hooks kHas{.ends = true, .branches = true, .settling = true, .losing = true, .care = true, .sight = true};

@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <concepts>
-#include <initializer_list>
 #include <span>
 #include <string>
 
@@ -16,9 +15,7 @@ namespace reachlab::dynamics {
 /// The result of `settle` for a state after a step, before the next step.
 enum class Settled { Same, OtherChart, Lost };
 
-/// The functions of a system beyond its equations of motion. Each one is absent unless the system sets it in its `kHas`. The concept
-/// Equations compares this list with the functions. A function that is set but missing, misspelt or has other arguments does not compile. A
-/// function that exists but is not set does not compile either.
+/// The functions of a system beyond its equations of motion, which are called only where the system sets them in its `kHas`.
 struct Hooks {
   bool ends = false;           // bounded, bounces, inside, meetEnd: the constraint may end
   bool branches = false;       // branch, takeBack, passEnds, turned: behind some ends another formula holds
@@ -33,53 +30,9 @@ struct Hooks {
   bool gliding = false;        // glide: some steps have a closed form
 };
 
-namespace systemDetail {
-/// True if each function is present exactly when it is declared.
-consteval bool agree(bool declared, std::initializer_list<bool> present) {
-  for (const bool one : present)
-    if (one != declared) return false;
-  return true;
-}
-// clang-format off
-template <class S>
-concept HooksAgree =
-    agree(S::kHas.ends, {requires(const S s) { { s.bounded() } -> std::same_as<bool>; },
-                         requires(const S s) { { s.bounces() } -> std::same_as<bool>; },
-                         requires(const S s, const typename S::State y) { { s.inside(y) } -> std::same_as<bool>; },
-                         requires(const S s, const typename S::State beyond, typename S::State y) { s.meetEnd(beyond, y, true); }}) &&
-    agree(S::kHas.branches,
-          {requires(const S s) { s.branch(); }, requires(S s, const S before) { s.takeBack(before.branch()); },
-           requires(S s, const typename S::State beyond, typename S::State y, const typename S::Hand hand, double dt) {
-             { s.passEnds(beyond, y, hand, dt) } -> std::same_as<bool>;
-           },
-           requires(const S s, const typename S::State y, double dt) { { s.turned(y, y, dt) } -> std::same_as<bool>; }}) &&
-    agree(S::kHas.holding, {requires(const S s) { { s.anyHeld() } -> std::same_as<bool>; },
-                            requires(S s, const typename S::State y, const typename S::Hand hand) {
-                              { s.release(hand, hand, y) } -> std::same_as<bool>;
-                            }}) &&
-    agree(S::kHas.settling, {requires(S s, const typename S::State before, typename S::State y) {
-            { s.settle(before, y) } -> std::same_as<Settled>;
-          }}) &&
-    agree(S::kHas.losing, {requires(const S s, const typename S::State y) { { s.lost(y) } -> std::same_as<bool>; }}) &&
-    agree(S::kHas.parametrising, {requires(const S s, std::span<MassState> masses) { s.parametrise(masses); }}) &&
-    agree(S::kHas.care, {requires(const S s, const typename S::State y) { { s.wantsSubSteps(y, 1e-3) } -> std::same_as<bool>; },
-                         requires(const S s) { { s.tightening() } -> std::same_as<double>; }}) &&
-    agree(S::kHas.pieces, {requires(const S s, const typename S::State y) { { s.steepness(y) } -> std::same_as<double>; },
-                           requires(const S s, const typename S::State y) { { s.isSteep(y) } -> std::same_as<bool>; },
-                           requires(const S s, const typename S::State y) { { s.meetsNarrow(y, 1e-3) } -> std::same_as<bool>; }}) &&
-    agree(S::kHas.sight, {requires(const S s, const typename S::State y) { { s.reach(y, y, 1e-3) } -> std::same_as<double>; },
-                          requires(const S s) { { s.sightCost() } -> std::same_as<int>; }}) &&
-    agree(S::kHas.leadRate, {requires(const S s, const typename S::Hand hand, const typename S::State y, typename S::State dy, double speed) {
-            s.rate(hand, y, dy, 0, speed);
-          }}) &&
-    agree(S::kHas.gliding, {requires(const S s, const typename S::State y, typename S::State next, double dt) {
-            { s.glide(dt, y, next) } -> std::same_as<bool>;
-          }});
-// clang-format on
-}  // namespace systemDetail
-
-/// [m] The size of a usual position, and the unit of position in which a method states its error.
-inline constexpr double kTypicalPlace = 0.1;
+inline constexpr double kTypicalPlace = 0.1;  // [m] the size of a usual position
+/// The largest number of right-hand sides in one tick. Beyond it the step is Capped and the force is zero.
+inline constexpr int kMaxRhsPerTick = 1000;
 
 /// The equations that a method integrates: a state of kStates numbers (0: known when compiled), and the entry of the hand.
 ///   rate(hand, y, dy)            the equations of motion (7)
@@ -97,7 +50,7 @@ concept Equations = requires(const S s, const typename S::State y, typename S::S
   { s.handOf(sample) } -> std::same_as<typename S::Hand>;
   s.rate(s.handOf(sample), y, dy);
   { s.scale(0) } -> std::same_as<double>;
-} && systemDetail::HooksAgree<S>;
+};
 // clang-format on
 
 /// Equations of an object's masses, which a SystemPlant steps.
@@ -124,18 +77,19 @@ inline std::string plainReason(StepStatus status, const char* noContinuation) {
 template <int N>
 inline constexpr int kMassCapacity = N > 0 ? N : experiment::kMaxMasses;
 
-/// Springs and masses in the form that a step needs. N = 0: as many as the model has. `Parallel`: every mass has a separate spring to the
-/// hand and no neighbours.
-template <int N, bool Parallel>
+/// Springs and masses in the form that a step needs. N = 0: as many as the model has.
+template <int N>
 struct Springs {
   static constexpr int kCapacity = kMassCapacity<N>;
   int count = N;
+  bool parallel;  // every mass has a separate spring to the hand and no neighbours
   std::array<double, kCapacity> inverseMass{}, handStiffness{}, handDamping{};
   std::array<double, kCapacity> stiffness{}, damping{};  // to the next mass
   double viscosity = 0;
   Vec3 gravity, extraForce;
 
-  explicit Springs(const ObjectModel& model) : count(model.count()), viscosity(model.viscosity), gravity(model.gravity) {
+  explicit Springs(const ObjectModel& model)
+      : count(model.count()), parallel(model.kind == experiment::ObjectKind::Parallel), viscosity(model.viscosity), gravity(model.gravity) {
     for (int i = 0; i < count; ++i) {
       inverseMass[i] = 1 / model.mass[i];
       if (i < static_cast<int>(model.stiffness.size())) {
@@ -159,7 +113,7 @@ struct Springs {
   /// Forces of hand and neighbours, for places and velocities of any vector type (Vec3, or double on a line).
   template <class V, class Place>
   void push(const V& hand, const V& handVelocity, const Place& r, const Place& v, Place& force) const noexcept {
-    if constexpr (Parallel) {
+    if (N == 1 || parallel) {
       for (int i = 0; i < n(); ++i) force[i] = mulAdd(handStiffness[i], hand - r[i], handDamping[i] * (handVelocity - v[i]));
     } else {
       V before = mulAdd(handStiffness[0], hand - r[0], handDamping[0] * (handVelocity - v[0]));
