@@ -1,6 +1,7 @@
 #include "sim/dynamics/systems/quadric.h"
 
 #include <algorithm>
+#include <limits>
 #include <vector>
 
 #include "base/math/matrix.h"
@@ -53,6 +54,41 @@ void putApexFirst(Quadric& q, double size) {
   q.c = 0;
 }
 
+constexpr int kTerms = 10;
+// In long double, which Eigen never computes in lanes: the same law, to the bit, on every processor.
+using Real = long double;
+using Monomials = Eigen::Matrix<Real, Eigen::Dynamic, kTerms>;
+
+/// The right singular vector of the smallest singular value, if that one vanishes and no other does. A QR decomposition, then Jacobi
+/// rotations: bit by bit what Eigen::JacobiSVD does, which with its left singular vectors takes half a minute to compile.
+std::optional<Eigen::Matrix<double, kTerms, 1>> findNullVector(const Monomials& monomials) {
+  const Real scale = monomials.cwiseAbs().maxCoeff();
+  const Eigen::ColPivHouseholderQR<Monomials> qr(monomials / scale);
+  Eigen::Matrix<Real, kTerms, kTerms> work = qr.matrixQR().topRows<kTerms>().triangularView<Eigen::Upper>(), right = qr.colsPermutation();
+  Real most = work.diagonal().cwiseAbs().maxCoeff();
+  for (bool finished = false; !finished;) {
+    finished = true;
+    for (int p = 1; p < kTerms; ++p)
+      for (int q = 0; q < p; ++q) {
+        const Real rounding = std::max(std::numeric_limits<Real>::min(), 2 * std::numeric_limits<Real>::epsilon() * most);
+        if (!(std::abs(work(p, q)) > rounding || std::abs(work(q, p)) > rounding)) continue;
+        finished = false;
+        Eigen::JacobiRotation<Real> onTheLeft, onTheRight;
+        Eigen::internal::real_2x2_jacobi_svd(work, p, q, &onTheLeft, &onTheRight);
+        work.applyOnTheLeft(p, q, onTheLeft);
+        work.applyOnTheRight(p, q, onTheRight);
+        right.applyOnTheRight(p, q, onTheRight);
+        most = std::max({most, std::abs(work(p, p)), std::abs(work(q, q))});
+      }
+  }
+  Eigen::Matrix<Real, kTerms, 1> sigma = work.diagonal().cwiseAbs() * scale;
+  Eigen::Index least = 0;
+  sigma.minCoeff(&least);
+  std::sort(sigma.begin(), sigma.end());
+  if (sigma(0) > kVanishes * sigma(kTerms - 1) || sigma(1) < kUnique * sigma(kTerms - 1)) return std::nullopt;
+  return right.col(least).cast<double>();
+}
+
 }  // namespace
 
 std::optional<Sphere> sphereOf(const Quadric& quadric) {
@@ -84,16 +120,14 @@ std::optional<Quadric> fitQuadric(const constraints::Surface& surface, const std
   for (const Vec3& r : points) size = std::max(size, norm(r - centre));
   if (!(size > 0)) return std::nullopt;
 
-  // In long double, which Eigen never computes in lanes: the same law, to the bit, on every processor.
-  Eigen::Matrix<long double, Eigen::Dynamic, 10> monomials(points.size(), 10);
+  Monomials monomials(points.size(), kTerms);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vec3 d = (points[i] - centre) / size;
     monomials.row(static_cast<Eigen::Index>(i)) << d.x * d.x, d.y * d.y, d.z * d.z, d.x * d.y, d.x * d.z, d.y * d.z, d.x, d.y, d.z, 1;
   }
-  const Eigen::JacobiSVD<decltype(monomials)> svd(monomials, Eigen::ComputeFullV);
-  const auto& sigma = svd.singularValues();
-  if (sigma(9) > kVanishes * sigma(0) || sigma(8) < kUnique * sigma(0)) return std::nullopt;
-  const Eigen::Matrix<double, 10, 1> f = svd.matrixV().col(9).cast<double>();
+  const auto law = findNullVector(monomials);
+  if (!law) return std::nullopt;
+  const Eigen::Matrix<double, kTerms, 1>& f = *law;
 
   Quadric q;
   q.centre = centre;
