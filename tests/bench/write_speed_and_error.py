@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Writes docs/benchmarks/speed-and-error.md and docs/images/work-precision.svg from one run of the bench.
 
-    cmake --preset release -DREACHLAB_BENCH_PEERS=ON && ninja -C build/release reach limit_bench
+    cmake --preset release -DREACHLAB_BENCH_PEERS=ON && ninja -C build/release reach
     tests/bench/write_speed_and_error.py build/release
 
 Every number of the page comes from the programs' output; the text around them stands here.
@@ -19,7 +19,6 @@ GOALS = {
     "S1": (2, 3), "S1b50": (None, 4), "S1b500": (None, 6), "S2a": (None, 2.5), "S2b": (None, 2.5), "S3": (None, 2.5), "S4": (None, 2.5),
     "S6": (1, 1), "S7a": (None, 20), "S7b": (None, 20), "S7d": (None, 6), "S7e": (None, 6), "S8": (None, 2.5),
 }
-NEAR_LIMIT = ("S2a", "S2b", "S3", "S4", "S7d", "S7e", "S7f", "S8")  # wanted: at most 1.25 times the form by hand
 HARD = ("S5", "S5h", "S7c")
 HARD_TICKS = 1350
 
@@ -48,16 +47,6 @@ def is_peer(method):
 
 def met(yes):
     return "met" if yes else "**missed**"
-
-
-def limit_table(text):
-    lines = ["| scene | by hand ns/ms, its state error | odeint rk4 ns/ms | `auto` ns/ms, its state error | by hand / odeint rk4 | `auto` / by hand | wanted ≤ 1.25 |",
-             "|---|---|---|---|---|---|---|"]
-    for line in text.splitlines()[1:]:
-        scene, state, limit, rk4, auto, auto_state, _, limit_ratio, ratio = line.split()
-        verdict = met(float(ratio) <= 1.25) if scene in NEAR_LIMIT else ""
-        lines.append(f"| {scene} | {limit}, {state} | {rk4} | {auto}, {auto_state} | {limit_ratio} | {ratio} | {verdict} |")
-    return "\n".join(lines)
 
 
 def hard_table(text, rows):
@@ -113,11 +102,10 @@ def main():
     reach = build / "cli" / "reach"
     table = run(reach, "bench", "--json", rows_file, "--svg", images / "work-precision.svg")
     rows = json.loads(rows_file.read_text())
-    limits = run(build / "tests" / "limit_bench")
     sampled = run(reach, "bench", "--sampled")
     tick = run(reach, "bench", "--tick")
     page = (pathlib.Path(__file__).parent / "speed-and-error.md.in").read_text()
-    for key, text in {"PROCESSOR": processor(), "RATIOS": ratio_table(rows), "OWN": own_table(rows), "LIMITS": limit_table(limits), "HARD": hard_table(table, rows),
+    for key, text in {"PROCESSOR": processor(), "RATIOS": ratio_table(rows), "OWN": own_table(rows), "HARD": hard_table(table, rows),
                       "SAMPLED": sampled.rstrip(), "TICK": tick.rstrip()}.items():
         page = page.replace(f"@{key}@", text)
     (ROOT / "docs/benchmarks/speed-and-error.md").write_text(page)
