@@ -1,5 +1,4 @@
 #pragma once
-#include "base/ticks.h"
 #include "bench/contender.h"
 
 namespace reachlab::bench {
@@ -9,8 +8,5 @@ namespace reachlab::bench {
 /// which of them meets an error. The list is empty unless the bench was built with -DREACHLAB_BENCH_PEERS=ON.
 std::vector<Contender> makePeers(const BenchScene& scene);
 bool peersBuilt();
-
-/// odeint's rk4 at 1 ms, with which hand-written forms are compared.
-Contender makeOdeintRk4(const BenchScene& scene, double step = kTickSeconds);
 
 }  // namespace reachlab::bench

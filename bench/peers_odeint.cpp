@@ -80,22 +80,14 @@ Contender controlled(const std::string& method, const BenchScene& scene, const S
   return out;
 }
 
-template <class System>
-Contender makeFixedRk4(const BenchScene& scene, const System& system, double step) {
-  return fixedStep<odeint::runge_kutta4<State<System>>>("odeint-rk4", scene, system, step);
-}
-
 }  // namespace
-
-Contender makeOdeintRk4(const BenchScene& scene, double step) {
-  return visitSystem(scene, [&](const auto& system) { return makeFixedRk4(scene, system, step); });
-}
 
 std::vector<Contender> makeOdeintPeers(const BenchScene& scene) {
   std::vector<Contender> all;
-  for (double step : {1e-3, 5e-4, 2.5e-4, 1e-4, 5e-5, 2.5e-5}) all.push_back(makeOdeintRk4(scene, step));
   visitSystem(scene, [&]<class System>(const System& system) {
     using S = State<System>;
+    for (double step : {1e-3, 5e-4, 2.5e-4, 1e-4, 5e-5, 2.5e-5})
+      all.push_back(fixedStep<odeint::runge_kutta4<S>>("odeint-rk4", scene, system, step));
     for (double step : {1e-3, 5e-4, 2.5e-4}) {
       all.push_back(fixedStep<odeint::runge_kutta_dopri5<S>>("odeint-dopri5", scene, system, step));
       all.push_back(fixedStep<odeint::runge_kutta_fehlberg78<S>>("odeint-fehlberg78", scene, system, step));

@@ -1,10 +1,10 @@
 #include "bench/reference.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "bench/extrapolation.h"
-#include "bench/linear_reference.h"
 #include "bench/visit_system.h"
 
 namespace reachlab::bench {
@@ -71,6 +71,18 @@ Reference greatCircle(const BenchScene& scene, double radius) {
   return out;
 }
 
+/// The hand's displacement along x, and its five derivatives by time.
+std::array<Quad, 6> handTerms(const SceneHand& law, const Quad& t) {
+  const Quad p = t / law.duration;
+  std::array<Quad, 6> terms{minimumJerk(p), minimumJerkRate(p), minimumJerkAcceleration(p), 60 - 360 * p + 360 * p * p, 720 * p - 360, 720};
+  Quad scale = law.by.x;
+  for (Quad& term : terms) {
+    term *= scale;
+    scale /= law.duration;
+  }
+  return terms;
+}
+
 double largestDifference(const std::vector<Quad>& a, const std::vector<Quad>& b) {
   double worst = 0;
   for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) worst = std::max(worst, static_cast<double>(absolute(Quad(a[i] - b[i]))));
@@ -81,12 +93,63 @@ double largestDifference(const std::vector<Quad>& a, const std::vector<Quad>& b)
 
 Reference computeReference(const BenchScene& scene) {
   if (scene.cartesian && scene.hand.kind == SceneHand::Kind::None) return greatCircle(scene, scene.experiment.constraint.shape.at("R"));
-  if (scene.experiment.constraint.name != "line") return extrapolatedReference(scene);
-  return scene.experiment.object.masses.size() > 10 ? modalChainReference(scene) : exponentialReference(scene);
+  return scene.experiment.object.masses.size() > 10 ? modalChainReference(scene) : extrapolatedReference(scene);
 }
 
 Reference extrapolatedReference(const BenchScene& scene, const ReferenceSettings& settings) {
   return visitSystem(scene, [&](const auto& system) { return integrate(scene, system, settings); });
+}
+
+Reference modalChainReference(const BenchScene& scene) {
+  const experiment::Object& o = scene.experiment.object;
+  const int n = static_cast<int>(o.masses.size());
+  const Quad k = o.stiffness[0], m = o.masses[0];
+  // pi to 113 bits: the double, and what it lacks.
+  const Quad pi = Quad(3.141592653589793) + Quad(1.2246467991473532e-16) + Quad(-2.9947698097183397e-33);
+  struct Mode {
+    Quad w2, w, gain, cosineAmplitude, sineAmplitude;  // of the mode's coordinate, for a unit shape
+    std::vector<Quad> shape;                           // by mass, mass 1 first
+  };
+  std::vector<Mode> modes(n);
+  const std::array<Quad, 6> start = handTerms(scene.hand, 0);
+  for (int j = 0; j < n; ++j) {
+    Mode& mode = modes[j];
+    const Quad angle = (2 * j + 1) * pi / (4 * n + 2);
+    const Quad sine = sineCosine(angle).sine;
+    mode.w2 = 4 * k / m * sine * sine;
+    mode.w = squareRoot(mode.w2);
+    Quad norm2 = 0;
+    mode.shape.resize(n);
+    for (int i = 0; i < n; ++i) {
+      const Quad at = (2 * (n - 1 - i) + 1) * angle;  // mass i counted from the free end
+      mode.shape[i] = sineCosine(at).cosine;
+      norm2 += mode.shape[i] * mode.shape[i];
+    }
+    mode.gain = k * mode.shape[0] / (m * norm2);  // q'' + w^2 q = gain h(t)
+    const auto& h = start;
+    const Quad w4 = mode.w2 * mode.w2;
+    mode.cosineAmplitude = -mode.gain / mode.w2 * (h[0] - h[2] / mode.w2 + h[4] / w4);
+    mode.sineAmplitude = -mode.gain / mode.w2 * (h[1] - h[3] / mode.w2 + h[5] / w4) / mode.w;
+  }
+  Reference out;
+  out.stateSize = 2 * n, out.massCount = n, out.samples = sampleCount(scene);
+  std::vector<Quad> y(2 * n);
+  for (int s = 0; s < out.samples; ++s) {
+    const auto h = handTerms(scene.hand, Quad(s) / 100);
+    y.assign(2 * n, Quad(0));
+    for (const Mode& mode : modes) {
+      const Quad angle = mode.w * s / 100;
+      const auto [sine, cosine] = sineCosine(angle);
+      const Quad w4 = mode.w2 * mode.w2;
+      const Quad q = mode.gain / mode.w2 * (h[0] - h[2] / mode.w2 + h[4] / w4) + mode.cosineAmplitude * cosine + mode.sineAmplitude * sine;
+      const Quad qRate =
+          mode.gain / mode.w2 * (h[1] - h[3] / mode.w2 + h[5] / w4) + mode.w * (mode.sineAmplitude * cosine - mode.cosineAmplitude * sine);
+      for (int i = 0; i < n; ++i) y[i] += q * mode.shape[i], y[n + i] += qRate * mode.shape[i];
+    }
+    out.states.insert(out.states.end(), y.begin(), y.end());
+    for (int i = 0; i < n; ++i) out.positions.insert(out.positions.end(), {scene.hand.from.x + y[i], Quad(0), Quad(0)});
+  }
+  return out;
 }
 
 Deviation compare(const Reference& a, const Reference& b) {
