@@ -153,34 +153,6 @@ struct LineParallel {
   }
 };
 
-/// A bead on a curve, Eq. (11) with r_phi . f on the right.
-template <class Shape, unsigned Axes>
-struct CurveBead {
-  static constexpr int kCoordinates = 1, kMasses = 1, kHandDegree = 7;
-  static constexpr unsigned kHandAxes = Axes;
-  Shape shape;
-  double mass, lambda, kHand, bHand;
-  bool handVelocity() const { return true; }
-
-  template <class T>
-  void rate(const T* __restrict y, const T* r, const T* v, T* __restrict dy) const {
-    T p[3], d[3], dd[3];
-    shape.evaluate(y[0], p, d, dd);
-    const T w = y[1];
-    T f = 0;
-    for (int i = 0; i < 3; ++i)
-      if (Axes >> i & 1) f += d[i] * (kHand * (r[i] - p[i]) + bHand * (v[i] - d[i] * w));
-    const T g = dot3(d, d);
-    dy[0] = w;
-    dy[1] = (f - lambda * g * w - mass * dot3(d, dd) * w * w) / (mass * g);
-  }
-  template <class T>
-  void positions(const T* y, T* r) const {
-    T d[3], dd[3];
-    shape.evaluate(y[0], r, d, dd);
-  }
-};
-
 /// A bead on a surface, Eqs. (12), (13). `Driven` false: no hand, a geodesic with friction.
 template <class Shape, bool Driven>
 struct SurfaceBead {
@@ -215,13 +187,13 @@ struct SurfaceBead {
   }
 };
 
-/// A chain of N equal masses on a curve. The springs run straight through space.
+/// A chain of N equal masses on a curve, Eq. (11) with r_phi . f on the right for each. The springs run straight through space.
 template <class Shape, int N, unsigned Axes>
 struct CurveChain {
   static constexpr int kCoordinates = N, kMasses = N, kHandDegree = 7;
   static constexpr unsigned kHandAxes = Axes;
   Shape shape;
-  double mass, k, b, kHand, bHand;
+  double mass, lambda, k, b, kHand, bHand;
   bool handVelocity() const { return true; }
 
   template <class T>
@@ -237,8 +209,9 @@ struct CurveChain {
       T f = 0;
       for (int a = 0; a < 3; ++a)
         if (Axes >> a & 1) f += d[i][a] * (left[a] - right[a]);
+      const T g = dot3(d[i], d[i]);
       dy[i] = w;
-      dy[N + i] = (f - mass * dot3(d[i], dd[i]) * w * w) / (mass * dot3(d[i], d[i]));
+      dy[N + i] = (f - lambda * g * w - mass * dot3(d[i], dd[i]) * w * w) / (mass * g);
       for (int a = 0; a < 3; ++a) left[a] = right[a];
     }
   }

@@ -25,9 +25,10 @@ auto visitSystem(const BenchScene& scene, F&& f) {
   if (n == "S1b500") return f(chain(std::integral_constant<int, 500>{}));
   if (n == "S6") return f(LineParallel{mass, o.stiffness[0], o.stiffness[1], x0});
   if (n == "S2a" || n == "S2b" || n == "S7c")
-    return f(CurveBead<EllipseShape, 6>{ellipse(), mass, o.viscosity, coupling.stiffness, coupling.damping});
+    return f(CurveChain<EllipseShape, 1, 6>{ellipse(), mass, o.viscosity, 0, 0, coupling.stiffness, coupling.damping});
   if (n == "S5" || n == "S5h")
-    return f(CurveBead<EpitrochoidShape, 3>{{shape.at("a_m"), shape.at("d_m")}, mass, o.viscosity, coupling.stiffness, coupling.damping});
+    return f(CurveChain<EpitrochoidShape, 1, 3>{
+        {shape.at("a_m"), shape.at("d_m")}, mass, o.viscosity, 0, 0, coupling.stiffness, coupling.damping});
   if (n == "S3")
     return f(
         SurfaceBead<TorusShape, true>{{shape.at("major_m"), shape.at("minor_m")}, mass, o.viscosity, coupling.stiffness, coupling.damping});
@@ -37,7 +38,8 @@ auto visitSystem(const BenchScene& scene, F&& f) {
   if (n == "S7d" || n == "S7e") return f(SurfaceBead<SphereShape, false>{{shape.at("R")}, mass, 0, 0, 0});
   if (n == "S7f") return f(SurfaceBead<SphereShape, true>{{shape.at("R")}, mass, 0, coupling.stiffness, coupling.damping});
   if (n == "S8")
-    return f(CurveChain<EllipseShape, 5, 6>{ellipse(), mass, o.stiffness[0], o.damping[0], coupling.stiffness, coupling.damping});
+    return f(
+        CurveChain<EllipseShape, 5, 6>{ellipse(), mass, o.viscosity, o.stiffness[0], o.damping[0], coupling.stiffness, coupling.damping});
   throw FaultError(Fault{"scene", "is " + n + ", which has no right-hand side here"});
 }
 
