@@ -1,22 +1,16 @@
-#include "base/math/minimum_jerk.h"
 #include "sim/dynamics/rk4_error.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "constraints/constraint.h"
+#include "base/math/minimum_jerk.h"
+#include "constraints/geometry/task_path.h"
 #include "sim/dynamics/hand/hand_function.h"
 
 namespace reachlab::dynamics {
 namespace {
 
 constexpr double kMaxSteps = 1e5;
-
-Vec3 placeAt(const constraints::Constraint& c, const std::vector<double>& q) {
-  if (c.kind == constraints::ConstraintKind::Free) return {q[0], q[1], q[2]};
-  return c.kind == constraints::ConstraintKind::Curve ? constraints::evaluate(c.curve, q[0]).r
-                                                      : constraints::evaluate(c.surface, q[0], q[1]).r;
-}
 
 /// Places of all masses at every `per`-th step, up to the first that fails.
 std::vector<Vec3> drive(Plant& plant, const experiment::Task& task, const HandFunction& hand, double dt, int steps, int per) {
@@ -35,10 +29,8 @@ std::vector<Vec3> drive(Plant& plant, const experiment::Task& task, const HandFu
 }  // namespace
 
 std::optional<double> measureRk4Error(Plant& plant, const experiment::Task& task, const constraints::Constraint& constraint, double step) {
-  const std::size_t wanted =
-      constraint.kind == constraints::ConstraintKind::Free ? 3 : static_cast<std::size_t>(constraint.parameterCount());
-  if (task.start.size() != wanted || task.target.size() != wanted || !(task.duration > 0) || task.duration / step > kMaxSteps) return {};
-  const Vec3 start = placeAt(constraint, task.start), chord = placeAt(constraint, task.target) - start;
+  if (!(task.duration > 0) || task.duration / step > kMaxSteps) return {};
+  const Vec3 start = placeOn(constraint, task.start), chord = placeOn(constraint, task.target) - start;
   if (!isFinite(chord) || !(norm(chord) > 0)) return {};
   const HandFunction hand = [&](double t) {
     const MinimumJerk law = heldMinimumJerk(t / task.duration);

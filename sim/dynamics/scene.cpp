@@ -7,7 +7,9 @@
 
 #include "base/error.h"
 #include "constraints/constraint.h"
+#include "constraints/geometry/task_path.h"
 #include "constraints/regularity/analysis.h"
+#include "constraints/regularity/narrow.h"
 #include "constraints/regularity/period.h"
 #include "constraints/regularity/places.h"
 #include "constraints/regularity/rounding.h"
@@ -75,8 +77,7 @@ SpeedRange findSpeedRange(const constraints::Constraint& constraint, const const
     }
   }
   if (speeds.empty()) return {0, 0};
-  std::nth_element(speeds.begin(), speeds.begin() + static_cast<std::ptrdiff_t>(speeds.size() / 2), speeds.end());
-  range.most = std::min(range.most, std::max(kSteep * speeds[speeds.size() / 2], norm(evaluate(piece.curve, start).rPhi)));
+  range.most = std::min(range.most, std::max(kSteep * constraints::narrow::median(speeds), norm(evaluate(piece.curve, start).rPhi)));
   return range;
 }
 
@@ -155,9 +156,7 @@ void requireDigits(const constraints::Constraint& c, const std::vector<double>& 
     if (c.kind == constraints::ConstraintKind::Curve) look(start[0] + 0.25 * (i - kAcross * kAcross / 2), 0);
     else look(start[0] + 0.25 * (i % kAcross - kAcross / 2), start[1] + 0.25 * (i / kAcross - kAcross / 2));
   }
-  if (excess.empty()) return;
-  std::nth_element(excess.begin(), excess.begin() + static_cast<std::ptrdiff_t>(excess.size() / 2), excess.end());
-  if (excess[excess.size() / 2] > 1)
+  if (!excess.empty() && constraints::narrow::median(excess) > 1)
     throw RefusedError(
         fmt::format("the formula loses its digits: roundings inside it move the mass by {:.2g} m about the start, for large "
                     "numbers cancel in it; write it so that they do not arise",
@@ -179,10 +178,7 @@ void requireNearZero(const constraints::Constraint& c, const constraints::Curve&
 /// Warns of a start so far from the origin that the last digit of a position is more than what is stated.
 void warnOfFarStart(Scene& scene, const std::vector<double>& start) {
   constexpr double kShown = 1e-9;  // [m]
-  const constraints::Constraint& c = *scene.constraint;
-  const Vec3 r = c.kind == constraints::ConstraintKind::Free    ? Vec3{start[0], start[1], start[2]}
-                 : c.kind == constraints::ConstraintKind::Curve ? evaluate(c.curve, start[0]).r
-                                                                : evaluate(c.surface, start[0], start[1]).r;
+  const Vec3 r = placeOn(*scene.constraint, start);
   if (const double digit = 0x1p-52 * norm(r); digit > kShown)
     scene.choice.warnings.push_back(fmt::format(
         "the start lies {:.2g} m from the origin, where the last digit of a position is {:.2g} m; shift the constraint to the origin",

@@ -22,7 +22,7 @@ class DenseCore {
     Column z;
   };
 
-  DenseCore(const ObjectModel& model, bool coupled, double dt)
+  [[gnu::noinline]] DenseCore(const ObjectModel& model, bool coupled, double dt)
       : n_(model.count()), stiffness_(coupled ? model.handStiffness[0] : 0), damping_(coupled ? model.handDamping[0] : 0) {
     const Propagator propagator = computePropagator(model, coupled, dt);
     for (int j = 0; j < 2 * n_; ++j) columns_.push_back(column({propagator.d.data() + j * 2 * n_, static_cast<std::size_t>(2 * n_)}));

@@ -73,7 +73,8 @@ class LinearPlant final : public PlantBase, public EndMasses {
       axisHand.gravity = gravity_[a];
       if (!core.advance(state()[a], axisHand, next()[a])) return StepStatus::NotFinite;
     }
-    if (bounded_ && leaves()) return StepStatus::AtEnd;
+    if constexpr (Axes == 1)
+      if (bounded_ && leaves()) return StepStatus::AtEnd;
     now_ = 1 - now_;  // a read of swapped vectors is wider than the write, and waits for it
     return StepStatus::Ok;
   }
@@ -114,7 +115,7 @@ class LinearPlant final : public PlantBase, public EndMasses {
     double dt;
     Core coupled, alone;
   };
-  std::unique_ptr<Cores> makeCores(double dt) const {
+  [[gnu::noinline]] std::unique_ptr<Cores> makeCores(double dt) const {
     return std::make_unique<Cores>(Cores{dt, Core(model_, true, dt), Core(model_, false, dt)});
   }
   std::vector<typename Core::State>& state() noexcept { return states_[now_]; }
@@ -129,7 +130,7 @@ class LinearPlant final : public PlantBase, public EndMasses {
   static const double* component(const Coefficients& c, int a) noexcept { return a == 0 ? &c[0].x : a == 1 ? &c[0].y : &c[0].z; }
   // This function and selectStep are calls, so that the usual step needs neither their registers nor their stack.
   [[gnu::noinline]] const double* project(const Coefficients& c, int degree, double* out) const noexcept {
-    for (int k = 0; k <= degree; ++k) out[k * AxisHand::kStride] = dot(c[k], axis_);
+    for (int k = 0; k <= (degree | 1); ++k) out[k * AxisHand::kStride] = dot(c[k], axis_);
     return out;
   }
   /// A step other than the compiled one, for the last row of a simulation. It is computed once and kept. Allocates, so a haptic loop never

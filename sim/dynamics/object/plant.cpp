@@ -1,6 +1,10 @@
-#include "sim/dynamics/object/plant.h"
+#include "sim/dynamics/object/plant_base.h"
 
 namespace reachlab::dynamics {
+
+// Here and not in every plant's own code.
+PlantBase::PlantBase(const ObjectModel& model) : model_(model), located_(static_cast<std::size_t>(model.count())) {}
+PlantBase::~PlantBase() = default;
 
 std::string_view describe(StepStatus status) {
   switch (status) {

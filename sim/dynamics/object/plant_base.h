@@ -10,7 +10,8 @@ namespace reachlab::dynamics {
 /// The common part of all plants: the object, its surroundings, counters, and forces and energy from the positions of the masses.
 class PlantBase : public Plant {
  public:
-  explicit PlantBase(ObjectModel model) : model_(std::move(model)), located_(static_cast<std::size_t>(model_.count())) {}
+  explicit PlantBase(const ObjectModel& model);
+  ~PlantBase() override;
 
   int massCount() const noexcept override { return model_.count(); }
   void placeAtRest(std::span<const double> q) noexcept override {
