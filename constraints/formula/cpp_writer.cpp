@@ -66,14 +66,7 @@ CppWriter::CppWriter(ExpressionGraph& graph, const std::vector<int>& roots, Name
   taken_ = names_.variables;
   taken_.insert(taken_.end(), names_.parameters.begin(), names_.parameters.end());
   const std::vector<bool> needed = graph.reachableFrom(roots_);
-  std::vector<int> uses(needed.size(), 0);
-  for (std::size_t id = 0; id < needed.size(); ++id) {
-    if (!needed[id]) continue;
-    const ExpressionNode& n = graph.node(static_cast<int>(id));
-    const int operands = operandCount(n.op);
-    if (operands >= 1) ++uses[static_cast<std::size_t>(n.a)];
-    if (operands == 2) ++uses[static_cast<std::size_t>(n.b)];
-  }
+  std::vector<int> uses = graph.countUses(roots_);
   for (const int root : roots_) ++uses[static_cast<std::size_t>(root)];
   for (std::size_t i = 0; i < needed.size(); ++i) {
     const int id = static_cast<int>(i);

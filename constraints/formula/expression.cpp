@@ -289,6 +289,37 @@ std::vector<bool> ExpressionGraph::reachableFrom(std::span<const int> roots) con
   return needed;
 }
 
+std::vector<int> ExpressionGraph::countUses(std::span<const int> roots) const {
+  const std::vector<bool> needed = reachableFrom(roots);
+  std::vector<int> uses(needed.size(), 0);
+  for (std::size_t id = 0; id < needed.size(); ++id) {
+    if (!needed[id]) continue;
+    const ExpressionNode& n = nodes_[id];
+    const int operands = operandCount(n.op);
+    if (operands >= 1) ++uses[static_cast<std::size_t>(n.a)];
+    if (operands == 2) ++uses[static_cast<std::size_t>(n.b)];
+  }
+  return uses;
+}
+
+OperationList ExpressionGraph::operationsFor(std::span<const int> roots, const double* shape) const {
+  const std::vector<bool> needed = reachableFrom(roots);
+  std::vector<int> place(needed.size(), -1);
+  OperationList list;
+  for (std::size_t id = 0; id < needed.size(); ++id) {
+    if (!needed[id]) continue;
+    ExpressionNode n = nodes_[id];
+    const int operands = operandCount(n.op);
+    if (n.op == Op::Parameter) n = {Op::Constant, -1, -1, shape[n.a]};
+    if (operands >= 1) n.a = place[static_cast<std::size_t>(n.a)];
+    if (operands == 2) n.b = place[static_cast<std::size_t>(n.b)];
+    place[id] = static_cast<int>(list.operations.size());
+    list.operations.push_back(n);
+  }
+  for (const int root : roots) list.roots.push_back(place[static_cast<std::size_t>(root)]);
+  return list;
+}
+
 std::vector<int> ExpressionGraph::expandPowers(std::span<const int> roots) {
   const std::vector<bool> needed = reachableFrom(roots);
   std::vector<int> image(needed.size(), -1);

@@ -47,6 +47,12 @@ struct ExpressionNode {
 /// Value of one operation on numbers, exactly as the compiled forms compute it.
 double applyOp(Op op, double a, double b) noexcept;
 
+/// Nodes without gaps, each after its operands: `a` and `b` are places in the list. A Parameter is a Constant here.
+struct OperationList {
+  std::vector<ExpressionNode> operations;
+  std::vector<int> roots;
+};
+
 /// Expressions that share their equal parts: equal nodes are stored once. Operands precede the nodes that use them, so a walk in index
 /// order needs no recursion. Building simplifies: constants fold, signs and constant factors move outwards, powers of the same base join.
 /// Throws FaultError above kMaxExpressionNodes nodes.
@@ -79,6 +85,10 @@ class ExpressionGraph {
   bool isNeverNegative(int id) const;
   /// Which nodes the roots need.
   std::vector<bool> reachableFrom(std::span<const int> roots) const;
+  /// How often each node is an operand of a node that the roots need.
+  std::vector<int> countUses(std::span<const int> roots) const;
+  /// The nodes that the roots need as a list, with the values of the shape in place of the parameters.
+  OperationList operationsFor(std::span<const int> roots, const double* shape) const;
 
  private:
   struct Key {

@@ -140,29 +140,20 @@ Interval applyOver(Op op, Interval a, Interval b, int exponent, Finiteness& fini
 }
 
 IntervalEvaluator::IntervalEvaluator(const ExpressionGraph& graph, std::span<const int> roots, const double* shape)
-    : graph_(graph), roots_(roots.begin(), roots.end()), shape_(shape), bounds_(static_cast<std::size_t>(graph.size())) {
-  const std::vector<bool> needed = graph.reachableFrom(roots);
-  for (std::size_t id = 0; id < needed.size(); ++id)
-    if (needed[id]) order_.push_back(static_cast<int>(id));
-}
-
-IntervalEvaluator::Bound IntervalEvaluator::boundOf(const ExpressionNode& n, const std::array<Interval, 2>& box) const {
-  const auto applied = [&](const Bound& a, const Bound& b) {
-    Bound result{{}, std::max(a.finiteness, b.finiteness)};
-    result.range = applyOver(n.op, a.range, b.range, n.b, result.finiteness);
-    return result;
-  };
-  const auto known = [&](Interval range) { return applied({range, Finiteness::Finite}, {}); };
-  if (n.op == Op::Constant) return known({n.value, n.value});
-  if (n.op == Op::Variable) return known(box[static_cast<std::size_t>(n.a)]);
-  if (n.op == Op::Parameter) return known({shape_[n.a], shape_[n.a]});
-  return applied(bounds_[static_cast<std::size_t>(n.a)], operandCount(n.op) == 2 ? bounds_[static_cast<std::size_t>(n.b)] : Bound{});
-}
+    : list_(graph.operationsFor(roots, shape)), bounds_(list_.operations.size()), result_(roots.size()) {}
 
 const std::vector<Finiteness>& IntervalEvaluator::evaluate(const std::array<Interval, 2>& box) {
-  for (const int id : order_) bounds_[static_cast<std::size_t>(id)] = boundOf(graph_.node(id), box);
-  result_.clear();
-  for (const int root : roots_) result_.push_back(bounds_[static_cast<std::size_t>(root)].finiteness);
+  for (std::size_t i = 0; i < bounds_.size(); ++i) {
+    const ExpressionNode& n = list_.operations[i];
+    Bound a, b;
+    if (n.op == Op::Constant) a.range = {n.value, n.value};
+    else if (n.op == Op::Variable) a.range = box[static_cast<std::size_t>(n.a)];
+    else a = bounds_[static_cast<std::size_t>(n.a)];
+    if (operandCount(n.op) == 2) b = bounds_[static_cast<std::size_t>(n.b)];
+    bounds_[i].finiteness = std::max(a.finiteness, b.finiteness);
+    bounds_[i].range = applyOver(n.op, a.range, b.range, n.b, bounds_[i].finiteness);
+  }
+  for (std::size_t k = 0; k < result_.size(); ++k) result_[k] = bounds_[static_cast<std::size_t>(list_.roots[k])].finiteness;
   return result_;
 }
 

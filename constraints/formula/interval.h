@@ -27,18 +27,15 @@ class IntervalEvaluator {
   /// Finiteness of each root on the box.
   const std::vector<Finiteness>& evaluate(const std::array<Interval, 2>& box);
   /// Bounds of root k on the box last evaluated.
-  Interval rangeOf(std::size_t k) const { return bounds_[static_cast<std::size_t>(roots_[k])].range; }
+  Interval rangeOf(std::size_t k) const { return bounds_[static_cast<std::size_t>(list_.roots[k])].range; }
 
  private:
   struct Bound {
     Interval range;
     Finiteness finiteness = Finiteness::Finite;
   };
-  Bound boundOf(const ExpressionNode& n, const std::array<Interval, 2>& box) const;
 
-  const ExpressionGraph& graph_;
-  std::vector<int> roots_, order_;
-  const double* shape_;
+  OperationList list_;
   std::vector<Bound> bounds_;
   std::vector<Finiteness> result_;
 };

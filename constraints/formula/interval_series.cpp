@@ -184,25 +184,10 @@ Series magnitudeOf(const Series& a) {
 
 }  // namespace
 
-IntervalSeries::IntervalSeries(const ExpressionGraph& graph, std::span<const int> roots, const double* shape) {
-  const std::vector<bool> needed = graph.reachableFrom(roots);
-  std::vector<int> place(needed.size(), -1);
-  for (std::size_t id = 0; id < needed.size(); ++id) {
-    if (!needed[id]) continue;
-    const ExpressionNode& n = graph.node(static_cast<int>(id));
-    Operation operation{n.op, n.a, n.b, n.op == Op::Parameter ? shape[n.a] : n.value};
-    if (const int operands = operandCount(n.op); operands > 0) {
-      operation.a = place[static_cast<std::size_t>(n.a)];
-      if (operands == 2) operation.b = place[static_cast<std::size_t>(n.b)];
-    }
-    place[id] = static_cast<int>(operations_.size());
-    operations_.push_back(operation);
-  }
-  values_.resize(operations_.size());
-  for (const int root : roots) roots_.push_back(place[static_cast<std::size_t>(root)]);
-}
+IntervalSeries::IntervalSeries(const ExpressionGraph& graph, std::span<const int> roots, const double* shape)
+    : list_(graph.operationsFor(roots, shape)), values_(list_.operations.size()) {}
 
-void IntervalSeries::apply(const Operation& operation, const Series& a, const Series& b, Series& to) noexcept {
+void IntervalSeries::apply(const ExpressionNode& operation, const Series& a, const Series& b, Series& to) noexcept {
   const Interval first = over(operation.op, a[0], b[0], operation.b);
   switch (operation.op) {
     case Op::Add:
@@ -239,10 +224,10 @@ void IntervalSeries::apply(const Operation& operation, const Series& a, const Se
 
 double IntervalSeries::bound(const std::array<Interval, 2>& box, const std::array<Interval, 2>& rate) noexcept {
   static constexpr Series kNothing{};
-  for (std::size_t i = 0; i < operations_.size(); ++i) {
-    const Operation& operation = operations_[i];
+  for (std::size_t i = 0; i < list_.operations.size(); ++i) {
+    const ExpressionNode& operation = list_.operations[i];
     Series& to = values_[i];
-    if (operation.op == Op::Constant || operation.op == Op::Parameter) {
+    if (operation.op == Op::Constant) {
       to = constantOf({operation.value, operation.value});
     } else if (operation.op == Op::Variable) {
       to = constantOf(box[static_cast<std::size_t>(operation.a)]);
@@ -253,7 +238,7 @@ double IntervalSeries::bound(const std::array<Interval, 2>& box, const std::arra
     }
   }
   double squares = 0, largest = 0;  // the squares are of shares of the largest, so that they do not overflow
-  for (const int root : roots_) {
+  for (const int root : list_.roots) {
     const Interval& last = values_[static_cast<std::size_t>(root)][kOrder];
     const double most = std::max(std::abs(last.lo), std::abs(last.hi));
     if (!(most < std::numeric_limits<double>::infinity())) return std::numeric_limits<double>::infinity();
@@ -269,7 +254,7 @@ double IntervalSeries::bound(const std::array<Interval, 2>& box, const std::arra
 
 double IntervalSeries::leastSlope() const noexcept {
   double least = 0;
-  for (const int root : roots_) {
+  for (const int root : list_.roots) {
     const Interval& slope = values_[static_cast<std::size_t>(root)][1];
     least = std::max({least, slope.lo, -slope.hi});
   }

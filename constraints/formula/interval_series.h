@@ -21,16 +21,10 @@ class IntervalSeries {
 
  private:
   using Series = std::array<Interval, kOrder + 1>;
-  struct Operation {
-    Op op = Op::Constant;
-    int a = -1, b = -1;  // earlier operations; Variable: which; PowInt: b is the exponent
-    double value = 0;    // of a Constant or a Parameter
-  };
-  static void apply(const Operation& operation, const Series& a, const Series& b, Series& to) noexcept;
+  static void apply(const ExpressionNode& operation, const Series& a, const Series& b, Series& to) noexcept;
 
-  std::vector<Operation> operations_;
+  OperationList list_;
   std::vector<Series> values_;
-  std::vector<int> roots_;
 };
 
 }  // namespace reachlab::constraints

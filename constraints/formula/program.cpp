@@ -17,14 +17,7 @@ class Compiler {
         next_(shape_ + parameterCount + variableCount) {
     roots_ = graph.expandPowers(roots);
     needed_ = graph.reachableFrom(roots_);
-    uses_.assign(needed_.size(), 0);
-    for (std::size_t id = 0; id < needed_.size(); ++id) {
-      if (!needed_[id]) continue;
-      const ExpressionNode& n = graph.node(static_cast<int>(id));
-      const int operands = operandCount(n.op);
-      if (operands >= 1) ++uses_[static_cast<std::size_t>(n.a)];
-      if (operands == 2) ++uses_[static_cast<std::size_t>(n.b)];
-    }
+    uses_ = graph.countUses(roots_);
     for (const int root : roots_) uses_[static_cast<std::size_t>(root)] += 2;  // an output keeps its own register
     register_.assign(needed_.size(), -1);
     place_.assign(needed_.size(), -1);

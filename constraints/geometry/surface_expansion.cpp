@@ -11,29 +11,13 @@ static_assert(kMaxExpansion == Taylor::kMaxDegree);
 SurfaceFormula::SurfaceFormula(const Constraint& surface) {
   if (surface.kind != ConstraintKind::Surface) throw RefusedError(surface.name + " is no surface");
   const auto& formula = *std::static_pointer_cast<const CompiledFormula>(surface.owner);
-  const ExpressionGraph& graph = formula.graph;
-  const std::vector<int> roots(formula.roots.begin(), formula.roots.begin() + 3);
-  const std::vector<bool> needed = graph.reachableFrom(roots);
-  std::vector<int> place(needed.size(), -1);
-  for (size_t id = 0; id < needed.size(); ++id) {
-    if (!needed[id]) continue;
-    const ExpressionNode& node = graph.node(static_cast<int>(id));
-    place[id] = static_cast<int>(operations_.size());
-    Operation made{node.op, node.a, node.b, node.value};
-    if (node.op == Op::Parameter) made = {Op::Constant, -1, -1, surface.surface.shape[static_cast<size_t>(node.a)]};
-    else if (node.op != Op::Constant && node.op != Op::Variable) {
-      made.a = place[static_cast<size_t>(node.a)];
-      if (operandCount(node.op) == 2) made.b = place[static_cast<size_t>(node.b)];
-    }
-    operations_.push_back(made);
-  }
-  for (size_t k = 0; k < 3; ++k) roots_[k] = place[static_cast<size_t>(roots[k])];
+  list_ = formula.graph.operationsFor(std::span(formula.roots).first(3), surface.surface.shape.data());
 }
 
 SurfaceExpansion SurfaceFormula::expand(double u, double v, int order) const {
-  std::vector<Taylor> value(operations_.size());
-  for (size_t i = 0; i < operations_.size(); ++i) {
-    const Operation& o = operations_[i];
+  std::vector<Taylor> value(list_.operations.size());
+  for (size_t i = 0; i < list_.operations.size(); ++i) {
+    const ExpressionNode& o = list_.operations[i];
     if (o.op == Op::Constant) {
       value[i].c[0] = o.value;
     } else if (o.op == Op::Variable) {
@@ -46,8 +30,8 @@ SurfaceExpansion SurfaceFormula::expand(double u, double v, int order) const {
     }
   }
   SurfaceExpansion d{};
-  const auto &x = value[static_cast<size_t>(roots_[0])].c, &y = value[static_cast<size_t>(roots_[1])].c,
-             &z = value[static_cast<size_t>(roots_[2])].c;
+  const auto &x = value[static_cast<size_t>(list_.roots[0])].c, &y = value[static_cast<size_t>(list_.roots[1])].c,
+             &z = value[static_cast<size_t>(list_.roots[2])].c;
   double aFactorial = 1;
   for (int a = 0; a <= order; aFactorial *= ++a) {
     double factor = aFactorial;

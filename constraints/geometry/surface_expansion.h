@@ -24,13 +24,7 @@ class SurfaceFormula {
   SurfaceExpansion expand(double u, double v, int order) const;
 
  private:
-  struct Operation {
-    Op op = Op::Constant;
-    int a = -1, b = -1;  // earlier operations; Variable: which; PowInt: b is the exponent
-    double value = 0;    // Constant
-  };
-  std::vector<Operation> operations_;  // operands before what uses them
-  std::array<int, 3> roots_{};
+  OperationList list_;
 };
 
 }  // namespace reachlab::constraints

@@ -58,21 +58,14 @@ double handedOn(Op op, const Value& a, const Value& b, int exponent, double valu
 double computeRounding(const Constraint& constraint, double first, double second) {
   const auto formula = std::static_pointer_cast<const CompiledFormula>(constraint.owner);
   if (formula == nullptr) return 0;
-  const ExpressionGraph& graph = formula->graph;
-  const std::array<int, 3> roots{formula->roots[0], formula->roots[1], formula->roots[2]};
   const double* shape = constraint.kind == ConstraintKind::Curve ? constraint.curve.shape.data() : constraint.surface.shape.data();
-  const std::vector<bool> needed = graph.reachableFrom(roots);
-  std::vector<Value> values(needed.size());
-  for (std::size_t id = 0; id < needed.size(); ++id) {
-    if (!needed[id]) continue;
-    const ExpressionNode& n = graph.node(static_cast<int>(id));
-    Value& out = values[id];
-    switch (n.op) {
-      case Op::Constant: out.value = n.value; continue;
-      case Op::Variable: out.value = n.a == 0 ? first : second; continue;
-      case Op::Parameter: out.value = shape[n.a]; continue;
-      default: break;
-    }
+  const OperationList list = formula->graph.operationsFor(std::span(formula->roots).first(3), shape);
+  std::vector<Value> values;
+  for (const ExpressionNode& n : list.operations) {
+    Value& out = values.emplace_back();
+    if (n.op == Op::Constant) out.value = n.value;
+    if (n.op == Op::Variable) out.value = n.a == 0 ? first : second;
+    if (operandCount(n.op) == 0) continue;
     const Value a = values[static_cast<std::size_t>(n.a)];
     const Value b = operandCount(n.op) == 2 ? values[static_cast<std::size_t>(n.b)] : Value{};
     out.value = applyOp(n.op, a.value, n.op == Op::PowInt ? n.b : b.value);
@@ -81,7 +74,7 @@ double computeRounding(const Constraint& constraint, double first, double second
     out.off = off + (exact ? 0 : (n.op >= Op::Pow && n.op <= Op::Log ? kUnitOfFunctions : kUnit) * std::abs(out.value));
   }
   double most = 0;
-  for (const int root : roots) most = std::max(most, values[static_cast<std::size_t>(root)].off);
+  for (const int root : list.roots) most = std::max(most, values[static_cast<std::size_t>(root)].off);
   return most;
 }
 
