@@ -73,17 +73,6 @@ constraints::CurveBatch batchFrom(const constraints::Curve& curve, int first) {
   return points;
 }
 
-double measureBatches(const constraints::Curve& curve) {
-  double sink = 0;
-  const std::int64_t start = os::threadProcessorTime();
-  for (int round = 0; round < kRounds; ++round)
-    for (int i = 0; i < kPlaces; i += kBatchLanes) sink += batchFrom(curve, i).rPhiPhi[0][0];
-  const auto elapsed = static_cast<double>(os::threadProcessorTime() - start);
-  volatile double used = sink;
-  static_cast<void>(used);
-  return elapsed / (kRounds * kPlaces);
-}
-
 // Every component of r and its derivatives at every place.
 std::vector<double> valuesOf(const Candidate& candidate) {
   const constraints::Constraint& c = candidate.evaluated;
@@ -112,21 +101,23 @@ double mostApart(const std::vector<double>& a, const std::vector<double>& b) {
   return most;
 }
 
+/// [ns] of processor time for one place.
 double measure(const Candidate& candidate) {
   const constraints::Constraint& c = candidate.evaluated;
-  if (candidate.batch) return measureBatches(c.curve);
-  double sink = 0;
-  const std::int64_t start = os::threadProcessorTime();
-  for (int round = 0; round < kRounds; ++round)
-    for (int i = 0; i < kPlaces; ++i) {
-      const auto [u, v] = placeOf(i);
-      sink += c.kind == constraints::ConstraintKind::Curve ? constraints::evaluate(c.curve, u).rPhiPhi.x
-                                                           : constraints::evaluate(c.surface, u, v).rVv.x;
-    }
-  const auto elapsed = static_cast<double>(os::threadProcessorTime() - start);
-  volatile double used = sink;
-  static_cast<void>(used);
-  return elapsed / (kRounds * kPlaces);
+  volatile double used = 0;
+  const auto timed = [&](int step, const auto& valueAt) {
+    double sink = 0;
+    const std::int64_t start = os::threadProcessorTime();
+    for (int round = 0; round < kRounds; ++round)
+      for (int i = 0; i < kPlaces; i += step) sink += valueAt(i);
+    const auto elapsed = static_cast<double>(os::threadProcessorTime() - start);
+    used = sink;
+    return elapsed / (kRounds * kPlaces);
+  };
+  if (candidate.batch) return timed(kBatchLanes, [&](int i) { return batchFrom(c.curve, i).rPhiPhi[0][0]; });
+  if (c.kind == constraints::ConstraintKind::Curve)
+    return timed(1, [&](int i) { return constraints::evaluate(c.curve, placeOf(i).first).rPhiPhi.x; });
+  return timed(1, [&](int i) { return constraints::evaluate(c.surface, placeOf(i).first, placeOf(i).second).rVv.x; });
 }
 
 std::vector<Candidate> candidates() {
