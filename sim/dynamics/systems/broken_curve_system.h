@@ -264,14 +264,7 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N>> {
     return told;
   }
   void meetEnd(const State& beyond, State& y, bool bounce) const noexcept {
-    for (int i = 0; i < n(); ++i) {
-      const constraints::CurvePiece& piece = pieceOf(i);
-      const bool low = beyond[i] < piece.lo;
-      if (!low && !(beyond[i] > piece.hi)) continue;
-      y[i] = low ? piece.lo : piece.hi;
-      double& v = y[n() + i];
-      if (bounce) v = low ? std::abs(v) : -std::abs(v);
-    }
+    for (int i = 0; i < n(); ++i) putOnEnd(beyond[i], pieceOf(i).lo, pieceOf(i).hi, bounce, y[i], y[n() + i]);
   }
 
  private:

@@ -154,13 +154,7 @@ struct CurvePlaces {
   }
   template <class State>
   void meetEnd(const State& beyond, State& y, bool bounce) const noexcept {
-    for (int i = 0; i < n(); ++i) {
-      const bool low = beyond[i] < domain.lo;
-      if (!low && !(beyond[i] > domain.hi)) continue;
-      y[i] = low ? domain.lo : domain.hi;
-      double& rate = y[rates() + i];
-      if (bounce) rate = low ? std::abs(rate) : -std::abs(rate);
-    }
+    for (int i = 0; i < n(); ++i) putOnEnd(beyond[i], domain.lo, domain.hi, bounce, y[i], y[rates() + i]);
   }
 };
 

@@ -74,14 +74,8 @@ struct LineSystem {
       if (!(y[i] >= space.domain.lo * length && y[i] <= space.domain.hi * length)) return false;
     return true;
   }
-  /// Puts the mass that is nearest beyond an end onto the end, and turns it round if it `bounces`.
   void meetEnd(const State& beyond, State& y, bool bounce) const noexcept {
-    for (int i = 0; i < n(); ++i) {
-      const bool low = beyond[i] < space.domain.lo * length;
-      if (!low && !(beyond[i] > space.domain.hi * length)) continue;
-      y[i] = (low ? space.domain.lo : space.domain.hi) * length;
-      if (bounce) y[n() + i] = low ? std::abs(y[n() + i]) : -std::abs(y[n() + i]);
-    }
+    for (int i = 0; i < n(); ++i) putOnEnd(beyond[i], space.domain.lo * length, space.domain.hi * length, bounce, y[i], y[n() + i]);
   }
 };
 

@@ -74,6 +74,14 @@ inline std::string plainReason(StepStatus status, const char* noContinuation) {
   return status == StepStatus::NoContinuation ? noContinuation : "";
 }
 
+/// Puts a mass that is `beyond` an end of [lo, hi] onto it, and turns its rate round if it `bounces`.
+inline void putOnEnd(double beyond, double lo, double hi, bool bounces, double& place, double& rate) noexcept {
+  const bool low = beyond < lo;
+  if (!low && !(beyond > hi)) return;
+  place = low ? lo : hi;
+  if (bounces) rate = low ? std::abs(rate) : -std::abs(rate);
+}
+
 template <int N>
 inline constexpr int kMassCapacity = N > 0 ? N : experiment::kMaxMasses;
 
