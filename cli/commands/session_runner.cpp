@@ -53,7 +53,7 @@ void printNoStart(const session::RecordedRun& run) {
   printWait(run);
   const record::RunConfiguration& c = run.configuration();
   fmt::print(stderr, "{}; reach validate EXPERIMENT --device {} compares its workspace with the task\n",
-             c.deviceMapping.empty() ? "the device is not mapped" : "its mapping is " + c.deviceMapping, c.device);
+             c.firstHand.mapping.empty() ? "the device is not mapped" : "its mapping is " + c.firstHand.mapping, c.device);
 }
 
 // Before anybody feels it: what this experiment will meet on this device.

@@ -82,7 +82,7 @@ ReachDemand computeReachDemand(const experiment::CompiledExperiment& experiment,
   asked.forceLimitEndsTrial = false;
   if (asked.task && duration) asked.task->duration = *duration;
   haptics::EngineOptions options;
-  options.hands[0].deviceMaxForce = kNoLimit;
+  options.hands[0].maxForce = kNoLimit;
   options.hands[0].virtualHand = true;
   const experiment::CompiledExperiment compiled(asked, experiment);
   ReachDemand demand;

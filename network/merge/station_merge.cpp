@@ -214,18 +214,18 @@ record::RunConfiguration mergedConfiguration(const std::vector<Station>& station
   c.subject = asked.subject, c.session = asked.session, c.run = c.firstRun = asked.run;
   const record::RunConfiguration& first = stations.front().log.configuration();
   c.device = first.device;
-  record::setFirstDevice(c, record::devicesOf(first).front());
+  c.firstHand = first.firstHand;
   for (std::size_t i = 1; i < stations.size(); ++i) {
     const record::RunConfiguration& o = stations[i].log.configuration();
     c.device += " + " + o.device;
-    c.otherHands.push_back(record::devicesOf(o).front());
+    c.otherHands.push_back(o.firstHand);
   }
   c.methodReason =
       fmt::format("merged from the logs of {} stations, each with a copy of its own ({}); the object is the conductor's, station {}",
                   stations.size(), c.methodReason, conductor.number);
   c.method = kMethod;
   const experiment::CompiledExperiment compiled = record::recordedExperiment(conductor.log.configuration());
-  c.table = record::makeChannelTable(compiled.experiment(), compiled.constraint().parameterCount(), c.rendersForce);
+  c.table = record::makeChannelTable(compiled.experiment(), compiled.constraint().parameterCount(), c.firstHand.rendersForce);
   for (const Station& s : stations)
     for (const record::Channel& channel : linkChannels(s.number, static_cast<int>(stations.size()))) c.table.channels.push_back(channel);
   return c;

@@ -27,7 +27,7 @@ struct DeviceSample {
 
 /// Properties of a device. Numbers from the device itself replace those of a data sheet.
 struct DeviceInfo {
-  std::string name, version;
+  std::string name = {}, version = {};
   double maxForce = 12;           // [N] instantaneous; an experiment may ask for less, never for more
   double maxContinuousForce = 0;  // [N] that its motors stand for ever; 0: unknown, no budget is kept
   double thermalSeconds = 10;     // [s] time constant of the motors' heat, for the budget

@@ -32,26 +32,17 @@ void requireHands(const experiment::Experiment& experiment, std::size_t devices)
         "a device for each of the experiment's hands"});
 }
 
-ForceLimits limitsFor(const experiment::Experiment& experiment, const HandOptions& options) {
-  double most = experiment.forceLimit.value_or(options.deviceMaxForce);
-  if (options.rendersForce) most = std::min(most, options.deviceMaxForce);
-  return {most, options.rendersForce ? options.continuousForce : 0, options.thermalSeconds};
+ForceLimits limitsFor(const experiment::Experiment& experiment, const DeviceInfo& device) {
+  double most = experiment.forceLimit.value_or(device.maxForce);
+  if (device.rendersForce) most = std::min(most, device.maxForce);
+  return {most, device.rendersForce ? device.maxContinuousForce : 0, device.thermalSeconds};
 }
 
 }  // namespace
 
-HandOptions handOptions(const DeviceInfo& device) {
-  return {.deviceMaxForce = device.maxForce,
-          .virtualHand = device.virtualHand,
-          .rendersForce = device.rendersForce,
-          .continuousForce = device.maxContinuousForce,
-          .thermalSeconds = device.thermalSeconds,
-          .guards = device.guards};
-}
-
 EngineOptions engineOptions(HapticDevice& device) {
   EngineOptions options{{}};
-  for (const HapticDevice* hand : device.hands()) options.hands.push_back(handOptions(hand->info()));
+  for (const HapticDevice* hand : device.hands()) options.hands.push_back(hand->info());
   return options;
 }
 
@@ -90,9 +81,9 @@ TickEngine::Stage::Stage(const experiment::Experiment& experiment, dynamics::Sce
   if (experiment.cursor) cursor.emplace(*experiment.cursor, experiment.task->plane, settings.start, settings.target);
 }
 
-TickEngine::Hand::Hand(const experiment::Experiment& experiment, const HandOptions& options)
-    : virtualHand(options.virtualHand), estimator(experiment.velocityEstimator), path(4), safety(limitsFor(experiment, options)),
-      guards(options.guards) {}
+TickEngine::Hand::Hand(const experiment::Experiment& experiment, const DeviceInfo& device)
+    : virtualHand(device.virtualHand), estimator(experiment.velocityEstimator), path(4), safety(limitsFor(experiment, device)),
+      guards(device.guards) {}
 
 void TickEngine::begin(const experiment::Experiment& experiment, const EngineOptions& options) {
   now_ = &stages_.front();
@@ -100,7 +91,7 @@ void TickEngine::begin(const experiment::Experiment& experiment, const EngineOpt
   state_.massCount = now_->scene.plant->massCount();
   state_.handCount = static_cast<std::int32_t>(options.hands.size());
   bool allVirtual = true;
-  for (const HandOptions& hand : options.hands) {
+  for (const DeviceInfo& hand : options.hands) {
     state_.hands[hands_.size()].rendersForce = hand.rendersForce;
     hands_.emplace_back(experiment, hand).lastSeen = now_->settings.start;
     allVirtual = allVirtual && hand.virtualHand;

@@ -30,20 +30,10 @@ struct TickInput {
   bool deviceFault = false;       // latched on a device; its samples are then not valid
 };
 
-/// Properties of one hand's device that the engine needs.
-struct HandOptions {
-  double deviceMaxForce = 12;  // [N] DeviceInfo::maxForce
-  /// DeviceInfo::virtualHand: the hand moves by tick count, so after a gap it is where it was and nothing has to be anchored anew.
-  bool virtualHand = false;
-  /// DeviceInfo::rendersForce. If true, an experiment's limit can only lower the limit of the device. If false, it replaces that limit.
-  bool rendersForce = false;
-  double continuousForce = 0;  // [N] DeviceInfo::maxContinuousForce
-  double thermalSeconds = 10;  // [s] DeviceInfo::thermalSeconds
-  GuardSettings guards = {};   // DeviceInfo::guards
-};
-HandOptions handOptions(const DeviceInfo& device);
 struct EngineOptions {
-  std::vector<HandOptions> hands{HandOptions{}};  // the first hand's at index 0
+  /// The devices of the hands, the first hand's at index 0. A virtual hand moves by tick count, so after a gap it is where it was and nothing
+  /// has to be anchored anew. An experiment's limit can only lower the limit of a device that renders force. It replaces any other limit.
+  std::vector<DeviceInfo> hands{DeviceInfo{}};
 };
 /// Those of the device's hands.
 EngineOptions engineOptions(HapticDevice& device);
@@ -117,7 +107,7 @@ class TickEngine {
   };
   /// The state of one hand: its estimate, where it holds the object, and the limits of its device.
   struct Hand {
-    Hand(const experiment::Experiment& experiment, const HandOptions& options);
+    Hand(const experiment::Experiment& experiment, const DeviceInfo& device);
 
     bool virtualHand;
     VelocityEstimator estimator;

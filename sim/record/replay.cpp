@@ -133,14 +133,7 @@ Replay replayRun(const RunLog& log) { return replayRun(log, {}); }
 Replay replayRun(const RunLog& log, const ReplayHooks& hooks) {
   const RunConfiguration& c = log.configuration();
   const std::vector<experiment::CompiledExperiment> scenes = recordedScenes(c);
-  haptics::EngineOptions options{{}};
-  for (const HandDevice& hand : devicesOf(c))
-    options.hands.push_back({.deviceMaxForce = hand.maxForce,
-                             .virtualHand = hand.virtualHand,
-                             .rendersForce = hand.rendersForce,
-                             .continuousForce = hand.continuousForce,
-                             .thermalSeconds = hand.thermalSeconds,
-                             .guards = hand.guards});
+  const haptics::EngineOptions options{devicesOf(c)};
   const auto made = hooks.makeEngine ? hooks.makeEngine(scenes.front(), options) : std::make_unique<haptics::TickEngine>(scenes, options);
   haptics::TickEngine& engine = *made;
   experiment::Experiment recorded = channelsOfAll(scenes);

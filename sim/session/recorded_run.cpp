@@ -105,12 +105,10 @@ RecordedRun::~RecordedRun() {
 
 void RecordedRun::completeConfiguration() {
   record::RunConfiguration& c = block_.configuration;
-  const haptics::DeviceInfo device = conductor_->device();
-  record::setFirstDevice(c, record::deviceOf(device));
-  c.timing = block_.experiment.experiment().timing;
-  c.otherHands.clear();  // of the run that is resumed
   const std::vector<haptics::DeviceInfo> hands = conductor_->hands();
-  for (auto hand = hands.begin() + 1; hand != hands.end(); ++hand) c.otherHands.push_back(record::deviceOf(*hand));
+  c.firstHand = conductor_->device();
+  c.timing = block_.experiment.experiment().timing;
+  c.otherHands.assign(hands.begin() + 1, hands.end());
   if (const auto& task = block_.experiment.experiment().task) c.rest = task->rest;
   if (options_.instruments != nullptr) c.instruments = options_.instruments->names();
   c.method = choice_.method;
@@ -127,7 +125,7 @@ void RecordedRun::completeConfiguration() {
   c.clock = options_.virtualClock ? "virtual" : "monotonic";
   experiment::Experiment recorded = record::channelsOfAll(block_.scenes);
   if (c.otherHands.empty()) recorded.hands.clear();  // a station records its own hand alone
-  c.table = record::makeChannelTable(recorded, block_.experiment.constraint().parameterCount(), device.rendersForce);
+  c.table = record::makeChannelTable(recorded, block_.experiment.constraint().parameterCount(), c.firstHand.rendersForce);
   c.table.channels.insert(c.table.channels.end(), options_.furtherChannels.begin(), options_.furtherChannels.end());
 }
 

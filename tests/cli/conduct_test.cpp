@@ -61,10 +61,10 @@ TEST(Conduct, TheRecordSaysWithWhatAndWhenItWasMade) {
   ASSERT_EQ(logs.size(), 1u);
   const record::RunConfiguration& c = logs[0].configuration();
   EXPECT_EQ(c.device, "simulated:noise=0");
-  EXPECT_NE(c.deviceName, "");
-  EXPECT_NE(c.deviceVersion, "");
-  EXPECT_GT(c.deviceMaxForce, 0);
-  EXPECT_TRUE(c.virtualHand);
+  EXPECT_NE(c.firstHand.name, "");
+  EXPECT_NE(c.firstHand.version, "");
+  EXPECT_GT(c.firstHand.maxForce, 0);
+  EXPECT_TRUE(c.firstHand.virtualHand);
   EXPECT_EQ(c.method, "exact");
   EXPECT_NE(c.methodReason, "");
   EXPECT_TRUE(c.softwareVersion.starts_with("reachlab ")) << c.softwareVersion;

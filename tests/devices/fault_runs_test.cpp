@@ -394,7 +394,7 @@ void runPlan(Rig& rig, const Plan& plan, bool guarded = true) {
   rig.moveTo({-0.1, 0, 0});
   const auto device = std::make_shared<Tapped>(rig.open(), guarded);
   const haptics::DeviceInfo info = device->info();
-  auto engine = std::make_unique<haptics::TickEngine>(experiment, haptics::EngineOptions{{haptics::handOptions(info)}});
+  auto engine = std::make_unique<haptics::TickEngine>(experiment, haptics::EngineOptions{{info}});
   haptics::LoopCore core(std::move(engine), device, nullptr);
   const double limit = plan.limit > 0 ? std::min(plan.limit, info.maxForce) : info.maxForce;
   constexpr int kTicks = 600;

@@ -37,7 +37,7 @@ Experiment judgedReach() {
 class Reach {
  public:
   explicit Reach(const Experiment& e)
-      : engine(e, EngineOptions{{{.deviceMaxForce = kLimit, .virtualHand = true, .rendersForce = true}}}), hand(engine.protocol().start) {}
+      : engine(e, EngineOptions{{{.maxForce = kLimit, .virtualHand = true, .rendersForce = true}}}), hand(engine.protocol().start) {}
 
   const TickState& tick(trial::Command command = trial::Command::None) {
     TickInput input;

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kLimit = 12;  // [N]
 
-EngineOptions oneHand(bool virtualHand) { return {{{.deviceMaxForce = kLimit, .virtualHand = virtualHand}}}; }
+EngineOptions oneHand(bool virtualHand) { return {{{.maxForce = kLimit, .virtualHand = virtualHand}}}; }
 
 TickInput inputAt(const Vec3& position, trial::Command command = trial::Command::None) {
   TickInput input;
@@ -523,23 +523,6 @@ TEST_F(Engine, AHandThatWasLostBetweenTrialsIsSeenWhereItIs) {
   tick();
   EXPECT_EQ(engine.state().hands[0].hip.position, hand);
   EXPECT_EQ(engine.state().hands[0].hip.velocity, Vec3{});
-}
-
-TEST(HandOptions, AreWhatTheDeviceSaysOfItself) {
-  DeviceInfo info;
-  info.maxForce = 3;
-  info.virtualHand = true;
-  info.rendersForce = true;
-  info.maxContinuousForce = 1.5;
-  info.thermalSeconds = 4;
-  info.guards.wallRadius = 0.2;
-  const HandOptions options = handOptions(info);
-  EXPECT_EQ(options.deviceMaxForce, 3);
-  EXPECT_TRUE(options.virtualHand);
-  EXPECT_TRUE(options.rendersForce);
-  EXPECT_EQ(options.continuousForce, 1.5);
-  EXPECT_EQ(options.thermalSeconds, 4);
-  EXPECT_EQ(options.guards.wallRadius, 0.2);
 }
 
 // What a copy leaves out are masses and hands that are not there, and nothing else.

@@ -46,7 +46,7 @@ class TwoHands : public ::testing::Test {
     for (int i = 0; i < 250; ++i) tick();  // until the ramps are over
   }
   std::function<void(experiment::Experiment&)> change = [](experiment::Experiment&) {};
-  HandOptions second{.deviceMaxForce = 5};
+  DeviceInfo second{.maxForce = 5};
   experiment::Experiment experiment;
   std::unique_ptr<TickEngine> engine;
   std::array<DeviceSample, 2> hands;
@@ -191,7 +191,7 @@ TEST_F(TwoHands, TheSecondDeviceMayRenderForceByItself) {
 
 TEST(TickEngine, RefusesOtherThanADeviceForEachHand) {
   const auto refusal = [](const char* name, std::size_t hands) -> std::string {
-    return refusalOf([&] { TickEngine engine(test::armedAtOnce(name), EngineOptions{std::vector<HandOptions>(hands)}); });
+    return refusalOf([&] { TickEngine engine(test::armedAtOnce(name), EngineOptions{std::vector<DeviceInfo>(hands)}); });
   };
   EXPECT_NE(refusal("chain-two-hands", 1).find("is 1 device where the experiment has 2 hands"), std::string::npos);
   EXPECT_EQ(refusal("chain-two-hands", 2), "");

@@ -38,7 +38,7 @@ Asked askedByAStation(const std::string& name) {
   const experiment::CompiledExperiment experiment{e};
   const auto memory = std::make_unique<LinkMemory>();
   CoupledCopy* copy = nullptr;
-  auto engine = makeStationEngine(experiment, 0, {{{.deviceMaxForce = 12, .virtualHand = true}}}, copy);
+  auto engine = makeStationEngine(experiment, 0, {{{.maxForce = 12, .virtualHand = true}}}, copy);
   StationSink link(*memory, *copy, 0);
   const Vec3 start = engine->protocol().start;
   const auto device = std::make_shared<haptics::test::ScriptedDevice>(start.x, start.x + 0.05, 1000);

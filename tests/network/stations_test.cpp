@@ -37,15 +37,15 @@ class Station {
  public:
   Station(const experiment::CompiledExperiment& experiment, int own, bool conductor, std::int64_t clockNs, const std::string& path)
       : memory_(std::make_unique<LinkMemory>()), clockNs_(clockNs) {
-    const haptics::EngineOptions options{{{.deviceMaxForce = 12, .virtualHand = true}}};
+    const haptics::EngineOptions options{{{.maxForce = 12, .virtualHand = true}}};
     engine_ = makeStationEngine(experiment, own, options, copy_);
     sink_ = std::make_unique<StationSink>(*memory_, *copy_, own);
     record::RunConfiguration c = record::madeConfiguration();
     c.experimentName = "chain-two-hands";
     c.experimentText = experiment.experiment().text;
     c.task = "chaintwohands";
-    c.deviceMaxForce = 12;
-    c.virtualHand = true;
+    c.firstHand.maxForce = 12;
+    c.firstHand.virtualHand = true;
     c.timing = experiment.experiment().timing;
     c.rest = experiment.experiment().task->rest;
     c.trials = {{1, 0, false}};
@@ -352,7 +352,7 @@ TEST(StationSink, IsReadWhileTheCopyMoves) {
   const experiment::CompiledExperiment experiment{experiment::readExperiment("chain-two-hands")};
   const auto memory = std::make_unique<LinkMemory>();
   CoupledCopy* copy = nullptr;
-  const auto engine = makeStationEngine(experiment, 0, {{{.deviceMaxForce = 12, .virtualHand = true}}}, copy);
+  const auto engine = makeStationEngine(experiment, 0, {{{.maxForce = 12, .virtualHand = true}}}, copy);
   StationSink sink(*memory, *copy, 0);
   std::atomic<bool> on{true};
   std::atomic<int> records{0}, wrong{0};

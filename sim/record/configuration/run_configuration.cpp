@@ -22,42 +22,10 @@ constexpr int kSchemaVersion = 1;  // of the configuration's keys: one whose mea
 
 }  // namespace
 
-HandDevice deviceOf(const haptics::DeviceInfo& info) {
-  return {.name = info.name,
-          .version = info.version,
-          .maxForce = info.maxForce,
-          .virtualHand = info.virtualHand,
-          .rendersForce = info.rendersForce,
-          .continuousForce = info.maxContinuousForce,
-          .thermalSeconds = info.thermalSeconds,
-          .guards = info.guards,
-          .mapping = info.mapping};
-}
-
-std::vector<HandDevice> devicesOf(const RunConfiguration& c) {
-  std::vector<HandDevice> devices{{.name = c.deviceName,
-                                   .version = c.deviceVersion,
-                                   .maxForce = c.deviceMaxForce,
-                                   .virtualHand = c.virtualHand,
-                                   .rendersForce = c.rendersForce,
-                                   .continuousForce = c.deviceContinuousForce,
-                                   .thermalSeconds = c.deviceThermalSeconds,
-                                   .guards = c.guards,
-                                   .mapping = c.deviceMapping}};
+std::vector<haptics::DeviceInfo> devicesOf(const RunConfiguration& c) {
+  std::vector<haptics::DeviceInfo> devices{c.firstHand};
   devices.insert(devices.end(), c.otherHands.begin(), c.otherHands.end());
   return devices;
-}
-
-void setFirstDevice(RunConfiguration& c, const HandDevice& device) {
-  c.deviceName = device.name;
-  c.deviceVersion = device.version;
-  c.deviceMaxForce = device.maxForce;
-  c.virtualHand = device.virtualHand;
-  c.rendersForce = device.rendersForce;
-  c.deviceContinuousForce = device.continuousForce;
-  c.deviceThermalSeconds = device.thermalSeconds;
-  c.guards = device.guards;
-  c.deviceMapping = device.mapping;
 }
 
 std::string toJson(const RunConfiguration& c) {

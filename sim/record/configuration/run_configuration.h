@@ -20,18 +20,6 @@ struct Participant {
   std::string handedness;     // R | L | A
 };
 
-/// Facts about the device of a further hand. The device of the first hand is in the configuration itself.
-struct HandDevice {
-  std::string name, version;
-  double maxForce = 0;         // [N]
-  bool virtualHand = false;    // DeviceInfo::virtualHand
-  bool rendersForce = false;   // DeviceInfo::rendersForce
-  double continuousForce = 0;  // [N] 0: no budget was kept
-  double thermalSeconds = 10;  // [s]
-  haptics::GuardSettings guards;
-  std::string mapping;  // DeviceInfo::mapping
-};
-
 /// A kind of trial to one target, of a block that has several (docs/reference/plan.md).
 struct RunScene {
   std::string kind;            // empty: the block has no kinds
@@ -63,15 +51,9 @@ struct RunConfiguration {
   std::vector<trial::PlannedTrial> trials;
   std::optional<std::vector<RunScene>> scenes;  // PlannedTrial::scene is one of them; nullopt: all trials are done in `experimentText`
   std::string device;                           // as asked for: "simulated:noise=0"; several hands' as "A + B"
-  std::string deviceName, deviceVersion;
-  double deviceMaxForce = 0;                                      // [N]
-  bool virtualHand = false;                                       // DeviceInfo::virtualHand
-  bool rendersForce = false;                                      // DeviceInfo::rendersForce
-  double deviceContinuousForce = 0;                               // [N] 0: no budget was kept
-  double deviceThermalSeconds = 10;                               // [s]
+  haptics::DeviceInfo firstHand;                // its device, as far as the list of fields has it
+  std::vector<haptics::DeviceInfo> otherHands;  // the same of the second hand on
   experiment::TimingLimits timing = experiment::kNoTimingLimits;  // that the trials were judged by
-  haptics::GuardSettings guards;                                  // wall, compensation, passivity control
-  std::string deviceMapping;                                      // DeviceInfo::mapping
   experiment::StartRest rest = experiment::kNoStartRest;          // that a trial asked for before it was armed
   std::string instruments;                                        // InstrumentLink::names; empty: none
   std::string method, methodReason;                               // what the scene was compiled to
@@ -81,8 +63,7 @@ struct RunConfiguration {
   double samplingHz = 100;       // of the sample rows
   std::uint32_t sampleEveryTicks = 10;
   Participant participant;
-  std::string notes;                   // by the experimenter
-  std::vector<HandDevice> otherHands;  // of the second hand on
+  std::string notes;  // by the experimenter
   ChannelTable table;
 };
 
@@ -98,10 +79,8 @@ inline const std::string& conditionOf(const RunConfiguration& c, const trial::Pl
   return scene != nullptr ? scene->condition : conditionOf(c);
 }
 
-HandDevice deviceOf(const haptics::DeviceInfo& info);
 /// The devices of all hands, the first hand's at index 0.
-std::vector<HandDevice> devicesOf(const RunConfiguration& configuration);
-void setFirstDevice(RunConfiguration& configuration, const HandDevice& device);
+std::vector<haptics::DeviceInfo> devicesOf(const RunConfiguration& configuration);
 
 std::string toJson(const RunConfiguration& configuration);
 /// Throws FaultError naming `origin` when the text is no configuration, or a configuration that no recording could have

@@ -77,14 +77,15 @@ void visitFields(T& g, const Visit& visit) {
   visit(Field{"passivity_control"}, g.passivityControl);
 }
 
-template <MaybeConst<HandDevice> T, class Visit>
+/// The facts about a device that are recorded: of a further hand. Those of the first hand have other keys, see below.
+template <MaybeConst<haptics::DeviceInfo> T, class Visit>
 void visitFields(T& h, const Visit& visit) {
   visit(Field{"name"}, h.name);
   visit(Field{"version"}, h.version);
   visit(Field{"max_force_n", 0, kMaxNewtons}, h.maxForce);
   visit(Field{"virtual_hand"}, h.virtualHand);
   visit(Field{"renders_force"}, h.rendersForce);
-  visit(Field{"continuous_force_n", 0, kMaxNewtons}, h.continuousForce);
+  visit(Field{"continuous_force_n", 0, kMaxNewtons}, h.maxContinuousForce);
   visit(Field{"thermal_s", 1e-3, 1e6}, h.thermalSeconds);
   visit(Field{"guards"}, h.guards);
   visit(Field{"mapping"}, h.mapping);
@@ -125,13 +126,13 @@ void visitFields(T& c, const Visit& visit) {
   visit(Field{.key = "trials", .most = kMaxTrials}, c.trials);
   visit(Field{.key = "scenes", .most = kMaxScenes}, c.scenes);
   visit(Field{"device"}, c.device);
-  visit(Field{"device_name"}, c.deviceName);
-  visit(Field{"device_version"}, c.deviceVersion);
-  visit(Field{"device_max_force_n", 0, kMaxNewtons}, c.deviceMaxForce);
-  visit(Field{"virtual_hand"}, c.virtualHand);
-  visit(Field{"device_renders_force"}, c.rendersForce);
-  visit(Field{"device_continuous_force_n", 0, kMaxNewtons}, c.deviceContinuousForce);
-  visit(Field{"device_thermal_s", 1e-3, 1e6}, c.deviceThermalSeconds);
+  visit(Field{"device_name"}, c.firstHand.name);
+  visit(Field{"device_version"}, c.firstHand.version);
+  visit(Field{"device_max_force_n", 0, kMaxNewtons}, c.firstHand.maxForce);
+  visit(Field{"virtual_hand"}, c.firstHand.virtualHand);
+  visit(Field{"device_renders_force"}, c.firstHand.rendersForce);
+  visit(Field{"device_continuous_force_n", 0, kMaxNewtons}, c.firstHand.maxContinuousForce);
+  visit(Field{"device_thermal_s", 1e-3, 1e6}, c.firstHand.thermalSeconds);
   visit(Field{"instruments"}, c.instruments);
   visit(Field{"method"}, c.method);
   visit(Field{"method_reason"}, c.methodReason);
@@ -144,8 +145,8 @@ void visitFields(T& c, const Visit& visit) {
   visit(Field{"sample_every_ticks", 1, 1e6}, c.sampleEveryTicks);
   visit(Field{"timing"}, c.timing);
   visit(Field{"start_rest"}, c.rest);
-  visit(Field{"guards"}, c.guards);
-  visit(Field{"device_mapping"}, c.deviceMapping);
+  visit(Field{"guards"}, c.firstHand.guards);
+  visit(Field{"device_mapping"}, c.firstHand.mapping);
   visit(Field{"participant"}, c.participant);
   visit(Field{"notes"}, c.notes);
   visit(Field{.key = "other_hands", .most = experiment::kMaxHands}, c.otherHands);

@@ -391,7 +391,7 @@ TEST_F(Window, AMappingThatIsKeptForTheSubjectIsTakenAndSaid) {
   window.nextTrial();
   ASSERT_NE(window.session().run(), nullptr) << window.message().toStdString();
   EXPECT_TRUE(window.message().contains(file)) << window.message().toStdString();
-  EXPECT_NE(window.session().run()->configuration().deviceMapping.find("1.5"), std::string::npos);
+  EXPECT_NE(window.session().run()->configuration().firstHand.mapping.find("1.5"), std::string::npos);
 }
 
 TEST_F(Window, ADeviceThatIsChosenInItsDockIsTheHandUntilARunHasIt) {
