@@ -45,7 +45,7 @@ class Reader {
 
  private:
   void need(bool holds, const std::string& what, const std::string& allowed) const {
-    if (!holds) throw FaultError(Fault{{}, what, allowed, FilePlace{origin_}});
+    if (!holds) throw FaultError(fileFault(origin_, what, allowed));
   }
 
   std::size_t word(const unsigned char* at) const {

@@ -2,6 +2,10 @@
 
 namespace reachlab {
 
+Fault fileFault(const std::string& file, const std::string& what, const std::string& allowed) {
+  return {{}, what, allowed, FilePlace{file}};
+}
+
 std::string toText(const Fault& fault) {
   std::string text, key = fault.key;
   if (fault.place && fault.place->file.empty()) {

@@ -26,6 +26,8 @@ struct Fault {
   bool operator==(const Fault&) const = default;
 };
 
+/// A fault of a file as a whole.
+Fault fileFault(const std::string& file, const std::string& what, const std::string& allowed = {});
 /// `FILE:LINE:COLUMN: KEY: fault; allowed: …`, without the parts that are empty.
 std::string toText(const Fault& fault);
 /// A line each.

@@ -17,16 +17,15 @@ std::string readTextFile(const std::string& file, std::uintmax_t mostBytes) {
   std::error_code error;
   // A pipe or a device might never end, or never begin.
   if (fs::exists(file, error) && !fs::is_regular_file(file, error) && !fs::is_directory(file, error))
-    throw FaultError(Fault{{}, "is no regular file", "a file on a disk", FilePlace{file}});
+    throw FaultError(fileFault(file, "is no regular file", "a file on a disk"));
   if (const std::uintmax_t size = fs::file_size(file, error); !error && size > mostBytes)
-    throw FaultError(Fault{{}, fmt::format("has {} bytes", size), fmt::format("up to {}", mostBytes), FilePlace{file}});
+    throw FaultError(fileFault(file, fmt::format("has {} bytes", size), fmt::format("up to {}", mostBytes)));
   std::ifstream in(file, std::ios::binary);
-  if (!in) throw FaultError(Fault{{}, fmt::format("cannot be read: {}", std::strerror(errno)), {}, FilePlace{file}});
+  if (!in) throw FaultError(fileFault(file, fmt::format("cannot be read: {}", std::strerror(errno))));
   std::ostringstream text;
   text << in.rdbuf();
   if (text.fail()) (void)in.peek();  // nothing was copied: an empty file is at its end, and what is no file (a folder) is bad
-  if (in.bad() || (text.fail() && !in.eof()))
-    throw FaultError(Fault{{}, fmt::format("cannot be read: {}", std::strerror(errno)), {}, FilePlace{file}});
+  if (in.bad() || (text.fail() && !in.eof())) throw FaultError(fileFault(file, fmt::format("cannot be read: {}", std::strerror(errno))));
   return std::move(text).str();
 }
 

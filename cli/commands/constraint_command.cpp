@@ -228,7 +228,7 @@ void check(const ConstraintOptions& o) {
     try {
       const std::string text = readTextFile(file);
       if (parseJson(text, file).find("object") != nullptr)
-        throw FaultError(Fault{{}, "is an experiment file, no constraint definition; `reach validate` checks it", {}, FilePlace{file}});
+        throw FaultError(fileFault(file, "is an experiment file, no constraint definition; `reach validate` checks it"));
       const constraints::Definition d = constraints::parseDefinition(text, file);
       const constraints::Constraint c = makeIn(file, d, {});
       for (const constraints::ShapeParameter& p : d.shape)

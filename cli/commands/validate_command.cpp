@@ -33,7 +33,7 @@ constexpr const char* kExpected =
 std::string fileOf(const std::string& fileOrName) {
   namespace fs = std::filesystem;
   std::error_code error;
-  if (fs::is_directory(fileOrName, error)) throw FaultError(Fault{{}, "is a folder", kExpected, FilePlace{fileOrName}});
+  if (fs::is_directory(fileOrName, error)) throw FaultError(fileFault(fileOrName, "is a folder", kExpected));
   if (!fs::exists(fileOrName, error))
     if (const auto shipped = experiment::shippedExperimentFile(fileOrName)) return *shipped;
   return session::findPlan(fileOrName).value_or(fileOrName);

@@ -103,10 +103,8 @@ struct RecordedTicks : haptics::NoStages {
     const RecordedTick& tick = ticks[replay.ticks];
     const std::uint64_t expected = ticks.front().tick + replay.ticks;
     if (tick.tick != expected || state.tick != tick.tick)
-      throw FaultError(Fault{{},
-                             fmt::format("tick {} is missing (dropped while recording), so the run cannot be simulated past it", expected),
-                             {},
-                             FilePlace{log.path()}});
+      throw FaultError(fileFault(
+          log.path(), fmt::format("tick {} is missing (dropped while recording), so the run cannot be simulated past it", expected)));
     ++replay.ticks;
     rows.look(state, hooks, replay);
     if (hooks.afterTick) hooks.afterTick(state);

@@ -83,8 +83,7 @@ auto ofDataset(const std::string& text, const std::string& origin, const Work& w
     const Json j = Json::parse(text);
     return work(j);
   } catch (const nlohmann::json::exception&) {
-    throw FaultError(Fault{
-        .what = "is no experiment of a dataset", .allowed = "what reach export writes into code/experiments", .place = FilePlace{origin}});
+    throw FaultError(fileFault(origin, "is no experiment of a dataset", "what reach export writes into code/experiments"));
   }
 }
 
@@ -109,8 +108,7 @@ std::vector<experiment::CompiledExperiment> experimentsFromJson(const std::strin
         return one.at("kind") == orNull(scene.kind) && one.at("target") == orNull(scene.target);
       });
       if (found == all.end())
-        throw FaultError(
-            Fault{.what = fmt::format("has no scene for the condition {} of events.tsv", scene.condition), .place = FilePlace{origin}});
+        throw FaultError(fileFault(origin, fmt::format("has no scene for the condition {} of events.tsv", scene.condition)));
       experiments.push_back(opened(found->at("experiment"), j, origin));
     }
     return experiments;
