@@ -12,6 +12,7 @@
 #include <cstring>
 
 #include "base/system/os.h"
+#include "base/system/descriptor.h"
 
 namespace reachlab::os {
 namespace {
@@ -51,11 +52,8 @@ std::string lockMemory() {
 bool syncFile(int descriptor) noexcept { return ::fdatasync(descriptor) == 0; }
 
 bool syncFolder(const std::string& folder) noexcept {
-  const int descriptor = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  const bool synced = ::fsync(descriptor) == 0;
-  ::close(descriptor);
-  return synced;
+  const Descriptor opened(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  return opened >= 0 && ::fsync(opened) == 0;
 }
 
 void holdStandardDescriptors() noexcept {

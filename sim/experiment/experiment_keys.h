@@ -1,8 +1,7 @@
 #pragma once
 #include <fmt/format.h>
 
-#include <concepts>
-
+#include "base/maybe_const.h"
 #include "base/number_range.h"
 #include "base/ticks.h"
 #include "sim/experiment/checked_experiment.h"
@@ -23,9 +22,6 @@ struct Key {
   bool constants = false;                           // numbers may be written as constants ("2*pi")
   bool diagonal = false;                            // a matrix may be written as its diagonal
 };
-
-template <class T, class Of>
-concept MaybeConst = std::same_as<std::remove_const_t<T>, Of>;
 
 /// In the order of ObjectKind.
 inline const std::vector<std::string> kObjectKindNames{"point", "chain", "parallel", "body", "none"};

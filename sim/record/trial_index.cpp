@@ -3,11 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <map>
 
 #include "base/error.h"
+#include "base/maybe_const.h"
 #include "sim/record/log/atomic_file.h"
 #include "sim/record/log/checksum.h"
 #include "sim/record/log/whole_file.h"
@@ -23,58 +23,49 @@ constexpr std::string_view kMagic = "REACHIDX";
 constexpr std::uint32_t kVersion = 3;
 
 std::string_view asText(std::span<const std::uint8_t> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+std::span<const std::uint8_t> asBytes(std::string_view text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
+
+// What comes before the scenes and trials, in the order of its bytes.
+template <MaybeConst<IndexedRun> T, class Visit>
+void visitMembers(T& run, const Visit& visit) {
+  visit(run.path, run.subject, run.session, run.condition, run.experiment, run.device, run.startedUtc, run.loss);
+  visit(run.bytes, run.changedNs, run.run, run.block, run.day);
+  visit.marks(run.practice, run.healthy);
+}
 
 void encode(const IndexedRun& run, ByteWriter& out) {
-  for (const std::string* text :
-       {&run.path, &run.subject, &run.session, &run.condition, &run.experiment, &run.device, &run.startedUtc, &run.loss})
-    out.putText(*text);
-  out.put(run.bytes);
-  out.put(run.changedNs);
-  for (const int number : {run.run, run.block, run.day}) out.put(static_cast<std::int32_t>(number));
-  out.put(static_cast<std::uint8_t>((run.practice ? 1 : 0) | (run.healthy ? 2 : 0)));
-  out.put(static_cast<std::uint32_t>(run.scenes.size()));
-  for (const IndexedScene& scene : run.scenes)
-    for (const std::string* text : {&scene.kind, &scene.target, &scene.condition}) out.putText(*text);
-  out.put(static_cast<std::uint32_t>(run.trials.size()));
+  const PutMembers put{out};
+  visitMembers(run, put);
+  put(static_cast<std::uint32_t>(run.scenes.size()));
+  for (const IndexedScene& scene : run.scenes) put(scene.kind, scene.target, scene.condition);
+  put(static_cast<std::uint32_t>(run.trials.size()));
   ByteWriter one;
   for (const RecordedTrial& trial : run.trials) {
     one.clear();
     record::encode(trial, {}, one);
-    out.put(static_cast<std::uint32_t>(one.size()));
-    out.putBytes(one.bytes().data(), one.size());
-    out.put(static_cast<std::uint8_t>(trial.complete));
-    out.put(static_cast<std::int32_t>(trial.planned.scene));
+    out.putText(asText(one.bytes()));
+    put.marks(trial.complete);
+    put(trial.planned.scene);
   }
 }
 
-bool decode(ByteReader& in, std::span<const std::uint8_t> all, IndexedRun& run) {
-  for (std::string* text :
-       {&run.path, &run.subject, &run.session, &run.condition, &run.experiment, &run.device, &run.startedUtc, &run.loss})
-    *text = in.getText();
-  run.bytes = in.get<std::uint64_t>();
-  run.changedNs = in.get<std::int64_t>();
-  for (int* number : {&run.run, &run.block, &run.day}) *number = in.get<std::int32_t>();
-  const auto flags = in.get<std::uint8_t>();
-  run.practice = (flags & 1) != 0;
-  run.healthy = (flags & 2) != 0;
-  const auto scenes = in.get<std::uint32_t>();
+bool decode(ByteReader& in, IndexedRun& run) {
+  const GetMembers get{in};
+  visitMembers(run, get);
+  std::uint32_t scenes = 0, trials = 0;
+  get(scenes);
   if (!in.ok() || scenes > in.left()) return false;
-  for (std::uint32_t i = 0; i < scenes; ++i) {
-    IndexedScene& scene = run.scenes.emplace_back();
-    for (std::string* text : {&scene.kind, &scene.target, &scene.condition}) *text = in.getText();
-  }
-  const auto count = in.get<std::uint32_t>();
-  if (!in.ok() || count > in.left()) return false;
-  run.trials.reserve(count);
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const auto size = in.get<std::uint32_t>();
-    if (!in.ok() || size > in.left()) return false;
+  run.scenes.resize(scenes);
+  for (IndexedScene& scene : run.scenes) get(scene.kind, scene.target, scene.condition);
+  get(trials);
+  if (!in.ok() || trials > in.left()) return false;
+  run.trials.resize(trials);
+  for (RecordedTrial& trial : run.trials) {
     TrialLink link;
-    run.trials.push_back(decodeTrial(all.subspan(all.size() - in.left(), size), link));
-    for (std::uint32_t k = 0; k < size; ++k) (void)in.get<std::uint8_t>();
-    run.trials.back().complete = in.get<std::uint8_t>() != 0;
-    const int scene = run.trials.back().planned.scene = in.get<std::int32_t>();
-    if (scene < 0 || scene >= std::max(1, static_cast<int>(scenes))) return false;
+    trial = decodeTrial(asBytes(in.getText()), link);
+    get.marks(trial.complete);
+    get(trial.planned.scene);
+    if (trial.planned.scene < 0 || trial.planned.scene >= std::max(1, static_cast<int>(scenes))) return false;
   }
   return in.ok();
 }
@@ -87,16 +78,15 @@ std::map<std::string, IndexedRun> readIndex(const std::string& file) {
     const std::string text = readWholeFile(file);
     if (text.size() < kMagic.size() + 12 || !text.starts_with(kMagic)) return known;
     const std::string_view body(text.data() + kMagic.size(), text.size() - kMagic.size() - 4);
-    const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(body.data()), body.size());
     std::uint32_t stored = 0;
     std::memcpy(&stored, text.data() + text.size() - 4, 4);
     if (stored != checksum(body.data(), body.size())) return known;
-    ByteReader in(bytes);
+    ByteReader in(asBytes(body));
     if (in.get<std::uint32_t>() != kVersion) return known;
     const auto runs = in.get<std::uint32_t>();
     for (std::uint32_t i = 0; i < runs && in.ok(); ++i) {
       IndexedRun run;
-      if (!decode(in, bytes, run)) return {};
+      if (!decode(in, run)) return {};
       std::string path = run.path;
       known.emplace(std::move(path), std::move(run));
     }

@@ -17,6 +17,7 @@
 
 #include "base/error.h"
 #include "base/fault.h"
+#include "base/system/descriptor.h"
 #include "sim/record/log/append_file.h"
 #include "sim/record/log/atomic_file.h"
 #include "sim/record/log/log.h"
@@ -63,9 +64,6 @@ class Pieces {
     if (fromDisk) (void)::posix_fadvise(file_, 0, 0, POSIX_FADV_DONTNEED);
     buffer_.resize(kPiece);
   }
-  ~Pieces() { ::close(file_); }
-  Pieces(const Pieces&) = delete;
-  Pieces& operator=(const Pieces&) = delete;
   std::string_view next() {
     ssize_t count = -1;
     do count = ::read(file_, buffer_.data(), buffer_.size());
@@ -77,7 +75,7 @@ class Pieces {
  private:
   [[noreturn]] void fail(const char* what) const { throw ResourceError(fmt::format("{}: {}: {}", path_, what, std::strerror(errno))); }
   std::string path_, buffer_;
-  int file_;
+  os::Descriptor file_;
 };
 
 std::string fileHash(const std::string& path, bool fromDisk) {
@@ -196,7 +194,7 @@ class Backup {
 
   BackupReport run() {
     if (isInside(backup_, dataset_))
-      throw FaultError(Fault{{}, "lies in the dataset itself", "a folder elsewhere, best on another disk", FilePlace{backup_.string()}});
+      throw FaultError(fileFault(backup_.string(), "lies in the dataset itself", "a folder elsewhere, best on another disk"));
     const auto [files, unreadable] = filesOf(dataset_, backup_);
     std::vector<RunName> left;  // runs that are not copied
     std::string refused = unreadable;

@@ -133,21 +133,6 @@ TEST(LogWriter, WritesHeaderAndRecordsByteByByteAsDocumented) {
   EXPECT_EQ(numberAt<std::uint32_t>(bytes, 49), crcOf(bytes, 37, 12));
 }
 
-TEST(LogWriter, GoesOnWhereALogWasCut) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  const auto offsets = writeLog(path, {payloadOf(10), payloadOf(20), payloadOf(30)});
-  LogWriter writer = LogWriter::resume(path, offsets[2], 2);
-  EXPECT_EQ(writer.append(RecordType::End, payloadOf(3, 9)), offsets[2]);
-  LogReader reader(path);
-  RecordView record;
-  for (int i = 0; i < 3; ++i) ASSERT_TRUE(reader.next(record)) << i;
-  EXPECT_EQ(record.type, RecordType::End);
-  EXPECT_EQ(Bytes(record.payload.begin(), record.payload.end()), payloadOf(3, 9));
-  EXPECT_FALSE(reader.next(record));
-  EXPECT_EQ(reader.goodEnd(), reader.fileSize());
-}
-
 TEST(LogWriter, ARecordHolds64MiBAndNoByteMore) {
   const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";

@@ -1,6 +1,7 @@
 #pragma once
 #include <limits>
 
+#include "base/maybe_const.h"
 #include "base/ticks.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/record/configuration/json_fields.h"
@@ -10,9 +11,6 @@
 /// The fields of a run's configuration in JSON: the only list for reading, writing and comparing. A new field is one member in
 /// run_configuration.h and one line here. The member is a std::optional, since recordings of 0.2.0 do not have it.
 namespace reachlab::record {
-
-template <class T, class Of>
-concept MaybeConst = std::same_as<std::remove_const_t<T>, Of>;
 
 inline constexpr double kMaxTrials = 1e7, kMaxForeperiod = 1e9, kMaxChannels = 1e4, kMaxNewtons = 1e6, kMaxScenes = 1e5;
 inline constexpr double kAny = std::numeric_limits<double>::max();  // a request has no bound

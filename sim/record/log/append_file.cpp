@@ -10,7 +10,6 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
-#include <utility>
 
 #include "base/error.h"
 #include "base/system/os.h"
@@ -52,21 +51,6 @@ AppendFile AppendFile::openAt(const std::string& path, std::uint64_t size) {
   return file;
 }
 
-AppendFile::~AppendFile() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-AppendFile::AppendFile(AppendFile&& other) noexcept
-    : descriptor_(std::exchange(other.descriptor_, -1)), path_(std::move(other.path_)), size_(other.size_), torn_(other.torn_) {}
-
-AppendFile& AppendFile::operator=(AppendFile&& other) noexcept {
-  std::swap(descriptor_, other.descriptor_);
-  std::swap(path_, other.path_);
-  std::swap(size_, other.size_);
-  std::swap(torn_, other.torn_);
-  return *this;
-}
-
 void AppendFile::append(std::span<const std::uint8_t> bytes) {
   if (torn_ && ::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0) failByErrno("cannot be cut to its good part", path_);
   torn_ = false;
@@ -101,11 +85,8 @@ std::string writerOf(const std::string& path) {
 }
 
 bool isBeingWritten(const std::string& path) {
-  const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (descriptor < 0) return false;
-  const bool locked = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
-  ::close(descriptor);
-  return locked;
+  const os::Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  return file >= 0 && ::flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
 }
 
 }  // namespace reachlab::record

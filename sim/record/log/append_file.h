@@ -3,6 +3,8 @@
 #include <span>
 #include <string>
 
+#include "base/system/descriptor.h"
+
 namespace reachlab::record {
 
 /// A file that only grows, held under an exclusive lock so that no second program writes or repairs it. Move-only. One thread at a time.
@@ -13,10 +15,6 @@ class AppendFile {
   static AppendFile create(const std::string& path);
   /// Opens an existing file, cut back to `size` bytes.
   static AppendFile openAt(const std::string& path, std::uint64_t size);
-  ~AppendFile();
-  AppendFile(AppendFile&& other) noexcept;
-  AppendFile& operator=(AppendFile&& other) noexcept;
-
   /// All or nothing: a part that a full disk has let through is cut off again. While it cannot be cut off, nothing is written behind it,
   /// since reading ends at an incomplete record.
   void append(std::span<const std::uint8_t> bytes);
@@ -29,7 +27,7 @@ class AppendFile {
 
  private:
   AppendFile(int descriptor, std::string path, std::uint64_t size) : descriptor_(descriptor), path_(std::move(path)), size_(size) {}
-  int descriptor_ = -1;
+  os::Descriptor descriptor_;
   std::string path_;
   std::uint64_t size_ = 0;  // of the good part
   bool torn_ = false;       // a part of a record follows the good part

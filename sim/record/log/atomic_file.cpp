@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -10,7 +9,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <random>
-#include <utility>
 #include <vector>
 
 #include "base/error.h"
@@ -84,7 +82,7 @@ void removeTemporary(const std::string& temporary) {
 
 TemporaryFile::TemporaryFile(const std::string& path) : path_(path) {
   makePlaceFor(path);
-  descriptor_ = openTemporary(path, temporary_);
+  descriptor_ = os::Descriptor(openTemporary(path, temporary_));
   if (descriptor_ < 0) failByErrno("cannot be created", path);
 }
 
@@ -95,8 +93,6 @@ void TemporaryFile::drop() {
   removeTemporary(temporary_);
   close();
 }
-
-void TemporaryFile::close() { ::close(std::exchange(descriptor_, -1)); }
 
 void AtomicFile::giveUp() {
   const int reason = errno;
@@ -162,13 +158,9 @@ void ForeignFile::commit() {
 
 void ForeignFile::giveUp(const std::string& what) {
   // A library says only that it failed. If the disk takes nothing more either, then that is why.
-  const int own = ::open(openFileOf(descriptor_).c_str(), O_WRONLY | O_APPEND | O_CLOEXEC);
+  const os::Descriptor own(::open(openFileOf(descriptor_).c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
   const std::vector<std::uint8_t> some(kBytesAWrite);
-  const bool good = own >= 0 && writeAll(own, some.data(), some.size()) && os::syncFile(own);
-  const int reason = errno;
-  if (own >= 0) ::close(own);
-  errno = reason;
-  if (!good) failByErrno("cannot be written", path_);
+  if (own < 0 || !writeAll(own, some.data(), some.size()) || !os::syncFile(own)) failByErrno("cannot be written", path_);
   throw ResourceError(fmt::format("{}: cannot be written: {}; check the folder and the space on its disk", path_, what));
 }
 

@@ -3,6 +3,8 @@
 #include <string>
 #include <string_view>
 
+#include "base/system/descriptor.h"
+
 namespace reachlab::record {
 
 /// Takes a long text piece by piece.
@@ -19,9 +21,9 @@ class TemporaryFile {
   explicit TemporaryFile(const std::string& path);
   ~TemporaryFile();
   void drop();
-  void close();
+  void close() { descriptor_ = os::Descriptor(); }
   std::string path_, temporary_;
-  int descriptor_ = -1;
+  os::Descriptor descriptor_;
 };
 
 /// Text that is appended piece by piece.

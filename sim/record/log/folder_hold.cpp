@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
@@ -26,22 +25,14 @@ void makeFolders(const std::string& path) {
 
 FolderHold::FolderHold(const std::string& folder, WithoutLocks otherwise) {
   makeFolders(folder);
-  descriptor_ = os::aboveStandardDescriptors(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  descriptor_ = os::Descriptor(os::aboveStandardDescriptors(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)));
   const bool refuse = otherwise == WithoutLocks::Refuse;
   if (descriptor_ < 0 && refuse) throw ResourceError(fmt::format("{}: cannot be opened: {}", folder, std::strerror(errno)));
-  while (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX) != 0) {
-    if (errno == EINTR) continue;
-    const int fault = errno;
-    ::close(descriptor_);
-    descriptor_ = -1;
-    if (refuse)
-      throw ResourceError(fmt::format("{}: cannot be locked against a second program: {}; choose a folder on a disk with locks", folder,
-                                      std::strerror(fault)));
-  }
-}
-
-FolderHold::~FolderHold() {
-  if (descriptor_ >= 0) ::close(descriptor_);
+  int locked = -1;
+  while (descriptor_ >= 0 && (locked = ::flock(descriptor_, LOCK_EX)) != 0 && errno == EINTR) {}
+  if (locked != 0 && refuse)
+    throw ResourceError(fmt::format("{}: cannot be locked against a second program: {}; choose a folder on a disk with locks", folder,
+                                    std::strerror(errno)));
 }
 
 }  // namespace reachlab::record

@@ -1,6 +1,8 @@
 #pragma once
 #include <string>
 
+#include "base/system/descriptor.h"
+
 namespace reachlab::record {
 
 /// Makes a folder and the folders above it. Throws ResourceError.
@@ -13,12 +15,9 @@ class FolderHold {
   enum class WithoutLocks { Refuse, HoldNothing };  // on a file system without locks
   /// Throws ResourceError where `Refuse` is asked for and the folder cannot be locked.
   FolderHold(const std::string& folder, WithoutLocks otherwise);
-  ~FolderHold();
-  FolderHold(const FolderHold&) = delete;
-  FolderHold& operator=(const FolderHold&) = delete;
 
  private:
-  int descriptor_;
+  os::Descriptor descriptor_;
 };
 
 }  // namespace reachlab::record

@@ -9,7 +9,6 @@
 #include <array>
 #include <bit>
 #include <cerrno>
-#include <utility>
 
 #include "base/error.h"
 #include "base/fault.h"
@@ -58,11 +57,7 @@ void ByteWriter::putBytes(const void* data, std::size_t size) {
 
 std::string ByteReader::getText() {
   const auto size = get<std::uint32_t>();
-  if (size > left()) {
-    ok_ = false;
-    at_ = bytes_.size();
-    return {};
-  }
+  if (size > left()) return fail(), std::string();
   std::string text(reinterpret_cast<const char*>(bytes_.data() + at_), size);
   at_ += size;
   return text;
@@ -74,18 +69,10 @@ LogWriter LogWriter::create(const std::string& path) {
   return writer;
 }
 
-LogWriter LogWriter::resume(const std::string& path, std::uint64_t size, std::uint32_t nextSequence) {
-  LogWriter writer(AppendFile::openAt(path, size));
-  writer.sequence_ = nextSequence;
-  return writer;
-}
-
 std::uint64_t LogWriter::append(RecordType type, std::span<const std::uint8_t> payload) {
   if (payload.size() > kMaxPayloadBytes)
-    throw FaultError(Fault{{},
-                           fmt::format("a record of {} bytes", payload.size()),
-                           fmt::format("up to {}: plan fewer trials a run", kMaxPayloadBytes),
-                           FilePlace{path()}});
+    throw FaultError(fileFault(path(), fmt::format("a record of {} bytes", payload.size()),
+                               fmt::format("up to {}: plan fewer trials a run", kMaxPayloadBytes)));
   frame_.resize(kRecordFrameBytes + payload.size());
   const auto length = static_cast<std::uint32_t>(payload.size());
   const auto number = static_cast<std::uint16_t>(type);
@@ -106,49 +93,20 @@ std::uint64_t LogWriter::append(RecordType type, std::span<const std::uint8_t> p
 
 void LogWriter::sync() { file_.sync(); }
 
-LogReader::LogReader(const std::string& path) : path_(path) {
-  // Without O_NONBLOCK opening a pipe would wait for somebody to write into it.
-  descriptor_ = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+// Without O_NONBLOCK opening a pipe would wait for somebody to write into it.
+LogReader::LogReader(const std::string& path) : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {
   if (descriptor_ < 0) throw ResourceError(fmt::format("{}: cannot be opened: {}", path, std::strerror(errno)));
-  try {
-    struct stat status {};
-    if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode))
-      throw FaultError(Fault{{}, "no regular file, so no log of reachlab", {}, FilePlace{path}});
-    size_ = static_cast<std::uint64_t>(status.st_size);
-    const std::span<const std::uint8_t> header = bytesAt(0, kLogHeaderBytes);
-    const bool signature = !header.empty() && std::memcmp(header.data(), kSignature.data(), kSignature.size()) == 0 &&
-                           checksum(header.data(), 12) == load<std::uint32_t>(header.data() + 12);
-    if (!signature) throw FaultError(Fault{{}, "not a log of reachlab, or its first 16 bytes are damaged", {}, FilePlace{path}});
-    if (const auto version = load<std::uint32_t>(header.data() + 8); version != kLogSchemaVersion)
-      throw FaultError(Fault{{},
-                             fmt::format("log of schema version {}", version),
-                             fmt::format("{}, the version that this program reads", kLogSchemaVersion),
-                             FilePlace{path}});
-  } catch (...) {
-    ::close(descriptor_);
-    throw;
-  }
-}
-
-LogReader::~LogReader() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
-
-LogReader::LogReader(LogReader&& other) noexcept
-    : path_(std::move(other.path_)), descriptor_(std::exchange(other.descriptor_, -1)), size_(other.size_),
-      window_(std::move(other.window_)), windowBegin_(other.windowBegin_), ahead_(other.ahead_), at_(other.at_),
-      sequence_(other.sequence_) {}
-
-LogReader& LogReader::operator=(LogReader&& other) noexcept {
-  std::swap(path_, other.path_);
-  std::swap(descriptor_, other.descriptor_);
-  std::swap(size_, other.size_);
-  std::swap(window_, other.window_);
-  std::swap(windowBegin_, other.windowBegin_);
-  std::swap(ahead_, other.ahead_);
-  std::swap(at_, other.at_);
-  std::swap(sequence_, other.sequence_);
-  return *this;
+  struct stat status {};
+  if (::fstat(descriptor_, &status) != 0 || !S_ISREG(status.st_mode))
+    throw FaultError(fileFault(path, "no regular file, so no log of reachlab"));
+  size_ = static_cast<std::uint64_t>(status.st_size);
+  const std::span<const std::uint8_t> header = bytesAt(0, kLogHeaderBytes);
+  const bool signature = !header.empty() && std::memcmp(header.data(), kSignature.data(), kSignature.size()) == 0 &&
+                         checksum(header.data(), 12) == load<std::uint32_t>(header.data() + 12);
+  if (!signature) throw FaultError(fileFault(path, "not a log of reachlab, or its first 16 bytes are damaged"));
+  if (const auto version = load<std::uint32_t>(header.data() + 8); version != kLogSchemaVersion)
+    throw FaultError(fileFault(path, fmt::format("log of schema version {}", version),
+                               fmt::format("{}, the version that this program reads", kLogSchemaVersion)));
 }
 
 // `size` bytes of the file, or none when it does not reach that far (any more). Throws ResourceError when the disk cannot be read.

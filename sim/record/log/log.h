@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
 #include <cstring>
-#include <memory>
 #include <span>
 #include <string>
 #include <string_view>
@@ -70,17 +69,18 @@ class ByteReader {
   T get() {
     static_assert(std::is_arithmetic_v<T>);
     T value{};
-    if (bytes_.size() - at_ < sizeof value) {
-      ok_ = false;
-      at_ = bytes_.size();
-      return value;
-    }
+    if (left() < sizeof value) return fail(), value;
     std::memcpy(&value, bytes_.data() + at_, sizeof value);
     at_ += sizeof value;
     return value;
   }
   std::string getText();
   bool ok() const { return ok_; }
+  /// Nothing more is read, and the bytes are not ok.
+  void fail() {
+    ok_ = false;
+    at_ = bytes_.size();
+  }
   std::size_t left() const { return bytes_.size() - at_; }
 
  private:
@@ -94,9 +94,6 @@ class LogWriter {
  public:
   /// Creates the file with its header. A file that exists is refused (ResourceError).
   static LogWriter create(const std::string& path);
-  /// Continues after the last good record of a log that was scanned. The caller has checked `nextSequence` and `size`.
-  static LogWriter resume(const std::string& path, std::uint64_t size, std::uint32_t nextSequence);
-
   /// Hands the record to the kernel in one write and returns its offset in the file. A write cut short by a full disk is taken
   /// back, so that the log still ends with a good record.
   std::uint64_t append(RecordType type, std::span<const std::uint8_t> payload);
@@ -128,9 +125,6 @@ class LogReader {
  public:
   /// Throws FaultError when the file is no log or of a newer schema, ResourceError when it cannot be opened.
   explicit LogReader(const std::string& path);
-  ~LogReader();
-  LogReader(LogReader&&) noexcept;
-  LogReader& operator=(LogReader&&) noexcept;
 
   /// The next good record. False at the end or at the first damage (`goodEnd() < fileSize()` tells them apart).
   bool next(RecordView& record);
@@ -150,7 +144,7 @@ class LogReader {
   std::span<const std::uint8_t> bytesAt(std::uint64_t offset, std::size_t size);
 
   std::string path_;
-  int descriptor_ = -1;
+  os::Descriptor descriptor_;
   std::uint64_t size_ = 0;               // of the file when it was opened
   std::vector<std::uint8_t> window_;     // the part of the file that was read last,
   std::uint64_t windowBegin_ = 0;        // and where it begins

@@ -9,40 +9,92 @@
 /// Payloads of the log's records, to bytes and back (docs/recording.md). Decoding throws FaultError on bytes that no writer makes.
 namespace reachlab::record {
 
-/// Collects the ticks of one block.
-class TickBlock {
+/// Puts the members of a record, one behind the other. An enumerator is one byte, and so are up to eight marks.
+struct PutMembers {
+  ByteWriter& out;
+  template <class... Members>
+  void operator()(const Members&... members) const {
+    (put(members), ...);
+  }
+  void marks(std::same_as<bool> auto... marks) const {
+    unsigned bits = 0, bit = 1;
+    ((bits |= marks ? bit : 0u, bit <<= 1), ...);
+    out.put(static_cast<std::uint8_t>(bits));
+  }
+
+ private:
+  void put(const std::string& text) const { out.putText(text); }
+  template <class T>
+  void put(const T& value) const {
+    if constexpr (std::is_enum_v<T>) out.put(static_cast<std::uint8_t>(value));
+    else out.put(value);
+  }
+};
+
+/// Gets them again. An enumerator that there is not counts as a read beyond the end.
+struct GetMembers {
+  ByteReader& in;
+  template <class... Members>
+  void operator()(Members&... members) const {
+    (get(members), ...);
+  }
+  void marks(std::same_as<bool> auto&... marks) const {
+    unsigned bits = in.get<std::uint8_t>();
+    ((marks = (bits & 1) != 0, bits >>= 1), ...);
+  }
+
+ private:
+  static constexpr EventKind lastOf(EventKind) { return kLastEventKind; }
+  static constexpr trial::Outcome lastOf(trial::Outcome) { return trial::Outcome::Interrupted; }
+  static constexpr trial::Reason lastOf(trial::Reason) { return trial::kLastReason; }
+  void get(std::string& text) const { text = in.getText(); }
+  template <class T>
+  void get(T& value) const {
+    if constexpr (std::is_enum_v<T>) {
+      value = static_cast<T>(in.get<std::uint8_t>());
+      if (value > lastOf(value)) in.fail();
+    } else {
+      value = in.get<T>();
+    }
+  }
+};
+
+/// A payload that grows entry by entry behind its count.
+class Block {
  public:
-  /// `device`: the first hand's sample.
-  void add(const TickStamp& tick, const haptics::DeviceSample& device);
   bool empty() const { return count_ == 0; }
   std::uint32_t count() const { return count_; }
   /// The payload so far. Call `clear` before the next block.
   std::span<const std::uint8_t> payload();
   void clear();
 
- private:
+ protected:
   ByteWriter bytes_;
+  std::uint32_t count_ = 0;
+};
+
+/// Collects the ticks of one block.
+class TickBlock : public Block {
+ public:
+  /// `device`: the first hand's sample.
+  void add(const TickStamp& tick, const haptics::DeviceSample& device);
+
+ private:
   TickStamp last_;
   Vec3 lastPosition_;  // [m]
-  std::uint32_t count_ = 0;
 };
 void decodeTicks(std::span<const std::uint8_t> payload, std::vector<RecordedTick>& out);
 
 /// Collects a further hand's raw samples, one for each tick of the block of ticks that goes before it.
-class HandBlock {
+class HandBlock : public Block {
  public:
   /// `hand` from 2.
   explicit HandBlock(int hand) : hand_(hand) {}
   void add(const haptics::DeviceSample& sample);
-  bool empty() const { return count_ == 0; }
-  std::span<const std::uint8_t> payload();
-  void clear();
 
  private:
   int hand_;
-  ByteWriter bytes_;
   Vec3 last_;  // [m]
-  std::uint32_t count_ = 0;
 };
 /// The samples and whose they are, from 2.
 struct HandTicks {
@@ -52,18 +104,13 @@ struct HandTicks {
 HandTicks decodeHandTicks(std::span<const std::uint8_t> payload);
 
 /// Collects rows of the derived channels.
-class SampleBlock {
+class SampleBlock : public Block {
  public:
   explicit SampleBlock(std::size_t columns) : columns_(columns) {}
   void add(std::uint64_t tick, const double* row);
-  bool empty() const { return count_ == 0; }
-  std::span<const std::uint8_t> payload();
-  void clear();
 
  private:
-  ByteWriter bytes_;
   std::size_t columns_;
-  std::uint32_t count_ = 0;
 };
 /// Rows with firstTick <= tick <= lastTick are appended.
 std::uint64_t firstTickOf(std::span<const std::uint8_t> samplesPayload);
