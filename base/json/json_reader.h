@@ -1,8 +1,5 @@
 #pragma once
-#include <functional>
-#include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/fault.h"

@@ -3,15 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
-#include <sstream>
 #include <string_view>
 #include <tuple>
 #include <unordered_set>
@@ -238,15 +233,8 @@ const JsonNode* JsonNode::find(const std::string& key) const {
 }
 
 const char* nameOf(JsonNode::Kind kind) {
-  switch (kind) {
-    case JsonNode::Kind::Null: return "null";
-    case JsonNode::Kind::Boolean: return "a truth value";
-    case JsonNode::Kind::Number: return "a number";
-    case JsonNode::Kind::String: return "a string";
-    case JsonNode::Kind::Array: return "an array";
-    case JsonNode::Kind::Object: return "an object";
-  }
-  return "";
+  constexpr const char* kNames[]{"null", "a truth value", "a number", "a string", "an array", "an object"};
+  return kNames[static_cast<std::size_t>(kind)];
 }
 
 JsonNode parseJson(const std::string& text, const std::string& file) {

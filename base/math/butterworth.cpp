@@ -1,6 +1,5 @@
 #include "base/math/butterworth.h"
 
-#include <cmath>
 #include <numbers>
 
 #include "base/math/elementary.h"

@@ -1,7 +1,6 @@
 #include "base/terminal/help_format.h"
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <sstream>
 #include <string>

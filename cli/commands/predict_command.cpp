@@ -8,7 +8,6 @@
 #include <iostream>
 #include <memory>
 
-#include "base/error.h"
 #include "base/fault.h"
 #include "base/json/json_reader.h"
 #include "base/number_range.h"

@@ -12,7 +12,6 @@
 #include "analysis/study/points.h"
 #include "analysis/study/run_study.h"
 #include "base/fault.h"
-#include "base/system/error_report.h"
 #include "cli/output/study_words.h"
 #include "cli/terminal/exit_code.h"
 

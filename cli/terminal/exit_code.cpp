@@ -1,7 +1,6 @@
 #include "cli/terminal/exit_code.h"
 
 #include <cstdio>
-#include <string>
 
 #include "base/fault.h"
 #include "base/system/error_report.h"

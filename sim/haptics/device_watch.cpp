@@ -3,50 +3,41 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/ticks.h"
 #include "sim/dynamics/hand/hand_path.h"
 
 namespace reachlab::haptics {
 
+namespace {
+
+struct FaultWords {
+  std::string_view name, what;
+};
+// In the order of DeviceFault.
+constexpr FaultWords kFaults[]{
+    {"none", "is in order"},
+    {"silent", "gave no new report while a trial was under way; is it connected, is the machine too busy?"},
+    {"jump", "jumped by more than 20 mm within a tick; check its encoders and calibrate it"},
+    {"speed", "moved faster than its speed limit; was it let go?"},
+    {"not_finite", "would have got a force that is not a number; the object cannot be computed here"},
+    {"stalled", "was left without a tick for more than 20 ms while force was on it"},
+    {"no_clock", "does not call for its tick any more; is it connected?"},
+    {"device", "reports a fault of its own"},
+};
+
+}  // namespace
+
 std::string_view nameOf(DeviceHealth health) {
-  switch (health) {
-    case DeviceHealth::Ready: return "ready";
-    case DeviceHealth::Warm: return "warm";
-    case DeviceHealth::Lost: return "lost";
-    case DeviceHealth::Failed: break;
-  }
-  return "failed";
+  constexpr std::string_view kNames[]{"ready", "warm", "lost", "failed"};
+  return kNames[static_cast<std::size_t>(health)];
 }
 
-std::string_view nameOf(DeviceFault fault) {
-  switch (fault) {
-    case DeviceFault::None: return "none";
-    case DeviceFault::Silent: return "silent";
-    case DeviceFault::Jump: return "jump";
-    case DeviceFault::Speed: return "speed";
-    case DeviceFault::NotFinite: return "not_finite";
-    case DeviceFault::Stalled: return "stalled";
-    case DeviceFault::NoClock: return "no_clock";
-    case DeviceFault::Device: break;
-  }
-  return "device";
-}
+std::string_view nameOf(DeviceFault fault) { return kFaults[static_cast<std::size_t>(fault)].name; }
 
 std::string describe(DeviceFault fault, const std::string& device) {
-  const char* what = "is in order";
-  switch (fault) {
-    case DeviceFault::None: break;
-    case DeviceFault::Silent: what = "gave no new report while a trial was under way; is it connected, is the machine too busy?"; break;
-    case DeviceFault::Jump: what = "jumped by more than 20 mm within a tick; check its encoders and calibrate it"; break;
-    case DeviceFault::Speed: what = "moved faster than its speed limit; was it let go?"; break;
-    case DeviceFault::NotFinite: what = "would have got a force that is not a number; the object cannot be computed here"; break;
-    case DeviceFault::Stalled: what = "was left without a tick for more than 20 ms while force was on it"; break;
-    case DeviceFault::NoClock: what = "does not call for its tick any more; is it connected?"; break;
-    case DeviceFault::Device: what = "reports a fault of its own"; break;
-  }
-  return fmt::format("device {} {} (fault: {}); its force is off until the fault is reset", device, what, nameOf(fault));
+  const auto& [name, what] = kFaults[static_cast<std::size_t>(fault)];
+  return fmt::format("device {} {} (fault: {}); its force is off until the fault is reset", device, what, name);
 }
 
 DeviceWatch::DeviceWatch(const DeviceInfo& info) noexcept

@@ -12,14 +12,8 @@ bool operator==(const GuardSettings& a, const GuardSettings& b) noexcept {
 }
 
 std::string_view nameOf(DeviceState state) {
-  switch (state) {
-    case DeviceState::Off: return "off";
-    case DeviceState::Homed: return "homed";
-    case DeviceState::Armed: return "armed";
-    case DeviceState::Engaged: return "engaged";
-    case DeviceState::Fault: break;
-  }
-  return "fault";
+  constexpr std::string_view kNames[]{"off", "homed", "armed", "engaged", "fault"};
+  return kNames[static_cast<std::size_t>(state)];
 }
 
 std::string_view intervention::nameOf(int bit) {

@@ -1,7 +1,6 @@
 #pragma once
 #include <cstdint>
 #include <memory>
-#include <string>
 
 #include "sim/haptics/leavable_thread.h"
 #include "sim/haptics/loop_core.h"

@@ -1,6 +1,5 @@
 #pragma once
 #include <cstdint>
-#include <string>
 
 #include "sim/haptics/tick_state.h"
 #include "sim/trial/planned_trial.h"

@@ -1,8 +1,6 @@
 #pragma once
-#include <algorithm>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace reachlab::record {

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <span>
 
-#include "base/error.h"
 #include "sim/record/export/run_tables.h"
 #include "sim/record/export/tidy_csv.h"
 #include "sim/record/log/atomic_file.h"

@@ -1,6 +1,5 @@
 #include "sim/record/export/matlab_file.h"
 
-#include <fmt/format.h>
 #include <matio.h>
 
 #include <algorithm>

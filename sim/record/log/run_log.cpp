@@ -96,6 +96,14 @@ SampleRows SampleRows::between(std::uint64_t first, std::uint64_t last) const {
   return part;
 }
 
+std::string_view nameOf(EventKind kind) {
+  constexpr std::string_view kNames[]{"unknown",     "trial_start",  "armed",        "go",          "onset",         "trial_end",
+                                      "clamp_begin", "clamp_end",    "device_lost",  "device_back", "ticks_missed",  "step_fault",
+                                      "note",        "device_state", "intervention", "instrument",  "channel_broken"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(kLastEventKind) + 1);
+  return kNames[static_cast<std::size_t>(kind)];
+}
+
 RunLog RunLog::open(const std::string& path, LogCheck check) {
   LogReader reader(path);
   try {
@@ -205,8 +213,7 @@ void RunLog::visit(std::uint64_t firstTick, Visit&& visit) const {
   RecordView record;
   while (reader.goodEnd() < goodBytes_) {
     if (!reader.next(record))
-      throw FaultError(
-          Fault{{}, fmt::format("damaged after byte {}; repair it with: reach recover {}", reader.goodEnd(), path_), {}, FilePlace{path_}});
+      throw FaultError(fileFault(path_, fmt::format("damaged after byte {}; repair it with: reach recover {}", reader.goodEnd(), path_)));
     try {
       if (!visit(record)) return;
     } catch (const FaultError& error) {
@@ -297,7 +304,7 @@ std::vector<std::string> findLogs(const std::string& path) {
   std::error_code error;
   if (fs::is_regular_file(path, error)) return {path};
   requireSearchable(path);
-  if (!fs::is_directory(path, error)) throw FaultError(Fault{{}, "no such log or folder", {}, FilePlace{path}});
+  if (!fs::is_directory(path, error)) throw FaultError(fileFault(path, "no such log or folder"));
   // A session's folder (sub-01/ses-01) holds the exported data; its logs lie in sourcedata of the same dataset, with its labels
   // in their names.
   std::string prefix;
@@ -318,7 +325,7 @@ std::vector<std::string> findLogs(const std::string& path) {
     const std::string file = entry.path().filename().string();
     if (file.ends_with(kLogEnding) && file.starts_with(prefix)) logs.push_back(entry.path().string());
   }
-  if (logs.empty()) throw FaultError(Fault{{}, "no logs (…_log.reach) in this folder", {}, FilePlace{path}});
+  if (logs.empty()) throw FaultError(fileFault(path, "no logs (…_log.reach) in this folder"));
   std::sort(logs.begin(), logs.end());
   return logs;
 }

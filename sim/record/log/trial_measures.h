@@ -1,5 +1,4 @@
 #pragma once
-#include <limits>
 #include <span>
 #include <string_view>
 
