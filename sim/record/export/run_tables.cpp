@@ -11,9 +11,7 @@ namespace reachlab::record {
 
 ColumnTable trialTable(const RunLog& run) {
   ColumnTable table(trialColumnNames());
-  TasksOfRun tasks(run.configuration());
-  const std::uint64_t first = run.firstSampleTick();
-  for (const RecordedTrial& trial : run.trials()) addTrial(table, run.configuration(), tasks.of(trial.planned), trial, first);
+  eachTrial(run, [&](std::span<const TrialCell> cells) { addTrial(table, cells); });
   return table;
 }
 

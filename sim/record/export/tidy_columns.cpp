@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <functional>
+#include <map>
 
 #include "base/ticks.h"
 #include "sim/record/export/column_dictionary.h"
@@ -101,12 +102,18 @@ const std::vector<TrialColumn>& trialColumns() {
 
 }  // namespace
 
-std::vector<TrialCell> trialCells(const RunConfiguration& run, const experiment::Task& task, const RecordedTrial& trial,
-                                  std::uint64_t firstSampleTick) {
-  const Row row{run, task, trial, timesOf(trial, firstSampleTick), sceneOf(run, trial.planned)};
-  std::vector<TrialCell> cells;
-  for (const TrialColumn& column : trialColumns()) cells.push_back(column.of(row));
-  return cells;
+void eachTrial(const RunLog& run, const std::function<void(std::span<const TrialCell> cells)>& take) {
+  const RunConfiguration& c = run.configuration();
+  const std::uint64_t first = run.firstSampleTick();
+  std::map<int, experiment::Task> tasks;  // of the scenes, each read once
+  for (const RecordedTrial& trial : run.trials()) {
+    auto task = tasks.find(trial.planned.scene);
+    if (task == tasks.end()) task = tasks.emplace(trial.planned.scene, taskOf(c, trial.planned)).first;
+    const Row row{c, task->second, trial, timesOf(trial, first), sceneOf(c, trial.planned)};
+    std::vector<TrialCell> cells;
+    for (const TrialColumn& column : trialColumns()) cells.push_back(column.of(row));
+    take(cells);
+  }
 }
 
 const std::vector<std::string>& trialColumnNames() {

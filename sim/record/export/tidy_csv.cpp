@@ -40,12 +40,6 @@ std::string runName(const RunConfiguration& c, const std::string& between) {
   return fmt::format("sub-{}_ses-{}_task-{}_{}run-{:02}", c.subject, c.session, c.task, between, c.run);
 }
 
-void writeRows(const RunLog& run, TableText table, const TakePiece& take) {
-  std::vector<std::size_t> all(run.configuration().table.size());
-  std::iota(all.begin(), all.end(), std::size_t{0});
-  writeRows(run, all, std::move(table), take);
-}
-
 void writeRows(const RunLog& run, std::span<const std::size_t> columns, TableText table, const TakePiece& take) {
   const ExportClock clock(run);
   run.eachBlock([&](const SampleRows& block) {
@@ -60,14 +54,11 @@ void writeRows(const RunLog& run, std::span<const std::size_t> columns, TableTex
 void trialsCsv(const std::vector<RunLog>& runs, const TakePiece& take) {
   TableText table(',', "");
   table.row(trialColumnNames());
-  for (const RunLog& run : runs) {
-    TasksOfRun tasks(run.configuration());
-    const std::uint64_t first = run.firstSampleTick();
-    for (const RecordedTrial& trial : run.trials()) {
-      addTrial(table, run.configuration(), tasks.of(trial.planned), trial, first);
+  for (const RunLog& run : runs)
+    eachTrial(run, [&](std::span<const TrialCell> cells) {
+      addTrial(table, cells);
       take(table.takeText());
-    }
-  }
+    });
   take(table.takeText());
 }
 
@@ -76,7 +67,9 @@ void samplesCsv(const RunLog& run, const TakePiece& take) {
   for (const Channel& channel : run.configuration().table.channels) table.cell(channel.column);
   table.endRow();
   take(table.takeText());
-  writeRows(run, std::move(table), take);
+  std::vector<std::size_t> all(run.configuration().table.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  writeRows(run, all, std::move(table), take);
 }
 
 std::vector<std::string> writeTidyCsv(const std::vector<RunLog>& runs, const std::string& folder) {

@@ -17,8 +17,7 @@ std::vector<std::string> writeTidyCsv(const std::vector<RunLog>& runs, const std
 // The texts of the files, piece by piece. They grow with the run, but the memory does not.
 void trialsCsv(const std::vector<RunLog>& runs, const TakePiece& take);
 void samplesCsv(const RunLog& run, const TakePiece& take);
-/// Every row of the run as a line of `table`, which may have a header already. With `columns`, only those.
-void writeRows(const RunLog& run, TableText table, const TakePiece& take);
+/// Those columns of every row of the run as lines of `table`, which may have a header already.
 void writeRows(const RunLog& run, std::span<const std::size_t> columns, TableText table, const TakePiece& take);
 /// The meaning of each column of these files, with its unit.
 std::string trialsDictionary(std::string_view csv);
