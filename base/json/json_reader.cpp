@@ -56,6 +56,11 @@ void FaultList::add(const JsonNode& where, const std::string& key, const std::st
   faults_.push_back({key, what, allowed, FilePlace{file_, where.line, where.column}});
 }
 
+bool FaultList::requireKind(const JsonNode& node, JsonNode::Kind kind, const std::string& key, const std::string& allowed) {
+  if (node.kind != kind) add(node, key, fmt::format("is {}", nameOf(node.kind)), allowed);
+  return node.kind == kind;
+}
+
 bool FaultList::isAbout(const std::string& key) const {
   return std::any_of(faults_.begin(), faults_.end(), [&](const Fault& f) { return isInside(key, f.key) || isInside(f.key, key); });
 }
@@ -98,11 +103,10 @@ std::vector<Fault> atTheirPlaces(std::vector<Fault> faults, const std::string& t
 
 ObjectReader::ObjectReader(FaultList& faults, const JsonNode& node, std::string path)
     : faults_(faults), node_(node), path_(std::move(path)) {
-  if (node_.kind != JsonNode::Kind::Object)
-    faults_.add(node_, path_.empty() ? "file" : path_, fmt::format("is {}", nameOf(node_.kind)), "an object { … }");
+  faults_.requireKind(node_, JsonNode::Kind::Object, path_.empty() ? "file" : path_, "an object { … }");
 }
 
-std::string ObjectReader::keyPath(const std::string& key) const { return path_.empty() ? key : path_ + "." + key; }
+std::string ObjectReader::keyPath(const std::string& key) const { return keyIn(path_, key); }
 
 const JsonNode* ObjectReader::optional(const std::string& key) {
   known_.push_back(key);
@@ -116,14 +120,11 @@ const JsonNode* ObjectReader::required(const std::string& key, const std::string
 }
 
 bool ObjectReader::readNumber(const JsonNode& node, const std::string& path, const NumberRange& range, double& value) {
-  const bool number = node.kind == JsonNode::Kind::Number;
-  if (number && isWithin(range, node.number)) {
-    value = node.number;
-    return true;
-  }
-  faults_.add(node, path, number ? fmt::format("is {}", node.number) : fmt::format("is {}", nameOf(node.kind)), range.allowed);
   value = kNoNumber;
-  return false;
+  if (!faults_.requireKind(node, JsonNode::Kind::Number, path, range.allowed)) return false;
+  if (isWithin(range, node.number)) value = node.number;
+  else faults_.add(node, path, fmt::format("is {}", node.number), range.allowed);
+  return !std::isnan(value);
 }
 
 void ObjectReader::number(const std::string& key, const NumberRange& range, double& value) {
@@ -146,47 +147,28 @@ void ObjectReader::integer(const std::string& key, int lo, int hi, int& value) {
 
 void ObjectReader::boolean(const std::string& key, bool& value) {
   const JsonNode* node = optional(key);
-  if (node == nullptr) return;
-  if (node->kind != JsonNode::Kind::Boolean) {
-    faults_.add(*node, keyPath(key), fmt::format("is {}", nameOf(node->kind)), "true or false");
-    return;
-  }
-  value = node->boolean;
+  if (node != nullptr && faults_.requireKind(*node, JsonNode::Kind::Boolean, keyPath(key), "true or false")) value = node->boolean;
 }
 
 void ObjectReader::text(const std::string& key, std::string& value) {
   const JsonNode* node = optional(key);
-  if (node == nullptr) return;
-  if (node->kind != JsonNode::Kind::String) {
-    faults_.add(*node, keyPath(key), fmt::format("is {}", nameOf(node->kind)), "a string");
-    return;
-  }
-  value = node->string;
+  if (node != nullptr && faults_.requireKind(*node, JsonNode::Kind::String, keyPath(key), "a string")) value = node->string;
 }
 
 bool ObjectReader::choice(const std::string& key, const std::vector<std::string>& names, std::string& value, bool isRequired) {
   const std::string allowed = listOf(names);
   const JsonNode* node = isRequired ? required(key, allowed) : optional(key);
-  if (node == nullptr) return false;
-  if (node->kind != JsonNode::Kind::String) {
-    faults_.add(*node, keyPath(key), fmt::format("is {}", nameOf(node->kind)), allowed);
-    return false;
-  }
-  if (std::find(names.begin(), names.end(), node->string) == names.end()) {
-    faults_.add(*node, keyPath(key), fmt::format("is \"{}\"", node->string), allowed);
-    return false;
-  }
-  value = node->string;
-  return true;
+  if (node == nullptr || !faults_.requireKind(*node, JsonNode::Kind::String, keyPath(key), allowed)) return false;
+  const bool known = std::find(names.begin(), names.end(), node->string) != names.end();
+  if (known) value = node->string;
+  else faults_.add(*node, keyPath(key), fmt::format("is \"{}\"", node->string), allowed);
+  return known;
 }
 
 bool ObjectReader::numbers(const JsonNode& node, const std::string& key, int length, const NumberRange& range,
                            std::vector<double>& values) {
   const std::string shape = length < 0 ? "an array of numbers" : fmt::format("an array of {} number{}", length, length == 1 ? "" : "s");
-  if (node.kind != JsonNode::Kind::Array) {
-    faults_.add(node, keyPath(key), fmt::format("is {}", nameOf(node.kind)), shape);
-    return false;
-  }
+  if (!faults_.requireKind(node, JsonNode::Kind::Array, keyPath(key), shape)) return false;
   if (length >= 0 && node.items.size() != static_cast<std::size_t>(length)) {
     faults_.add(node, keyPath(key), fmt::format("has {} element{}", node.items.size(), node.items.size() == 1 ? "" : "s"), shape);
     return false;
@@ -201,20 +183,15 @@ bool ObjectReader::numbers(const JsonNode& node, const std::string& key, int len
 
 bool ObjectReader::strings(const JsonNode& node, const std::string& key, int length, std::vector<std::string>& values) {
   const std::string shape = fmt::format("an array of {} strings", length);
-  if (node.kind != JsonNode::Kind::Array || node.items.size() != static_cast<std::size_t>(length)) {
-    faults_.add(
-        node, keyPath(key),
-        node.kind == JsonNode::Kind::Array ? fmt::format("has {} elements", node.items.size()) : fmt::format("is {}", nameOf(node.kind)),
-        shape);
+  if (!faults_.requireKind(node, JsonNode::Kind::Array, keyPath(key), shape)) return false;
+  if (node.items.size() != static_cast<std::size_t>(length)) {
+    faults_.add(node, keyPath(key), fmt::format("has {} elements", node.items.size()), shape);
     return false;
   }
   std::vector<std::string> read;
-  for (std::size_t i = 0; i < node.items.size(); ++i) {
-    if (node.items[i].kind != JsonNode::Kind::String) {
-      faults_.add(node.items[i], fmt::format("{}[{}]", keyPath(key), i), fmt::format("is {}", nameOf(node.items[i].kind)), "a string");
-      return false;
-    }
-    read.push_back(node.items[i].string);
+  for (const JsonNode& item : node.items) {
+    if (!faults_.requireKind(item, JsonNode::Kind::String, fmt::format("{}[{}]", keyPath(key), read.size()), "a string")) return false;
+    read.push_back(item.string);
   }
   values = std::move(read);
   return true;

@@ -14,6 +14,8 @@ class FaultList {
  public:
   explicit FaultList(std::string file) : file_(std::move(file)) {}
   void add(const JsonNode& where, const std::string& key, const std::string& what, const std::string& allowed = {});
+  /// True if the node is of that kind. Otherwise a fault says of what kind it is.
+  bool requireKind(const JsonNode& node, JsonNode::Kind kind, const std::string& key, const std::string& allowed);
   /// Adds a fault of the value that was read from `root`, at the location of its key there, or as a missing key. It is left out if the file
   /// itself has a fault about that key, a key inside it or a key around it. In that case the value has a default.
   void addOfValue(const JsonNode& root, Fault fault);

@@ -39,7 +39,6 @@ struct CountingIterator {
     return old;
   }
   bool operator==(const CountingIterator& o) const { return at == o.at; }
-  bool operator!=(const CountingIterator& o) const { return at != o.at; }
 };
 
 // The library's description of a fault in the text, and ours of the same fault.
@@ -80,21 +79,17 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
 
   JsonNode root;
 
-  bool null() override { return put({}, tokenStart()); }
+  bool null() override { return add(JsonNode::Kind::Null, tokenStart()), true; }
   bool boolean(bool value) override {
-    JsonNode node;
-    node.kind = JsonNode::Kind::Boolean;
-    node.boolean = value;
-    return put(std::move(node), tokenStart());
+    add(JsonNode::Kind::Boolean, tokenStart()).boolean = value;
+    return true;
   }
   bool number_integer(number_integer_t value) override { return putWhole(value); }
   bool number_unsigned(number_unsigned_t value) override { return putWhole(value); }
   bool number_float(number_float_t value, const string_t&) override { return putNumber(value, false); }
   bool string(string_t& value) override {
-    JsonNode node;
-    node.kind = JsonNode::Kind::String;
-    node.string = value;
-    return put(std::move(node), stringStart());
+    add(JsonNode::Kind::String, stringStart()).string = value;
+    return true;
   }
   bool binary(binary_t&) override { return false; }
   bool start_object(std::size_t) override { return open(JsonNode::Kind::Object); }
@@ -172,34 +167,28 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
     return putNumber(number, true);
   }
   bool putNumber(double value, bool integer) {
-    JsonNode node;
-    node.kind = JsonNode::Kind::Number;
+    JsonNode& node = add(JsonNode::Kind::Number, tokenStart());
     node.number = value;
     node.integer = integer;
-    return put(std::move(node), tokenStart());
-  }
-  JsonNode* attach(JsonNode node, std::size_t start) {
-    std::tie(node.line, node.column) = lineAndColumn(start);
-    if (open_.empty()) {
-      root = std::move(node);
-      return &root;
-    }
-    JsonNode& parent = *open_.back();
-    if (parent.kind == JsonNode::Kind::Array) return &parent.items.emplace_back(std::move(node));
-    node.keyLine = keyLine_, node.keyColumn = keyColumn_;
-    return &parent.members.emplace_back(key_, std::move(node)).second;
-  }
-  bool put(JsonNode node, std::size_t start) {
-    attach(std::move(node), start);
     return true;
+  }
+
+  // A child's address is stable until it is closed: its parent gets no further child before.
+  JsonNode& add(JsonNode::Kind kind, std::size_t start) {
+    JsonNode* node = &root;
+    if (!open_.empty() && open_.back()->kind == JsonNode::Kind::Array) node = &open_.back()->items.emplace_back();
+    else if (!open_.empty()) {
+      node = &open_.back()->members.emplace_back(key_, JsonNode()).second;
+      node->keyLine = keyLine_, node->keyColumn = keyColumn_;
+    }
+    node->kind = kind;
+    std::tie(node->line, node->column) = lineAndColumn(start);
+    return *node;
   }
   bool open(JsonNode::Kind kind) {
     const std::size_t start = offset() - 1;
     if (open_.size() >= kMaxDepth) throw FaultError(Fault{{}, "nested too deeply", fmt::format("{} levels", kMaxDepth), place(start)});
-    JsonNode node;
-    node.kind = kind;
-    // A child's address is stable: its parent gets no further child before it is closed.
-    open_.push_back(attach(std::move(node), start));
+    open_.push_back(&add(kind, start));
     keys_.emplace_back();
     return true;
   }

@@ -43,7 +43,7 @@ void readMatrix(ObjectReader& reader, const JsonNode& node, const Key& key, Squa
     for (std::size_t i = 0; i < N; ++i) matrix[i][i] = row[i];
     return;
   }
-  if (!isArray) return reader.faults().add(node, reader.keyPath(key.name), fmt::format("is {}", nameOf(node.kind)), key.shape);
+  if (!reader.faults().requireKind(node, JsonNode::Kind::Array, reader.keyPath(key.name), key.shape)) return;
   if (node.items.size() != N)
     return reader.faults().add(node, reader.keyPath(key.name), fmt::format("has {} rows", node.items.size()), fmt::format("{} rows", N));
   for (std::size_t i = 0; i < N; ++i) {
@@ -158,8 +158,7 @@ struct KeyReader {
   void operator()(const Key& key, Environment& environment) const {
     const JsonNode* node = in.optional(key.name);
     if (node == nullptr) return;
-    if (node->kind != JsonNode::Kind::Array)
-      return in.faults().add(*node, in.keyPath(key.name), fmt::format("is {}", nameOf(node->kind)), "a list of forces");
+    if (!in.faults().requireKind(*node, JsonNode::Kind::Array, in.keyPath(key.name), "a list of forces")) return;
     for (std::size_t i = 0; i < node->items.size(); ++i) {
       const JsonNode& item = node->items[i];
       ObjectReader inner(in.faults(), item, fmt::format("{}[{}]", in.keyPath(key.name), i));
@@ -183,8 +182,7 @@ struct KeyReader {
   void operator()(const Key& key, std::vector<Vec3>& places) const {
     const JsonNode* node = in.optional(key.name);
     if (node == nullptr) return;
-    if (node->kind != JsonNode::Kind::Array)
-      return in.faults().add(*node, in.keyPath(key.name), fmt::format("is {}", nameOf(node->kind)), key.shape);
+    if (!in.faults().requireKind(*node, JsonNode::Kind::Array, in.keyPath(key.name), key.shape)) return;
     std::vector<double> place;
     for (std::size_t i = 0; i < node->items.size(); ++i)
       if (in.numbers(node->items[i], fmt::format("{}[{}]", key.name, i), 3, anyNumber(), place))
