@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "base/system/error_report.h"
-#include "base/system/kept_memory.h"
 #include "base/system/os.h"
 #include "base/system/processor_level.h"
 #include "base/system/stop_signals.h"
@@ -82,7 +81,7 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   reachlab::requireProcessorLevel();
   reachlab::endOnUncaught();
-  reachlab::keepFreedMemory();
+  reachlab::os::keepFreedMemory();
   reachlab::os::holdStandardDescriptors();
   reachlab::cli::guardStandardStreams();
   reachlab::endOnSignals();

@@ -1,5 +1,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <malloc.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
@@ -49,6 +50,17 @@ std::string lockMemory() {
   return ::mlockall(MCL_CURRENT | MCL_FUTURE) == 0 ? std::string() : fmt::format("memory not locked ({})", std::strerror(errno));
 }
 
+bool writeAll(int descriptor, const void* data, std::size_t size) noexcept {
+  for (const char* at = static_cast<const char*>(data); size > 0;) {
+    const ssize_t written = ::write(descriptor, at, size);
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) return false;
+    at += written;
+    size -= static_cast<std::size_t>(written);
+  }
+  return true;
+}
+
 bool syncFile(int descriptor) noexcept { return ::fdatasync(descriptor) == 0; }
 
 bool syncFolder(const std::string& folder) noexcept {
@@ -68,6 +80,12 @@ int aboveStandardDescriptors(int descriptor) noexcept {
   ::close(descriptor);
   errno = fault;
   return copy;
+}
+
+void keepFreedMemory() noexcept {
+  // Both: a threshold of one's own ends glibc's moving of the other, and large blocks would be mapped and unmapped each time.
+  mallopt(M_MMAP_THRESHOLD, 64 << 20);
+  mallopt(M_TRIM_THRESHOLD, 128 << 20);
 }
 
 DiskSpace diskSpace(const std::string& path) noexcept {

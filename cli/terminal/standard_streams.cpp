@@ -13,6 +13,8 @@
 #include <iostream>
 #include <string>
 
+#include "base/system/os.h"
+
 namespace reachlab::cli {
 namespace {
 
@@ -33,20 +35,10 @@ std::string spellControls(const char* text, std::size_t size) {
   return clean;
 }
 
-// 0, or errno.
-int writeAll(int descriptor, const std::string& text) {
-  for (std::size_t done = 0; done < text.size();) {
-    const ssize_t count = ::write(descriptor, text.data() + done, text.size() - done);
-    if (count < 0 && errno == EINTR) continue;
-    if (count < 0) return errno;
-    done += static_cast<std::size_t>(count);
-  }
-  return 0;
-}
-
 ssize_t writeOut(void*, const char* text, std::size_t size) {
   if (firstFault == 0 && !readerGone) {
-    const int fault = writeAll(STDOUT_FILENO, spellControls(text, size));
+    const std::string clean = spellControls(text, size);
+    const int fault = os::writeAll(STDOUT_FILENO, clean.data(), clean.size()) ? 0 : errno;
     if (fault == EPIPE) readerGone = true;
     else if (fault != 0) firstFault = fault;
   }
@@ -54,7 +46,8 @@ ssize_t writeOut(void*, const char* text, std::size_t size) {
 }
 
 ssize_t writeMessage(void*, const char* text, std::size_t size) {
-  writeAll(STDERR_FILENO, spellControls(text, size));  // nobody is left to be told of a fault
+  const std::string clean = spellControls(text, size);
+  (void)os::writeAll(STDERR_FILENO, clean.data(), clean.size());  // nobody is left to be told of a fault
   return static_cast<ssize_t>(size);
 }
 

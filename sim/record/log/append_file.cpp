@@ -54,7 +54,7 @@ AppendFile AppendFile::openAt(const std::string& path, std::uint64_t size) {
 void AppendFile::append(std::span<const std::uint8_t> bytes) {
   if (torn_ && ::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0) failByErrno("cannot be cut to its good part", path_);
   torn_ = false;
-  if (!writeAll(descriptor_, bytes.data(), bytes.size())) {
+  if (!os::writeAll(descriptor_, bytes.data(), bytes.size())) {
     const int fault = errno;
     torn_ = ::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0;
     errno = fault;

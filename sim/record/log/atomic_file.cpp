@@ -107,7 +107,7 @@ void AtomicFile::append(std::string_view piece) {
 }
 
 void AtomicFile::flush() {
-  if (!writeAll(descriptor_, reinterpret_cast<const std::uint8_t*>(waiting_.data()), waiting_.size())) giveUp();
+  if (!os::writeAll(descriptor_, waiting_.data(), waiting_.size())) giveUp();
   waiting_.clear();
 }
 
@@ -159,8 +159,8 @@ void ForeignFile::commit() {
 void ForeignFile::giveUp(const std::string& what) {
   // A library says only that it failed. If the disk takes nothing more either, then that is why.
   const os::Descriptor own(::open(openFileOf(descriptor_).c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
-  const std::vector<std::uint8_t> some(kBytesAWrite);
-  if (own < 0 || !writeAll(own, some.data(), some.size()) || !os::syncFile(own)) failByErrno("cannot be written", path_);
+  const std::string some(kBytesAWrite, '\0');
+  if (own < 0 || !os::writeAll(own, some.data(), some.size()) || !os::syncFile(own)) failByErrno("cannot be written", path_);
   throw ResourceError(fmt::format("{}: cannot be written: {}; check the folder and the space on its disk", path_, what));
 }
 

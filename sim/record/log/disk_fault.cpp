@@ -25,17 +25,6 @@ void failByErrno(std::string_view what, const std::string& path) {
   throw ResourceError(fmt::format("{}: {}: {}; {}", path, what, std::strerror(fault), remedy));
 }
 
-bool writeAll(int descriptor, const std::uint8_t* data, std::size_t size) {
-  while (size > 0) {
-    const ssize_t written = ::write(descriptor, data, size);
-    if (written < 0 && errno == EINTR) continue;
-    if (written < 0) return false;
-    data += written;
-    size -= static_cast<std::size_t>(written);
-  }
-  return true;
-}
-
 void syncFolderOf(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   // Some network file systems have no such thing and say EINVAL: there it is theirs to keep.

@@ -8,8 +8,6 @@ namespace reachlab::record {
 
 /// Throws ResourceError of the system's last error, with action, file, reason and remedy.
 [[noreturn]] void failByErrno(std::string_view what, const std::string& path);
-/// True if every byte was written. The reason is in errno otherwise.
-bool writeAll(int descriptor, const std::uint8_t* data, std::size_t size);
 /// After a rename or a creation the folder itself must reach the disk, or the name may be lost with the power. Throws ResourceError.
 void syncFolderOf(const std::string& path);
 

@@ -50,15 +50,23 @@ struct Recorder::Impl {
   void drain() {
     const double* row = nullptr;
     while (const QueuedTick* tick = ring.front(row)) {
-      if (fault.empty()) write(*tick, ring.devicesOf(tick), row);
+      if (fault.empty())
+        guarded([&] {
+          if (writer.add(*tick, ring.devicesOf(tick), row)) finishedTrial = writer.lastTrial().trial;
+        });
       ring.pop(tick->hasRow);
     }
     if (fault.empty()) guarded([this] { writer.flushIfDue(); });
   }
-  void write(const QueuedTick& tick, std::span<const haptics::DeviceSample> devices, const double* row) {
-    guarded([&] {
-      if (writer.add(tick, devices, row)) finishedTrial = writer.lastTrial().trial;
-    });
+
+  // Behind the ticks so far.
+  template <typename Work>
+  void inOrder(Work&& work) {
+    const std::scoped_lock lock(mutex);
+    throwIfFaulty();
+    drain();
+    guarded(work);
+    throwIfFaulty();
   }
   template <typename Work>
   void guarded(Work&& work) {
@@ -129,11 +137,7 @@ std::uint32_t Recorder::massesEvery() const noexcept { return std::gcd(impl_->ev
 
 void Recorder::announce(std::int32_t trial, const trial::PlannedTrial& planned) {
   const TrialSetup setup{trial + impl_->firstTrial - 1, planned};
-  const std::scoped_lock lock(impl_->mutex);
-  impl_->throwIfFaulty();
-  impl_->drain();
-  impl_->guarded([&] { impl_->writer.announce(setup); });
-  impl_->throwIfFaulty();
+  impl_->inOrder([&] { impl_->writer.announce(setup); });
 }
 
 void Recorder::awaitTrial(std::int32_t trial) {
@@ -150,20 +154,11 @@ RecordedTrial Recorder::lastTrial() const {
 }
 
 void Recorder::note(const std::string& text) {
-  const std::scoped_lock lock(impl_->mutex);
-  impl_->throwIfFaulty();
-  impl_->drain();
-  impl_->guarded([&] { impl_->writer.note(text); });
-  impl_->throwIfFaulty();
+  impl_->inOrder([&] { impl_->writer.note(text); });
 }
 
 void Recorder::add(const std::vector<RecordedEvent>& events) {
-  if (events.empty()) return;
-  const std::scoped_lock lock(impl_->mutex);
-  impl_->throwIfFaulty();
-  impl_->drain();
-  impl_->guarded([&] { impl_->writer.add(events); });
-  impl_->throwIfFaulty();
+  if (!events.empty()) impl_->inOrder([&] { impl_->writer.add(events); });
 }
 
 void Recorder::append(RecordType type, std::span<const std::uint8_t> payload) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <limits>
+#include <type_traits>
 
 #include "base/fault.h"
 #include "base/text_file.h"
@@ -202,8 +203,8 @@ void RunLog::scan(LogReader& reader) {
   }
 }
 
-template <typename Visit>
-void RunLog::visit(std::uint64_t firstTick, Visit&& visit) const {
+template <typename Take>
+void RunLog::each(RecordType type, std::uint64_t firstTick, Take&& take) const {
   LogReader reader(path_);
   const auto after = std::upper_bound(trials_.begin(), trials_.end(), firstTick,
                                       [](std::uint64_t tick, const RecordedTrial& trial) { return tick < trial.startTick; });
@@ -214,8 +215,10 @@ void RunLog::visit(std::uint64_t firstTick, Visit&& visit) const {
   while (reader.goodEnd() < goodBytes_) {
     if (!reader.next(record))
       throw FaultError(fileFault(path_, fmt::format("damaged after byte {}; repair it with: reach recover {}", reader.goodEnd(), path_)));
+    if (record.type != type) continue;
     try {
-      if (!visit(record)) return;
+      if constexpr (std::is_void_v<decltype(take(record.payload))>) take(record.payload);
+      else if (!take(record.payload)) return;
     } catch (const FaultError& error) {
       throw FaultError(inFile(path_, error.faults));
     }
@@ -225,10 +228,9 @@ void RunLog::visit(std::uint64_t firstTick, Visit&& visit) const {
 SampleRows RunLog::rows(std::uint64_t firstTick, std::uint64_t lastTick) const {
   SampleRows rows;
   rows.columns = configuration_.table.size();
-  visit(firstTick, [&](const RecordView& record) {
-    if (record.type != RecordType::Samples) return true;
-    decodeSamples(record.payload, firstTick, lastTick, rows);
-    return firstTickOf(record.payload) <= lastTick;
+  each(RecordType::Samples, firstTick, [&](std::span<const std::uint8_t> payload) {
+    decodeSamples(payload, firstTick, lastTick, rows);
+    return firstTickOf(payload) <= lastTick;
   });
   return rows;
 }
@@ -237,9 +239,8 @@ SampleRows RunLog::allRows() const { return rows(0, kNoTick); }
 
 std::uint64_t RunLog::firstSampleTick() const {
   std::uint64_t first = 0;
-  visit(0, [&](const RecordView& record) {
-    if (record.type != RecordType::Samples) return true;
-    first = firstTickOf(record.payload);
+  each(RecordType::Samples, 0, [&](std::span<const std::uint8_t> payload) {
+    first = firstTickOf(payload);
     return false;
   });
   return first;
@@ -248,54 +249,42 @@ std::uint64_t RunLog::firstSampleTick() const {
 void RunLog::eachBlock(const std::function<void(const SampleRows& block)>& take) const {
   SampleRows block;
   block.columns = configuration_.table.size();
-  visit(0, [&](const RecordView& record) {
-    if (record.type != RecordType::Samples) return true;
+  each(RecordType::Samples, 0, [&](std::span<const std::uint8_t> payload) {
     block.ticks.clear();
     block.values.clear();
-    decodeSamples(record.payload, 0, kNoTick, block);
+    decodeSamples(payload, 0, kNoTick, block);
     take(block);
-    return true;
   });
 }
 
 std::vector<RecordedTick> RunLog::ticks() const {
   std::vector<RecordedTick> ticks;
-  visit(0, [&](const RecordView& record) {
-    if (record.type == RecordType::Ticks) decodeTicks(record.payload, ticks);
-    return true;
-  });
+  each(RecordType::Ticks, 0, [&](std::span<const std::uint8_t> payload) { decodeTicks(payload, ticks); });
   return ticks;
 }
 
 std::vector<std::vector<haptics::DeviceSample>> RunLog::otherTicks() const {
   std::vector<std::vector<haptics::DeviceSample>> hands(configuration_.otherHands.size());
   if (hands.empty()) return hands;
-  visit(0, [&](const RecordView& record) {
-    if (record.type != RecordType::HandTicks) return true;
-    const HandTicks hand = decodeHandTicks(record.payload);
+  each(RecordType::HandTicks, 0, [&](std::span<const std::uint8_t> payload) {
+    const HandTicks hand = decodeHandTicks(payload);
     const auto index = static_cast<std::size_t>(hand.hand - 2);
     if (index >= hands.size()) throw FaultError(Fault{.what = fmt::format("hand {} in a log of {} hands", hand.hand, hands.size() + 1)});
     hands[index].insert(hands[index].end(), hand.samples.begin(), hand.samples.end());
-    return true;
   });
   return hands;
 }
 
 std::vector<RecordedEvent> RunLog::events() const {
   std::vector<RecordedEvent> events;
-  visit(0, [&](const RecordView& record) {
-    if (record.type == RecordType::Event) events.push_back(decodeEvent(record.payload));
-    return true;
-  });
+  each(RecordType::Event, 0, [&](std::span<const std::uint8_t> payload) { events.push_back(decodeEvent(payload)); });
   return events;
 }
 
 std::vector<TrialSetup> RunLog::setups() const {
   std::vector<TrialSetup> setups;
-  visit(0, [&](const RecordView& record) {
-    if (record.type == RecordType::TrialSetup) placeInScene(setups.emplace_back(decodeSetup(record.payload)).planned);
-    return true;
-  });
+  each(RecordType::TrialSetup, 0,
+       [&](std::span<const std::uint8_t> payload) { placeInScene(setups.emplace_back(decodeSetup(payload)).planned); });
   return setups;
 }
 

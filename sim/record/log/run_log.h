@@ -134,8 +134,9 @@ class RunLog {
   bool readChain(LogReader& reader);
   void scan(LogReader& reader);
   void placeInScene(trial::PlannedTrial& planned) const;
-  template <typename Visit>
-  void visit(std::uint64_t firstTick, Visit&& visit) const;
+  /// The payloads of a type from the trial of `firstTick` on. `take` may answer false, which ends it.
+  template <typename Take>
+  void each(RecordType type, std::uint64_t firstTick, Take&& take) const;
 
   std::string path_;
   RunConfiguration configuration_;
