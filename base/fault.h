@@ -48,4 +48,16 @@ struct FaultError : Error {
   std::vector<Fault> faults;
 };
 
+/// Calls `work`. A fault that it throws is told from outside, under `key`. It has no place, since the text that it is of lies in no file.
+template <class Work>
+auto underKey(const std::string& key, const Work& work) {
+  try {
+    return work();
+  } catch (const FaultError& error) {
+    std::vector<Fault> faults = inside(key, error.faults);
+    for (Fault& fault : faults) fault.place.reset();
+    throw FaultError(std::move(faults));
+  }
+}
+
 }  // namespace reachlab

@@ -18,8 +18,7 @@
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
-#include "sim/session/checked_programme.h"
-#include "sim/session/recordable.h"
+#include "sim/session/session.h"
 #include "sim/trial/task_check.h"
 #include "sim/trial/task_places.h"
 

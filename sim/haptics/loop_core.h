@@ -5,16 +5,25 @@
 #include <string>
 #include <vector>
 
+#include "base/system/os.h"
 #include "base/system/spsc_queue.h"
 #include "base/system/triple_buffer.h"
 #include "base/ticks.h"
 #include "sim/haptics/device_watch.h"
 #include "sim/haptics/lateness.h"
-#include "sim/haptics/loop_clock.h"
 #include "sim/haptics/run_sink.h"
 #include "sim/haptics/tick_engine.h"
 
 namespace reachlab::haptics {
+
+/// The monotonic clock by which a loop in real time keeps its deadlines. Usually the computer's clock. A test uses a clock that it
+/// controls. Called from the haptic thread. Neither allocates nor throws.
+class LoopClock {
+ public:
+  virtual ~LoopClock() = default;
+  virtual std::int64_t now() noexcept { return os::now(); }  // [ns]
+  virtual void sleepUntil(std::int64_t deadlineNs) noexcept { os::sleepUntil(deadlineNs); }
+};
 
 struct LoopOptions {
   bool virtualClock = false;         // no thread and no waiting: whoever calls `advance` is the haptic thread

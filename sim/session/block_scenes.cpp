@@ -19,21 +19,6 @@ namespace {
 
 using experiment::CompiledExperiment;
 
-/// Calls `work`. A fault then begins with `key`, and has no place, since the text that it is of lies in no file.
-template <class Work>
-auto under(const std::string& key, const Work& work) {
-  try {
-    return work();
-  } catch (const FaultError& error) {
-    std::vector<Fault> faults = error.faults;
-    for (Fault& fault : faults) {
-      fault.key = key + (fault.key.empty() ? "" : "." + fault.key);
-      fault.place.reset();
-    }
-    throw FaultError(std::move(faults));
-  }
-}
-
 CompiledExperiment changed(const CompiledExperiment& from, const std::vector<experiment::Patch>& changes) {
   if (changes.empty()) return from;
   const experiment::Experiment& e = from.experiment();
@@ -122,7 +107,7 @@ std::vector<BlockScene> scenesOf(const PlanBlock& block, const CompiledExperimen
     for (std::size_t t = 0; t < targets.size(); ++t) {
       const std::string key = mix.ring ? "targets.ring" : mix.targets.empty() ? "kinds." + kind : fmt::format("targets[{}]", t);
       collect([&] {
-        under(key, [&] {
+        underKey(key, [&] {
           if (!mix.targets.empty()) checkDomain(targets[t], ofKind.constraint());
           const CompiledExperiment out = changed(ofKind, {placeOf("task.target", targets[t])});
           if (const std::vector<Fault> wrong = trial::taskProblems(out); !wrong.empty()) throw FaultError(wrong);
@@ -137,7 +122,7 @@ std::vector<BlockScene> scenesOf(const PlanBlock& block, const CompiledExperimen
       CompiledExperiment ofKind = experiment;
       for (const TrialKind& kind : mix.kinds)
         if (kind.name == name)
-          under("kinds." + name, [&] {
+          underKey("kinds." + name, [&] {
             ofKind = changed(experiment, kind.changes);
             checkKind(mix, kind, experiment, ofKind);
           });

@@ -118,17 +118,10 @@ std::string conditionOf(const PlanBlock& block) {
 experiment::CompiledExperiment openExperimentOf(const PlanBlock& block) {
   experiment::CompiledExperiment plain = experiment::openExperiment(block.experiment);
   if (block.changes.empty()) return plain;
-  try {
+  return underKey("change", [&] {
     return experiment::openExperimentText(experiment::patchedText(plain.experiment().text, block.experiment, block.changes),
                                           block.experiment);
-  } catch (const FaultError& error) {
-    std::vector<Fault> faults = error.faults;
-    for (Fault& fault : faults) {  // places would be those of a text that is nowhere
-      fault.key = "change." + fault.key;
-      fault.place.reset();
-    }
-    throw FaultError(std::move(faults));
-  }
+  });
 }
 
 bool isPlan(const std::string& text, const std::string& file) { return parseJson(text, file).find("blocks") != nullptr; }

@@ -2,9 +2,10 @@
 
 #include <map>
 
-#include "base/json/json_tree.h"
+#include "base/json/json_reader.h"
 #include "base/text_file.h"
 #include "sim/experiment/experiment.h"
+#include "sim/trial/task_check.h"
 
 namespace reachlab::session {
 
@@ -33,6 +34,45 @@ Programme programmeOfText(const std::string& text, const std::string& file) {
 }
 
 }  // namespace
+
+Programme checkedProgramme(const std::string& file) {
+  const std::string text = readTextFile(file);
+  Programme programme{parsePlan(text, file), {}, {}};
+  const JsonNode root = parseJson(text, file);
+  std::vector<Fault> elsewhere, here;
+  using What = std::pair<std::string, std::vector<experiment::Patch>>;
+  std::map<What, std::optional<experiment::CompiledExperiment>> opened;  // nullopt: its faults are told already
+  for (std::size_t i = 0; i < programme.plan.blocks.size(); ++i) {
+    const PlanBlock& block = programme.plan.blocks[i];
+    const auto [known, isNew] = opened.try_emplace(What{block.experiment, block.changes});
+    try {
+      if (isNew) {
+        const experiment::CompiledExperiment experiment = openExperimentOf(block);
+        trial::checkTask(experiment, block.experiment);
+        known->second = experiment;
+      }
+    } catch (const FaultError& error) {
+      for (const Fault& fault : error.faults) {  // those of the experiment's file stand there
+        if (fault.place) elsewhere.push_back(fault);
+        else here.push_back({fmt::format("blocks[{}].experiment", i), toText(fault)});
+      }
+    }
+    if (!known->second) continue;
+    programme.experiments.push_back(*known->second);
+    try {
+      programme.scenes.push_back(scenesOf(block, *known->second));
+    } catch (const FaultError& error) {
+      for (Fault fault : error.faults) {
+        fault.key = keyInPlan(root, i, fault.key);
+        if (std::find(here.begin(), here.end(), fault) == here.end()) here.push_back(std::move(fault));
+      }
+    }
+  }
+  std::vector<Fault> found = atTheirPlaces(std::move(here), text, file);
+  found.insert(found.end(), elsewhere.begin(), elsewhere.end());
+  if (!found.empty()) throw FaultError(std::move(found));
+  return programme;
+}
 
 Programme programmeOf(const Plan& plan, const std::string& file) { return programmeOfText(toJson(plan), file); }
 

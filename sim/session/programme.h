@@ -19,8 +19,11 @@ struct Programme {
 
 /// Reads a plan or an experiment: a file, or the name of a shipped one. Throws FaultError with every fault.
 Programme readProgramme(const std::string& fileOrName);
-/// The same for a plan that is edited in a window. Its text comes from `toJson`. Experiments are first looked for beside `file`. Throws
-/// FaultError with every fault.
+/// Reads a plan's file and its experiments, compiles each once, and checks that their tasks can be carried out. Throws FaultError with
+/// every fault, each at its position.
+Programme checkedProgramme(const std::string& file);
+/// The same as readProgramme for a plan that is edited in a window. Its text comes from `toJson`. Experiments are first looked for beside
+/// `file`. Throws FaultError with every fault.
 Programme programmeOf(const Plan& plan, const std::string& file);
 /// A single experiment, as it is edited in a window or made by a program.
 Programme programmeOf(const experiment::CompiledExperiment& experiment);

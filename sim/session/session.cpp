@@ -12,7 +12,6 @@
 #include "sim/experiment/experiment.h"
 #include "sim/record/log/append_file.h"
 #include "sim/record/log/run_writer.h"
-#include "sim/session/recordable.h"
 #include "sim/session/recorded_blocks.h"
 #include "sim/session/trial_order.h"
 #include "sim/trial/task_check.h"

@@ -60,6 +60,8 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
 /// The same for the file or name in `request.what`.
 SessionToRun planSession(const SessionRequest& request);
 
+/// Throws FaultError where a recording of this programme could not be read again. planSession checks the same.
+void checkRecordable(const Programme& programme);
 /// The requested day of the plan: `request.day`, else the session's label when that is a number. 0 where the plan has no days. Throws
 /// FaultError.
 int sessionDay(const SessionRequest& request, const Plan& plan);

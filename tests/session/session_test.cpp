@@ -15,7 +15,6 @@
 #include "base/text_file.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
-#include "sim/session/checked_programme.h"
 #include "sim/session/trial_order.h"
 #include "tests/record/made_run.h"
 #include "tests/refusal.h"

@@ -10,7 +10,7 @@
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "sim/session/block_scenes.h"
-#include "sim/session/checked_programme.h"
+#include "sim/session/programme.h"
 #include "sim/session/plan.h"
 #include "sim/session/trial_order.h"
 #include "tests/refusal.h"

@@ -1,6 +1,7 @@
 #pragma once
-#include <algorithm>
 #include <concepts>
+#include <cstdint>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <type_traits>
@@ -8,11 +9,13 @@
 
 #include "base/fault.h"
 #include "base/math/vec3.h"
-#include "sim/record/configuration/checked_json.h"
 
 /// Plain structs as JSON objects by one list of their fields: `visitFields(value, visit)` calls `visit(Field, member)` for each. The same
 /// list serves for reading, writing and comparing. A member that is a struct, or a list of structs, has its own list.
 namespace reachlab::record {
+
+/// Throws FaultError where there is no such member.
+const nlohmann::json& memberOf(const nlohmann::json& object, const std::string& key);
 
 struct Field {
   const char* key;
@@ -27,46 +30,33 @@ nlohmann::json writeFields(const T& value);
 
 namespace fieldsDetail {
 
+/// Each member is there, of its kind and within its bounds, or a FaultError names key, fault and allowed values. (The conversions of nlohmann
+/// cut a number to the type that it is assigned to.)
+void readMember(const nlohmann::json& j, const Field& f, std::string& member);
+void readMember(const nlohmann::json& j, const Field& f, bool& member);
+void readMember(const nlohmann::json& j, const Field& f, double& member);
+void readMember(const nlohmann::json& j, const Field& f, std::uint64_t& member);  // 0 to 2^64 - 1
+void readMember(const nlohmann::json& j, const Field& f, Vec3& member);
+std::int64_t wholeOf(const nlohmann::json& j, const Field& f);
+/// With at most f.most elements.
+const nlohmann::json& listOf(const nlohmann::json& j, const Field& f);
+const nlohmann::json& objectOf(const nlohmann::json& j, const Field& f);
+
+template <std::integral T>
+void readMember(const nlohmann::json& j, const Field& f, T& member) {
+  if (!f.zeroIfMissing || j.contains(f.key)) member = static_cast<T>(wholeOf(j, f));
+}
+
 /// A fault inside names the whole key: "trials[3].index".
 template <class T>
-void readInside(const std::string& key, const nlohmann::json& object, T& member) {
-  try {
-    readFields(object, member);
-  } catch (const FaultError& error) {
-    throw FaultError(inside(key, error.faults));
-  }
-}
-template <class T>
 void readMember(const nlohmann::json& j, const Field& f, T& member) {
-  if (f.zeroIfMissing && !j.contains(f.key)) return;
-  if constexpr (std::is_same_v<T, std::string>) {
-    member = textOf(j, f.key);
-  } else if constexpr (std::is_same_v<T, bool>) {
-    member = flagOf(j, f.key);
-  } else if constexpr (std::is_same_v<T, std::uint64_t>) {
-    member = seedOf(j, f.key);
-  } else if constexpr (std::integral<T>) {
-    member = static_cast<T>(wholeOf(j, f.key, static_cast<std::int64_t>(f.least), static_cast<std::int64_t>(f.most)));
-  } else if constexpr (std::is_same_v<T, double>) {
-    member = numberOf(j, f.key, f.least, f.most);
-  } else {
-    const nlohmann::json& inner = memberOf(j, f.key);
-    if (!inner.is_object()) throw FaultError(Fault{f.key, "is no object"});
-    readInside(f.key, inner, member);
-  }
-}
-inline void readMember(const nlohmann::json& j, const Field& f, Vec3& member) {
-  const nlohmann::json& list = listOf(j, f.key, 3);
-  const bool good = list.size() == 3 && std::all_of(list.begin(), list.end(), [](const nlohmann::json& x) { return x.is_number(); });
-  if (!good) throw FaultError(Fault{f.key, "is not three numbers"});
-  member = {list[0].get<double>(), list[1].get<double>(), list[2].get<double>()};
+  const nlohmann::json& inner = objectOf(j, f);
+  underKey(f.key, [&] { readFields(inner, member); });
 }
 template <class T>
 void readMember(const nlohmann::json& j, const Field& f, std::vector<T>& member) {
-  for (const nlohmann::json& element : listOf(j, f.key, static_cast<std::size_t>(f.most))) {
-    const std::string key = std::string(f.key) + "[" + std::to_string(member.size()) + "]";
-    readInside(key, element, member.emplace_back());
-  }
+  for (const nlohmann::json& element : listOf(j, f))
+    underKey(std::string(f.key) + "[" + std::to_string(member.size()) + "]", [&] { readFields(element, member.emplace_back()); });
 }
 
 template <class T>
