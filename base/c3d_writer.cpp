@@ -57,19 +57,26 @@ class Parameters {
   void texts(const std::string& name, const std::vector<std::string>& values) {
     std::size_t width = 1;
     for (const std::string& value : values) width = std::max(width, std::min<std::size_t>(value.size(), 127));
-    std::size_t first = 0, part = 1;
-    do {
-      const std::size_t count = std::min(values.size() - first, kMostLabels);
-      open(part == 1 ? name : name + std::to_string(part), kCharacters, {width, count}, width * count, "");
+    eachPart(values.size(), [&](const std::string& number, std::size_t first, std::size_t count) {
+      open(name + number, kCharacters, {width, count}, width * count, "");
       for (std::size_t i = 0; i < count; ++i) {
         std::string value = values[first + i].substr(0, width);
         value.resize(width, ' ');
         text_ += value;
       }
       tail("");
+    });
+  }
+  // Up to 255 of so many, and then those of the parts "2", "3" …
+  template <class Put>
+  static void eachPart(std::size_t all, const Put& put) {
+    std::size_t first = 0, part = 1;
+    do {
+      const std::size_t count = std::min(all - first, kMostLabels);
+      put(part == 1 ? std::string() : std::to_string(part), first, count);
       first += count;
       ++part;
-    } while (first < values.size());
+    } while (first < all);
   }
   // Whole blocks with their header; the record without a name ends them.
   std::string section() {
@@ -133,15 +140,10 @@ std::string parametersOf(const C3dFile& file, std::size_t dataBlock) {
   p.texts("UNITS", each(file.analogs, &C3dLabel::unit));
   p.floats("GEN_SCALE", {1}, {});
   // A scale and an offset a channel, in parts as the labels are.
-  std::size_t first = 0, part = 1;
-  do {
-    const std::size_t count = std::min(file.analogs.size() - first, kMostLabels);
-    const std::string number = part == 1 ? "" : std::to_string(part);
+  Parameters::eachPart(file.analogs.size(), [&](const std::string& number, std::size_t, std::size_t count) {
     p.floats("SCALE" + number, std::vector<float>(count, 1.0f), {count});
     p.words("OFFSET" + number, std::vector<std::size_t>(count, 0));
-    first += count;
-    ++part;
-  } while (first < file.analogs.size());
+  });
   p.floats("RATE", {rate}, {}, "samples a second");
   p.group("FORCE_PLATFORM", "none");
   p.word("USED", 0);

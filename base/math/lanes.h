@@ -78,8 +78,8 @@ template <class T>
 inline constexpr bool kInHalves = false;
 template <class Part>
 inline constexpr bool kInHalves<Halves<Part>> = true;
-template <class A, class B>
-concept SomeHalves = kInHalves<A> || kInHalves<B>;
+template <class B, class A>
+concept HalvesWith = kInHalves<A> || kInHalves<B>;
 template <class L>
 concept Lanes = kInHalves<L> ||(!std::is_class_v<L> && requires(L x) { x[0], x* x; });
 
@@ -99,58 +99,47 @@ template <class Operation, class... Operands>
   using Part = decltype(operation(lowOf(x)...));
   return Halves<Part>(operation(lowOf(x)...), operation(highOf(x)...));
 }
-template <class A, class B>
-requires SomeHalves<A, B>
+template <class A, HalvesWith<A> B>
 [[gnu::always_inline]] inline auto operator+(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x + y; }, a, b);
 }
-template <class A, class B>
-requires SomeHalves<A, B>
+template <class A, HalvesWith<A> B>
 [[gnu::always_inline]] inline auto operator-(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x - y; }, a, b);
 }
-template <class A, class B>
-requires SomeHalves<A, B>
+template <class A, HalvesWith<A> B>
 [[gnu::always_inline]] inline auto operator*(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x * y; }, a, b);
 }
-template <class A, class B>
-requires SomeHalves<A, B>
+template <class A, HalvesWith<A> B>
 [[gnu::always_inline]] inline auto operator/(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x / y; }, a, b);
 }
-template <class A, class B>
-requires SomeHalves<A, B>
+template <class A, HalvesWith<A> B>
 [[gnu::always_inline]] inline auto operator<(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x < y; }, a, b);
 }
-template <class A, class B>
-requires SomeHalves<A, B>
+template <class A, HalvesWith<A> B>
 [[gnu::always_inline]] inline auto operator<=(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x <= y; }, a, b);
 }
-template <class A, class B>
-requires SomeHalves<A, B>
+template <class A, HalvesWith<A> B>
 [[gnu::always_inline]] inline auto operator>(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x > y; }, a, b);
 }
-template <class A, class B>
-requires SomeHalves<A, B>
+template <class A, HalvesWith<A> B>
 [[gnu::always_inline]] inline auto operator>=(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x >= y; }, a, b);
 }
-template <class A, class B>
-requires SomeHalves<A, B>
+template <class A, HalvesWith<A> B>
 [[gnu::always_inline]] inline auto operator==(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x == y; }, a, b);
 }
-template <class A, class B>
-requires SomeHalves<A, B>
+template <class A, HalvesWith<A> B>
 [[gnu::always_inline]] inline auto operator|(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x | y; }, a, b);
 }
-template <class A, class B>
-requires SomeHalves<A, B>
+template <class A, HalvesWith<A> B>
 [[gnu::always_inline]] inline auto operator&(const A& a, const B& b) noexcept {
   return byHalves([](const auto& x, const auto& y) { return x & y; }, a, b);
 }

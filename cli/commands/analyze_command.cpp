@@ -95,19 +95,18 @@ Json jsonOf(const analysis::EpsilonTable& table, const analysis::ConditionResult
 
 Json jsonOf(const analysis::Conclusion& c, const Names& names, const std::vector<double>& masses) {
   const auto name = [&](const std::optional<std::size_t>& k) { return k ? Json(analysis::nameOfCandidate(names[*k])) : Json(nullptr); };
+  const auto byName = [&](const auto& values) {
+    auto object = Json::object();
+    for (std::size_t k = 0; k < values.size(); ++k) object[analysis::nameOfCandidate(names[k])] = values[k];
+    return object;
+  };
   auto equivalent = Json::array();
   if (c.best)
     for (std::size_t i = 1; i < names[*c.best].size(); ++i) equivalent.push_back(predict::nameOf(names[*c.best][i]));
-  auto closest = Json::object();
-  for (std::size_t k = 0; k < c.closest.size(); ++k) closest[analysis::nameOfCandidate(names[k])] = c.closest[k];
-  auto posterior = Json::object();
-  for (std::size_t k = 0; k < c.posterior.size(); ++k) posterior[analysis::nameOfCandidate(names[k])] = c.posterior[k];
   auto together = Json::array();
   for (const auto& [i, j] : c.notToldApart) together.push_back({analysis::nameOfCandidate(names[i]), analysis::nameOfCandidate(names[j])});
   auto atEdge = Json::array();
   for (const std::size_t k : c.atEdge) atEdge.push_back(analysis::nameOfCandidate(names[k]));
-  auto scores = Json::object();
-  for (std::size_t k = 0; k < c.score.size(); ++k) scores[analysis::nameOfCandidate(names[k])] = c.score[k];
   const bool judged = c.best.has_value();
   return {{"criterion", name(c.follows)},
           {"decided", c.decided()},
@@ -124,8 +123,8 @@ Json jsonOf(const analysis::Conclusion& c, const Names& names, const std::vector
           {"least_difference", analysis::kLeastDifference},
           {"subjects", c.subjects},
           {"trials", c.trials},
-          {"closest_subjects", closest},
-          {"posterior", posterior},
+          {"closest_subjects", byName(c.closest)},
+          {"posterior", byName(c.posterior)},
           {"sign_flip_p", c.signFlipP ? Json(*c.signFlipP) : Json(nullptr)},
           {"not_told_apart", together},
           {"reference", {{"p", judged ? Json(c.referenceP) : Json(nullptr)}, {"first", c.referenceFirst}}},
@@ -140,7 +139,7 @@ Json jsonOf(const analysis::Conclusion& c, const Names& names, const std::vector
           {"systematic",
            {{"share", judged ? Json(c.systematic.share) : Json(nullptr)}, {"p", judged ? Json(c.systematic.p()) : Json(nullptr)}}},
           {"masses_at_edge", atEdge},
-          {"scores", scores},
+          {"scores", byName(c.score)},
           {"hand_masses_kg", masses},
           {"sentence", analysis::describeConclusion(c, names)}};
 }

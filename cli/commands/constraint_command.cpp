@@ -29,11 +29,7 @@ std::string list(const std::vector<double>& values) {
   return "[" + text + "]";
 }
 // For a person; machines ask for --json.
-std::string shortList(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + fmt::format("{:.6g}", value);
-  return "[" + text + "]";
-}
+std::string shortList(const std::vector<double>& values) { return fmt::format("[{:.6g}]", fmt::join(values, ", ")); }
 bool isCurve(const constraints::Definition& d) { return d.kind == constraints::ConstraintKind::Curve; }
 
 double parseNumber(const std::string& text, const std::string& option) {

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <numeric>
 
@@ -130,12 +131,10 @@ void addListCommand(CLI::App& app, int&) {
   command->add_flag("--json", *asJson, "an array of objects with `name`");
   command->footer("Examples:\n  reach list experiments\n  reach list constraints --json");
   command->callback([what, asJson] {
-    const Json rows = *what == "experiments"   ? listExperiments()
-                      : *what == "plans"       ? listPlans()
-                      : *what == "constraints" ? listConstraints()
-                      : *what == "methods"     ? listMethods()
-                      : *what == "criteria"    ? listCriteria()
-                                               : listDevices();
+    static const std::map<std::string_view, Json (*)()> kLists{{"experiments", listExperiments}, {"plans", listPlans},
+                                                               {"constraints", listConstraints}, {"methods", listMethods},
+                                                               {"criteria", listCriteria},       {"devices", listDevices}};
+    const Json rows = kLists.at(*what)();
     if (*asJson) {
       fmt::print("{}", jsonText(rows));
       return;

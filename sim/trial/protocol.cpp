@@ -49,22 +49,12 @@ bool haveAllArrived(const ProtocolSettings& s, std::span<const dynamics::MassSta
 void end(ProtocolState& state, std::uint64_t tick, Outcome outcome, Reason reason, Worst worst = {}) noexcept {
   const bool moved = state.phase == Phase::Moving;
   state.phase = Phase::Done;
-  state.result.outcome = outcome;
-  state.result.reason = reason;
-  state.result.mass = worst.mass;
-  state.result.by = worst.by;
-  state.result.onsetTick = moved ? state.onsetTick : 0;
-  state.result.endTick = tick;
-  state.result.movementTime = moved ? static_cast<double>(tick - state.onsetTick) * kTickSeconds : 0;
+  const double time = moved ? static_cast<double>(tick - state.onsetTick) * kTickSeconds : 0;
+  state.result = {outcome, reason, worst.mass, worst.by, time, moved ? state.onsetTick : 0, tick};
 }
 
 void putUp(const ProtocolInput& in, ProtocolState& state) noexcept {
-  const std::int32_t trial = state.trial + 1;
-  state = {};
-  state.phase = Phase::Waiting;
-  state.trial = trial;
-  state.planned = in.planned;
-  state.putUpTick = in.tick;
+  state = {.phase = Phase::Waiting, .trial = state.trial + 1, .planned = in.planned, .putUpTick = in.tick};
 }
 
 bool restsAtStart(const ProtocolSettings& s, const ProtocolInput& in) noexcept {

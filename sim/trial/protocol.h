@@ -106,8 +106,8 @@ struct ProtocolState {
   std::int64_t missedTicks = 0;  // of the movement: since onset, with the gap that it lies in
   std::int32_t viaPassed = 0;    // places of `via`
   double viaLeast = 0;           // [m] least distance from the place that comes next
-  Vec3 viaFrom;                  // [m] the last mass at the tick before
-  TrialResult result;            // in Done
+  Vec3 viaFrom = {};             // [m] the last mass at the tick before
+  TrialResult result = {};       // in Done
 };
 
 /// Haptic thread, once per tick, after the step. Neither allocates nor throws.

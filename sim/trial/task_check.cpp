@@ -6,6 +6,7 @@
 
 #include "base/fault.h"
 #include "base/json/json_reader.h"
+#include "base/math/eigen_solvers.h"
 #include "constraints/constraint.h"
 #include "constraints/geometry/arc_length.h"
 #include "constraints/geometry/task_path.h"
@@ -78,19 +79,13 @@ void checkTask(const experiment::CompiledExperiment& experiment, const std::stri
 
 namespace {
 
-/// Whether x . K x is negative for some x: a principal minor of the symmetric part is.
+/// Whether x . K x is negative for some x: an eigenvalue of the symmetric part is.
 bool pushesAway(const experiment::SquareMatrix<3>& k) {
-  const auto s = [&](std::size_t i, std::size_t j) { return 0.5 * (k[i][j] + k[j][i]); };
-  const auto minor = [&](std::size_t i, std::size_t j) { return s(i, i) * s(j, j) - s(i, j) * s(i, j); };
-  const double determinant =
-      s(0, 0) * minor(1, 2) - s(0, 1) * (s(0, 1) * s(2, 2) - s(0, 2) * s(1, 2)) + s(0, 2) * (s(0, 1) * s(1, 2) - s(0, 2) * s(1, 1));
-  double size = 0;
-  for (const auto& row : k)
-    for (const double entry : row) size = std::max(size, std::abs(entry));
-  const double rounding = 1e-12 * size;
+  Eigen::MatrixXd symmetric(3, 3);
   for (std::size_t i = 0; i < 3; ++i)
-    if (s(i, i) < -rounding || minor(i, (i + 1) % 3) < -rounding * size) return true;
-  return determinant < -rounding * size * size;
+    for (std::size_t j = 0; j < 3; ++j) symmetric(static_cast<int>(i), static_cast<int>(j)) = 0.5 * (k[i][j] + k[j][i]);
+  constexpr double kRounding = 1e-12;
+  return symmetricEigenvalues(symmetric).minCoeff() < -kRounding * symmetric.norm();
 }
 
 void findFieldsWithoutBound(const experiment::Environment& environment, std::vector<Fault>& found) {
