@@ -1,5 +1,8 @@
 #include "sim/session/programme.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <map>
 
 #include "base/json/json_reader.h"

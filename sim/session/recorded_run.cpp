@@ -140,10 +140,13 @@ void RecordedRun::openLog() {
       record::RecorderOptions{.threaded = !options_.virtualClock, .diskReserve = options_.diskReserve, .further = options_.further});
 }
 
-// A repeat is not repeated.
-void RecordedRun::repeatIfAborted(const haptics::ConductedTrial& trial) {
+// A repeat is not repeated. The instruments' events are of the trial, and of the time before it.
+void RecordedRun::takeEnded(const haptics::ConductedTrial& trial) {
   const bool isRepeat = ++conducted_ > block_.trials.size();
   if (block_.configuration.repeatAborted && trial::isPutUpAgain(trial.result) && !isRepeat) repeat(trial.planned);
+  if (options_.instruments == nullptr) return;
+  options_.instruments->awaitTrial(0);
+  recorder_->add(options_.instruments->takeEvents());
 }
 
 void RecordedRun::start() {
@@ -190,27 +193,14 @@ std::optional<haptics::ConductedTrial> RecordedRun::poll() {
     (void)conductor_->putUpNext();
   }
   const std::optional<haptics::ConductedTrial> trial = conductor_->poll();
-  if (trial) {
-    repeatIfAborted(*trial);
-    keepInstrumentEvents();
-  }
+  if (trial) takeEnded(*trial);
   return trial;
-}
-
-// Of a trial that has ended, and of the time before it.
-void RecordedRun::keepInstrumentEvents() {
-  if (options_.instruments == nullptr || !started_) return;
-  options_.instruments->awaitTrial(0);
-  recorder_->add(options_.instruments->takeEvents());
 }
 
 std::optional<haptics::ConductedTrial> RecordedRun::runTrial(const std::atomic<bool>& stop, const std::function<void()>& looked) {
   checkTiming(stop);
   const std::optional<haptics::ConductedTrial> trial = conductor_->runTrial(stop, looked);
-  if (trial) {
-    repeatIfAborted(*trial);
-    keepInstrumentEvents();
-  }
+  if (trial) takeEnded(*trial);
   return trial;
 }
 

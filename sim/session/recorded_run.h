@@ -118,9 +118,8 @@ class RecordedRun {
   void completeConfiguration();
   void openLog();
   void start();
-  void keepInstrumentEvents();
   bool checksTiming();
-  void repeatIfAborted(const haptics::ConductedTrial& trial);
+  void takeEnded(const haptics::ConductedTrial& trial);
 
   BlockToRun block_;
   RecordedRunOptions options_;
