@@ -6,11 +6,6 @@
 
 namespace reachlab::haptics {
 
-bool operator==(const GuardSettings& a, const GuardSettings& b) noexcept {
-  return a.wallCentre == b.wallCentre && a.wallRadius == b.wallRadius && a.wallStiffness == b.wallStiffness &&
-         a.wallDamping == b.wallDamping && a.compensation == b.compensation && a.passivityControl == b.passivityControl;
-}
-
 std::string_view nameOf(DeviceState state) {
   constexpr std::string_view kNames[]{"off", "homed", "armed", "engaged", "fault"};
   return kNames[static_cast<std::size_t>(state)];

@@ -14,8 +14,9 @@ struct GuardSettings {
   double wallDamping = 2;      // [N s/m]; K T/2 + B = 2.25 N s/m at 1 kHz, less than a hand brings that holds the device
   Vec3 compensation;           // [N] held against the weight of what hangs on the device, also between trials
   bool passivityControl = false;
+
+  bool operator==(const GuardSettings&) const = default;
 };
-bool operator==(const GuardSettings& a, const GuardSettings& b) noexcept;
 
 /// The state of a device that renders force. Each change is an event of the recording.
 enum class DeviceState : std::uint8_t {

@@ -46,7 +46,7 @@ void writeMended(const RunLog& log, const std::string& mended) {
     payload.clear();
   }
   if (!ended) {
-    encodeEnd(last, payload);
+    encode(last, payload);
     writer.append(RecordType::End, payload.bytes());
   }
   writer.sync();

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 
 #include <cstring>
-#include <memory>
 
 #include "base/fault.h"
 #include "constraints/constraint.h"
 #include "sim/experiment/experiment.h"
-#include "sim/haptics/tick_engine.h"
 #include "sim/haptics/tick_order.h"
 #include "sim/record/log/trial_tracker.h"
 
@@ -125,8 +123,6 @@ struct RecordedTicks : haptics::NoStages {
 };
 
 }  // namespace
-
-Replay replayRun(const RunLog& log) { return replayRun(log, {}); }
 
 Replay replayRun(const RunLog& log, const ReplayHooks& hooks) {
   const RunConfiguration& c = log.configuration();

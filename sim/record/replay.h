@@ -20,17 +20,15 @@ struct Replay {
   bool identical() const { return rowsThatDiffer == 0 && trialsThatDiffer == 0; }
 };
 
-/// Feeds every recorded tick to a fresh engine of the recorded experiment. The result is bit-identical with the program that recorded, on
-/// every level of processor. Another compiler or version may round differently. Throws FaultError when ticks are missing in the log
-/// (dropped while recording), and the errors of the engine's construction.
-Replay replayRun(const RunLog& log);
-
 /// The parts that the replay of a run at several stations needs: an engine on a copy, and the other stations' samples between two ticks.
 struct ReplayHooks {
   std::function<std::unique_ptr<haptics::TickEngine>(const experiment::CompiledExperiment&, const haptics::EngineOptions&)> makeEngine;
   std::function<void(const haptics::TickState& state)> afterTick;
   std::function<void(double* columns)> further;  // FurtherColumns, of the tick just simulated; without it they are not compared
 };
-Replay replayRun(const RunLog& log, const ReplayHooks& hooks);
+/// Feeds every recorded tick to a fresh engine of the recorded experiment. The result is bit-identical with the program that recorded, on
+/// every level of processor. Another compiler or version may round differently. Throws FaultError when ticks are missing in the log
+/// (dropped while recording), and the errors of the engine's construction.
+Replay replayRun(const RunLog& log, const ReplayHooks& hooks = {});
 
 }  // namespace reachlab::record

@@ -112,23 +112,17 @@ void writeIndex(const TrialIndex& index, const std::string& file) {
   }
 }
 
-struct FileStamp {
-  std::uint64_t bytes = 0;
-  std::int64_t changedNs = 0;
-};
-
-FileStamp stampOf(const std::string& path) {
+// Size and time of the last change [ns].
+std::pair<std::uint64_t, std::int64_t> stampOf(const std::string& path) {
   std::error_code error;
   const auto bytes = fs::file_size(path, error);
   const auto changed = fs::last_write_time(path, error);
   return {error ? 0 : bytes, error ? 0 : std::chrono::duration_cast<std::chrono::nanoseconds>(changed.time_since_epoch()).count()};
 }
 
-IndexedRun readRun(const std::string& path, const FileStamp& stamp) {
+IndexedRun readRun(const std::string& path) {
   const RunLog log = RunLog::open(path, LogCheck::Trials);
   IndexedRun run = indexedRunOf(path, log.configuration());
-  run.bytes = stamp.bytes;
-  run.changedNs = stamp.changedNs;
   run.healthy = log.healthy();
   run.loss = lossOf(log);
   run.trials = log.trials();
@@ -167,10 +161,10 @@ TrialIndex openTrialIndex(const std::string& path, const std::string& indexFile,
   TrialIndex index;
   bool given = false;
   for (std::size_t i = 0; i < logs.size(); ++i) {
-    const FileStamp stamp = stampOf(logs[i]);
+    const auto stamp = stampOf(logs[i]);
     const auto found = known.find(logs[i]);
     const auto isOver = [](const IndexedRun& run) { return run.healthy || !run.loss.empty(); };  // else it was being recorded into
-    if (found != known.end() && isOver(found->second) && found->second.bytes == stamp.bytes && found->second.changedNs == stamp.changedNs) {
+    if (found != known.end() && isOver(found->second) && stamp == std::pair(found->second.bytes, found->second.changedNs)) {
       index.runs.push_back(std::move(found->second));
       continue;
     }
@@ -180,7 +174,8 @@ TrialIndex openTrialIndex(const std::string& path, const std::string& indexFile,
     }
     ++index.read;
     try {
-      index.runs.push_back(readRun(logs[i], stamp));
+      index.runs.push_back(readRun(logs[i]));
+      std::tie(index.runs.back().bytes, index.runs.back().changedNs) = stamp;
     } catch (const Error& error) {
       index.unreadable.emplace_back(error.what());
     }

@@ -209,8 +209,8 @@ class Backup {
       if (open || !fault.empty()) left.push_back(runNameOf(name));
     }
     for (const fs::path& file : files)
-      if (std::find(left.begin(), left.end(), runNameOf(file.filename().string())) == left.end() ||
-          runNameOf(file.filename().string()).run.empty())
+      if (const RunName run = runNameOf(file.filename().string());
+          run.run.empty() || std::find(left.begin(), left.end(), run) == left.end())
         keep(file);
     if (report_.copiedFiles > 0) writeList(backup_.string(), list_);
     if (!refused.empty()) throw ResourceError(refused);

@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "base/fault.h"
 #include "base/json/json_reader.h"
 #include "base/text_file.h"
 #include "sim/experiment/experiment.h"

@@ -9,7 +9,6 @@
 #include <thread>
 #include <utility>
 
-#include "base/fault.h"
 #include "base/system/os.h"
 #include "base/system/processor_level.h"
 #include "base/system/utc.h"

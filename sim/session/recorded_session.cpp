@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <thread>
-#include <utility>
 
 namespace reachlab::session {
 namespace {
@@ -14,27 +13,15 @@ void waitUntil(IsOver&& isOver, const std::atomic<bool>& stop) {
 }
 
 // Says at times that the trial which is up waits for its hand.
-class Wait {
- public:
-  Wait(const RecordedRun& run, const SessionWords& words) : run_(run), words_(words) {}
-  void look() {
-    const auto now = std::chrono::steady_clock::now();
-    if (run_.latest().phase != trial::Phase::Waiting || now < due_) return;
-    due_ = now + kAgain;
-    words_.waiting(run_);
-  }
-
- private:
-  static constexpr std::chrono::seconds kFirst{3}, kAgain{10};
-  const RecordedRun& run_;
-  const SessionWords& words_;
-  std::chrono::steady_clock::time_point due_ = std::chrono::steady_clock::now() + kFirst;
-};
-
 std::optional<haptics::ConductedTrial> runTrial(RecordedRun& run, const std::atomic<bool>& stop, const SessionWords& words) {
   if (!words.waiting) return run.runTrial(stop);
-  Wait wait(run, words);
-  return run.runTrial(stop, [&wait] { wait.look(); });
+  constexpr std::chrono::seconds kFirst{3}, kAgain{10};
+  return run.runTrial(stop, [&, due = std::chrono::steady_clock::now() + kFirst]() mutable {
+    const auto now = std::chrono::steady_clock::now();
+    if (run.latest().phase != trial::Phase::Waiting || now < due) return;
+    due = now + kAgain;
+    words.waiting(run);
+  });
 }
 
 // True when it was done to its end.

@@ -390,7 +390,7 @@ TEST(TrialRecord, HasAnOutcomeAReasonAndAnEndThatIsNotBeforeItsStart) {
 
 TEST(EndRecord, IsTheOffsetAndTheNumberOfTheLastTrialsRecord) {
   ByteWriter out;
-  encodeEnd({12345678901, 77}, out);
+  encode(TrialLink{12345678901, 77}, out);
   const Bytes expected = bytesOf(std::uint64_t{12345678901}, std::uint32_t{77});
   EXPECT_EQ(copyOf(out.bytes()), expected);
   EXPECT_EQ(expected.size(), kEndPayloadBytes);

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cctype>
 
-#include "base/fault.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/device.h"

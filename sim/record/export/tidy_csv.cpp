@@ -5,12 +5,10 @@
 #include <limits>
 #include <numeric>
 
-#include "base/table_text.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/export/column_dictionary.h"
 #include "sim/record/export/run_tables.h"
 #include "sim/record/export/trial_row.h"
-#include "sim/record/log/atomic_file.h"
 
 namespace reachlab::record {
 

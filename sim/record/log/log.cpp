@@ -31,14 +31,6 @@ T load(const std::uint8_t* at) {
   return value;
 }
 
-std::vector<std::uint8_t> makeHeader() {
-  ByteWriter header;
-  header.putBytes(kSignature.data(), kSignature.size());
-  header.put(kLogSchemaVersion);
-  header.put(checksum(header.bytes().data(), header.size()));
-  return {header.bytes().begin(), header.bytes().end()};
-}
-
 bool isKnown(std::uint16_t type) {
   return type >= static_cast<std::uint16_t>(RecordType::Configuration) && type <= static_cast<std::uint16_t>(RecordType::PeerTicks);
 }
@@ -65,7 +57,11 @@ std::string ByteReader::getText() {
 
 LogWriter LogWriter::create(const std::string& path) {
   LogWriter writer(AppendFile::create(path));
-  writer.file_.append(makeHeader());
+  ByteWriter header;
+  header.putBytes(kSignature.data(), kSignature.size());
+  header.put(kLogSchemaVersion);
+  header.put(checksum(header.bytes().data(), header.size()));
+  writer.file_.append(header.bytes());
   return writer;
 }
 
@@ -73,25 +69,18 @@ std::uint64_t LogWriter::append(RecordType type, std::span<const std::uint8_t> p
   if (payload.size() > kMaxPayloadBytes)
     throw FaultError(fileFault(path(), fmt::format("a record of {} bytes", payload.size()),
                                fmt::format("up to {}: plan fewer trials a run", kMaxPayloadBytes)));
-  frame_.resize(kRecordFrameBytes + payload.size());
-  const auto length = static_cast<std::uint32_t>(payload.size());
-  const auto number = static_cast<std::uint16_t>(type);
-  const std::uint16_t zero = 0;
-  std::uint8_t* at = frame_.data();
-  std::memcpy(at, &length, 4);
-  std::memcpy(at + 4, &number, 2);
-  std::memcpy(at + 6, &zero, 2);
-  std::memcpy(at + 8, &sequence_, 4);
-  if (!payload.empty()) std::memcpy(at + kRecordHeaderBytes, payload.data(), payload.size());
-  const std::uint32_t crc = checksum(at, kRecordHeaderBytes + payload.size());
-  std::memcpy(at + kRecordHeaderBytes + payload.size(), &crc, 4);
+  frame_.clear();
+  frame_.put(static_cast<std::uint32_t>(payload.size()));
+  frame_.put(static_cast<std::uint16_t>(type));
+  frame_.put(std::uint16_t{0});
+  frame_.put(sequence_);
+  frame_.putBytes(payload.data(), payload.size());
+  frame_.put(checksum(frame_.bytes().data(), frame_.size()));
   const std::uint64_t offset = file_.size();
-  file_.append(frame_);
+  file_.append(frame_.bytes());
   ++sequence_;
   return offset;
 }
-
-void LogWriter::sync() { file_.sync(); }
 
 // Without O_NONBLOCK opening a pipe would wait for somebody to write into it.
 LogReader::LogReader(const std::string& path) : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK)) {

@@ -98,7 +98,7 @@ class LogWriter {
   /// back, so that the log still ends with a good record.
   std::uint64_t append(RecordType type, std::span<const std::uint8_t> payload);
   /// The records so far survive a power cut once this returns.
-  void sync();
+  void sync() { file_.sync(); }
   std::uint64_t size() const { return file_.size(); }
   std::uint32_t nextSequence() const { return sequence_; }
   const std::string& path() const { return file_.path(); }
@@ -107,7 +107,7 @@ class LogWriter {
   explicit LogWriter(AppendFile file) : file_(std::move(file)) {}
   AppendFile file_;
   std::uint32_t sequence_ = 0;
-  std::vector<std::uint8_t> frame_;
+  ByteWriter frame_;
 };
 
 /// One good record where it lies in the file.

@@ -224,7 +224,7 @@ RecordedTrial decodeTrial(std::span<const std::uint8_t> payload, TrialLink& prev
   return trial;
 }
 
-void encodeEnd(const TrialLink& last, ByteWriter& out) { visitMembers(last, PutMembers{out}); }
+void encode(const TrialLink& last, ByteWriter& out) { visitMembers(last, PutMembers{out}); }
 TrialLink decodeEnd(std::span<const std::uint8_t> payload) { return decodeWhole<TrialLink>(payload, "closing"); }
 
 }  // namespace reachlab::record

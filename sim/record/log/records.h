@@ -131,7 +131,7 @@ void encode(const RecordedTrial& trial, const TrialLink& previous, ByteWriter& o
 RecordedTrial decodeTrial(std::span<const std::uint8_t> payload, TrialLink& previous);
 
 /// The closing record: where the last trial record lies.
-void encodeEnd(const TrialLink& last, ByteWriter& out);
+void encode(const TrialLink& last, ByteWriter& out);
 TrialLink decodeEnd(std::span<const std::uint8_t> payload);
 inline constexpr std::size_t kEndPayloadBytes = 12;
 

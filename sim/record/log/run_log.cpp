@@ -4,13 +4,11 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <type_traits>
 
 #include "base/fault.h"
 #include "base/text_file.h"
 #include "base/ticks.h"
-#include "sim/record/log/log.h"
 #include "sim/record/log/logs_folder.h"
 #include "sim/record/log/records.h"
 

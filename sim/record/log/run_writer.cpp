@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "base/system/os.h"
 
 namespace reachlab::record {
 namespace {
@@ -70,10 +69,8 @@ void RunWriter::keepReserve() {
 
 void RunWriter::announce(const TrialSetup& setup) {
   flush();
-  ByteWriter payload;
-  encode(setup, payload);
   tracker_.announce(setup);
-  log_.append(RecordType::TrialSetup, payload.bytes());
+  put(RecordType::TrialSetup, setup);
 }
 
 bool RunWriter::add(const QueuedTick& tick, std::span<const haptics::DeviceSample> devices, const double* row) {
@@ -110,37 +107,21 @@ void RunWriter::flush() {
     lookedAt_ = log_.size();
     keepReserve();
   }
-  if (!ticks_.empty()) {
-    log_.append(RecordType::Ticks, ticks_.payload());
-    ticks_.clear();
-  }
-  for (HandBlock& block : handBlocks_) {
-    if (block.empty()) continue;
-    log_.append(RecordType::HandTicks, block.payload());
+  const auto putBlock = [this](RecordType type, Block& block) {
+    if (!block.empty()) log_.append(type, block.payload());
     block.clear();
-  }
-  if (!samples_.empty()) {
-    log_.append(RecordType::Samples, samples_.payload());
-    samples_.clear();
-  }
-  writeEvents();
+  };
+  putBlock(RecordType::Ticks, ticks_);
+  for (HandBlock& block : handBlocks_) putBlock(RecordType::HandTicks, block);
+  putBlock(RecordType::Samples, samples_);
+  for (const RecordedEvent& event : events_) put(RecordType::Event, event);
+  events_.clear();
   flushed_ = std::chrono::steady_clock::now();
 }
 
-void RunWriter::writeEvents() {
-  for (const RecordedEvent& event : events_) {
-    ByteWriter payload;
-    encode(event, payload);
-    log_.append(RecordType::Event, payload.bytes());
-  }
-  events_.clear();
-}
-
 void RunWriter::writeTrial(RecordedTrial trial) {
-  ByteWriter payload;
-  encode(trial, lastLink_, payload);
   const std::uint32_t sequence = log_.nextSequence();
-  lastLink_ = {log_.append(RecordType::Trial, payload.bytes()), sequence};
+  lastLink_ = {put(RecordType::Trial, trial, lastLink_), sequence};
   log_.sync();
   lastTrial_ = trial;
 }
@@ -158,9 +139,7 @@ void RunWriter::add(const std::vector<RecordedEvent>& events) {
 void RunWriter::close() {
   flush();
   if (tracker_.underWay()) writeTrial(tracker_.brokenOff());
-  ByteWriter payload;
-  encodeEnd(lastLink_, payload);
-  log_.append(RecordType::End, payload.bytes());
+  put(RecordType::End, lastLink_);
   log_.sync();
 }
 

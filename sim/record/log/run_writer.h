@@ -40,7 +40,12 @@ class RunWriter {
   const RecordedTrial& lastTrial() const { return lastTrial_; }
 
  private:
-  void writeEvents();
+  template <class... Members>
+  std::uint64_t put(RecordType type, const Members&... members) {
+    ByteWriter payload;
+    encode(members..., payload);
+    return log_.append(type, payload.bytes());
+  }
   void keepReserve();
   void writeTrial(RecordedTrial trial);
 
