@@ -15,8 +15,6 @@ class TableText {
 
   /// Quoted for CSV where necessary, and guarded by ' if it begins with = + - @. In TSV, tabs and line ends become spaces.
   TableText& cell(std::string_view text);
-  TableText& cell(const char* text) { return cell(std::string_view(text)); }
-  TableText& cell(const std::string& text) { return cell(std::string_view(text)); }
   TableText& number(double value);
   TableText& whole(long long value);
   TableText& missing() { return raw(missing_); }

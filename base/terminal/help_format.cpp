@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <sstream>
-#include <string>
 #include <string_view>
 #include <utility>
 

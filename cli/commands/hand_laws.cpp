@@ -10,7 +10,6 @@
 #include "base/fault.h"
 #include "base/math/cubic_spline.h"
 #include "base/math/minimum_jerk.h"
-#include "constraints/constraint.h"
 #include "constraints/geometry/arc_length.h"
 #include "constraints/geometry/task_path.h"
 #include "devices/replay/recorded_reach.h"

@@ -24,8 +24,8 @@ struct StudyRequest {
   bool resume = false;
 };
 
-std::string outOf(const StudyRequest& request) {
-  return request.out.empty() ? std::filesystem::path(request.study).stem().string() + "-study" : request.out;
+std::string outOf(const std::string& out, const std::string& study) {
+  return out.empty() ? std::filesystem::path(study).stem().string() + "-study" : out;
 }
 
 void runStudy(const StudyRequest& request) {
@@ -34,7 +34,7 @@ void runStudy(const StudyRequest& request) {
   const study::Shard shard = shardOf(request.shard);
   const study::PrepareSubjects prepare = prepareSimulated();
   study::checkPoints(design, prepare);
-  const std::string out = outOf(request);
+  const std::string out = outOf(request.out, request.study);
   atOption("--out", [&] {
     const study::StudyFolder folder = study::makeFolder(design, out);
     const study::ChunksToDo todo = study::chunksToDo(folder, shard);
@@ -104,7 +104,7 @@ struct SbatchRequest {
 // A task may be killed or put back at any moment: the chunks that are there are done.
 void tellSbatch(const SbatchRequest& request) {
   const study::Design design = study::readDesign(request.study);
-  const std::string out = request.out.empty() ? std::filesystem::path(request.study).stem().string() + "-study" : request.out;
+  const std::string out = outOf(request.out, request.study);
   const std::int64_t chunks = study::planChunks(design).count();
   const auto tasks = static_cast<int>(std::min<std::int64_t>(request.tasks, chunks));
   fmt::print(

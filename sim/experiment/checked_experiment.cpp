@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "base/fault.h"
 #include "base/number_range.h"
 #include "base/ticks.h"
 #include "constraints/constraint.h"

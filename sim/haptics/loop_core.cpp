@@ -2,7 +2,6 @@
 
 #include <new>
 
-#include "base/system/os.h"
 #include "sim/haptics/tick_order.h"
 
 namespace reachlab::haptics {

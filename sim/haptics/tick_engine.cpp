@@ -8,7 +8,6 @@
 #include "base/fault.h"
 #include "base/math/minimum_jerk.h"
 #include "base/ticks.h"
-#include "sim/dynamics/scene.h"
 #include "sim/dynamics/shared_plant.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment.h"

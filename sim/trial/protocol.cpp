@@ -26,24 +26,13 @@ Worst findWorst(std::span<const dynamics::MassState> masses, double tolerance, M
   return worst;
 }
 
-struct Arrival {
-  Worst position, velocity;
-};
-
-Arrival judge(const ProtocolSettings& s, std::span<const dynamics::MassState> masses) noexcept {
-  return {findWorst(masses, s.positionTolerance, [&](const dynamics::MassState& m) { return norm(m.r - s.target); }),
-          findWorst(masses, s.velocityTolerance, [](const dynamics::MassState& m) { return norm(m.v); })};
-}
-
 bool hasArrived(const ProtocolSettings& s, const dynamics::MassState& mass) noexcept {
   return norm(mass.r - s.target) - s.positionTolerance <= 0 && norm(mass.v) - s.velocityTolerance <= 0;
 }
 
-// Nobody of judge(…) is away, known from the first mass that is away; the last one is the last to come.
+// No mass is away, known from the first mass that is. The last one is the last to come.
 bool haveAllArrived(const ProtocolSettings& s, std::span<const dynamics::MassState> masses) noexcept {
-  for (std::size_t i = masses.size(); i-- > 0;)
-    if (!hasArrived(s, masses[i])) return false;
-  return true;
+  return std::all_of(masses.rbegin(), masses.rend(), [&](const dynamics::MassState& mass) { return hasArrived(s, mass); });
 }
 
 void end(ProtocolState& state, std::uint64_t tick, Outcome outcome, Reason reason, Worst worst = {}) noexcept {
@@ -132,11 +121,12 @@ void watchForArrival(const ProtocolSettings& s, const ProtocolInput& in, Protoco
     return;
   }
   if (moved < s.latestTick) return;
-  Arrival arrival = judge(s, in.masses);
-  const bool away = arrival.position.mass > 0;
-  if (s.judgesHand) arrival.position.mass = arrival.velocity.mass = 0;
+  const Worst position = findWorst(in.masses, s.positionTolerance, [&](const dynamics::MassState& m) { return norm(m.r - s.target); });
+  const bool away = position.mass > 0;
+  Worst worst = away ? position : findWorst(in.masses, s.velocityTolerance, [](const dynamics::MassState& m) { return norm(m.v); });
+  if (s.judgesHand) worst.mass = 0;
   if (!passed) end(state, in.tick, Outcome::Failure, Reason::Via, {0, state.viaLeast - s.viaRadius});
-  else end(state, in.tick, Outcome::Failure, away ? Reason::Position : Reason::Velocity, away ? arrival.position : arrival.velocity);
+  else end(state, in.tick, Outcome::Failure, away ? Reason::Position : Reason::Velocity, worst);
   state.semaphore = Semaphore::Red;
 }
 

@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "base/fault.h"
 #include "base/json/json_reader.h"
 #include "base/math/eigen_solvers.h"
 #include "constraints/constraint.h"
