@@ -23,13 +23,10 @@ std::string helpCommand(const CLI::App& app, const CLI::App& command) {
   return "`" + app.get_name() + words + " --help`";
 }
 
-std::vector<std::string> namesOf(const std::vector<const CLI::App*>& commands) {
-  std::vector<std::string> names;
-  for (const CLI::App* command : commands) names.push_back(command->get_name());
-  return names;
-}
 std::vector<std::string> commandsOf(const CLI::App& command) {
-  return namesOf(command.get_subcommands([](const CLI::App*) { return true; }));
+  std::vector<std::string> names;
+  for (const CLI::App* sub : command.get_subcommands([](const CLI::App*) { return true; })) names.push_back(sub->get_name());
+  return names;
 }
 
 std::vector<const CLI::Option*> optionsOf(const CLI::App& app) {
@@ -94,17 +91,11 @@ Fault missing(const CLI::App& app) {
           "a command is missing; " + helpCommand(app, command) + " explains the commands", listOf(commandsOf(command))};
 }
 
-std::string valueOf(const CLI::Option& option) {
-  std::string value;
-  for (const std::string& word : option.results()) value += (value.empty() ? "" : " ") + word;
-  return value;
-}
-
 Fault wrongValue(const CLI::Option& option) {
   const std::string type = typeOf(option), limit = allowedOf(option);
   std::string allowed = type == "INT" || type == "UINT" ? "a whole number" : type == "FLOAT" ? "a number" : limit;
   if (!limit.empty() && allowed != limit) allowed += ", " + limit;
-  return {option.get_name(), "is " + valueOf(option), allowed};
+  return {option.get_name(), "is " + CLI::detail::join(option.results(), " "), allowed};
 }
 
 }  // namespace

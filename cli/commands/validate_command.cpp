@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <optional>
 
 #include "base/fault.h"
@@ -10,11 +11,12 @@
 #include "base/terminal/message.h"
 #include "base/text_file.h"
 #include "cli/commands/commands.h"
-#include "cli/output/preflight_output.h"
+#include "cli/output/json_text.h"
 #include "cli/output/study_words.h"
 #include "cli/terminal/option_words.h"
 #include "constraints/catalogue/definition.h"
 #include "devices/make_device.h"
+#include "devices/preflight/preflight.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
@@ -99,6 +101,31 @@ struct ValidateRequest {
   std::string device;
   bool json = false;
 };
+
+// One line per finding, warnings first.
+std::string preflightText(const std::vector<devices::PreflightLine>& lines) {
+  std::vector<devices::PreflightLine> ordered = lines;
+  std::stable_partition(ordered.begin(), ordered.end(),
+                        [](const devices::PreflightLine& line) { return line.verdict == devices::Verdict::Warning; });
+  std::string text;
+  for (const devices::PreflightLine& line : ordered) text += fmt::format("  {:<8} {}\n", devices::nameOf(line.verdict), describe(line));
+  return text;
+}
+
+std::string preflightJson(const std::vector<devices::PreflightLine>& lines) {
+  using Json = nlohmann::ordered_json;
+  Json rows = Json::array();
+  for (const devices::PreflightLine& line : lines)
+    rows.push_back({{"hand", std::max(line.hand, 1)},
+                    {"name", line.name},
+                    {"verdict", devices::nameOf(line.verdict)},
+                    {"asked", line.asked},
+                    {"limit", line.limit ? Json(*line.limit) : Json(nullptr)},
+                    {"unit", line.unit},
+                    {"sentence", line.sentence},
+                    {"remedy", line.remedy.empty() ? Json(nullptr) : Json(line.remedy)}});
+  return jsonText(rows);
+}
 
 // Every scene of the file against the device, before anybody holds it.
 void checkOnDevice(const ValidateRequest& r, const session::Programme& programme) {

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "base/number_range.h"
-#include "base/ticks.h"
 #include "constraints/constraint.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment_keys.h"

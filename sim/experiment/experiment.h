@@ -9,7 +9,6 @@
 #include "sim/experiment/cursor.h"
 #include "sim/experiment/environment.h"
 #include "sim/experiment/object.h"
-#include "sim/experiment/subject_screen.h"
 #include "sim/experiment/task.h"
 #include "sim/experiment/velocity_estimator_spec.h"
 
@@ -25,6 +24,14 @@ struct Arm {
   std::array<double, 2> shoulder{0.0, -0.45};   // [m] of the shoulder in the horizontal plane: world x to the right, -z forward
   bool elbowLeft = false;                       // which of the two postures
   bool operator==(const Arm&) const = default;
+};
+
+/// The content of the subject's screen. It is stored with the experiment because it is part of the task.
+struct SubjectScreen {
+  bool semaphore = true, target = true, masses = true, words = true;
+  bool score = false;       // trials of the run that succeeded
+  bool photodiode = false;  // a square in the lower left corner, white from the go signal to the trial's end: for a light sensor
+  bool operator==(const SubjectScreen&) const = default;
 };
 
 /// One experiment file, validated: object, constraint, coupling and task. SI units throughout.

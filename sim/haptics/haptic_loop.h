@@ -22,8 +22,6 @@ class HapticLoop {
   /// The sink (may be null) outlives the loop.
   HapticLoop(std::unique_ptr<TickEngine> engine, std::shared_ptr<HapticDevice> device, RunSink* sink, const LoopOptions& options = {});
   ~HapticLoop();
-  HapticLoop(const HapticLoop&) = delete;
-  HapticLoop& operator=(const HapticLoop&) = delete;
 
   /// Throws ResourceError from a device that drives the clock.
   void start();

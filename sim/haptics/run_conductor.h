@@ -36,8 +36,6 @@ class RunConductor {
   RunConductor(std::unique_ptr<TickEngine> engine, std::unique_ptr<HapticDevice>&& device, std::vector<trial::PlannedTrial> trials,
                const LoopOptions& options);
   ~RunConductor();
-  RunConductor(const RunConductor&) = delete;
-  RunConductor& operator=(const RunConductor&) = delete;
 
   const TickEngine& engine() const { return loop_ ? loop_->engine() : *engine_; }  // constants only while running
   DeviceInfo device() const { return device_->info(); }

@@ -8,7 +8,6 @@
 #include "sim/dynamics/object/mass_state.h"
 #include "sim/experiment/object_limits.h"
 #include "sim/haptics/device.h"
-#include "sim/trial/command.h"
 #include "sim/trial/outcome.h"
 
 namespace reachlab::haptics {

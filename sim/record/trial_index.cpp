@@ -27,7 +27,7 @@ std::span<const std::uint8_t> asBytes(std::string_view text) { return {reinterpr
 
 // What comes before the scenes and trials, in the order of its bytes.
 template <MaybeConst<IndexedRun> T, class Visit>
-void visitMembers(T& run, const Visit& visit) {
+void visitRun(T& run, const Visit& visit) {
   visit(run.path, run.subject, run.session, run.condition, run.experiment, run.device, run.startedUtc, run.loss);
   visit(run.bytes, run.changedNs, run.run, run.block, run.day);
   visit.marks(run.practice, run.healthy);
@@ -35,7 +35,7 @@ void visitMembers(T& run, const Visit& visit) {
 
 void encode(const IndexedRun& run, ByteWriter& out) {
   const PutMembers put{out};
-  visitMembers(run, put);
+  visitRun(run, put);
   put(static_cast<std::uint32_t>(run.scenes.size()));
   for (const IndexedScene& scene : run.scenes) put(scene.kind, scene.target, scene.condition);
   put(static_cast<std::uint32_t>(run.trials.size()));
@@ -51,7 +51,7 @@ void encode(const IndexedRun& run, ByteWriter& out) {
 
 bool decode(ByteReader& in, IndexedRun& run) {
   const GetMembers get{in};
-  visitMembers(run, get);
+  visitRun(run, get);
   std::uint32_t scenes = 0, trials = 0;
   get(scenes);
   if (!in.ok() || scenes > in.left()) return false;

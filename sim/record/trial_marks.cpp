@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -20,14 +19,10 @@ namespace {
 constexpr int kMostTrials = 10'000'000;
 const NumberRange kSinceArming{0, 1e6, true, "a time in s, 0 or more"};
 
-using Refuse = std::function<std::optional<Fault>(int trial)>;
-
-TrialMark readMark(FaultList& faults, const JsonNode& node, std::size_t index, const Refuse& refuse) {
+TrialMark readMark(FaultList& faults, const JsonNode& node, std::size_t index) {
   TrialMark mark;
   ObjectReader reader(faults, node, fmt::format("trials[{}]", index));
   if (reader.required("trial", "the number of a trial") != nullptr) reader.integer("trial", 1, kMostTrials, mark.trial);
-  if (mark.trial > 0)
-    if (const auto fault = refuse(mark.trial)) faults.add(*node.find("trial"), reader.keyPath("trial"), fault->what, fault->allowed);
   reader.boolean("flagged", mark.flagged);
   reader.text("excluded", mark.excluded);
   reader.text("note", mark.note);
@@ -67,7 +62,8 @@ std::string marksPathOf(const std::string& logPath) {
 
 namespace {
 
-RunMarks readMarks(const std::string& logPath, const Refuse& refuseTrial) {
+// `trials`: those of the run, where only they may be named.
+RunMarks readMarks(const std::string& logPath, const std::vector<RecordedTrial>* trials) {
   const std::string file = marksPathOf(logPath);
   std::error_code error;
   RunMarks marks;
@@ -79,14 +75,20 @@ RunMarks readMarks(const std::string& logPath, const Refuse& refuseTrial) {
   ObjectReader reader(faults, root, "");
   double version = 1;
   reader.requiredNumber("schema_version", {1, 1, true, "1, the version that this program reads"}, version);
-  if (const JsonNode* trials = reader.required("trials", "an array of marks")) {
-    if (trials->kind != JsonNode::Kind::Array) faults.add(*trials, "trials", "is no array", "an array of marks");
-    for (std::size_t i = 0; i < trials->items.size(); ++i) {
-      const Refuse refuse = [&](int trial) -> std::optional<Fault> {
-        if (!seen.insert(trial).second) return Fault{{}, fmt::format("is {} for the second time", trial), "each trial once"};
-        return refuseTrial(trial);
-      };
-      marks.set(readMark(faults, trials->items[i], i, refuse));
+  const auto check = [&](int trial, const JsonNode& at, const std::string& key) {
+    const auto isIt = [&](const RecordedTrial& t) { return t.trial == trial; };
+    if (!seen.insert(trial).second) faults.add(at, key, fmt::format("is {} for the second time", trial), "each trial once");
+    else if (trials != nullptr && std::none_of(trials->begin(), trials->end(), isIt))
+      faults.add(at, key, fmt::format("is {}, which the run does not have", trial),
+                 trials->empty() ? "no marks, because the run has no trials"
+                                 : fmt::format("{} to {}", trials->front().trial, trials->back().trial));
+  };
+  if (const JsonNode* list = reader.required("trials", "an array of marks")) {
+    if (list->kind != JsonNode::Kind::Array) faults.add(*list, "trials", "is no array", "an array of marks");
+    for (std::size_t i = 0; i < list->items.size(); ++i) {
+      const TrialMark mark = readMark(faults, list->items[i], i);
+      if (mark.trial > 0) check(mark.trial, *list->items[i].find("trial"), fmt::format("trials[{}].trial", i));
+      marks.set(mark);
     }
   }
   reader.finish();
@@ -96,20 +98,8 @@ RunMarks readMarks(const std::string& logPath, const Refuse& refuseTrial) {
 
 }  // namespace
 
-RunMarks readMarks(const std::string& logPath) {
-  return readMarks(logPath, [](int) { return std::nullopt; });
-}
-
-RunMarks readMarks(const RunLog& run) {
-  const std::vector<RecordedTrial>& trials = run.trials();
-  return readMarks(run.path(), [&](int trial) -> std::optional<Fault> {
-    if (std::any_of(trials.begin(), trials.end(), [&](const RecordedTrial& t) { return t.trial == trial; })) return std::nullopt;
-    return Fault{{},
-                 fmt::format("is {}, which the run does not have", trial),
-                 trials.empty() ? std::string("no marks, because the run has no trials")
-                                : fmt::format("{} to {}", trials.front().trial, trials.back().trial)};
-  });
-}
+RunMarks readMarks(const std::string& logPath) { return readMarks(logPath, nullptr); }
+RunMarks readMarks(const RunLog& run) { return readMarks(run.path(), &run.trials()); }
 
 void writeMarks(const std::string& logPath, const RunMarks& marks) {
   const std::string file = marksPathOf(logPath);

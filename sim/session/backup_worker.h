@@ -19,8 +19,6 @@ class BackupWorker {
   BackupWorker(std::string dataset, std::string backup);
   /// Finishes the requested copy.
   ~BackupWorker();
-  BackupWorker(const BackupWorker&) = delete;
-  BackupWorker& operator=(const BackupWorker&) = delete;
 
   /// A run has ended. It is copied soon, with all other runs that the backup lacks.
   void request();

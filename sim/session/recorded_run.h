@@ -49,8 +49,6 @@ class RecordedRun {
   RecordedRun(BlockToRun block, std::unique_ptr<haptics::HapticDevice> device, const RecordedRunOptions& options);
   /// Ends as `finish` does, and ignores a failure.
   ~RecordedRun();
-  RecordedRun(const RecordedRun&) = delete;
-  RecordedRun& operator=(const RecordedRun&) = delete;
 
   /// Prepares the next trial. False when no trial is left, or a trial is under way. Throws ResourceError. Before the first trial in real
   /// time the timing is checked. The trial is under way then, and `poll` prepares it after the check.

@@ -42,6 +42,10 @@ bool endsRun(const TrialResult& result);
 /// True if the trial says nothing about the subject. It is queued again at the end if the plan asks for it (`repeat_aborted`).
 bool isPutUpAgain(const TrialResult& result);
 
+/// From the controlling thread to the haptic thread. It is logged with the tick at which it took effect, so that a run can be simulated
+/// again.
+enum class Command : std::uint8_t { None, NextTrial, Abort, Interrupt };
+
 /// The state of the trial, recorded with every tick.
 enum class Phase : std::uint8_t { Idle, Waiting, Armed, Moving, Done };
 /// The square near the top left: neutral before T - dT, green inside T +- dT, red after.

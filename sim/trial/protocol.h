@@ -7,7 +7,6 @@
 #include "sim/dynamics/object/mass_state.h"
 #include "sim/experiment/experiment_fwd.h"
 #include "sim/experiment/object_limits.h"
-#include "sim/trial/command.h"
 #include "sim/trial/outcome.h"
 #include "sim/trial/planned_trial.h"
 

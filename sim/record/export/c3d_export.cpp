@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "base/ticks.h"
 #include "sim/record/export/run_tables.h"
 #include "sim/record/export/tidy_csv.h"
 #include "sim/record/log/atomic_file.h"

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <random>
-#include <vector>
 
 #include "base/error.h"
 #include "base/system/os.h"

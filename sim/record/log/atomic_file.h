@@ -13,10 +13,6 @@ using TakePiece = std::function<void(std::string_view piece)>;
 /// A file that takes the position of `path` in one step (temporary file, fsync, rename). A reader sees the old or the new file, never a part.
 /// Makes the folders above it. Until it is put in place, nothing is left of it. One thread. Members throw ResourceError.
 class TemporaryFile {
- public:
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-
  protected:
   explicit TemporaryFile(const std::string& path);
   ~TemporaryFile();

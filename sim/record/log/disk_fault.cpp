@@ -1,7 +1,6 @@
 #include "sim/record/log/disk_fault.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>

@@ -32,8 +32,6 @@ class Recorder : public haptics::RunSink {
   /// Creates the log at `path` and writes the configuration. Throws ResourceError.
   Recorder(const std::string& path, const RunConfiguration& configuration, const RecorderOptions& options = {});
   ~Recorder() override;
-  Recorder(const Recorder&) = delete;
-  Recorder& operator=(const Recorder&) = delete;
 
   /// Haptic thread, every tick. Never waits, allocates or throws. False when the queue was full: the tick is lost and must be counted
   /// (LoopFaults::droppedRecords).
