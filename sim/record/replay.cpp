@@ -22,40 +22,6 @@ bool sameResult(const trial::TrialResult& a, const trial::TrialResult& b) {
          sameBits(a.movementTime, b.movementTime) && a.onsetTick == b.onsetTick && a.endTick == b.endTick;
 }
 
-// Holds simulated rows against the recorded ones, in step.
-class RowCheck {
- public:
-  explicit RowCheck(const RunLog& log)
-      : table_(log.configuration().table), firstTrial_(log.configuration().firstTrial), recorded_(log.allRows()), row_(table_.size()) {}
-
-  void look(const haptics::TickState& state, const ReplayHooks& hooks, Replay& replay) {
-    if (next_ >= recorded_.size() || recorded_.ticks[next_] != state.tick) return;
-    fillRow(table_, state, row_.data());
-    numberTrial(table_, firstTrial_, row_.data());
-    const std::size_t scene = rowWidth(table_);
-    const bool further = hooks.further && table_.size() > scene;
-    if (further) hooks.further(row_.data() + scene);
-    ++replay.rows;
-    for (std::size_t column = 0; column < (further ? table_.size() : scene); ++column) {
-      const double recorded = recorded_.at(next_, column);
-      if (column == kMeasuredTime || sameBits(recorded, row_[column])) continue;
-      if (replay.firstDifference.empty())
-        replay.firstDifference = fmt::format("tick {}, {}: recorded {:.17g}, simulated {:.17g}", state.tick, table_.channels[column].name,
-                                             recorded, row_[column]);
-      ++replay.rowsThatDiffer;
-      break;
-    }
-    ++next_;
-  }
-
- private:
-  const ChannelTable& table_;
-  int firstTrial_;
-  SampleRows recorded_;
-  std::vector<double> row_;
-  std::size_t next_ = 0;
-};
-
 void compareTrials(const RunLog& log, Replay& replay) {
   std::size_t simulated = 0;
   for (const RecordedTrial& recorded : log.trials()) {
@@ -75,7 +41,7 @@ void compareTrials(const RunLog& log, Replay& replay) {
 struct RecordedTicks : haptics::NoStages {
   RecordedTicks(const RunLog& theLog, const ReplayHooks& theHooks, const haptics::TickEngine& theEngine)
       : log(theLog), hooks(theHooks), engine(theEngine), ticks(log.ticks()), furtherHands(log.otherTicks()), setups(log.setups()),
-        rows(log), tracker(log.configuration().firstTrial) {}
+        rows(log.allRows()), simulated(rows.columns), tracker(log.configuration().firstTrial) {}
 
   bool read(haptics::TickInput& input) {
     if (replay.ticks == ticks.size()) return false;
@@ -104,9 +70,30 @@ struct RecordedTicks : haptics::NoStages {
       throw FaultError(fileFault(
           log.path(), fmt::format("tick {} is missing (dropped while recording), so the run cannot be simulated past it", expected)));
     ++replay.ticks;
-    rows.look(state, hooks, replay);
+    if (row < rows.size() && rows.ticks[row] == state.tick) compareRow(state);
     if (hooks.afterTick) hooks.afterTick(state);
     if (tracker.add(tick, factsOf(state), events).finished) replay.trials.push_back(tracker.trial());
+  }
+
+  // Holds the simulated row against the recorded one.
+  void compareRow(const haptics::TickState& state) {
+    const ChannelTable& table = log.configuration().table;
+    fillRow(table, state, simulated.data());
+    numberTrial(table, log.configuration().firstTrial, simulated.data());
+    const std::size_t scene = rowWidth(table);
+    const bool further = hooks.further && table.size() > scene;
+    if (further) hooks.further(simulated.data() + scene);
+    for (std::size_t column = 0; column < (further ? table.size() : scene); ++column) {
+      const double recorded = rows.at(row, column);
+      if (column == kMeasuredTime || sameBits(recorded, simulated[column])) continue;
+      if (replay.firstDifference.empty())
+        replay.firstDifference = fmt::format("tick {}, {}: recorded {:.17g}, simulated {:.17g}", state.tick, table.channels[column].name,
+                                             recorded, simulated[column]);
+      ++replay.rowsThatDiffer;
+      break;
+    }
+    ++replay.rows;
+    ++row;
   }
 
   const RunLog& log;
@@ -116,7 +103,9 @@ struct RecordedTicks : haptics::NoStages {
   std::vector<std::vector<haptics::DeviceSample>> furtherHands;
   std::vector<TrialSetup> setups;
   std::size_t setup = 0;
-  RowCheck rows;
+  SampleRows rows;
+  std::size_t row = 0;            // of the next that is compared
+  std::vector<double> simulated;  // one row
   TrialTracker tracker;
   std::vector<RecordedEvent> events;
   Replay replay;

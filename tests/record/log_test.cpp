@@ -182,22 +182,22 @@ TEST(LogReader, GivesEveryRecordWhereverTheWindowOntoTheFileEnds) {
   EXPECT_EQ(reader.fileSize(), std::filesystem::file_size(path));
 }
 
-TEST(LogReader, AHeaderIsLookedAtWithoutReadingItsRecord) {
+TEST(LogReader, ARecordIsReadWhereOneOfItsTypeAndLengthLies) {
   const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   const auto offsets = writeLog(path, {payloadOf(10), payloadOf(20), payloadOf(0)});
   LogReader reader(path);
-  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(reader.sequenceAt(offsets[i]), i);
-  EXPECT_TRUE(reader.looksLike(offsets[1], RecordType::Samples, 20));
-  EXPECT_FALSE(reader.looksLike(offsets[1], RecordType::Samples, 21));
-  EXPECT_FALSE(reader.looksLike(offsets[1], RecordType::Ticks, 20));
-  EXPECT_FALSE(reader.looksLike(offsets[1] + 1, RecordType::Samples, 20));
-  EXPECT_TRUE(reader.looksLike(offsets[2], RecordType::Ticks, 0)) << "the last one, of no payload";
-  EXPECT_FALSE(reader.looksLike(reader.fileSize() - 15, RecordType::Ticks, 0)) << "reaches beyond the end";
-  EXPECT_EQ(reader.sequenceAt(reader.fileSize()), 0u);
-  EXPECT_EQ(reader.goodEnd(), 16u) << "nothing was read";
+  RecordView record;
+  EXPECT_TRUE(reader.readAt(offsets[1], RecordType::Samples, 20, record));
+  EXPECT_EQ(record.offset, offsets[1]);
+  EXPECT_EQ(record.sequence, 1u);
+  EXPECT_FALSE(reader.readAt(offsets[1], RecordType::Samples, 21, record));
+  EXPECT_FALSE(reader.readAt(offsets[1], RecordType::Ticks, 20, record));
+  EXPECT_FALSE(reader.readAt(offsets[1] + 1, RecordType::Samples, 20, record));
+  EXPECT_TRUE(reader.readAt(offsets[2], RecordType::Ticks, 0, record)) << "the last one, of no payload";
+  EXPECT_FALSE(reader.readAt(reader.fileSize() - 15, RecordType::Ticks, 0, record)) << "reaches beyond the end";
   overwriteByte(path, offsets[1] + 6, 1);
-  EXPECT_FALSE(LogReader(path).looksLike(offsets[1], RecordType::Samples, 20)) << "the two bytes behind the type are zero";
+  EXPECT_FALSE(LogReader(path).readAt(offsets[1], RecordType::Samples, 20, record)) << "the two bytes behind the type are zero";
 }
 
 TEST(LogReader, EndsAtTheFirstRecordThatIsNotRight) {

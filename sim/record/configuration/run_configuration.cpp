@@ -33,20 +33,18 @@ std::string toJson(const RunConfiguration& c) {
   return j.dump(1, ' ', false, json::error_handler_t::replace);
 }
 
-RunConfiguration configurationFromJson(std::string_view text, const std::string& origin) {
-  try {
-    const json j = json::parse(text, nullptr, false);
-    if (!j.is_object()) throw FaultError(Fault{.what = "is no JSON object"});
-    if (const json& version = memberOf(j, "schema_version"); version != kSchemaVersion)
-      throw FaultError(Fault{"schema_version", fmt::format("is {}", version.dump().substr(0, 40)),
-                             fmt::format("{}; a newer reachlab reads newer recordings", kSchemaVersion)});
-    RunConfiguration c;
-    readFields(j, c);
-    checkConfiguration(c);
-    return c;
-  } catch (const FaultError& error) {
-    throw FaultError(inFile(origin, inside("configuration", error.faults)));
-  }
+RunConfiguration configurationFromJson(std::string_view text, const std::string& origin) try {
+  const json j = json::parse(text, nullptr, false);
+  if (!j.is_object()) throw FaultError(Fault{.what = "is no JSON object"});
+  if (const json& version = memberOf(j, "schema_version"); version != kSchemaVersion)
+    throw FaultError(Fault{"schema_version", fmt::format("is {}", version.dump().substr(0, 40)),
+                           fmt::format("{}; a newer reachlab reads newer recordings", kSchemaVersion)});
+  RunConfiguration c;
+  readFields(j, c);
+  checkConfiguration(c);
+  return c;
+} catch (const FaultError& error) {
+  throw FaultError(inFile(origin, inside("configuration", error.faults)));
 }
 
 namespace {

@@ -144,15 +144,13 @@ bool LogReader::next(RecordView& record) {
   return true;
 }
 
-bool LogReader::looksLike(std::uint64_t offset, RecordType type, std::uint32_t length) {
+bool LogReader::readAt(std::uint64_t offset, RecordType type, std::uint32_t length, RecordView& record) {
   const std::span<const std::uint8_t> bytes = bytesAt(offset, kRecordFrameBytes);
-  return !bytes.empty() && load<std::uint32_t>(bytes.data()) == length &&
-         load<std::uint32_t>(bytes.data() + 4) == static_cast<std::uint16_t>(type);
-}
-
-std::uint32_t LogReader::sequenceAt(std::uint64_t offset) {
-  const std::span<const std::uint8_t> bytes = bytesAt(offset, kRecordHeaderBytes);
-  return bytes.empty() ? 0 : load<std::uint32_t>(bytes.data() + 8);
+  if (bytes.empty() || load<std::uint32_t>(bytes.data()) != length ||
+      load<std::uint32_t>(bytes.data() + 4) != static_cast<std::uint16_t>(type))
+    return false;
+  seek(offset, load<std::uint32_t>(bytes.data() + 8));
+  return next(record);
 }
 
 void LogReader::seek(std::uint64_t offset, std::uint32_t sequence) {

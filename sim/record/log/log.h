@@ -130,10 +130,8 @@ class LogReader {
   bool next(RecordView& record);
   /// Continues reading at `offset`, where record number `sequence` is expected (from an index).
   void seek(std::uint64_t offset, std::uint32_t sequence);
-  /// True when the bytes at `offset` could be the header of such a record. Only next() tells whether the record is good.
-  bool looksLike(std::uint64_t offset, RecordType type, std::uint32_t length);
-  /// The sequence number in the header at `offset`.
-  std::uint32_t sequenceAt(std::uint64_t offset);
+  /// Reads a good record of that type and length at `offset`, whatever its number. False if there is no such record.
+  bool readAt(std::uint64_t offset, RecordType type, std::uint32_t length, RecordView& record);
   /// Where the last good record that was read ends.
   std::uint64_t goodEnd() const { return at_; }
   std::uint32_t nextSequence() const { return sequence_; }

@@ -63,22 +63,16 @@ bool readAt(LogReader& reader, std::uint64_t offset, std::uint32_t sequence, Rec
   return reader.next(record) && record.type == type;
 }
 
-std::size_t trialPayloadBytes() {
-  ByteWriter bytes;
-  encode(RecordedTrial{}, TrialLink{}, bytes);
-  return bytes.size();
-}
-
 // Looks backwards from the end of a log that was not closed for its last trial record.
 bool findLastTrial(LogReader& reader, TrialLink& link) {
-  const std::size_t length = trialPayloadBytes();
-  const std::uint64_t whole = kRecordFrameBytes + length;
+  ByteWriter payload;
+  encode(RecordedTrial{}, TrialLink{}, payload);
+  const std::uint64_t whole = kRecordFrameBytes + payload.size();
   RecordView record;
   for (std::uint64_t end = reader.fileSize(); end >= kLogHeaderBytes + whole; --end) {
-    const std::uint64_t offset = end - whole;
-    if (!reader.looksLike(offset, RecordType::Trial, static_cast<std::uint32_t>(length))) continue;
-    link = {offset, reader.sequenceAt(offset)};
-    if (readAt(reader, link.offset, link.sequence, RecordType::Trial, record)) return true;
+    if (!reader.readAt(end - whole, RecordType::Trial, static_cast<std::uint32_t>(payload.size()), record)) continue;
+    link = {record.offset, record.sequence};
+    return true;
   }
   return false;
 }
@@ -103,16 +97,8 @@ std::string_view nameOf(EventKind kind) {
   return kNames[static_cast<std::size_t>(kind)];
 }
 
-RunLog RunLog::open(const std::string& path, LogCheck check) {
+RunLog RunLog::open(const std::string& path, LogCheck check) try {
   LogReader reader(path);
-  try {
-    return open(path, reader, check);
-  } catch (const FaultError& error) {
-    throw FaultError(inFile(path, error.faults));
-  }
-}
-
-RunLog RunLog::open(const std::string& path, LogReader& reader, LogCheck check) {
   RecordView record;
   if (!reader.next(record) || record.type != RecordType::Configuration)
     throw FaultError(Fault{.what = "the configuration at the start of the log is damaged, so nothing in it can be read"});
@@ -128,6 +114,8 @@ RunLog RunLog::open(const std::string& path, LogReader& reader, LogCheck check) 
   }
   for (RecordedTrial& trial : log.trials_) log.placeInScene(trial.planned);
   return log;
+} catch (const FaultError& error) {
+  throw FaultError(inFile(path, error.faults));
 }
 
 // The planned order says which scene a trial is done in.
@@ -146,8 +134,7 @@ bool RunLog::readChain(LogReader& reader) {
   TrialLink link;
   RecordView record;
   closed_ = fileBytes_ > kEndPayloadBytes + kRecordFrameBytes + kLogHeaderBytes &&
-            reader.looksLike(endOffset, RecordType::End, kEndPayloadBytes) &&
-            readAt(reader, endOffset, reader.sequenceAt(endOffset), RecordType::End, record);
+            reader.readAt(endOffset, RecordType::End, kEndPayloadBytes, record);
   if (closed_) link = decodeEnd(record.payload);
   else if (!findLastTrial(reader, link)) return false;
   const TrialLink last = link;
@@ -202,7 +189,7 @@ void RunLog::scan(LogReader& reader) {
 }
 
 template <typename Take>
-void RunLog::each(RecordType type, std::uint64_t firstTick, Take&& take) const {
+void RunLog::each(RecordType type, std::uint64_t firstTick, Take&& take) const try {
   LogReader reader(path_);
   const auto after = std::upper_bound(trials_.begin(), trials_.end(), firstTick,
                                       [](std::uint64_t tick, const RecordedTrial& trial) { return tick < trial.startTick; });
@@ -214,13 +201,11 @@ void RunLog::each(RecordType type, std::uint64_t firstTick, Take&& take) const {
     if (!reader.next(record))
       throw FaultError(fileFault(path_, fmt::format("damaged after byte {}; repair it with: reach recover {}", reader.goodEnd(), path_)));
     if (record.type != type) continue;
-    try {
-      if constexpr (std::is_void_v<decltype(take(record.payload))>) take(record.payload);
-      else if (!take(record.payload)) return;
-    } catch (const FaultError& error) {
-      throw FaultError(inFile(path_, error.faults));
-    }
+    if constexpr (std::is_void_v<decltype(take(record.payload))>) take(record.payload);
+    else if (!take(record.payload)) return;
   }
+} catch (const FaultError& error) {
+  throw FaultError(inFile(path_, error.faults));
 }
 
 SampleRows RunLog::rows(std::uint64_t firstTick, std::uint64_t lastTick) const {

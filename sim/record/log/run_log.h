@@ -130,7 +130,6 @@ class RunLog {
 
  private:
   RunLog() = default;
-  static RunLog open(const std::string& path, LogReader& reader, LogCheck check);
   bool readChain(LogReader& reader);
   void scan(LogReader& reader);
   void placeInScene(trial::PlannedTrial& planned) const;
