@@ -47,8 +47,6 @@ Found findKey(const JsonNode& root, std::string_view key) {
 
 }  // namespace
 
-std::string FaultList::place(const JsonNode& where) const { return fmt::format("{}:{}:{}", file_, where.line, where.column); }
-
 void FaultList::add(const JsonNode& where, const std::string& key, const std::string& what, const std::string& allowed) {
   if (isFull()) return static_cast<void>(++more_);
   faults_.push_back({key, what, allowed, FilePlace{file_, where.line, where.column}});

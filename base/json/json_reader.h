@@ -23,8 +23,6 @@ class FaultList {
   bool isAbout(const std::string& key) const;
   /// More than a person reads: further faults are only counted.
   bool isFull() const { return faults_.size() >= kMaxFaults; }
-  /// `FILE:LINE:COLUMN` of a node.
-  std::string place(const JsonNode& where) const;
   const std::vector<Fault>& faults() const { return faults_; }
   bool empty() const { return faults_.empty(); }
   /// Throws FaultError with all faults, in the file's order, when there are any.

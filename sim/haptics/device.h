@@ -59,7 +59,6 @@ enum class Cue : std::uint8_t {
 
 /// How a device is, asked at any time.
 enum class DeviceHealth : std::uint8_t { Ready, Warm, Lost, Failed };
-std::string_view nameOf(DeviceHealth health);  // "ready", "warm", …
 
 /// Where the hand comes from and the force goes. Making one opens it (ResourceError where it cannot be had), destroying it writes zero
 /// force and closes it. Threads:

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "base/ticks.h"
 #include "sim/dynamics/hand/hand_path.h"
@@ -27,13 +28,6 @@ constexpr FaultWords kFaults[]{
 };
 
 }  // namespace
-
-std::string_view nameOf(DeviceHealth health) {
-  constexpr std::string_view kNames[]{"ready", "warm", "lost", "failed"};
-  return kNames[static_cast<std::size_t>(health)];
-}
-
-std::string_view nameOf(DeviceFault fault) { return kFaults[static_cast<std::size_t>(fault)].name; }
 
 std::string describe(DeviceFault fault, const std::string& device) {
   const auto& [name, what] = kFaults[static_cast<std::size_t>(fault)];

@@ -2,7 +2,6 @@
 #include <array>
 #include <cstdint>
 #include <string>
-#include <string_view>
 
 #include "sim/haptics/device.h"
 
@@ -19,7 +18,6 @@ enum class DeviceFault : std::uint8_t {
   NoClock,    // the device that drives the clock does not call any more: told by the watchdog
   Device,     // the device says that it failed
 };
-std::string_view nameOf(DeviceFault fault);  // "silent", "jump", …
 /// One sentence for a person: the fault of the device with this name, and the remedy.
 std::string describe(DeviceFault fault, const std::string& device);
 

@@ -1,5 +1,6 @@
 #include "sim/haptics/loop_core.h"
 
+#include <algorithm>
 #include <new>
 
 #include "sim/haptics/tick_order.h"
@@ -15,9 +16,8 @@ void raise(std::atomic<T>& counter, T by) noexcept {
 
 // A trial is under way, or a stylus is held against its weight.
 bool forceActs(const TickState& state) noexcept {
-  bool acts = trial::isEngaged(state.phase);
-  for (int hand = 0; hand < state.handCount; ++hand) acts = acts || !(state.hands[static_cast<std::size_t>(hand)].deviceForce == Vec3{});
-  return acts;
+  const auto isPushed = [](const HandState& hand) { return !(hand.deviceForce == Vec3{}); };
+  return trial::isEngaged(state.phase) || std::any_of(state.hands.begin(), state.hands.begin() + state.handCount, isPushed);
 }
 
 }  // namespace

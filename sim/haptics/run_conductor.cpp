@@ -36,12 +36,6 @@ RunConductor::~RunConductor() {
   if (loop_) loop_->stop();
 }
 
-std::vector<DeviceInfo> RunConductor::hands() const {
-  std::vector<DeviceInfo> infos;
-  for (const HapticDevice* hand : device_->hands()) infos.push_back(hand->info());
-  return infos;
-}
-
 void RunConductor::start(RunSink* sink) {
   sink_ = sink;
   loop_ = std::make_unique<HapticLoop>(std::move(engine_), device_, sink, options_);

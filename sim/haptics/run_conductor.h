@@ -40,7 +40,7 @@ class RunConductor {
   const TickEngine& engine() const { return loop_ ? loop_->engine() : *engine_; }  // constants only while running
   DeviceInfo device() const { return device_->info(); }
   /// Of each hand's own device.
-  std::vector<DeviceInfo> hands() const;
+  std::vector<DeviceInfo> hands() const { return engineOptions(*device_).hands; }
 
   /// Starts the loop. Ticks are given to `sink`, which outlives the run and may be null.
   void start(RunSink* sink);

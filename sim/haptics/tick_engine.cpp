@@ -165,9 +165,7 @@ void TickEngine::tellSharedHands() noexcept {
 }
 
 bool TickEngine::allValid() const noexcept {
-  bool valid = true;
-  for (std::size_t i = 0; i < hands_.size(); ++i) valid = valid && state_.hands[i].hip.valid;
-  return valid;
+  return std::all_of(state_.hands.begin(), state_.hands.begin() + state_.handCount, [](const HandState& hand) { return hand.hip.valid; });
 }
 
 dynamics::StepStatus TickEngine::stepObject() noexcept {

