@@ -18,7 +18,7 @@
 #include "cli/terminal/analysis_plan.h"
 #include "cli/terminal/at_option.h"
 #include "cli/terminal/criterion_option.h"
-#include "sim/record/export/derivative.h"
+#include "sim/record/export/exporters.h"
 
 namespace reachlab::cli {
 namespace {

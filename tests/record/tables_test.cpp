@@ -14,7 +14,6 @@
 #include "sim/record/export/bids.h"
 #include "sim/record/export/c3d_export.h"
 #include "sim/record/export/column_dictionary.h"
-#include "sim/record/export/derivative.h"
 #include "sim/record/export/exporters.h"
 #include "sim/record/export/matlab_file.h"
 #include "sim/record/export/run_tables.h"
@@ -257,14 +256,14 @@ TEST(Derivative, SaysWhatItIsAndIsKeptWhereItIsThere) {
   const TemporaryFolder folder;
   const auto described = [&](const std::string& software) {
     std::filesystem::remove(folder / "dataset_description.json");
-    EXPECT_EQ(describeDerivative(folder / ".", "Tables", software, "../.."), folder / "./dataset_description.json");
+    EXPECT_EQ(describeDerivative(folder / ".", "Tables", software), folder / "./dataset_description.json");
     return json::parse(readWholeFile(folder / "dataset_description.json"));
   };
   EXPECT_EQ(described("reachlab 0.1.0")["GeneratedBy"], (json::array({{{"Name", "reachlab"}, {"Version", "0.1.0"}}})));
   EXPECT_EQ(described("mylab")["GeneratedBy"], (json::array({{{"Name", "mylab"}, {"Version", "n/a"}}})));
   EXPECT_EQ(described("")["GeneratedBy"], (json::array({{{"Name", "reachlab"}, {"Version", "n/a"}}})));
   EXPECT_EQ(described("")["SourceDatasets"], (json::array({{{"URL", "../.."}}})));
-  EXPECT_EQ(describeDerivative(folder / ".", "Others", "", ""), "");
+  EXPECT_EQ(describeDerivative(folder / ".", "Others", ""), "");
   EXPECT_EQ(json::parse(readWholeFile(folder / "dataset_description.json"))["Name"], "Tables");
 }
 
@@ -276,10 +275,10 @@ TEST_F(Tables, EveryWayToExportIsFoundByItsNameAndWritesIntoItsFolder) {
     EXPECT_EQ(findExporter(exporter.name), &exporter);
     EXPECT_EQ(exporter.withEachRun, exporter.name == "bids") << "the dataset alone is kept up to date";
     const std::string data = folder_ / ("data-" + std::string(exporter.name));
-    EXPECT_EQ(folderIn(data, exporter), exporter.name == "bids" ? data : data + "/derivatives/" + std::string(exporter.name));
+    const std::string place = exporter.name == "bids" ? data : data + "/derivatives/" + std::string(exporter.name);
     const std::vector<std::string> written = writeInto(data, exporter, runs);
     for (const std::string& file : written) EXPECT_TRUE(std::filesystem::exists(file)) << file;
-    const std::string description = folderIn(data, exporter) + "/dataset_description.json";
+    const std::string description = place + "/dataset_description.json";
     EXPECT_EQ(std::count(written.begin(), written.end(), description), 1);
     EXPECT_EQ(json::parse(readWholeFile(description))["DatasetType"], exporter.name == "bids" ? "raw" : "derivative");
     const std::vector<std::string> again = writeInto(data, exporter, runs);

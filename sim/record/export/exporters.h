@@ -19,11 +19,13 @@ struct Exporter {
 };
 
 const std::vector<Exporter>& exporters();
-/// The folder in a dataset that it writes to by default.
-std::string folderIn(const std::string& dataset, const Exporter& exporter);
-/// Writes these runs there. A folder of derivatives then also has its description. Throws ResourceError.
+/// Writes these runs into its folder of the dataset. A folder of derivatives then also has its description. Throws ResourceError.
 std::vector<std::string> writeInto(const std::string& dataset, const Exporter& exporter, const std::vector<RunLog>& runs);
 /// Null for an unknown name.
 const Exporter* findExporter(std::string_view name);
+
+/// Describes a folder in a dataset's `derivatives`, as BIDS asks (dataset_description.json). A description that exists is kept. Examples:
+/// `name` "Tables of trials", `software` "reachlab 0.1.0". Returns the file, empty when nothing was written. Throws ResourceError.
+std::string describeDerivative(const std::string& folder, const std::string& name, const std::string& software);
 
 }  // namespace reachlab::record
