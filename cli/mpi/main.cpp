@@ -40,22 +40,8 @@ class MpiWorld {
   int rank_ = 0, size_ = 1;
 };
 
-/// Rank 0's list of what is to be done; its own thread takes from it too.
-class ChunkQueue {
- public:
-  explicit ChunkQueue(std::vector<std::int64_t> chunks) : chunks_(std::move(chunks)) {}
-  std::optional<std::int64_t> next() {
-    const std::size_t at = at_++;
-    return at < chunks_.size() ? std::optional(chunks_[at]) : std::nullopt;
-  }
-
- private:
-  std::vector<std::int64_t> chunks_;
-  std::atomic<std::size_t> at_{0};
-};
-
 // Answers the other ranks until each has been told that nothing is left. Looks every millisecond, so that its own worker has the processor.
-void serve(ChunkQueue& queue, int others, const std::function<void(std::int64_t trials)>& done) {
+void serve(const study::NextChunk& next, int others, const std::function<void(std::int64_t trials)>& done) {
   while (others > 0) {
     int there = 0;
     MPI_Status status{};
@@ -68,21 +54,25 @@ void serve(ChunkQueue& queue, int others, const std::function<void(std::int64_t 
     MPI_Recv(&trials, 1, MPI_INT64_T, status.MPI_SOURCE, status.MPI_TAG, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
     if (trials > 0) done(trials);
     if (status.MPI_TAG != kAsk) continue;
-    const std::int64_t chunk = queue.next().value_or(kNoMore);
+    const std::int64_t chunk = next().value_or(kNoMore);
     MPI_Send(&chunk, 1, MPI_INT64_T, status.MPI_SOURCE, kAnswer, MPI_COMM_WORLD);
     if (chunk == kNoMore) --others;
   }
 }
 
 void conduct(const study::StudyFolder& folder, int others) {
-  study::ChunksToDo todo = study::chunksToDo(folder);
+  const study::ChunksToDo todo = study::chunksToDo(folder);
   const std::int64_t ofSubject = study::mostTrialsOfSubject(folder.design);
   study::StudyProgress progress;
   progress.trials = folder.chunks.pairs * ofSubject;
   progress.trialsDone = progress.trials;
   for (const std::int64_t chunk : todo.missing)
     progress.trialsDone -= (folder.chunks.at(chunk).end - folder.chunks.at(chunk).first) * ofSubject;
-  ChunkQueue queue(std::move(todo.missing));
+  std::atomic<std::size_t> at{0};
+  const auto next = [&]() -> std::optional<std::int64_t> {  // for the other ranks, and for this rank's own thread
+    const std::size_t i = at++;
+    return i < todo.missing.size() ? std::optional(todo.missing[i]) : std::nullopt;
+  };
   std::mutex mutex;
   ProgressLine line;
   const auto began = std::chrono::steady_clock::now();
@@ -96,13 +86,12 @@ void conduct(const study::StudyFolder& folder, int others) {
   std::exception_ptr fault;
   std::thread worker([&] {
     try {
-      study::computeChunks(
-          folder, prepareSimulated(), 1, [&] { return queue.next(); }, done);
+      study::computeChunks(folder, prepareSimulated(), 1, next, done);
     } catch (...) {
       fault = std::current_exception();
     }
   });
-  serve(queue, others, done);
+  serve(next, others, done);
   worker.join();
   line.end();
   if (fault) std::rethrow_exception(fault);
