@@ -111,14 +111,7 @@ std::string allowedOf(const CLI::Option& option) {  // "INT:INT in [1 - 9]" is a
   const std::string limit = colon == std::string::npos ? std::string() : name.substr(colon + 1);
   if (limit == "POSITIVE") return "more than 0";
   if (limit == "NONNEGATIVE") return "0 or more";
-  if (limit.starts_with('{')) {
-    std::vector<std::string> choices{{}};
-    for (const char c : limit.substr(1, limit.size() - 2)) {
-      if (c == ',') choices.emplace_back();
-      else choices.back() += c;
-    }
-    return listOf(choices);
-  }
+  if (limit.starts_with('{')) return listOf(CLI::detail::split(limit.substr(1, limit.size() - 2), ','));
   const std::size_t begin = limit.find(" in ["), dash = limit.find(" - ");
   if (begin == std::string::npos || dash == std::string::npos) return {};
   return limit.substr(begin + 5, dash - begin - 5) + " to " + limit.substr(dash + 3, limit.size() - dash - 4);

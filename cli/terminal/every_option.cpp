@@ -53,10 +53,6 @@ std::vector<Value> givenValues(const CLI::App& app) {
   }
 }
 
-bool isAnyOf(const std::string& option, std::initializer_list<std::string_view> names) {
-  return std::find(names.begin(), names.end(), option) != names.end();
-}
-
 // The file behind a name, too.
 bool isSameFile(const std::string& output, const std::string& input) {
   std::error_code error;
@@ -67,7 +63,9 @@ bool isSameFile(const std::string& output, const std::string& input) {
   return plan && fs::equivalent(output, *plan, error);
 }
 
-void addChecks(CLI::App& command) {
+}  // namespace
+
+void checkEveryNumber(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) {
     const std::string type = option->get_type_name();
     if (type.find("FLOAT") != std::string::npos)
@@ -79,12 +77,8 @@ void addChecks(CLI::App& command) {
     };
     option->transform(CLI::Validator(toDecimal, ""));
   }
-  for (CLI::App* sub : command.get_subcommands({})) addChecks(*sub);
+  for (CLI::App* sub : command.get_subcommands({})) checkEveryNumber(*sub);
 }
-
-}  // namespace
-
-void checkEveryNumber(CLI::App& app) { addChecks(app); }
 
 void checkOutputs(const CLI::App& app) {
   const std::vector<Value> values = givenValues(app);
@@ -93,8 +87,8 @@ void checkOutputs(const CLI::App& app) {
       throw FaultError(
           Fault{value.option, "is " + value.text + ", " + what, "a file or folder elsewhere: recordings and inputs are not written over"});
     };
-    const bool isOutput = isAnyOf(value.option, {"--out", "--figure"});
-    if (!isOutput && !isAnyOf(value.option, {"--data", "--backup"})) continue;
+    const bool isOutput = value.option == "--out" || value.option == "--figure";
+    if (!isOutput && value.option != "--data" && value.option != "--backup") continue;
     if (liesInSourcedata(value.text)) refuse("which lies in a dataset's sourcedata");
     if (!isOutput) continue;
     if (isLog(value.text)) refuse("which is the name of a recording");
