@@ -24,28 +24,17 @@ constexpr int kBufferedSeconds = 360;  // liblsl's own default
 constexpr int kPushThrough = 1;
 
 struct Api {
-  explicit Api(const SharedLibrary& library) {
-    library.bind(createInfo, "lsl_create_streaminfo");
-    library.bind(destroyInfo, "lsl_destroy_streaminfo");
-    library.bind(describe, "lsl_get_desc");
-    library.bind(appendChild, "lsl_append_child");
-    library.bind(appendValue, "lsl_append_child_value");
-    library.bind(createOutlet, "lsl_create_outlet");
-    library.bind(destroyOutlet, "lsl_destroy_outlet");
-    library.bind(pushNumbers, "lsl_push_sample_dtp");
-    library.bind(pushTexts, "lsl_push_sample_strtp");
-    library.bind(clock, "lsl_local_clock");
-  }
-  Info (*createInfo)(const char*, const char*, std::int32_t, double, int, const char*);
-  void (*destroyInfo)(Info);
-  Xml (*describe)(Info);
-  Xml (*appendChild)(Xml, const char*);
-  Xml (*appendValue)(Xml, const char*, const char*);
-  Outlet (*createOutlet)(Info, std::int32_t, std::int32_t);
-  void (*destroyOutlet)(Outlet);
-  std::int32_t (*pushNumbers)(Outlet, const double*, double, std::int32_t);
-  std::int32_t (*pushTexts)(Outlet, const char**, double, std::int32_t);
-  double (*clock)();
+  SharedLibrary library{{"liblsl.so.2", "liblsl.so", "liblsl64.so", "liblsl.so.1"}};
+  Info (*createInfo)(const char*, const char*, std::int32_t, double, int, const char*) = library.require("lsl_create_streaminfo");
+  void (*destroyInfo)(Info) = library.require("lsl_destroy_streaminfo");
+  Xml (*describe)(Info) = library.require("lsl_get_desc");
+  Xml (*appendChild)(Xml, const char*) = library.require("lsl_append_child");
+  Xml (*appendValue)(Xml, const char*, const char*) = library.require("lsl_append_child_value");
+  Outlet (*createOutlet)(Info, std::int32_t, std::int32_t) = library.require("lsl_create_outlet");
+  void (*destroyOutlet)(Outlet) = library.require("lsl_destroy_outlet");
+  std::int32_t (*pushNumbers)(Outlet, const double*, double, std::int32_t) = library.require("lsl_push_sample_dtp");
+  std::int32_t (*pushTexts)(Outlet, const char**, double, std::int32_t) = library.require("lsl_push_sample_strtp");
+  double (*clock)() = library.require("lsl_local_clock");
 };
 
 // One stream; both of its handles are given back.
@@ -86,8 +75,7 @@ class Stream {
 
 class LabStreaming final : public Instrument {
  public:
-  explicit LabStreaming(const std::string& name)
-      : Instrument(name), library_({"liblsl.so.2", "liblsl.so", "liblsl64.so", "liblsl.so.1"}), api_(library_) {}
+  explicit LabStreaming(const std::string& name) : Instrument(name) {}
 
   void begin(const record::RunConfiguration& configuration, std::vector<InstrumentNote>& notes) override {
     hand_.reset();
@@ -140,7 +128,6 @@ class LabStreaming final : public Instrument {
     notes.push_back({os::now(), "clock less CLOCK_MONOTONIC [s]", offset});
   }
 
-  SharedLibrary library_;
   Api api_;
   double offset_ = 0;  // [s]
   std::unique_ptr<Stream> markers_, hand_;

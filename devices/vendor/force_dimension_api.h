@@ -15,29 +15,28 @@ inline constexpr int kTimeGuard = 1;  // the return value of a call that is no e
 /// The unit of dhdSetWatchdog. Its `unsigned char` reaches to 31 ms.
 inline constexpr std::int64_t kWatchdogUnitNs = 125'000;
 
+/// Making one throws ResourceError when the library is missing or lacks a function. A function that is only looked for (`find`) may be null.
 struct Api {
-  /// Throws ResourceError when the library is missing or lacks a function.
-  Api();
-  SharedLibrary library;
-  int (*getDeviceCount)() = nullptr;
-  int (*openId)(char) = nullptr;
-  int (*close)(char) = nullptr;
-  int (*stop)(char) = nullptr;
-  int (*enableForce)(unsigned char, char) = nullptr;
-  int (*getPosition)(double*, double*, double*, char) = nullptr;
-  int (*setForce)(double, double, double, char) = nullptr;
-  int (*errorGetLast)() = nullptr;  // these may all be null
-  const char* (*errorGetLastStr)() = nullptr;
-  int (*getSystemType)(char) = nullptr;
-  const char* (*getSystemName)(char) = nullptr;
-  int (*getSerialNumber)(std::uint16_t*, char) = nullptr;
-  int (*getLinearVelocity)(double*, double*, double*, char) = nullptr;
-  int (*getOrientationFrame)(double[3][3], char) = nullptr;
-  std::uint32_t (*getButtonMask)(char) = nullptr;
-  bool (*hasWrist)(char) = nullptr;
-  double (*getMaxForce)(char) = nullptr;
-  int (*enableExpertMode)() = nullptr;
-  int (*setWatchdog)(unsigned char, char) = nullptr;
+  SharedLibrary library{{"libdrd.so.3", "libdrd.so", "libdhd.so.3", "libdhd.so"}};
+  int (*getDeviceCount)() = library.require("dhdGetDeviceCount");
+  int (*openId)(char) = library.require("dhdOpenID");
+  int (*close)(char) = library.require("dhdClose");
+  int (*stop)(char) = library.find("dhdStop");
+  int (*enableForce)(unsigned char, char) = library.require("dhdEnableForce");
+  int (*getPosition)(double*, double*, double*, char) = library.require("dhdGetPosition");
+  int (*setForce)(double, double, double, char) = library.require("dhdSetForce");
+  int (*errorGetLast)() = library.find("dhdErrorGetLast");
+  const char* (*errorGetLastStr)() = library.find("dhdErrorGetLastStr");
+  int (*getSystemType)(char) = library.find("dhdGetSystemType");
+  const char* (*getSystemName)(char) = library.find("dhdGetSystemName");
+  int (*getSerialNumber)(std::uint16_t*, char) = library.find("dhdGetSerialNumber");
+  int (*getLinearVelocity)(double*, double*, double*, char) = library.find("dhdGetLinearVelocity");
+  int (*getOrientationFrame)(double[3][3], char) = library.find("dhdGetOrientationFrame");
+  std::uint32_t (*getButtonMask)(char) = library.find("dhdGetButtonMask");
+  bool (*hasWrist)(char) = library.find("dhdHasWrist");
+  double (*getMaxForce)(char) = library.find("dhdGetMaxForce");
+  int (*enableExpertMode)() = library.find("dhdEnableExpertMode");
+  int (*setWatchdog)(unsigned char, char) = library.find("dhdSetWatchdog");
 
   std::string lastError() const;
 };

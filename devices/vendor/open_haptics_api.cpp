@@ -6,31 +6,6 @@
 
 namespace reachlab::devices::hd {
 
-Api::Api() : library({"libHD.so", "libHD.so.3", "libHD.so.3.4", "libHD.so.3.4.0", "libHD.so.3.0", "libHD.so.3.0.0"}) {
-  library.bind(initDevice, "hdInitDevice");
-  library.bind(disableDevice, "hdDisableDevice");
-  library.bind(makeCurrentDevice, "hdMakeCurrentDevice");
-  library.bind(beginFrame, "hdBeginFrame");
-  library.bind(endFrame, "hdEndFrame");
-  library.bind(getError, "hdGetError");
-  library.bind(getErrorString, "hdGetErrorString");
-  library.bind(enable, "hdEnable");
-  library.bind(disable, "hdDisable");
-  library.bind(getDoublev, "hdGetDoublev");
-  library.bind(getIntegerv, "hdGetIntegerv");
-  library.bindIfThere(getBooleanv, "hdGetBooleanv");
-  library.bindIfThere(getString, "hdGetString");
-  library.bind(setDoublev, "hdSetDoublev");
-  library.bindIfThere(checkCalibration, "hdCheckCalibration");
-  library.bindIfThere(checkCalibrationStyle, "hdCheckCalibrationStyle");
-  library.bindIfThere(updateCalibration, "hdUpdateCalibration");
-  library.bind(startScheduler, "hdStartScheduler");
-  library.bind(stopScheduler, "hdStopScheduler");
-  library.bindIfThere(setSchedulerRate, "hdSetSchedulerRate");
-  library.bind(scheduleAsynchronous, "hdScheduleAsynchronous");
-  library.bind(unschedule, "hdUnschedule");
-}
-
 namespace {
 
 // What helps, where the library's own words do not say it.

@@ -58,32 +58,31 @@ inline constexpr std::uint16_t kHighestPriority = 65535;
 
 using Callback = std::uint32_t(void*);
 
+/// Making one throws ResourceError when the library is missing or lacks a function. A function that is only looked for (`find`) may be null.
 struct Api {
-  /// Throws ResourceError when the library is missing or lacks a function.
-  Api();
-  SharedLibrary library;
-  Handle (*initDevice)(const char* name) = nullptr;
-  void (*disableDevice)(Handle) = nullptr;
-  void (*makeCurrentDevice)(Handle) = nullptr;
-  void (*beginFrame)(Handle) = nullptr;
-  void (*endFrame)(Handle) = nullptr;
-  ErrorInfo (*getError)() = nullptr;
-  const char* (*getErrorString)(std::uint32_t) = nullptr;
-  void (*enable)(Enum) = nullptr;
-  void (*disable)(Enum) = nullptr;
-  void (*getDoublev)(Enum, double*) = nullptr;
-  void (*getIntegerv)(Enum, std::int32_t*) = nullptr;
-  void (*getBooleanv)(Enum, std::uint8_t*) = nullptr;  // may be null
-  const char* (*getString)(Enum) = nullptr;            // may be null
-  void (*setDoublev)(Enum, const double*) = nullptr;
-  Enum (*checkCalibration)() = nullptr;  // these three may be null
-  Enum (*checkCalibrationStyle)() = nullptr;
-  void (*updateCalibration)(Enum) = nullptr;
-  void (*startScheduler)() = nullptr;
-  void (*stopScheduler)() = nullptr;
-  void (*setSchedulerRate)(unsigned long) = nullptr;  // may be null
-  unsigned long (*scheduleAsynchronous)(Callback*, void*, std::uint16_t) = nullptr;
-  void (*unschedule)(unsigned long) = nullptr;
+  SharedLibrary library{{"libHD.so", "libHD.so.3", "libHD.so.3.4", "libHD.so.3.4.0", "libHD.so.3.0", "libHD.so.3.0.0"}};
+  Handle (*initDevice)(const char* name) = library.require("hdInitDevice");
+  void (*disableDevice)(Handle) = library.require("hdDisableDevice");
+  void (*makeCurrentDevice)(Handle) = library.require("hdMakeCurrentDevice");
+  void (*beginFrame)(Handle) = library.require("hdBeginFrame");
+  void (*endFrame)(Handle) = library.require("hdEndFrame");
+  ErrorInfo (*getError)() = library.require("hdGetError");
+  const char* (*getErrorString)(std::uint32_t) = library.require("hdGetErrorString");
+  void (*enable)(Enum) = library.require("hdEnable");
+  void (*disable)(Enum) = library.require("hdDisable");
+  void (*getDoublev)(Enum, double*) = library.require("hdGetDoublev");
+  void (*getIntegerv)(Enum, std::int32_t*) = library.require("hdGetIntegerv");
+  void (*getBooleanv)(Enum, std::uint8_t*) = library.find("hdGetBooleanv");
+  const char* (*getString)(Enum) = library.find("hdGetString");
+  void (*setDoublev)(Enum, const double*) = library.require("hdSetDoublev");
+  Enum (*checkCalibration)() = library.find("hdCheckCalibration");
+  Enum (*checkCalibrationStyle)() = library.find("hdCheckCalibrationStyle");
+  void (*updateCalibration)(Enum) = library.find("hdUpdateCalibration");
+  void (*startScheduler)() = library.require("hdStartScheduler");
+  void (*stopScheduler)() = library.require("hdStopScheduler");
+  void (*setSchedulerRate)(unsigned long) = library.find("hdSetSchedulerRate");
+  unsigned long (*scheduleAsynchronous)(Callback*, void*, std::uint16_t) = library.require("hdScheduleAsynchronous");
+  void (*unschedule)(unsigned long) = library.require("hdUnschedule");
 
   /// The newest error as text, "no valid license (0x0600)". Empty when there is no error. Takes every waiting error. `newest`, if given,
   /// becomes the code of the newest error.

@@ -27,10 +27,10 @@ SharedLibrary::SharedLibrary(const std::vector<std::string>& names) {
       fmt::format("{}; looked for {} where the loader looks (LD_LIBRARY_PATH, /etc/ld.so.conf)", words, fmt::join(names, ", ")));
 }
 
-void* SharedLibrary::find(const char* symbol) const { return ::dlsym(handle_, symbol); }
+SharedLibrary::Symbol SharedLibrary::find(const char* symbol) const { return {::dlsym(handle_, symbol)}; }
 
-void* SharedLibrary::require(const char* symbol) const {
-  if (void* found = find(symbol)) return found;
+SharedLibrary::Symbol SharedLibrary::require(const char* symbol) const {
+  if (const Symbol found = find(symbol); found.address != nullptr) return found;
   throw ResourceError(fmt::format("{}: has no function {}; is it another version?", name_, symbol));
 }
 

@@ -12,21 +12,20 @@ class SharedLibrary {
   explicit SharedLibrary(const std::vector<std::string>& names);
 
   const std::string& name() const { return name_; }
-  /// Null when the library has no symbol of that name.
-  void* find(const char* symbol) const;
-  /// Binds `function` to the symbol. Throws ResourceError when the symbol is missing.
-  template <typename Function>
-  void bind(Function*& function, const char* symbol) const {
-    function = reinterpret_cast<Function*>(require(symbol));
-  }
+  /// An address in the library, as a pointer to whatever function it is assigned to.
+  struct Symbol {
+    void* address = nullptr;
+    template <typename Function>
+    operator Function*() const {
+      return reinterpret_cast<Function*>(address);
+    }
+  };
+  /// Throws ResourceError when the library has no symbol of that name.
+  Symbol require(const char* symbol) const;
   /// The same for a function that some versions lack. It is then null.
-  template <typename Function>
-  void bindIfThere(Function*& function, const char* symbol) const {
-    function = reinterpret_cast<Function*>(find(symbol));
-  }
+  Symbol find(const char* symbol) const;
 
  private:
-  void* require(const char* symbol) const;
   std::string name_;
   void* handle_ = nullptr;
 };
