@@ -143,14 +143,7 @@ void CoupledCopy::updateLink(Peer& peer, double dt) noexcept {
 void CoupledCopy::guessHand(Peer& peer, int hand) noexcept {
   const double ahead = std::clamp(peer.link.age, 0.0, settings_.mostGuessed);
   const dynamics::HandSample end{peer.newest.hand + ahead * peer.newest.handVelocity, peer.newest.handVelocity, true};
-  const dynamics::HandSample from = peer.held ? peer.guessed : end;
-  dynamics::HandSegment segment;
-  segment.degree = 1;
-  segment.position[0] = from.position;
-  segment.position[1] = end.position - from.position;
-  segment.velocity[0] = from.velocity;
-  segment.velocity[1] = end.velocity - from.velocity;
-  plant_->setHand(hand, segment, end, peer.link.fade);
+  plant_->setHand(hand, dynamics::straightSegment(peer.held ? peer.guessed : end, end), end, peer.link.fade);
   peer.guessed = end;
   peer.held = true;
 }

@@ -36,13 +36,7 @@ struct LimpHand {
       x += 0.5 * kStep * (was + v);
     }
   }
-  dynamics::HandSegment segment() const {
-    dynamics::HandSegment segment;
-    segment.degree = 1;
-    segment.position[0] = beforeX, segment.position[1] = x - beforeX;
-    segment.velocity[0] = beforeV, segment.velocity[1] = v - beforeV;
-    return segment;
-  }
+  dynamics::HandSegment segment() const { return dynamics::straightSegment({beforeX, beforeV}, sample()); }
   dynamics::HandSample sample() const { return {x, v, true}; }
 };
 

@@ -34,14 +34,6 @@ double intendedSpeed(int h, double t) {
   return (intended(h, t + kNear) - intended(h, t - kNear)) / (2 * kNear);
 }
 
-dynamics::HandSegment between(double x0, double v0, double x1, double v1) {
-  dynamics::HandSegment segment;
-  segment.degree = 1;
-  segment.position[0].x = x0, segment.position[1].x = x1 - x0;
-  segment.velocity[0].x = v0, segment.velocity[1].x = v1 - v0;
-  return segment;
-}
-
 /// A person's hand.
 struct Body {
   double x = 0, v = 0;              // [m], [m/s] now
@@ -62,7 +54,7 @@ struct Body {
       taken += force * moved;
     }
   }
-  dynamics::HandSegment segment() const { return between(beforeX, beforeV, x, v); }
+  dynamics::HandSegment segment() const { return dynamics::straightSegment({{beforeX, 0, 0}, {beforeV, 0, 0}}, sample()); }
   dynamics::HandSample sample() const { return {{x, 0, 0}, {v, 0, 0}, true}; }
 };
 using Bodies = std::array<Body, 2>;

@@ -18,6 +18,15 @@ struct HandSegment {
   std::array<Vec3, kMaxDegree + 1> velocity{};
 };
 
+/// Straight from one sample to the next.
+inline HandSegment straightSegment(const HandSample& from, const HandSample& to) noexcept {
+  HandSegment segment;
+  segment.degree = 1;
+  segment.position[0] = from.position, segment.position[1] = to.position - from.position;
+  segment.velocity[0] = from.velocity, segment.velocity[1] = to.velocity - from.velocity;
+  return segment;
+}
+
 /// Value at s of a segment's polynomial [m] or [m/s].
 inline Vec3 valueAt(const std::array<Vec3, HandSegment::kMaxDegree + 1>& c, int degree, double s) noexcept {
   Vec3 value = c[degree];
