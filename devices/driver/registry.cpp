@@ -27,23 +27,12 @@ std::vector<FoundDevice> findDevices() {
   return found;
 }
 
-std::vector<FoundDevice> alwaysThere(const DeviceDriver& self) {
-  FoundDevice row;
-  row.name = row.kind = self.name;
-  row.description = self.description;
-  row.present = true;
-  row.degreesOfFreedom = 3;
-  row.maxForce = row.continuousForce = 0;
-  row.rate = 1000;
-  return {row};
-}
+std::vector<FoundDevice> alwaysThere(const DeviceDriver& self) { return {presentDevice(self, {}, {})}; }
 
-FoundDevice presentDevice(const DeviceDriver& self, const std::string& name, const haptics::DeviceInfo& info) {
-  FoundDevice row;
-  row.name = name;
-  row.kind = self.name;
-  row.description = info.name.empty() ? self.description : info.name;
-  row.present = true;
+FoundDevice presentDevice(const DeviceDriver& self, const std::string& key, const haptics::DeviceInfo& info, const std::string& whyNot) {
+  FoundDevice row = absentDevice(self, whyNot, key);
+  if (!info.name.empty()) row.description = info.name;
+  row.present = whyNot.empty();
   row.degreesOfFreedom = info.degreesOfFreedom;
   row.maxForce = info.rendersForce ? info.maxForce : 0;
   if (!info.rendersForce) row.continuousForce = 0;
@@ -52,12 +41,18 @@ FoundDevice presentDevice(const DeviceDriver& self, const std::string& name, con
   return row;
 }
 
-FoundDevice absentDevice(const DeviceDriver& self, const std::string& whyNot) {
+FoundDevice absentDevice(const DeviceDriver& self, const std::string& whyNot, const std::string& key) {
   FoundDevice row;
-  row.name = row.kind = self.name;
+  row.name = self.name + (key.empty() ? "" : ":" + key);
+  row.kind = self.name;
   row.description = self.description;
   row.whyNot = whyNot;
   return row;
+}
+
+std::vector<FoundDevice> rowsOr(std::vector<FoundDevice> rows, const DeviceDriver& self, const std::string& whyNot) {
+  if (rows.empty()) rows.push_back(absentDevice(self, whyNot));
+  return rows;
 }
 
 }  // namespace reachlab::devices

@@ -39,13 +39,13 @@ struct DeviceDriver {
   std::string name;         // "phantom"
   std::string usage;        // "phantom[:NAME]"
   std::string description;  // one line
-  bool inWindowOnly = false;
   /// The devices of this kind, or one row with the reason why there is no device. Opens as few devices as possible and leaves every device
   /// as it was.
   std::vector<FoundDevice> (*find)(const DeviceDriver& self);
   /// Throws FaultError (a wrong argument) or ResourceError (the device cannot be opened).
   std::unique_ptr<haptics::HapticDevice> (*make)(const DeviceRequest& request);
-  bool isMade = false;  // by this program: as many exist as are asked for
+  bool isMade = false;        // by this program: as many exist as are asked for
+  bool inWindowOnly = false;  // it cannot be opened by `make`
 };
 
 /// Every driver of this program, in the order of lists.
@@ -57,8 +57,12 @@ std::vector<FoundDevice> findDevices();
 
 /// The row of a driver whose device is always present.
 std::vector<FoundDevice> alwaysThere(const DeviceDriver& self);
-/// Makes a row of `self` and completes it with the data of `info`.
-FoundDevice presentDevice(const DeviceDriver& self, const std::string& name, const haptics::DeviceInfo& info);
-FoundDevice absentDevice(const DeviceDriver& self, const std::string& whyNot);
+/// The row of a device that is found. `key` is the text behind the colon of its name, empty for the driver's name alone. `whyNot` is the
+/// reason why it cannot be opened.
+FoundDevice presentDevice(const DeviceDriver& self, const std::string& key, const haptics::DeviceInfo& info,
+                          const std::string& whyNot = {});
+FoundDevice absentDevice(const DeviceDriver& self, const std::string& whyNot, const std::string& key = {});
+/// The rows, or one row with the reason why there is no device.
+std::vector<FoundDevice> rowsOr(std::vector<FoundDevice> rows, const DeviceDriver& self, const std::string& whyNot);
 
 }  // namespace reachlab::devices

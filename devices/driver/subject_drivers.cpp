@@ -12,7 +12,6 @@ DeviceDriver simulatedDriver() {
   return {"simulated",
           "simulated[:KEY=VALUE,…]",
           "a virtual subject: plans by a criterion for this very object, or feels, errs and learns (docs/virtual-subjects.md)",
-          false,
           alwaysThere,
           [](const DeviceRequest& r) {
             std::shared_ptr<void> nothing;
@@ -26,7 +25,6 @@ DeviceDriver partnerDriver() {
   return {"partner",
           "partner:ROLE[,hand-mass=KG,arm-stiffness=N_PER_M,arm-damping=N_S_PER_M,reaction=S,mass=I,…]",
           "a simulated partner who feels the object: leader, follower or stubborn",
-          false,
           alwaysThere,
           [](const DeviceRequest& r) {
             DeviceOptions options(r.argument, r.words());

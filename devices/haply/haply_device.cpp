@@ -163,7 +163,7 @@ std::vector<FoundDevice> findHaply(const DeviceDriver& self) {
   try {
     const HaplyInverse3 device({}, [] { return openWebSocket("127.0.0.1", kPort); });
     std::vector<FoundDevice> found;
-    for (const std::string& id : device.there()) found.push_back(presentDevice(self, self.name + ":" + id, device.info()));
+    for (const std::string& id : device.there()) found.push_back(presentDevice(self, id, device.info()));
     return found;
   } catch (const ResourceError& error) {
     return {absentDevice(self, fmt::format("{}; is Haply's Inverse service running?", error.what()))};
@@ -173,12 +173,8 @@ std::vector<FoundDevice> findHaply(const DeviceDriver& self) {
 }  // namespace
 
 DeviceDriver haplyDriver() {
-  return {"haply",
-          "haply[:ID][,max-force=N,grip=ID,velocity=device,port=N]",
-          "Haply Inverse3 by its service on this machine (ws://127.0.0.1:10001)",
-          false,
-          findHaply,
-          makeHaply};
+  return {"haply", "haply[:ID][,max-force=N,grip=ID,velocity=device,port=N]",
+          "Haply Inverse3 by its service on this machine (ws://127.0.0.1:10001)", findHaply, makeHaply};
 }
 
 }  // namespace reachlab::devices

@@ -53,6 +53,12 @@ std::vector<HidInterface> findHid(std::uint16_t vendor, std::uint16_t product) {
   return found;
 }
 
+const HidInterface* chooseHid(const std::vector<HidInterface>& interfaces, const std::string& key) {
+  for (const HidInterface& at : interfaces)
+    if (key.empty() || at.key() == key || at.path == key) return &at;
+  return nullptr;
+}
+
 std::string whyNotOpen(const HidInterface& interface) {
   if (::access(interface.path.c_str(), R_OK | W_OK) == 0) return {};
   const int error = errno;

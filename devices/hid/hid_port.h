@@ -18,6 +18,8 @@ struct HidInterface {
 
 /// All interfaces of this vendor and product (0: any), in the order of their paths.
 std::vector<HidInterface> findHid(std::uint16_t vendor = 0, std::uint16_t product = 0);
+/// The interface of that key or path, or the first one where `key` is empty. Null when it is not among them.
+const HidInterface* chooseHid(const std::vector<HidInterface>& interfaces, const std::string& key);
 /// The reason why this user may not read and write the interface, with the remedy. Empty when the user may.
 std::string whyNotOpen(const HidInterface& interface);
 

@@ -136,6 +136,7 @@ std::string OpenArm::calibrate() {
 namespace {
 
 constexpr std::uint16_t kTeensyVendor = 0x16C0, kTeensyProduct = 0x0486, kMbedVendor = 0x1234, kMbedProduct = 0x0006;
+constexpr const char* kNoArm = "no WoodenHaptics or Polhem arm (USB 16c0:0486 or 1234:0006) is connected";
 
 std::vector<HidInterface> findArms() {
   std::vector<HidInterface> found = findHid(kTeensyVendor, kTeensyProduct);
@@ -152,9 +153,8 @@ std::string firmwareFaultOf(const HidInterface& arm) {
 
 HidInterface chooseArm(const std::string& key, const std::string& words) {
   const std::vector<HidInterface> arms = findArms();
-  if (arms.empty()) throw ResourceError(fmt::format("{}: no WoodenHaptics or Polhem arm (USB 16c0:0486 or 1234:0006) is connected", words));
-  for (const HidInterface& arm : arms)
-    if (key.empty() || arm.key() == key || arm.path == key) return arm;
+  if (arms.empty()) throw ResourceError(fmt::format("{}: {}", words, kNoArm));
+  if (const HidInterface* arm = chooseHid(arms, key)) return *arm;
   std::string there;
   for (const HidInterface& arm : arms) there += (there.empty() ? "" : ", ") + arm.key();
   throw ResourceError(fmt::format("{}: not connected; there is: {}", words, there));
@@ -194,27 +194,20 @@ std::unique_ptr<haptics::HapticDevice> makeArm(const DeviceRequest& request) {
 std::vector<FoundDevice> findArmDevices(const DeviceDriver& self) {
   std::vector<FoundDevice> found;
   for (const HidInterface& arm : findArms()) {
-    const std::string name = self.name + ":" + arm.key(), closed = whyNotOpen(arm), why = closed.empty() ? firmwareFaultOf(arm) : closed;
+    const std::string closed = whyNotOpen(arm);
     haptics::DeviceInfo info;
     info.name = arm.title.empty() ? self.description : arm.maker + (arm.maker.empty() ? "" : " ") + arm.title;
     info.maxForce = optionsFor(arm).model->maxForce;
     info.rendersForce = true;
-    found.push_back(presentDevice(self, name, info));
-    found.back().present = why.empty();
-    found.back().whyNot = why;
+    found.push_back(presentDevice(self, arm.key(), info, closed.empty() ? firmwareFaultOf(arm) : closed));
   }
-  if (found.empty()) return {absentDevice(self, "no WoodenHaptics or Polhem arm (USB 16c0:0486 or 1234:0006) is connected")};
-  return found;
+  return rowsOr(std::move(found), self, kNoArm);
 }
 
 }  // namespace
 
 DeviceDriver hidDriver() {
-  return {"hid",
-          "hid[:SERIAL][,model=NAME,max-current=A,calibrate=start]",
-          "WoodenHaptics and Polhem arms over USB HID",
-          false,
-          findArmDevices,
+  return {"hid", "hid[:SERIAL][,model=NAME,max-current=A,calibrate=start]", "WoodenHaptics and Polhem arms over USB HID", findArmDevices,
           makeArm};
 }
 

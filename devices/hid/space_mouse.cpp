@@ -32,8 +32,8 @@ std::vector<HidInterface> findSpaceMice() {
 }
 
 HidInterface chooseSpaceMouse(const std::string& key, const std::string& words) {
-  for (const HidInterface& mouse : findSpaceMice())
-    if (key.empty() || mouse.key() == key || mouse.path == key) return mouse;
+  const std::vector<HidInterface> mice = findSpaceMice();
+  if (const HidInterface* mouse = chooseHid(mice, key)) return *mouse;
   throw ResourceError(fmt::format("{}: no such 3Dconnexion SpaceMouse is connected", words));
 }
 
@@ -104,23 +104,16 @@ std::vector<FoundDevice> findSpaceMouseDevices(const DeviceDriver& self) {
     info.name = mouse.title;
     info.rate = 125;
     info.degreesOfFreedom = 6;
-    found.push_back(presentDevice(self, self.name + ":" + mouse.key(), info));
-    found.back().whyNot = whyNotOpen(mouse);
-    found.back().present = found.back().whyNot.empty();
+    found.push_back(presentDevice(self, mouse.key(), info, whyNotOpen(mouse)));
   }
-  if (found.empty()) return {absentDevice(self, "no 3Dconnexion SpaceMouse (USB 256f, 046d:c6xx) is connected")};
-  return found;
+  return rowsOr(std::move(found), self, "no 3Dconnexion SpaceMouse (USB 256f, 046d:c6xx) is connected");
 }
 
 }  // namespace
 
 DeviceDriver spaceMouseDriver() {
-  return {"spacemouse",
-          "spacemouse[:SERIAL][,gain=M_PER_S,dead-zone=SHARE]",
-          "3Dconnexion SpaceMouse: the push steers the hand's speed",
-          false,
-          findSpaceMouseDevices,
-          makeSpaceMouse};
+  return {"spacemouse", "spacemouse[:SERIAL][,gain=M_PER_S,dead-zone=SHARE]", "3Dconnexion SpaceMouse: the push steers the hand's speed",
+          findSpaceMouseDevices, makeSpaceMouse};
 }
 
 }  // namespace reachlab::devices

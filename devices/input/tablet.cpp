@@ -146,20 +146,16 @@ std::vector<FoundDevice> findTabletDevices(const DeviceDriver& self) {
   std::vector<FoundDevice> found;
   std::string why = kNone;
   for (const TabletNode& node : listTablets()) {
-    if (!node.whyNot.empty()) {
-      why = node.whyNot;
-      continue;
-    }
-    found.push_back(presentDevice(self, self.name + ":" + node.path, infoOf(node)));
+    if (node.whyNot.empty()) found.push_back(presentDevice(self, node.path, infoOf(node)));
+    else why = node.whyNot;
   }
-  if (found.empty()) return {absentDevice(self, why)};
-  return found;
+  return rowsOr(std::move(found), self, why);
 }
 
 }  // namespace
 
 DeviceDriver tabletDriver() {
-  return {"tablet", "tablet[:PATH][,half-width=M]", "the pen's place on a tablet is the hand's", false, findTabletDevices, makeTablet};
+  return {"tablet", "tablet[:PATH][,half-width=M]", "the pen's place on a tablet is the hand's", findTabletDevices, makeTablet};
 }
 
 }  // namespace reachlab::devices

@@ -91,21 +91,20 @@ haptics::DeviceSample MouseDevice::read() noexcept {
   return sample;
 }
 
-void MouseDevice::write(const Vec3&) noexcept {}
-
 DeviceDriver mouseDriver() {
-  return {"mouse",
-          "mouse",
-          "the pointer in the window of `reachlab`",
-          true,
-          [](const DeviceDriver& self) {
-            std::vector<FoundDevice> rows = alwaysThere(self);
-            rows.front().rate = 125;
-            return rows;
-          },
-          [](const DeviceRequest&) -> std::unique_ptr<haptics::HapticDevice> {
+  return {.name = "mouse",
+          .usage = "mouse",
+          .description = "the pointer in the window of `reachlab`",
+          .find =
+              [](const DeviceDriver& self) {
+                std::vector<FoundDevice> rows = alwaysThere(self);
+                rows.front().rate = 125;
+                return rows;
+              },
+          .make = [](const DeviceRequest&) -> std::unique_ptr<haptics::HapticDevice> {
             throw ResourceError("device mouse: needs a window to point into; use `reachlab`");
-          }};
+          },
+          .inWindowOnly = true};
 }
 
 }  // namespace reachlab::devices

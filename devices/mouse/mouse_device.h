@@ -30,7 +30,7 @@ class MouseDevice final : public haptics::HapticDevice {
 
   haptics::DeviceInfo info() const override;
   haptics::DeviceSample read() noexcept override;
-  void write(const Vec3& force) noexcept override;
+  void write(const Vec3&) noexcept override {}
 
  private:
   struct Event {

@@ -88,7 +88,6 @@ DeviceDriver replayDriver() {
   return {"replay",
           "replay:FILE|FOLDER[,KEY=VALUE…]",
           "replay:FILE|FOLDER, recorded reaches (CSV, BIDS motion, C3D) laid onto start and target, one a trial",
-          false,
           alwaysThere,
           makeReplay,
           true};

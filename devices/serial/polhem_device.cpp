@@ -129,15 +129,13 @@ std::vector<FoundDevice> findPolhem(const DeviceDriver& self) {
     info.name = "Polhem v3";
     info.maxForce = 5;
     info.rendersForce = true;
-    found.push_back(presentDevice(self, self.name + ":" + path, info));
+    found.push_back(presentDevice(self, path, info));
   }
-  if (found.empty())
-    return {absentDevice(self, "no serial line ttyACM of USB vendor 16c0 is there; another line is named: polhem:/dev/ttyACM0")};
-  return found;
+  return rowsOr(std::move(found), self, "no serial line ttyACM of USB vendor 16c0 is there; another line is named: polhem:/dev/ttyACM0");
 }
 
 }  // namespace
 
-DeviceDriver polhemDriver() { return {"polhem", "polhem[:PATH]", "Polhem v3 over its serial line", false, findPolhem, makePolhem}; }
+DeviceDriver polhemDriver() { return {"polhem", "polhem[:PATH]", "Polhem v3 over its serial line", findPolhem, makePolhem}; }
 
 }  // namespace reachlab::devices

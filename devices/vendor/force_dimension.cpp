@@ -204,12 +204,11 @@ std::vector<FoundDevice> findForceDimension(const DeviceDriver& self) {
                                              silent ? std::string() : ": " + dhd::api().lastError()))};
     }
     for (int i = 0; i < count; ++i) {
-      const std::string name = fmt::format("{}:{}", self.name, i);
+      const std::string key = std::to_string(i);
       try {
-        found.push_back(presentDevice(self, name, ForceDimension(i, "device " + name, false).info()));
+        found.push_back(presentDevice(self, key, ForceDimension(i, fmt::format("device {}:{}", self.name, i), false).info()));
       } catch (const ResourceError& error) {
-        found.push_back(absentDevice(self, error.what()));
-        found.back().name = name;
+        found.push_back(absentDevice(self, error.what(), key));
       }
     }
   } catch (const ResourceError& error) {
@@ -221,11 +220,8 @@ std::vector<FoundDevice> findForceDimension(const DeviceDriver& self) {
 }  // namespace
 
 DeviceDriver forceDimensionDriver() {
-  return {"forcedimension",
-          "forcedimension[:N]",
-          "omega, delta, sigma, lambda and Falcon by Force Dimension's library (libdrd.so or libdhd.so)",
-          false,
-          findForceDimension,
+  return {"forcedimension", "forcedimension[:N]",
+          "omega, delta, sigma, lambda and Falcon by Force Dimension's library (libdrd.so or libdhd.so)", findForceDimension,
           makeForceDimension};
 }
 

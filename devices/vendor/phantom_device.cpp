@@ -220,10 +220,10 @@ std::unique_ptr<haptics::HapticDevice> makePhantom(const DeviceRequest& request)
 
 std::vector<FoundDevice> findPhantom(const DeviceDriver& self) {
   std::vector<FoundDevice> inUse;
-  for (const auto& [name, info] : openDevices()) inUse.push_back(presentDevice(self, self.name + (name.empty() ? "" : ":" + name), info));
+  for (const auto& [name, info] : openDevices()) inUse.push_back(presentDevice(self, name, info));
   if (!inUse.empty()) return inUse;
   try {
-    return {presentDevice(self, self.name, PhantomDevice({}).info())};
+    return {presentDevice(self, {}, PhantomDevice({}).info())};
   } catch (const ResourceError& error) {
     return {absentDevice(self, error.what())};
   }
@@ -232,12 +232,8 @@ std::vector<FoundDevice> findPhantom(const DeviceDriver& self) {
 }  // namespace
 
 DeviceDriver phantomDriver() {
-  return {"phantom",
-          "phantom[:NAME][,clock=computer]",
-          "PHANToM and Touch by the vendor's OpenHaptics (libHD.so); NAME as in its configuration",
-          false,
-          findPhantom,
-          makePhantom};
+  return {"phantom", "phantom[:NAME][,clock=computer]",
+          "PHANToM and Touch by the vendor's OpenHaptics (libHD.so); NAME as in its configuration", findPhantom, makePhantom};
 }
 
 }  // namespace reachlab::devices

@@ -151,7 +151,6 @@ DeviceDriver virtualDriver() {
   return {"virtual",
           "virtual:MODEL[,arm-mass=KG,arm-stiffness=N_PER_M,arm-damping=N_S_PER_M,delay-ms=N,quantised=no,…]",
           "a force device as a simulated body, held by a simulated hand",
-          false,
           findVirtual,
           makeVirtual,
           true};

@@ -52,7 +52,7 @@ inline DeviceDriver springHandleDriver() {
       .description = "Spring Handle of this page",
       .find = [](const DeviceDriver& self) -> std::vector<FoundDevice> {
         if (vendorUnplugged) return {absentDevice(self, "no Spring Handle is connected")};
-        return {presentDevice(self, self.name, SpringHandle().info())};
+        return {presentDevice(self, {}, SpringHandle().info())};
       },
       // What stands behind the name, springhandle:PATH,gain=2, is request.argument; DeviceOptions (base/device_options.h) takes it apart. What is
       // wrong there throws FaultError (base/fault.h), what cannot be had ResourceError (base/error.h).
