@@ -7,67 +7,47 @@
 namespace reachlab::devices {
 namespace {
 
+constexpr ArmModel kWooden{.name = "woodenhaptics_v2015",
+                           .length = {.080, .205, .245},
+                           .body = {.160, .120, .120},
+                           .origin = {.220, 0, .080},
+                           .calibrationCounts = {0, 0, 6000}};
+
+constexpr ArmModel later(ArmModel model) {
+  model.name = "woodenhaptics_v2019";
+  model.torqueConstant = {.321, .0603, .0603};
+  return model;
+}
+constexpr ArmModel woody(ArmModel model) {
+  model.name = "default_woody";
+  model.calibrationCounts = {};
+  model.aligned = {false, true, false};
+  return model;
+}
+
 constexpr ArmModel kModels[] = {
-    {"woodenhaptics_v2015",
-     {.010, .010, .010},
-     {.080, .205, .245},
-     {.160, .120, .120},
-     {.220, 0, .080},
-     {.0259, .0259, .0259},
-     2000,
-     5,
-     {0, 0, 6000},
-     {false, false, false}},
-    {"woodenhaptics_v2019",
-     {.010, .010, .010},
-     {.080, .205, .245},
-     {.160, .120, .120},
-     {.220, 0, .080},
-     {.321, .0603, .0603},
-     2000,
-     5,
-     {0, 0, 6000},
-     {false, false, false}},
-    {"default_woody",
-     {.010, .010, .010},
-     {.080, .205, .245},
-     {.160, .120, .120},
-     {.220, 0, .080},
-     {.0259, .0259, .0259},
-     2000,
-     5,
-     {0, 0, 0},
-     {false, true, false}},
-    {"polhem_v1",
-     {.010, .010, .010},
-     {.058, .174, .133},
-     {.180, .100, .100},
-     {.140, 0, .100},
-     {.0538, .0538, .0538},
-     2000,
-     5,
-     {0, 0, -5000},
-     {true, true, true}},
-    {"aluhaptics_v2",
-     {.0138, .0098, .0098},
-     {.111, .140, .111},
-     {.116, .076, .076},
-     {.140, 0, 0},
-     {.0259, .0259, .0259},
-     2000,
-     5,
-     {0, 0, 0},
-     {false, false, false}},
-    {"vintage",
-     {.013, .010, .010},
-     {.056, .138, .112},
-     {.117, .077, .077},
-     {.140, 0, 0},
-     {.0163, .0163, .0163},
-     4000,
-     5,
-     {0, 0, 0},
-     {false, false, false}},
+    kWooden,
+    later(kWooden),
+    woody(kWooden),
+    {.name = "polhem_v1",
+     .length = {.058, .174, .133},
+     .body = {.180, .100, .100},
+     .origin = {.140, 0, .100},
+     .torqueConstant = {.0538, .0538, .0538},
+     .calibrationCounts = {0, 0, -5000},
+     .aligned = {true, true, true}},
+    {.name = "aluhaptics_v2",
+     .length = {.111, .140, .111},
+     .body = {.116, .076, .076},
+     .capstan = {.0138, .0098, .0098},
+     .origin = {.140, 0, 0}},
+    {.name = "vintage",
+     .length = {.056, .138, .112},
+     .body = {.117, .077, .077},
+     .capstan = {.013, .010, .010},
+     .origin = {.140, 0, 0},
+     .torqueConstant = {.0163, .0163, .0163},
+     .countsPerTurn = 4000},
 };
 
 double reduction(const ArmModel& m, int i) noexcept { return m.body[i] / m.capstan[i]; }

@@ -14,17 +14,18 @@
 ///   tau = J^T F,  I_i = s_i tau_i / r_i / kt_i
 namespace reachlab::devices {
 
+/// The defaults are the values of most models.
 struct ArmModel {
   std::string_view name;
-  std::array<double, 3> capstan;         // [m] diameter
-  std::array<double, 3> length;          // [m] L_a (Ln), L_b, L_c
-  std::array<double, 3> body;            // [m] diameter
-  Vec3 origin;                           // [m] of the workspace
-  std::array<double, 3> torqueConstant;  // [Nm/A]
-  double countsPerTurn;
-  double maxForce;                       // [N] data sheet
-  std::array<int, 3> calibrationCounts;  // encoders in the calibration pose
-  std::array<bool, 3> aligned;           // motor and body turn alike
+  std::array<double, 3> length;                               // [m] L_a (Ln), L_b, L_c
+  std::array<double, 3> body;                                 // [m] diameter
+  std::array<double, 3> capstan{.010, .010, .010};            // [m] diameter
+  Vec3 origin;                                                // [m] of the workspace
+  std::array<double, 3> torqueConstant{.0259, .0259, .0259};  // [Nm/A]
+  double countsPerTurn = 2000;
+  double maxForce = 5;                     // [N] data sheet
+  std::array<int, 3> calibrationCounts{};  // encoders in the calibration pose
+  std::array<bool, 3> aligned{};           // motor and body turn alike
 };
 
 /// Every model with public kinematics (variants 0 to 2).
