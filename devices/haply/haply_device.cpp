@@ -19,43 +19,43 @@ constexpr int kAnswerMs = 10, kUnaskedMs = 200, kFirstMs = 2000;
 constexpr int kMostGarbled = 20;  // in a row, before it counts as lost
 constexpr std::uint16_t kPort = 10001;
 
+// Older services tell their state unasked, newer ones answer only.
+std::string firstMessage(MessageLink& link) {
+  std::string message;
+  if (link.receive(message, kUnaskedMs) == MessageLink::Got::Message) return message;
+  // One that does not care for profiles may still answer a message that asks for nothing.
+  for (const std::string& greeting : {haplyGreeting(), std::string("{}")}) {
+    link.send(greeting);
+    if (link.receive(message, kFirstMs / 2) == MessageLink::Got::Message) return message;
+  }
+  throw ResourceError(link.fault().empty() ? fmt::format("the service does not answer within {} ms", kFirstMs) : link.fault());
+}
+
 }  // namespace
 
 HaplyInverse3::HaplyInverse3(const Options& options, OpenLink open) : options_(options), open_(std::move(open)) { connect(); }
 
-// Older services tell their state unasked, newer ones answer only.
-std::string HaplyInverse3::firstMessage() {
-  std::string message;
-  if (link_->receive(message, kUnaskedMs) == MessageLink::Got::Message) return message;
-  // One that does not care for profiles may still answer a message that asks for nothing.
-  for (const std::string& greeting : {haplyGreeting(), std::string("{}")}) {
-    link_->send(greeting);
-    if (link_->receive(message, kFirstMs / 2) == MessageLink::Got::Message) return message;
-  }
-  throw ResourceError(link_->fault().empty() ? fmt::format("the service does not answer within {} ms", kFirstMs) : link_->fault());
-}
-
 void HaplyInverse3::connect() {
-  link_ = open_();
-  const std::string first = firstMessage();
+  std::unique_ptr<MessageLink> link = open_();
+  const std::string first = firstMessage(*link);
+  const HaplyService service = readHaplyService(first);
   switch (readHaplyMessage(first, options_.id, state_, options_.grip)) {
     case HaplyAnswer::State: break;
     case HaplyAnswer::NotJson: throw ResourceError("what answers is no Inverse service (its first message is none of its protocol)");
     case HaplyAnswer::OtherVersion:
       throw ResourceError("the Inverse service speaks a protocol of another version (known: 3.1 to 3.5); update it");
-    case HaplyAnswer::NoDevice: {
-      there_ = haplyDevices(first);
-      throw ResourceError(there_.empty() ? std::string("the Inverse service runs, but no Inverse3 is connected")
-                                         : fmt::format("not connected; there is: {}", fmt::join(there_, ", ")));
-    }
+    case HaplyAnswer::NoDevice:
+      throw ResourceError(service.devices.empty() ? std::string("the Inverse service runs, but no Inverse3 is connected")
+                                                  : fmt::format("not connected; there is: {}", fmt::join(service.devices, ", ")));
   }
-  there_ = haplyDevices(first);
-  if (const auto grips = haplyGrips(first); !options_.grip.empty() && std::find(grips.begin(), grips.end(), options_.grip) == grips.end())
+  there_ = service.devices;
+  const std::vector<std::string>& grips = service.grips;
+  if (!options_.grip.empty() && std::find(grips.begin(), grips.end(), options_.grip) == grips.end())
     throw ResourceError(fmt::format("the Inverse service has no VerseGrip {}; there is: {}", options_.grip,
                                     grips.empty() ? "none" : fmt::format("{}", fmt::join(grips, ", "))));
   const DeviceModel& model = *findDeviceModel("inverse3");
   info_.name = "Haply Inverse3 " + state_.id;
-  const std::string settings = haplySettings(first, state_.id);
+  const std::string settings = readHaplyService(first, state_.id).settings;
   info_.version = "Inverse service, websocket" + (settings.empty() ? "" : "; " + settings);
   info_.maxForce = options_.maxForce > 0 ? options_.maxForce : model.maxForce;
   info_.maxContinuousForce = std::min(model.continuousForce, info_.maxForce);
@@ -68,6 +68,7 @@ void HaplyInverse3::connect() {
   options_.id = state_.id;
   awaiting_ = false;
   garbled_ = 0;
+  link_ = std::move(link);
 }
 
 Exchange HaplyInverse3::lose(std::string why) {
@@ -119,13 +120,8 @@ Exchange HaplyInverse3::exchange(ForceSource& source, haptics::DeviceSample& sam
 
 bool HaplyInverse3::reopen() {
   link_.reset();
-  try {
-    connect();
-    return true;
-  } catch (const ResourceError&) {
-    link_.reset();
-    return false;
-  }
+  connect();
+  return true;
 }
 
 bool HaplyInverse3::tellZero() noexcept {

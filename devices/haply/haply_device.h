@@ -37,7 +37,6 @@ class HaplyInverse3 final : public Transport {
 
  private:
   void connect();
-  std::string firstMessage();
   Exchange lose(std::string why);
   Exchange take(const std::string& message, haptics::DeviceSample& sample);
 

@@ -51,7 +51,7 @@ std::string idOf(const Json& device) {
 
 const Json* deviceIn(const Json& list, const std::string& id) {
   for (const Json& device : list)
-    if (device.is_object() && !idOf(device).empty() && (id.empty() || idOf(device) == id)) return &device;
+    if (!idOf(device).empty() && (id.empty() || idOf(device) == id)) return &device;
   return nullptr;
 }
 
@@ -115,33 +115,20 @@ HaplyAnswer readHaplyMessage(std::string_view text, const std::string& id, Haply
   return HaplyAnswer::State;
 }
 
-std::vector<std::string> haplyDevices(std::string_view text) {
-  std::vector<std::string> ids;
+HaplyService readHaplyService(std::string_view text, const std::string& id) {
   const Json message = parsed(text);
+  HaplyService service;
+  for (const Json* grip : gripsIn(message)) service.grips.push_back(idOf(*grip));
   const Json* list = find(&message, "inverse3");
-  if (list == nullptr || !list->is_array()) return ids;
+  if (list == nullptr || !list->is_array()) return service;
   for (const Json& device : *list)
-    if (device.is_object() && !idOf(device).empty()) ids.push_back(idOf(device));
-  return ids;
-}
-
-std::vector<std::string> haplyGrips(std::string_view text) {
-  const Json message = parsed(text);
-  std::vector<std::string> ids;
-  for (const Json* grip : gripsIn(message)) ids.push_back(idOf(*grip));
-  return ids;
-}
-
-std::string haplySettings(std::string_view text, const std::string& id) {
-  const Json message = parsed(text);
-  const Json* list = find(&message, "inverse3");
-  if (list == nullptr || !list->is_array()) return {};
+    if (!idOf(device).empty()) service.devices.push_back(idOf(device));
   const Json* device = deviceIn(*list, id);
-  const Json* config = device == nullptr ? nullptr : find(device, "config");
-  std::string said;
+  const Json* config = find(device, "config");
   for (const char* name : {"gravity_compensation", "filters"})
-    if (const Json* value = find(config, name)) said += (said.empty() ? "" : ", ") + std::string(name) + " " + value->dump();
-  return said;
+    if (const Json* value = find(config, name))
+      service.settings += (service.settings.empty() ? "" : ", ") + std::string(name) + " " + value->dump();
+  return service;
 }
 
 std::string haplyForceCommand(const std::string& id, const Vec3& force) {

@@ -32,12 +32,14 @@ enum class HaplyAnswer : std::uint8_t {
 /// leaves out values that equal its identity. `grip` names the VerseGrip that is held with the device. An empty `grip` means the only grip.
 /// With several grips no grip is used, because the service does not tell which grip belongs to which device.
 HaplyAnswer readHaplyMessage(std::string_view message, const std::string& id, HaplyState& state, const std::string& grip = {});
-/// The names of all Inverse3 devices and of all grips in a message.
-std::vector<std::string> haplyDevices(std::string_view message);
-std::vector<std::string> haplyGrips(std::string_view message);
-/// The settings of the device that change the felt force (gravity compensation, filters), as the service names them. Empty when the service
-/// does not tell them.
-std::string haplySettings(std::string_view message, const std::string& id);
+
+/// What a message tells of the service.
+struct HaplyService {
+  std::vector<std::string> devices, grips;  // names of all of them
+  std::string
+      settings;  // of the device that change the felt force (gravity compensation, filters), as the service names them; may be empty
+};
+HaplyService readHaplyService(std::string_view message, const std::string& id = {});
 
 /// The command that tells the device this force [N] in the device's axes. A force that is not finite becomes zero force.
 std::string haplyForceCommand(const std::string& id, const Vec3& force);

@@ -107,11 +107,7 @@ Exchange OpenArm::exchange(ForceSource& source, haptics::DeviceSample& sample) {
 
 bool OpenArm::reopen() {
   port_.reset();
-  try {
-    port_ = open_();
-  } catch (const ResourceError&) {
-    return false;
-  }
+  port_ = open_();
   for (UnwrappedCount& count : counts_) count.reset();
   return true;
 }

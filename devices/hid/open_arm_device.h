@@ -36,8 +36,6 @@ class OpenArm final : public Transport {
   std::string calibrate() override;
   std::string lossText() const override;
 
-  /// The number of reports so far that were too short.
-
  private:
   int readNewest();
   bool send(const ArmCommand& command);

@@ -55,6 +55,7 @@ struct PolledDevice::Shared final : ForceSource {
   void run();
   void guard();
   bool turn();
+  bool reopened();
   void serveCalibration();
   void takeReport();
 };
@@ -93,6 +94,14 @@ Vec3 PolledDevice::Shared::newest() noexcept {
   return off ? Vec3{} : latest.force;
 }
 
+bool PolledDevice::Shared::reopened() {
+  try {
+    return transport->reopen();
+  } catch (const ResourceError&) {
+    return false;
+  }
+}
+
 // False: it brought nothing, and there is no hurry.
 bool PolledDevice::Shared::turn() {
   serveCalibration();
@@ -100,7 +109,7 @@ bool PolledDevice::Shared::turn() {
     if (!zeroTold) zeroTold = transport->tellZero();
     if (now() < nextReopenNs) return false;
     nextReopenNs = now() + kReopenNs;
-    if (!transport->reopen()) return false;
+    if (!reopened()) return false;
   }
   exchangeSinceNs.store(now(), std::memory_order_release);
   const Exchange exchanged = transport->exchange(*this, sample);

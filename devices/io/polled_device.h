@@ -43,7 +43,7 @@ class Transport {
   /// Called every millisecond after Lost, until it returns true. Sends zero force if the device still takes commands, without waiting for
   /// an answer. A device that was lost after one refused report may still apply its last force.
   virtual bool tellZero() noexcept { return true; }
-  /// Called after Lost, at most every 200 ms. Tries to open the device again.
+  /// Called after Lost, at most every 200 ms. Tries to open the device again. False or ResourceError: it is not there yet.
   virtual bool reopen() { return false; }
   /// The reason for a loss or a missing report, as the device or the system tells it. Empty when no reason is known. I/O thread.
   virtual std::string lossText() const { return {}; }

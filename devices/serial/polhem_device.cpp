@@ -65,12 +65,8 @@ bool PolhemSerial::reopen() {
   port_.reset();
   awaiting_ = false;
   unanswered_ = 0;
-  try {
-    port_ = open_();
-    return true;
-  } catch (const ResourceError&) {
-    return false;
-  }
+  port_ = open_();
+  return true;
 }
 
 bool PolhemSerial::tellZero() noexcept {

@@ -76,13 +76,9 @@ class ForceDimension final : public Transport {
   }
 
   bool reopen() override {
-    try {
-      shut();
-      open();
-      return true;
-    } catch (const ResourceError&) {
-      return false;
-    }
+    shut();
+    open();
+    return true;
   }
 
   void close() noexcept override { shut(); }

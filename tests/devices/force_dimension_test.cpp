@@ -229,7 +229,7 @@ TEST_F(ForceDimension, ZeroIsToldWhileItIsOpenAndItIsClosedOnce) {
   for (const auto& part : fakeDhd().force) EXPECT_EQ(part, 0);
   fakeDhd().error = 2;
   EXPECT_FALSE(device->tellZero());
-  EXPECT_FALSE(device->reopen());
+  EXPECT_THROW(device->reopen(), ResourceError);
   EXPECT_TRUE(device->tellZero()) << "it is closed: there is nobody to tell";
   fakeDhd().error = 0;
   EXPECT_TRUE(device->reopen());

@@ -87,9 +87,9 @@ TEST(HaplyMessage, AStateIsOfTheDeviceThatIsAskedFor) {
   EXPECT_EQ(read(two, "B").id, "B");
   EXPECT_EQ(read(two, "B").position, (Vec3{4, 0, 0}));
   EXPECT_EQ(read(two, "B").velocity, (Vec3{0, 5, 0}));
-  EXPECT_EQ(haplyDevices(two), (std::vector<std::string>{"A", "B"}));
-  EXPECT_TRUE(haplyDevices("{}").empty());
-  EXPECT_TRUE(haplyDevices(R"({"inverse3":{}})").empty());
+  EXPECT_EQ(readHaplyService(two).devices, (std::vector<std::string>{"A", "B"}));
+  EXPECT_TRUE(readHaplyService("{}").devices.empty());
+  EXPECT_TRUE(readHaplyService(R"({"inverse3":{}})").devices.empty());
   HaplyState state;
   EXPECT_EQ(readHaplyMessage("{}", "", state), HaplyAnswer::NoDevice) << "a service without any";
   EXPECT_EQ(readHaplyMessage(R"({"session":1})", "", state), HaplyAnswer::OtherVersion);
@@ -116,8 +116,8 @@ TEST(HaplyMessage, AGripsTurnAndButtonsAreOfTheOneThatIsHeld) {
   EXPECT_EQ(read(both, "", "g2").orientation, (std::array<double, 4>{0, 0, -0.6, 0.8}));
   EXPECT_EQ(read(both, "", "g2").buttons, 1u) << "a number is no button that is pressed";
   EXPECT_EQ(read(both, "", "g3").buttons, 0u);
-  EXPECT_EQ(haplyGrips(both), (std::vector<std::string>{"g1", "g2"}));
-  EXPECT_TRUE(haplyGrips("[]").empty());
+  EXPECT_EQ(readHaplyService(both).grips, (std::vector<std::string>{"g1", "g2"}));
+  EXPECT_TRUE(readHaplyService("[]").grips.empty());
 }
 
 TEST(HaplyMessage, ATurnIsOfLengthOneWithinOnePercent) {
@@ -143,11 +143,11 @@ TEST(HaplyMessage, ATurnIsOfLengthOneWithinOnePercent) {
 TEST(HaplyMessage, WhatOfItsConfigurationIsFeltIsToldInItsWords) {
   const std::string message =
       R"({"inverse3":[{"device_id":"A","config":{"filters":{"force":1},"handedness":"left","gravity_compensation":true}},{"device_id":"B"}]})";
-  EXPECT_EQ(haplySettings(message, "A"), R"(gravity_compensation true, filters {"force":1})");
-  EXPECT_EQ(haplySettings(message, ""), haplySettings(message, "A"));
-  EXPECT_EQ(haplySettings(message, "B"), "");
-  EXPECT_EQ(haplySettings(message, "C"), "");
-  EXPECT_EQ(haplySettings("{}", "A"), "");
+  EXPECT_EQ(readHaplyService(message, "A").settings, R"(gravity_compensation true, filters {"force":1})");
+  EXPECT_EQ(readHaplyService(message, "").settings, readHaplyService(message, "A").settings);
+  EXPECT_EQ(readHaplyService(message, "B").settings, "");
+  EXPECT_EQ(readHaplyService(message, "C").settings, "");
+  EXPECT_EQ(readHaplyService("{}", "A").settings, "");
   EXPECT_EQ(haplyGreeting(), R"({"session":{"configure":{"profile":{"name":"reachlab"}}}})");
 }
 
@@ -264,7 +264,7 @@ TEST_F(HaplyOverALine, GoneItIsLostInItsOwnWordsAndClosedItIsToldZero) {
   line->deaf = true;
   EXPECT_FALSE(device.tellZero());
   line->closed = true;
-  EXPECT_FALSE(device.reopen());
+  EXPECT_THROW(device.reopen(), ResourceError);
   EXPECT_TRUE(device.tellZero()) << "nobody is there to be told";
   EXPECT_EQ(device.exchange(wish, sample), Exchange::Lost);
   line->closed = line->gone = line->deaf = false;

@@ -135,7 +135,7 @@ TEST_F(OpenArmOverAPort, TheCalibrationButtonSetsTheEncoders) {
 TEST_F(OpenArmOverAPort, AGoneDeviceIsLostAndComesBack) {
   line->gone = true;
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost);
-  EXPECT_FALSE(arm->reopen());
+  EXPECT_THROW(arm->reopen(), ResourceError);
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost);
   line->gone = false;
   EXPECT_TRUE(arm->reopen());

@@ -251,7 +251,7 @@ TEST_F(PolhemOverAWire, GoneOrDeafItIsLostAndToldZeroAsLongAsItIsOpen) {
   EXPECT_TRUE(arm.tellZero());
   EXPECT_EQ(wire.sent.back(), polhemForceLine({}));
   wire.closed = true;
-  EXPECT_FALSE(arm.reopen());
+  EXPECT_THROW(arm.reopen(), ResourceError);
   EXPECT_EQ(turn(), Exchange::Lost);
   wire.deaf = true;
   EXPECT_TRUE(arm.tellZero()) << "nobody is there to be told";
