@@ -11,7 +11,6 @@
 #include "base/as_number.h"
 #include "base/error.h"
 #include "base/fault.h"
-#include "base/json/json_tree.h"
 #include "base/table_text.h"
 #include "base/text_file.h"
 #include "devices/replay/recorded_reach.h"
@@ -21,25 +20,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A named column of a table.
-class TsvColumns {
- public:
-  TsvColumns(std::string file, const std::string& text) : file_(std::move(file)), table_(parseTsv(text)) {}
-  const std::string& cell(std::size_t row, const std::string& column) const {
-    const auto at = std::find(table_.columns.begin(), table_.columns.end(), column);
-    if (at == table_.columns.end())
-      throw FaultError(Fault{column, "column is missing", fmt::format("{}", fmt::join(table_.columns, ", ")), FilePlace{file_, 1}});
-    return table_.rows[row][static_cast<std::size_t>(at - table_.columns.begin())];
-  }
-  bool has(const std::string& column) const {
-    return std::find(table_.columns.begin(), table_.columns.end(), column) != table_.columns.end();
-  }
-  std::size_t rows() const { return table_.rows.size(); }
+/// A table whose columns are asked for by their names.
+struct NamedTable {
+  explicit NamedTable(const std::string& path) : file(path), table(parseTsv(readTextFile(path))) {}
 
- private:
-  std::string file_;
-  TsvTable table_;
+  std::size_t rows() const { return table.rows.size(); }
+  bool has(const std::string& column) const { return indexOf(column) < table.columns.size(); }
+  const std::string& cell(std::size_t row, const std::string& column) const {
+    if (!has(column)) refuse({file, 1}, "column is missing", fmt::format("{}", fmt::join(table.columns, ", ")), column);
+    return table.rows[row][indexOf(column)];
+  }
+  FilePlace placeOf(std::size_t row) const { return {file, static_cast<int>(row) + 2}; }
+  std::size_t indexOf(const std::string& column) const {
+    return static_cast<std::size_t>(std::find(table.columns.begin(), table.columns.end(), column) - table.columns.begin());
+  }
+
+  std::string file;
+  TsvTable table;
 };
+
+// Nothing for n/a.
+std::optional<double> cellNumber(const std::string& cell, const FilePlace& place, const std::string& column, const char* allowed) {
+  if (cell == "n/a") return std::nullopt;
+  const auto value = asNumber<double>(cell);
+  if (!value || !std::isfinite(*value)) refuse(place, fmt::format("'{}' is not a number", cell.substr(0, 40)), allowed, column);
+  return value;
+}
 
 // "…_motion.tsv" to what lies beside it.
 std::string beside(const std::string& motion, const std::string& ending) {
@@ -63,19 +69,16 @@ struct Layout {
 };
 
 Layout layoutOf(const std::string& file, const ReachColumns& asked) {
-  const TsvColumns channels(file, readTextFile(file));
+  const NamedTable channels(file);
   std::vector<std::string> points;
   for (std::size_t row = 0; row < channels.rows(); ++row)
     if (const std::string& point = channels.cell(row, "tracked_point");
         channels.cell(row, "type") == "POS" && std::find(points.begin(), points.end(), point) == points.end())
       points.push_back(point);
-  if (points.empty())
-    throw FaultError(Fault{{}, "has no channel of type POS", "x, y and z of at least one tracked point", FilePlace{file}});
+  if (points.empty()) refuse({file}, "has no channel of type POS", "x, y and z of at least one tracked point");
+  const std::string oneOfThem = fmt::format("point= with one of {}", fmt::join(points, ", "));
   if (asked.point.empty() && points.size() > 1)
-    throw FaultError(Fault{{},
-                           fmt::format("has {} tracked points, and none is named", points.size()),
-                           fmt::format("point= with one of {}", fmt::join(points, ", ")),
-                           FilePlace{file}});
+    refuse({file}, fmt::format("has {} tracked points, and none is named", points.size()), oneOfThem);
   const std::string point = asked.point.empty() ? points.front() : asked.point;
   Layout layout;
   std::array<bool, 3> found{};
@@ -87,27 +90,22 @@ Layout layoutOf(const std::string& file, const ReachColumns& asked) {
     if (component != "x" && component != "y" && component != "z") continue;
     const auto k = static_cast<std::size_t>(component[0] - 'x');
     layout.axis[k] = row;
-    layout.unit[k] = metresOf(asked.unit.empty() ? channels.cell(row, "units") : asked.unit, FilePlace{file, static_cast<int>(row) + 2});
+    layout.unit[k] = metresOf(asked.unit.empty() ? channels.cell(row, "units") : asked.unit, channels.placeOf(row));
     found[k] = true;
   }
-  if (std::find(found.begin(), found.end(), false) != found.end())
-    throw FaultError(Fault{{},
-                           "has no x, y and z of type POS for the point " + point,
-                           fmt::format("point= with one of {}", fmt::join(points, ", ")),
-                           FilePlace{file}});
+  if (!found[0] || !found[1] || !found[2]) refuse({file}, "has no x, y and z of type POS for the point " + point, oneOfThem);
   return layout;
 }
 
 double rateOf(const std::string& file, const std::optional<double>& asked) {
   if (asked) return *asked;
   std::error_code error;
-  if (!fs::exists(file, error))
-    throw FaultError(Fault{{}, "is missing, and there is no LATENCY channel", "one of them, or rate=", FilePlace{file}});
+  if (!fs::exists(file, error)) refuse({file}, "is missing, and there is no LATENCY channel", "one of them, or rate=");
   const auto json = nlohmann::json::parse(readTextFile(file), nullptr, false);
   if (json.is_object())
     for (const char* key : {"SamplingFrequencyEffective", "SamplingFrequency"})
       if (json.contains(key) && json[key].is_number() && json[key].get<double>() > 0) return json[key].get<double>();
-  throw FaultError(Fault{"SamplingFrequency", "is missing or no number above 0", "samples a second", FilePlace{file}});
+  refuse({file}, "is missing or no number above 0", "samples a second", "SamplingFrequency");
 }
 
 struct Sample {
@@ -129,17 +127,11 @@ std::vector<Sample> samplesOf(const std::string& motion, const Layout& layout, c
     std::vector<std::string> cells;
     std::istringstream parts(line + '\t');
     for (std::string cell; std::getline(parts, cell, '\t');) cells.push_back(cell);
+    const FilePlace place{motion, number};
     if (cells.size() != layout.columns)
-      throw FaultError(Fault{
-          {}, fmt::format("has {} cells", cells.size()), fmt::format("{}, as its channels", layout.columns), FilePlace{motion, number}});
-    const auto valueOf = [&](std::size_t column) -> std::optional<double> {
-      const std::string& cell = cells[column];
-      if (cell == "n/a") return std::nullopt;
-      const auto value = asNumber<double>(cell);
-      if (!value || !std::isfinite(*value))
-        throw FaultError(Fault{fmt::format("column {}", column + 1), fmt::format("'{}' is not a number", cell.substr(0, 40)),
-                               "a number or n/a (motion.tsv has no header)", FilePlace{motion, number}});
-      return value;
+      refuse(place, fmt::format("has {} cells", cells.size()), fmt::format("{}, as its channels", layout.columns));
+    const auto valueOf = [&](std::size_t column) {
+      return cellNumber(cells[column], place, fmt::format("column {}", column + 1), "a number or n/a (motion.tsv has no header)");
     };
     Sample sample;
     if (layout.latency) {
@@ -158,7 +150,7 @@ std::vector<Sample> samplesOf(const std::string& motion, const Layout& layout, c
     sample.position = {at[0], at[1], at[2]};
     samples.push_back(sample);
   }
-  if (samples.empty()) throw FaultError(Fault{{}, "has no samples", "at least one row", FilePlace{motion}});
+  if (samples.empty()) refuse({motion}, "has no samples", "at least one row");
   return samples;
 }
 
@@ -167,27 +159,19 @@ struct ReachSpan {
 };
 
 std::vector<ReachSpan> reachesIn(const std::string& file, const std::string& trialType) {
-  const TsvColumns events(file, readTextFile(file));
+  const NamedTable events(file);
   std::vector<ReachSpan> spans;
   for (std::size_t row = 0; row < events.rows(); ++row) {
     if (!trialType.empty() && (!events.has("trial_type") || events.cell(row, "trial_type") != trialType)) continue;
-    const auto valueOf = [&](const std::string& column) -> std::optional<double> {
-      const std::string& cell = events.cell(row, column);
-      if (cell == "n/a") return std::nullopt;
-      const auto value = asNumber<double>(cell);
-      if (!value || !std::isfinite(*value))
-        throw FaultError(Fault{column, fmt::format("'{}' is not a number", cell.substr(0, 40)), "a number or n/a",
-                               FilePlace{file, static_cast<int>(row) + 2}});
-      return value;
+    const auto valueOf = [&](const std::string& column) {
+      return cellNumber(events.cell(row, column), events.placeOf(row), column, "a number or n/a");
     };
     const auto onset = valueOf("onset"), lasts = valueOf("duration");
     if (onset && lasts && *lasts > 0) spans.push_back({*onset, *onset + *lasts});
   }
   if (spans.empty())
-    throw FaultError(Fault{{},
-                           fmt::format("has no event{} that lasts", trialType.empty() ? "" : " of trial_type " + trialType),
-                           "at least one with onset and duration",
-                           FilePlace{file}});
+    refuse({file}, fmt::format("has no event{} that lasts", trialType.empty() ? "" : " of trial_type " + trialType),
+           "at least one with onset and duration");
   return spans;
 }
 
@@ -197,7 +181,7 @@ std::vector<RecordedReach> readBidsReaches(const std::string& motion, const Reac
   std::error_code error;
   const std::string channels = beside(motion, "_channels.tsv"), events = beside(motion, "_events.tsv");
   if (!fs::exists(motion, error)) throw ResourceError(motion + ": cannot be opened");
-  if (!fs::exists(channels, error)) throw FaultError(Fault{{}, "is missing", "the channels of motion.tsv beside it", FilePlace{channels}});
+  if (!fs::exists(channels, error)) refuse({channels}, "is missing", "the channels of motion.tsv beside it");
   const std::vector<Sample> samples = samplesOf(motion, layoutOf(channels, columns), columns);
   std::vector<ReachSpan> spans{{samples.front().time, samples.back().time}};
   if (fs::exists(events, error)) spans = reachesIn(events, columns.trialType);

@@ -9,7 +9,6 @@
 #include "base/c3d_file.h"
 #include "base/error.h"
 #include "base/fault.h"
-#include "base/json/json_tree.h"
 #include "base/text_file.h"
 #include "devices/replay/recorded_reach.h"
 
@@ -22,10 +21,8 @@ std::size_t pointAsked(const C3dFile& c3d, const std::string& file, const std::s
   for (const C3dLabel& label : c3d.points) names.push_back(label.name);
   const auto at = std::find(names.begin(), names.end(), point);
   if (at != names.end()) return static_cast<std::size_t>(at - names.begin());
-  throw FaultError(Fault{{},
-                         point.empty() ? fmt::format("has {} points, and none is named", names.size()) : "has no point " + point,
-                         fmt::format("point= with one of {}", fmt::join(names, ", ")),
-                         FilePlace{file}});
+  refuse({file}, point.empty() ? fmt::format("has {} points, and none is named", names.size()) : "has no point " + point,
+         fmt::format("point= with one of {}", fmt::join(names, ", ")));
 }
 
 // The reach in a trial: from the event `onset` to the event `end`, as events.tsv of the same trial has it; the whole file where they are not told.
@@ -52,7 +49,7 @@ RecordedReach readC3dReach(const std::string& file, const ReachColumns& columns)
   if (!std::filesystem::exists(file, error)) throw ResourceError(file + ": cannot be opened");
   const C3dFile c3d = readC3d(readTextFile(file), file);
   const std::size_t point = pointAsked(c3d, file, columns.point);
-  const double unit = metresOf(columns.unit.empty() ? c3d.pointUnit : columns.unit, FilePlace{file});
+  const double unit = metresOf(columns.unit.empty() ? c3d.pointUnit : columns.unit, {file});
   const Span reach = reachIn(c3d);
   SeenSamples samples(file);
   for (std::size_t frame = 0; frame < c3d.frames; ++frame) {

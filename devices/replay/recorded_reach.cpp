@@ -28,7 +28,7 @@ class Header {
   Place named(const std::string& name, const std::string& unit, bool time) const {
     const FilePlace header{table_.file, 1};
     const auto at = table_.find(name);
-    if (!at) throw FaultError(Fault{name, "column is missing", fmt::format("{}", fmt::join(table_.columns, ", ")), header});
+    if (!at) refuse(header, "column is missing", fmt::format("{}", fmt::join(table_.columns, ", ")), name);
     const std::size_t end = name.rfind('_');
     const std::string told = !unit.empty() ? unit : end == std::string::npos ? "" : name.substr(end + 1);
     return {*at, name, time ? secondsOfUnit(told, header, name) : metresOf(told, header, name)};
@@ -39,9 +39,9 @@ class Header {
   Place called(const std::string& quantity, const std::array<const char*, Count>& units, bool time) const {
     for (const char* unit : units)
       if (table_.find(quantity + "_" + unit)) return named(quantity + "_" + unit, unit, time);
-    throw FaultError(Fault{quantity + "_" + units[0], "column is missing",
-                           "a header with time_s,x_m,y_m,z_m (or time_ms, x_cm, x_mm …), or columns that are named (time=…, x=…, unit=…)",
-                           FilePlace{table_.file, 1}});
+    refuse({table_.file, 1}, "column is missing",
+           "a header with time_s,x_m,y_m,z_m (or time_ms, x_cm, x_mm …), or columns that are named (time=…, x=…, unit=…)",
+           quantity + "_" + units[0]);
   }
 
  private:
@@ -78,14 +78,14 @@ RecordedReach readReach(const std::string& file, const ReachColumns& columns) {
     const auto valueOf = [&](const Place& place) { return numberIn(table, row, place.column) * place.unit; };
     const double time = places.time ? valueOf(*places.time) : static_cast<double>(reach.time.size()) / *columns.rate;
     if (!reach.time.empty() && !(time > reach.time.back()))
-      throw FaultError(Fault{places.time ? places.time->name : "time", "does not increase", "increasing times", FilePlace{file, row.line}});
+      refuse({file, row.line}, "does not increase", "increasing times", places.time ? places.time->name : "time");
     std::array<double, 3> at{};
     for (std::size_t k = 0; k < 3; ++k)
       if (places.axes[k]) at[k] = valueOf(*places.axes[k]);
     reach.time.push_back(time);
     reach.position.push_back({at[0], at[1], at[2]});
   }
-  if (reach.time.empty()) throw FaultError(Fault{{}, "has no samples", "at least one row", FilePlace{file}});
+  if (reach.time.empty()) refuse({file}, "has no samples", "at least one row");
   return reach;
 }
 

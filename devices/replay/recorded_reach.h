@@ -36,6 +36,8 @@ std::vector<RecordedReach> readBidsReaches(const std::string& motionTsv, const R
 /// Reads one point of a C3D file. Throws as readReach does.
 RecordedReach readC3dReach(const std::string& file, const ReachColumns& columns);
 
+/// Throws FaultError at this place.
+[[noreturn]] void refuse(const FilePlace& place, const std::string& what, const std::string& allowed = {}, const std::string& key = {});
 /// The length of `unit` in metres, or the time in seconds. Throws FaultError with `ORIGIN`, the wrong unit and the allowed units.
 double metresOf(const std::string& unit, const FilePlace& place, const std::string& key = {});
 double secondsOfUnit(const std::string& unit, const FilePlace& place, const std::string& key = {});

@@ -34,17 +34,16 @@ Vec3 turn(const Vec3& v, const Vec3& from, const Vec3& to) {
 }  // namespace
 
 subjects::PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, const Vec3& target) {
-  if (reach.time.size() < 2) throw FaultError(Fault{{}, "fewer than two samples", {}, FilePlace{reach.file}});
+  if (reach.time.size() < 2) refuse({reach.file}, "fewer than two samples");
   if (const double lasts = reach.time.back() - reach.time.front(); !(lasts <= kLongestReach))
-    throw FaultError(Fault{"time_s", fmt::format("lasts {} s", lasts), fmt::format("a reach of at most {:.0f} s", kLongestReach),
-                           FilePlace{reach.file}});
+    refuse({reach.file}, fmt::format("lasts {} s", lasts), fmt::format("a reach of at most {:.0f} s", kLongestReach), "time_s");
   const Vec3 first = reach.position.front();
   const auto distance = [&](const Vec3& p) { return norm(p - first); };
   const Vec3 far = *std::max_element(reach.position.begin(), reach.position.end(),
                                      [&](const Vec3& a, const Vec3& b) { return distance(a) < distance(b); });
   const Vec3 chord = far - first, wanted = target - start;
   const double length = norm(chord), asked = norm(wanted);
-  if (!(length > 0)) throw FaultError(Fault{{}, "the hand does not move", {}, FilePlace{reach.file}});
+  if (!(length > 0)) refuse({reach.file}, "the hand does not move");
   if (!(asked > 0)) throw FaultError(constraints::samePlaceFault());
 
   std::vector<Vec3> laid;
