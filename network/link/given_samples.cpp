@@ -13,20 +13,29 @@ void GivenSample::giveTo(CoupledCopy& copy) const noexcept {
   if (peer >= 0 && peer < copy.peerCount()) copy.take(peer, sample, roundTrip);
 }
 
-void beginGiven(record::ByteWriter& out, int own, std::uint32_t places, std::uint32_t rates) {
-  out.put(std::uint32_t{0}), out.put(static_cast<std::uint32_t>(own)), out.put(places), out.put(rates);
+namespace {
+
+// The bytes of a sample in their order, read or written: `each` is called with every number.
+template <class Each>
+void visit(GivenSample& given, std::uint32_t places, std::uint32_t rates, Each&& each) {
+  CopySample& s = given.sample;
+  each(given.tick), each(given.peer), each(given.roundTrip), each(s.sequence), each(s.time);
+  for (Vec3* v : {&s.hand, &s.handVelocity}) each(v->x), each(v->y), each(v->z);
+  each(s.work);
+  for (std::uint32_t i = 0; i < places; ++i) each(s.places[i]);
+  for (std::uint32_t i = 0; i < rates; ++i) each(s.rates[i]);
 }
 
-void addGiven(record::ByteWriter& out, const GivenSample& given, std::uint32_t places, std::uint32_t rates) {
-  const CopySample& s = given.sample;
-  out.put(given.tick), out.put(given.peer), out.put(given.roundTrip), out.put(s.sequence), out.put(s.time);
-  for (const Vec3& v : {s.hand, s.handVelocity}) out.put(v.x), out.put(v.y), out.put(v.z);
-  out.put(s.work);
-  for (std::uint32_t i = 0; i < places; ++i) out.put(s.places[i]);
-  for (std::uint32_t i = 0; i < rates; ++i) out.put(s.rates[i]);
-}
+}  // namespace
 
-void endGiven(record::ByteWriter& out, std::uint32_t count) { out.overwrite(0, count); }
+std::vector<std::uint8_t> encodeGiven(GivenRecord record) {
+  record::ByteWriter out;
+  for (const auto number :
+       {static_cast<std::uint32_t>(record.samples.size()), static_cast<std::uint32_t>(record.own), record.places, record.rates})
+    out.put(number);
+  for (GivenSample& given : record.samples) visit(given, record.places, record.rates, [&](auto number) { out.put(number); });
+  return {out.bytes().begin(), out.bytes().end()};
+}
 
 GivenRecord decodeGiven(std::span<const std::uint8_t> payload) {
   record::ByteReader in(payload);
@@ -35,19 +44,8 @@ GivenRecord decodeGiven(std::span<const std::uint8_t> payload) {
   record.own = static_cast<int>(std::min<std::uint32_t>(in.get<std::uint32_t>(), kMaxStations));
   record.places = in.get<std::uint32_t>(), record.rates = in.get<std::uint32_t>();
   if (record.places > kMaxCoordinates || record.rates > kMaxCoordinates) throw FaultError(Fault{.what = "peer record of an unknown form"});
-  const auto vector = [&](Vec3& v) { v.x = in.get<double>(), v.y = in.get<double>(), v.z = in.get<double>(); };
-  for (GivenSample& given : record.samples) {
-    given.tick = in.get<std::uint64_t>();
-    given.peer = in.get<std::int32_t>();
-    given.roundTrip = in.get<double>();
-    CopySample& s = given.sample;
-    s.sequence = in.get<std::uint32_t>();
-    s.time = in.get<double>();
-    vector(s.hand), vector(s.handVelocity);
-    s.work = in.get<double>();
-    for (std::size_t i = 0; i < record.places; ++i) s.places[i] = in.get<double>();
-    for (std::size_t i = 0; i < record.rates; ++i) s.rates[i] = in.get<double>();
-  }
+  for (GivenSample& given : record.samples)
+    visit(given, record.places, record.rates, [&]<class Number>(Number& number) { number = in.get<Number>(); });
   if (!in.ok() || in.left() != 0) throw FaultError(Fault{.what = "peer record of an unknown form"});
   return record;
 }

@@ -29,9 +29,7 @@ struct GivenRecord {
   std::uint32_t places = 0, rates = 0;
   std::vector<GivenSample> samples;
 };
-void beginGiven(record::ByteWriter& out, int own, std::uint32_t places, std::uint32_t rates);
-void addGiven(record::ByteWriter& out, const GivenSample& given, std::uint32_t places, std::uint32_t rates);
-void endGiven(record::ByteWriter& out, std::uint32_t count);
+std::vector<std::uint8_t> encodeGiven(GivenRecord record);
 /// Throws FaultError for a payload of an unknown form.
 GivenRecord decodeGiven(std::span<const std::uint8_t> payload);
 

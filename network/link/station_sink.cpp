@@ -45,26 +45,25 @@ void StationSink::noteApart(const haptics::TickState& state) noexcept {
   if (state.trial != trial_) {
     trial_ = state.trial;
     squares_ = 0, count_ = 0;
-    for (auto* apart : {&mostApart_, &rmsApart_, &lastApart_}) apart->store(0, std::memory_order_relaxed);
-    oldest_.store(0, std::memory_order_relaxed), fadedTicks_.store(0, std::memory_order_relaxed);
+    towards_ = {};
     repeatedBefore_ = repeatedNow();
   }
-  if (!trial::isEngaged(state.phase)) return;
-  double apart = 0;
-  double oldest = 0;
-  bool faded = false;
-  for (int i = 0; i < copy_.peerCount(); ++i) {
-    const PeerLink& link = copy_.link(i);
-    apart = std::max(apart, link.apart), oldest = std::max(oldest, link.age);
-    faded = faded || (link.heard && link.age > 0 && link.fade < 1);  // age 0: not stepped yet
+  if (trial::isEngaged(state.phase)) {
+    towards_.lastApart = 0;
+    bool faded = false;
+    for (int i = 0; i < copy_.peerCount(); ++i) {
+      const PeerLink& link = copy_.link(i);
+      towards_.lastApart = std::max(towards_.lastApart, link.apart);
+      towards_.oldest = std::max(towards_.oldest, link.age);
+      faded = faded || (link.heard && link.age > 0 && link.fade < 1);  // age 0: not stepped yet
+    }
+    if (faded) ++towards_.fadedTicks;
+    squares_ += towards_.lastApart * towards_.lastApart, ++count_;
+    towards_.mostApart = std::max(towards_.mostApart, towards_.lastApart);
+    towards_.rmsApart = std::sqrt(squares_ / static_cast<double>(count_));
+    towards_.repeated = repeatedNow() - repeatedBefore_;
   }
-  oldest_.store(std::max(oldest, oldest_.load(std::memory_order_relaxed)), std::memory_order_relaxed);
-  if (faded) fadedTicks_.store(fadedTicks_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-  repeated_.store(repeatedNow() - repeatedBefore_, std::memory_order_relaxed);
-  squares_ += apart * apart, ++count_;
-  lastApart_.store(apart, std::memory_order_relaxed);
-  mostApart_.store(std::max(apart, mostApart_.load(std::memory_order_relaxed)), std::memory_order_relaxed);
-  rmsApart_.store(std::sqrt(squares_ / static_cast<double>(count_)), std::memory_order_relaxed);
+  toldTowards_.publish(towards_);
 }
 
 void StationSink::takeHeard(const haptics::TickState& state, std::int32_t trial, bool gives) noexcept {
@@ -112,18 +111,16 @@ bool StationSink::onTick(const haptics::TickState& state, trial::Command, std::u
 }
 
 std::vector<std::uint8_t> StationSink::takeGiven() {
-  record::ByteWriter out;
-  std::uint32_t count = 0;
-  if (!std::exchange(said_, true)) beginGiven(out, own_, places_, rates_);
+  GivenRecord record{own_, places_, rates_, {}};
   GivenSample given;
-  while (given_->tryPop(given)) {
-    if (out.size() == 0) beginGiven(out, own_, places_, rates_);
-    ++count;
-    addGiven(out, given, places_, rates_);
-  }
-  if (out.size() == 0) return {};
-  endGiven(out, count);
-  return {out.bytes().begin(), out.bytes().end()};
+  while (given_->tryPop(given)) record.samples.push_back(given);
+  if (std::exchange(said_, true) && record.samples.empty()) return {};
+  return encodeGiven(std::move(record));
+}
+
+const TowardsOthers& StationSink::towardsOthers() noexcept {
+  if (const TowardsOthers* newest = toldTowards_.takeLatest()) knownTowards_ = *newest;
+  return knownTowards_;
 }
 
 double timeAfter(const haptics::TickState& state) noexcept { return static_cast<double>(state.measuredNs + kTickNs) * 1e-9; }

@@ -22,6 +22,15 @@ struct OtherHands {
   std::array<bool, kMaxStations> known{};
 };
 
+/// How a copy stood to the others in one trial, over all peers.
+struct TowardsOthers {
+  double mostApart = 0, rmsApart = 0;  // [m] largest distance from another copy, and its root mean square
+  double lastApart = 0;                // [m] at the latest tick of the movement, when the trial was judged
+  double oldest = 0;                   // [s] age of the oldest used sample
+  std::uint64_t fadedTicks = 0;        // with less than the full coupling to a peer
+  std::uint64_t repeated = 0;          // samples that were no newer than an earlier sample
+};
+
 /// Connects the haptic thread with the rings. It sends this station's state every tick, and it passes new samples to the copy before the
 /// next tick. It allocates nothing and never waits.
 class StationSink final : public haptics::RunSink, public record::FurtherColumns {
@@ -59,17 +68,8 @@ class StationSink final : public haptics::RunSink, public record::FurtherColumns
   /// engine may have started later.
   void countTrialsFrom(std::int32_t before) noexcept { trialsBefore_.store(before, std::memory_order_release); }
 
-  /// The largest distance between this copy and another copy in the latest trial, and the number of its samples that were lost for lack of
-  /// room. Any thread.
-  double mostApart() const noexcept { return mostApart_.load(std::memory_order_relaxed); }
-  double rmsApart() const noexcept { return rmsApart_.load(std::memory_order_relaxed); }
-  /// The same distance at the latest tick of the movement, when the trial was judged.
-  double lastApart() const noexcept { return lastApart_.load(std::memory_order_relaxed); }
-  /// Values of the latest trial over all peers: ticks with less than the full coupling to a peer, the oldest used sample [s], and samples
-  /// that were no newer than an earlier sample. Any thread.
-  std::uint64_t fadedTicks() const noexcept { return fadedTicks_.load(std::memory_order_relaxed); }
-  double oldest() const noexcept { return oldest_.load(std::memory_order_relaxed); }
-  std::uint64_t repeated() const noexcept { return repeated_.load(std::memory_order_relaxed); }
+  /// Controlling thread. How this copy stood to the others in the latest trial.
+  const TowardsOthers& towardsOthers() noexcept;
 
  private:
   int peerOf(int station) const noexcept { return station < own_ ? station : station - 1; }  // from 0
@@ -91,10 +91,11 @@ class StationSink final : public haptics::RunSink, public record::FurtherColumns
   std::int32_t trial_ = 0;
   double squares_ = 0;
   std::uint64_t count_ = 0;
-  std::atomic<double> mostApart_{0}, rmsApart_{0}, lastApart_{0}, oldest_{0};  // [m], [m], [m], [s]
-  std::atomic<double> frequency_{0};                                           // [rad/s] as requested; 0: the default of the object
+  TowardsOthers towards_;  // for the haptic thread
+  TripleBuffer<TowardsOthers> toldTowards_;
+  TowardsOthers knownTowards_;        // for the controlling thread
+  std::atomic<double> frequency_{0};  // [rad/s] as requested; 0: the default of the object
   double frequencyNow_ = 0;
-  std::atomic<std::uint64_t> fadedTicks_{0}, repeated_{0};
   std::uint64_t repeatedBefore_ = 0;
   std::atomic<std::int32_t> trialsBefore_{0};
   std::atomic<std::int64_t> brokenOff_{0};  // trial and peer; 0: no trial

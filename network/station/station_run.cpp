@@ -271,7 +271,8 @@ void StationRun::tellEnd(const haptics::ConductedTrial& trial) {
   event.trial = trial.trial + trialsBefore_;
   event.outcome = trial.result.outcome;
   event.reason = trial.result.reason;
-  event.apart = sink_->rmsApart();
+  const TowardsOthers& towards = sink_->towardsOthers();
+  event.apart = towards.rmsApart;
   link_->send(event);
   event.station = static_cast<std::uint32_t>(setup_.link.station);
   words_.add(event);
@@ -280,7 +281,7 @@ void StationRun::tellEnd(const haptics::ConductedTrial& trial) {
   run_->note(
       fmt::format("trial {}: copies apart {:.6g} m RMS, {:.6g} m at most; other hands' samples up to {:.6g} s old, held by less than "
                   "their full coupling for {} ticks; {} samples were no newer than one before",
-                  run_->numberOf(trial), sink_->rmsApart(), sink_->mostApart(), sink_->oldest(), sink_->fadedTicks(), sink_->repeated()));
+                  run_->numberOf(trial), towards.rmsApart, towards.mostApart, towards.oldest, towards.fadedTicks, towards.repeated));
 }
 
 // Each station keeps what holds for all beside what its own copy came to, and how far apart the copies were then.
@@ -296,7 +297,7 @@ void StationRun::keepVerdict(StationNews& news) {
   const std::string outcome = wordsOf(judged.outcome, judged.reason), here = wordsOf(ended_->result.outcome, ended_->result.reason);
   run_->note(fmt::format("trial {}: outcome {} by {} {}; {} here, where the copies were {:.6g} m apart at its end", run_->numberOf(*ended_),
                          outcome, verdict->brokenOff ? "the one that broke it off, station" : "the conductor, station", judged.station,
-                         here, sink_->lastApart()));
+                         here, sink_->towardsOthers().lastApart));
   if (judged.outcome != ended_->result.outcome) {
     const std::string why =
         verdict->brokenOff ? fmt::format(", because station {} broke it off", judged.station) : " by the conductor's copy, which counts";

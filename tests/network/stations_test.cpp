@@ -141,6 +141,7 @@ class StationsOnClocks : public testing::Test {
     for (const auto& station : stations_) station->close();
   }
   trial::TrialResult resultOf(int station) const { return stations_[static_cast<std::size_t>(station)]->state().result; }
+  const TowardsOthers& towards(int station) { return stations_[static_cast<std::size_t>(station)]->sink().towardsOthers(); }
   void expectReplays() const {
     for (int i = 0; i < 2; ++i) {
       const record::Replay replay = replayStation(record::RunLog::open(logOf(i)));
@@ -187,10 +188,9 @@ TEST_F(StationsOnClocks, TheyMoveTheObjectTogether) {
   run(good);
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(resultOf(i).outcome, trial::Outcome::Success) << trial::nameOf(resultOf(i).reason);
-    StationSink& sink = stations_[static_cast<std::size_t>(i)]->sink();
-    EXPECT_LT(sink.mostApart(), 1e-3);
-    EXPECT_EQ(sink.fadedTicks(), 0u);
-    EXPECT_EQ(sink.repeated(), 0u);
+    EXPECT_LT(towards(i).mostApart, 1e-3);
+    EXPECT_EQ(towards(i).fadedTicks, 0u);
+    EXPECT_EQ(towards(i).repeated, 0u);
   }
   expectReplays();
 }
@@ -199,8 +199,8 @@ TEST_F(StationsOnClocks, ALineCutFor30MillisecondsGoesOn) {
   run(cutFor(30'000'000));
   for (int i = 0; i < 2; ++i) {
     EXPECT_EQ(resultOf(i).outcome, trial::Outcome::Success) << trial::nameOf(resultOf(i).reason);
-    EXPECT_EQ(stations_[static_cast<std::size_t>(i)]->sink().fadedTicks(), 0u);
-    EXPECT_NEAR(stations_[static_cast<std::size_t>(i)]->sink().oldest(), 0.04, 2e-3);
+    EXPECT_EQ(towards(i).fadedTicks, 0u);
+    EXPECT_NEAR(towards(i).oldest, 0.04, 2e-3);
   }
   expectReplays();
 }
@@ -209,8 +209,8 @@ TEST_F(StationsOnClocks, ALineCutFor90MillisecondsFadesRecoversAndIsMarked) {
   run(cutFor(90'000'000));
   for (int i = 0; i < 2; ++i) {
     EXPECT_NE(resultOf(i).reason, trial::Reason::PeerLost);
-    EXPECT_NEAR(static_cast<double>(stations_[static_cast<std::size_t>(i)]->sink().fadedTicks()), 40, 2);
-    EXPECT_NEAR(stations_[static_cast<std::size_t>(i)]->sink().oldest(), 0.1, 2e-3);
+    EXPECT_NEAR(static_cast<double>(towards(i).fadedTicks), 40, 2);
+    EXPECT_NEAR(towards(i).oldest, 0.1, 2e-3);
     EXPECT_EQ(stations_[static_cast<std::size_t>(i)]->copy().link(0).fade, 1);
   }
   expectReplays();
@@ -258,7 +258,7 @@ TEST_F(StationsOnClocks, DuplicatesAndReplaysChangeNothingAndAreCounted) {
     if (sent % 10'000'000 < 1'000'000) all.push_back(sent + kDelayNs + 300'000'000);
     return all;
   });
-  EXPECT_GT(stations_[0]->sink().repeated(), 1000u);
+  EXPECT_GT(towards(0).repeated, 1000u);
   const record::SampleRows again = record::RunLog::open(logOf(0)).allRows();
   ASSERT_EQ(plain.size(), again.size());
   EXPECT_EQ(std::memcmp(plain.values.data(), again.values.data(), plain.values.size() * sizeof(double)), 0);  // NaN is what is not known
