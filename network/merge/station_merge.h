@@ -10,16 +10,13 @@ namespace reachlab::network {
 
 /// One station's log and the results of reading it.
 struct MergedStation {
-  std::string log;
   int station = 0;  // from 1
   bool conductor = false;
   std::uint64_t ticks = 0, samples = 0;  // recorded ticks; samples of other stations, as given to its copy
-  bool identical = false;                // its copy was computed again from its log, to the bit
-  std::string firstDifference;
-  int otherOutcomes = 0;    // trials with another outcome than at the conductor
-  double offset = 0;        // [s] its clock less the conductor's, the median over the run
-  double offsetSpread = 0;  // [s] between the 5th and the 95th percentile
-  double apart = 0;         // [m] RMS over the movement: its copy against the other copies
+  int otherOutcomes = 0;                 // trials with another outcome than at the conductor
+  double offset = 0;                     // [s] its clock less the conductor's, the median over the run
+  double offsetSpread = 0;               // [s] between the 5th and the 95th percentile
+  double apart = 0;                      // [m] RMS over the movement: its copy against the other copies
 };
 struct MergeReport {
   std::vector<MergedStation> stations;  // by number
