@@ -57,8 +57,6 @@ class InputPort {
  public:
   /// Throws ResourceError with the system's message.
   explicit InputPort(const std::string& path);
-  /// Takes over a descriptor that yields `input_event` records.
-  explicit InputPort(int file) : file_(file) {}
   ~InputPort();
   InputPort(const InputPort&) = delete;
   InputPort& operator=(const InputPort&) = delete;

@@ -1,15 +1,14 @@
-#include "devices/input/tablet.h"
-
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <atomic>
 #include <chrono>
+#include <functional>
 
 #include "base/device_options.h"
 #include "base/error.h"
 #include "base/system/os.h"
 #include "devices/driver/drivers.h"
+#include "devices/input/event_node.h"
 #include "devices/mouse/mouse_device.h"
 #include "sim/haptics/leavable_thread.h"
 #include "sim/trial/task_places.h"
@@ -19,6 +18,8 @@ namespace {
 
 constexpr int kWaitMs = 8;
 constexpr std::int64_t kReopenNs = 200'000'000;
+
+using ChooseTablet = std::function<TabletNode()>;  // throws ResourceError while the tablet is not present
 
 haptics::DeviceInfo infoOf(const TabletNode& node) {
   haptics::DeviceInfo info;
@@ -32,7 +33,8 @@ haptics::DeviceInfo infoOf(const TabletNode& node) {
 /// Reads events, and opens the node again after it was lost.
 class InputReader {
  public:
-  InputReader(const TabletNode& node, OpenInput open) : state_(node), node_(node), open_(std::move(open)), port_(open_()) {}
+  InputReader(const TabletNode& node, ChooseTablet choose)
+      : state_(node), node_(node), choose_(std::move(choose)), port_(std::make_unique<InputPort>(node.path)) {}
 
   /// Calls `each` at the end of every report that came within kWaitMs. False: it is gone.
   template <typename Each>
@@ -57,7 +59,7 @@ class InputReader {
   bool reopen() {
     os::sleepUntil(os::now() + kReopenNs);
     try {
-      port_ = open_();
+      port_ = std::make_unique<InputPort>(choose_().path);
       return true;
     } catch (const ResourceError&) {
       return false;
@@ -65,15 +67,17 @@ class InputReader {
   }
   PenState state_;
   TabletNode node_;
-  OpenInput open_;
+  ChooseTablet choose_;
   std::unique_ptr<InputPort> port_;
 };
 
+/// A pen on a tablet. The position of the pen is the position of the hand in the plane of x and y. The distance from the middle to the
+/// right edge is `halfWidth` [m]. Events are played back by their own times, as those of the mouse are (mouse_device.h).
 class TabletHand final : public haptics::HapticDevice {
  public:
-  TabletHand(const TabletNode& node, double halfWidth, const Vec3& start, OpenInput open)
+  TabletHand(const TabletNode& node, double halfWidth, const Vec3& start, ChooseTablet choose)
       : info_(infoOf(node)), shared_(std::make_shared<Shared>(start)) {
-    auto reader = std::make_shared<InputReader>(node, std::move(open));
+    auto reader = std::make_shared<InputReader>(node, std::move(choose));
     thread_ = haptics::LeavableThread([shared = shared_, reader, halfWidth, middle = Vec3{0, 0, start.z}] {
       while (!shared->stopping.load(std::memory_order_acquire)) {
         const bool there = reader->read([&](std::int64_t ns) {
@@ -113,14 +117,6 @@ class TabletHand final : public haptics::HapticDevice {
   haptics::LeavableThread thread_;
 };
 
-}  // namespace
-
-std::unique_ptr<haptics::HapticDevice> makeTabletHand(const TabletNode& node, double halfWidth, const Vec3& start, OpenInput open) {
-  return std::make_unique<TabletHand>(node, halfWidth, start, std::move(open));
-}
-
-namespace {
-
 constexpr const char* kNone = "no tablet is among /dev/input/event*";
 
 TabletNode chooseTablet(const std::string& path, const std::string& words) {
@@ -138,8 +134,7 @@ std::unique_ptr<haptics::HapticDevice> makeTablet(const DeviceRequest& request) 
   const double halfWidth = options.number("half-width", 0.15, 0.01, 2);
   options.done();
   const auto choose = [path = options.plain(), words = request.words()] { return chooseTablet(path, words); };
-  return makeTabletHand(choose(), halfWidth, trial::startOf(request.experiment),
-                        [choose] { return std::make_unique<InputPort>(choose().path); });
+  return std::make_unique<TabletHand>(choose(), halfWidth, trial::startOf(request.experiment), choose);
 }
 
 std::vector<FoundDevice> findTabletDevices(const DeviceDriver& self) {

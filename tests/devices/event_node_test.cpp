@@ -12,6 +12,7 @@
 #include "base/fault.h"
 #include "base/system/os.h"
 #include "devices/driver/registry.h"
+#include "sim/trial/task_places.h"
 #include "tests/devices/driver_answers.h"
 #include "tests/devices/fakes/fake_input.h"
 #include "tests/refusal.h"
@@ -133,7 +134,7 @@ TEST(PenState, APenIsAtItsPlaceWhileItIsNear) {
 TEST(InputPort, GivesWholeEventsAndIsGoneAtTheEnd) {
   int ends[2];
   ASSERT_EQ(::pipe(ends), 0);
-  InputPort port(ends[0]);
+  InputPort port("/proc/self/fd/" + std::to_string(ends[0]));
   std::array<input_event, 4> events{};
   EXPECT_EQ(port.read(events, 0), 0) << "none";
   std::array<input_event, 6> sent{};
@@ -145,6 +146,7 @@ TEST(InputPort, GivesWholeEventsAndIsGoneAtTheEnd) {
   EXPECT_EQ(events[1].value, 15);
   ::close(ends[1]);
   EXPECT_EQ(port.read(events, 0), -1);
+  ::close(ends[0]);
 }
 
 TEST(InputPort, APathThatIsNotThereIsRefusedInTheSystemsWords) {
@@ -204,7 +206,7 @@ TEST_F(TabletDevices, TheirOptionsAreBounded) {
     EXPECT_THROW(make(std::string("tablet,") + bad), FaultError) << bad;
 }
 
-// Half a tablet to the right of its middle.
+// Half a tablet to the right of its middle and as far up. Unplugged it is lost.
 TEST_F(TabletDevices, ATabletsHalfWidthIsFifteenCentimetresUnlessItIsTold) {
   const TabletNode pen = fifo("event2", "Pen");
   fakeInputs().listed = {pen};
@@ -215,6 +217,7 @@ TEST_F(TabletDevices, ATabletsHalfWidthIsFifteenCentimetresUnlessItIsTold) {
     EXPECT_EQ(hand->info().rate, 200);
     EXPECT_EQ(hand->info().degreesOfFreedom, 2);
     EXPECT_EQ(hand->health(), haptics::DeviceHealth::Ready);
+    EXPECT_EQ(hand->read().position, trial::startOf(experiment::CompiledExperiment(experiment))) << "until the pen is near";
     std::ofstream wire(pen.path, std::ios::binary | std::ios::in);
     const std::int64_t now = os::now();
     const auto send = [&](std::uint16_t type, std::uint16_t code, int value) {
@@ -223,12 +226,15 @@ TEST_F(TabletDevices, ATabletsHalfWidthIsFifteenCentimetresUnlessItIsTold) {
       e.type = type, e.code = code, e.value = value;
       wire.write(reinterpret_cast<const char*>(&e), sizeof e).flush();
     };
-    send(EV_KEY, BTN_TOOL_PEN, 1), send(EV_KEY, BTN_TOUCH, 1), send(EV_ABS, ABS_X, 75), send(EV_ABS, ABS_Y, 50),
+    send(EV_KEY, BTN_TOOL_PEN, 1), send(EV_KEY, BTN_TOUCH, 1), send(EV_ABS, ABS_X, 75), send(EV_ABS, ABS_Y, 25),
         send(EV_SYN, SYN_REPORT, 0);
     haptics::DeviceSample sample;
-    EXPECT_TRUE(test::until([&] { return std::abs((sample = hand->read()).position.x - place) < 1e-6; })) << sample.position.x;
+    const Vec3 there{place, place, 0};
+    EXPECT_TRUE(test::until([&] { return norm((sample = hand->read()).position - there) < 1e-6; })) << sample.position.x;
     EXPECT_EQ(sample.buttons, 1u);
     EXPECT_TRUE(sample.valid);
+    wire.close();
+    EXPECT_TRUE(test::until([&] { return !hand->read().valid && hand->health() == haptics::DeviceHealth::Lost; }));
   }
 }
 
