@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -10,8 +11,8 @@ namespace reachlab::devices {
 
 /// Every trial ends with one mark: `Success`, or `End` for every other outcome.
 enum class Mark : std::uint8_t { Go, Onset, Success, End };
-inline constexpr int kMarkCount = 4;
-const char* nameOf(Mark mark);
+inline constexpr std::array kMarkNames{"go", "onset", "success", "end"};
+inline const char* nameOf(Mark mark) { return kMarkNames[static_cast<std::size_t>(mark)]; }
 
 /// The event at a tick of the run.
 struct Marker {

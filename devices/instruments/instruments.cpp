@@ -206,16 +206,6 @@ class Link final : public record::InstrumentLink {
 
 }  // namespace
 
-const char* nameOf(Mark mark) {
-  switch (mark) {
-    case Mark::Go: return "go";
-    case Mark::Onset: return "onset";
-    case Mark::Success: return "success";
-    case Mark::End: return "end";
-  }
-  return "";
-}
-
 std::unique_ptr<record::InstrumentLink> linkInstruments(std::vector<std::unique_ptr<Instrument>> instruments) {
   return std::make_unique<Link>(std::move(instruments));
 }

@@ -14,15 +14,6 @@ namespace {
 
 constexpr const char* kKnown = "lsl, parallel:PATH, rts:PATH, byte:PATH";
 
-TriggerCodes takeCodes(DeviceOptions& options) {
-  TriggerCodes codes;
-  for (const Mark mark : {Mark::Go, Mark::Onset, Mark::Success, Mark::End}) {
-    int& code = codes.code[static_cast<std::size_t>(mark)];
-    code = static_cast<int>(std::lround(options.number(nameOf(mark), code, 0, 255)));
-  }
-  return codes;
-}
-
 std::unique_ptr<Instrument> open(const std::string& spec) {
   const std::size_t end = std::min({spec.find(':'), spec.find(','), spec.size()});
   const std::string kind = spec.substr(0, end);
@@ -33,17 +24,14 @@ std::unique_ptr<Instrument> open(const std::string& spec) {
   }
   if (kind != "parallel" && kind != "rts" && kind != "byte")
     throw FaultError(Fault{"instrument", "is " + spec + ", which is unknown", kKnown});
-  const std::string path = options.plain();
-  if (path.empty()) throw FaultError(Fault{"instrument", kind + ": its port is missing", kind + ":/dev/…"});
-  TriggerCodes codes = takeCodes(options);
-  if (kind == "byte") {
-    const int baud = static_cast<int>(options.number("baud", 115200, 1, 1e7));
-    options.done();
-    return openByteLine(spec, path, codes, baud);
-  }
-  codes.pulse = 1e-3 * options.number("pulse-ms", 1e3 * codes.pulse, 1, 1000);
+  TriggerLine line{.name = spec, .path = options.plain()};
+  if (line.path.empty()) throw FaultError(Fault{"instrument", kind + ": its port is missing", kind + ":/dev/…"});
+  for (std::size_t i = 0; i < kMarkNames.size(); ++i)
+    line.codes[i] = static_cast<int>(std::lround(options.number(kMarkNames[i], line.codes[i], 0, 255)));
+  if (kind == "byte") line.baud = static_cast<int>(options.number("baud", line.baud, 1, 1e7));
+  else line.pulse = 1e-3 * options.number("pulse-ms", 1e3 * line.pulse, 1, 1000);
   options.done();
-  return kind == "rts" ? openSerialLines(spec, path, codes) : openParallelPort(spec, path, codes);
+  return kind == "byte" ? openByteLine(line) : kind == "rts" ? openSerialLines(line) : openParallelPort(line);
 }
 
 }  // namespace

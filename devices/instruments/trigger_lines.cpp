@@ -63,10 +63,10 @@ class Port {
 class PulsedLine : public Instrument {
  public:
   bool send(const Marker& marker) override {
-    const int code = codes_.of(marker.mark);
+    const int code = line_.codeOf(marker.mark);
     if (code == 0) return false;
     put(code);
-    downAt_ = os::now() + std::llround(codes_.pulse * 1e9);
+    downAt_ = os::now() + std::llround(line_.pulse * 1e9);
     return true;
   }
   void look(std::int64_t now, std::vector<InstrumentNote>& notes) override {
@@ -84,12 +84,12 @@ class PulsedLine : public Instrument {
   }
 
  protected:
-  PulsedLine(std::string name, const TriggerCodes& codes) : Instrument(std::move(name)), codes_(codes) {}
+  explicit PulsedLine(const TriggerLine& line) : Instrument(line.name), line_(line) {}
   virtual void put(int code) = 0;
   virtual unsigned inputs() = 0;  // a bit a line
 
  private:
-  TriggerCodes codes_;
+  TriggerLine line_;
   std::int64_t downAt_ = 0;  // 0: no pulse is up
   unsigned status_ = 0;
   bool known_ = false;
@@ -97,8 +97,7 @@ class PulsedLine : public Instrument {
 
 class ParallelPort final : public PulsedLine {
  public:
-  ParallelPort(const std::string& name, const std::string& path, const TriggerCodes& codes, const PortCalls& calls)
-      : PulsedLine(name, codes), port_(path, calls, O_RDWR) {
+  ParallelPort(const TriggerLine& line, const PortCalls& calls) : PulsedLine(line), port_(line.path, calls, O_RDWR) {
     port_.control(PPCLAIM, nullptr);
     put(0);
   }
@@ -119,8 +118,7 @@ class ParallelPort final : public PulsedLine {
 
 class SerialLines final : public PulsedLine {
  public:
-  SerialLines(const std::string& name, const std::string& path, const TriggerCodes& codes, const PortCalls& calls)
-      : PulsedLine(name, codes), port_(path, calls, O_RDWR | O_NOCTTY | O_NONBLOCK) {
+  SerialLines(const TriggerLine& line, const PortCalls& calls) : PulsedLine(line), port_(line.path, calls, O_RDWR | O_NOCTTY | O_NONBLOCK) {
     put(0);
   }
 
@@ -152,18 +150,18 @@ speed_t speedOf(int baud) {
 
 class ByteLine final : public Instrument {
  public:
-  ByteLine(const std::string& name, const std::string& path, const TriggerCodes& codes, int baud, const PortCalls& calls)
-      : Instrument(name), codes_(codes), port_(path, calls, O_RDWR | O_NOCTTY | O_NONBLOCK) {
-    termios line{};  // the kernel's begins the same, and is shorter
-    port_.control(TCGETS, &line);
-    ::cfmakeraw(&line);
-    ::cfsetspeed(&line, speedOf(baud));
-    line.c_cflag |= CLOCAL | CREAD;
-    port_.control(TCSETS, &line);
+  ByteLine(const TriggerLine& line, const PortCalls& calls)
+      : Instrument(line.name), line_(line), port_(line.path, calls, O_RDWR | O_NOCTTY | O_NONBLOCK) {
+    termios settings{};  // the kernel's begins the same, and is shorter
+    port_.control(TCGETS, &settings);
+    ::cfmakeraw(&settings);
+    ::cfsetspeed(&settings, speedOf(line.baud));
+    settings.c_cflag |= CLOCAL | CREAD;
+    port_.control(TCSETS, &settings);
   }
 
   bool send(const Marker& marker) override {
-    const int code = codes_.of(marker.mark);
+    const int code = line_.codeOf(marker.mark);
     if (code == 0) return false;
     port_.write(static_cast<unsigned char>(code));
     return true;
@@ -174,7 +172,7 @@ class ByteLine final : public Instrument {
   }
 
  private:
-  TriggerCodes codes_;
+  TriggerLine line_;
   Port port_;
 };
 
@@ -191,17 +189,14 @@ const PortCalls& systemPortCalls() {
   return calls;
 }
 
-std::unique_ptr<Instrument> openParallelPort(const std::string& name, const std::string& path, const TriggerCodes& codes,
-                                             const PortCalls& calls) {
-  return std::make_unique<ParallelPort>(name, path, codes, calls);
+std::unique_ptr<Instrument> openParallelPort(const TriggerLine& line, const PortCalls& calls) {
+  return std::make_unique<ParallelPort>(line, calls);
 }
-std::unique_ptr<Instrument> openSerialLines(const std::string& name, const std::string& path, const TriggerCodes& codes,
-                                            const PortCalls& calls) {
-  return std::make_unique<SerialLines>(name, path, codes, calls);
+std::unique_ptr<Instrument> openSerialLines(const TriggerLine& line, const PortCalls& calls) {
+  return std::make_unique<SerialLines>(line, calls);
 }
-std::unique_ptr<Instrument> openByteLine(const std::string& name, const std::string& path, const TriggerCodes& codes, int baud,
-                                         const PortCalls& calls) {
-  return std::make_unique<ByteLine>(name, path, codes, baud, calls);
+std::unique_ptr<Instrument> openByteLine(const TriggerLine& line, const PortCalls& calls) {
+  return std::make_unique<ByteLine>(line, calls);
 }
 
 }  // namespace reachlab::devices

@@ -17,23 +17,22 @@ struct PortCalls {
 };
 const PortCalls& systemPortCalls();
 
-/// The code that goes out at each mark (0: no code), and how long a line stays up.
-struct TriggerCodes {
-  std::array<int, kMarkCount> code{1, 2, 4, 8};
-  double pulse = 0.005;  // [s]
-  int of(Mark mark) const { return code[static_cast<std::size_t>(mark)]; }
+/// A line as it is asked for.
+struct TriggerLine {
+  std::string name, path;                                // in messages; the device
+  std::array<int, kMarkNames.size()> codes{1, 2, 4, 8};  // that go out, by mark; 0: no code
+  double pulse = 0.005;                                  // [s] how long a line stays up
+  int baud = 115200;                                     // of a byte line
+  int codeOf(Mark mark) const { return codes[static_cast<std::size_t>(mark)]; }
 };
 
 /// Parallel port by ppdev. It puts the code on the eight data lines for the length of a pulse, then 0. A change of the status lines is
 /// noted. Throws ResourceError.
-std::unique_ptr<Instrument> openParallelPort(const std::string& name, const std::string& path, const TriggerCodes& codes,
-                                             const PortCalls& calls = systemPortCalls());
+std::unique_ptr<Instrument> openParallelPort(const TriggerLine& line, const PortCalls& calls = systemPortCalls());
 /// The control lines of a serial port. RTS goes up for the length of a pulse at every mark whose code is not 0. Changes of CTS and DSR are
 /// noted.
-std::unique_ptr<Instrument> openSerialLines(const std::string& name, const std::string& path, const TriggerCodes& codes,
-                                            const PortCalls& calls = systemPortCalls());
+std::unique_ptr<Instrument> openSerialLines(const TriggerLine& line, const PortCalls& calls = systemPortCalls());
 /// A byte on a serial line (an Arduino, a trigger box). The code is sent as one byte, and every byte that comes in is noted.
-std::unique_ptr<Instrument> openByteLine(const std::string& name, const std::string& path, const TriggerCodes& codes, int baud,
-                                         const PortCalls& calls = systemPortCalls());
+std::unique_ptr<Instrument> openByteLine(const TriggerLine& line, const PortCalls& calls = systemPortCalls());
 
 }  // namespace reachlab::devices

@@ -9,10 +9,8 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cerrno>
 #include <memory>
-#include <thread>
 
 #include "base/error.h"
 #include "base/system/os.h"
@@ -29,28 +27,31 @@ namespace {
 /// A port as the kernel would show it, at the lowest place: every call is seen with its bytes.
 struct FakePort {
   std::string opened;
+  int flags = 0, openError = 0, closes = 0;
   std::vector<std::pair<unsigned long, int>> controls;  // request and the byte or lines it was given
   int interrupts = 0;                                   // EINTR so many times
-  int error = 0;                                        // errno of every further control
+  int error = 0;                                        // errno of every further control, writing and reading
   int lines = 0, status = 0x78;
-  bool closed = false;
+  std::vector<unsigned char> written, waiting;
 };
 FakePort port;
 
+template <class Answer>
+Answer answered(Answer good) {
+  errno = port.interrupts-- > 0 ? EINTR : port.error;
+  return errno == 0 ? good : Answer{-1};
+}
+
 const PortCalls kFakeCalls{
-    [](const char* path, int) {
+    [](const char* path, int flags) {
       port.opened = path;
-      if (std::string(path) != "/dev/missing") return 7;
-      errno = ENOENT;
-      return -1;
+      port.flags = flags;
+      errno = port.openError;
+      return errno == 0 ? 0 : -1;  // any descriptor, even this one
     },
-    [](int) {
-      port.closed = true;
-      return 0;
-    },
+    [](int) { return ++port.closes; },
     [](int, unsigned long request, void* argument) {
-      if (port.interrupts-- > 0) return errno = EINTR, -1;
-      if (port.error != 0) return errno = port.error, -1;
+      if (answered(0) < 0) return -1;
       int given = 0;
       if (request == PPWDATA) given = *static_cast<unsigned char*>(argument);
       if (request == TIOCMBIS || request == TIOCMBIC) {
@@ -62,8 +63,18 @@ const PortCalls kFakeCalls{
       if (request != PPRSTATUS && request != TIOCMGET) port.controls.emplace_back(request, given);
       return 0;
     },
-    [](int, const void*, std::size_t) { return -1L; },
-    [](int, void*, std::size_t) { return 0L; },
+    [](int, const void* bytes, std::size_t count) {
+      const long sent = answered(static_cast<long>(count));
+      if (sent > 0) port.written.push_back(*static_cast<const unsigned char*>(bytes));
+      return sent;
+    },
+    [](int, void* bytes, std::size_t count) {
+      const std::size_t there = std::min(count, port.waiting.size());
+      if (answered(0) < 0) return -1L;
+      std::copy_n(port.waiting.begin(), there, static_cast<unsigned char*>(bytes));
+      port.waiting.erase(port.waiting.begin(), port.waiting.begin() + static_cast<std::ptrdiff_t>(there));
+      return static_cast<long>(there);
+    },
 };
 
 template <class... Instruments>
@@ -83,26 +94,32 @@ using Controls = std::vector<std::pair<unsigned long, int>>;
 
 TEST_F(Triggers, AParallelPortHoldsTheCodeForAPulse) {
   {
-    const auto lines = openParallelPort("parallel", "/dev/parport0", {{1, 0, 4}, 0.005}, kFakeCalls);
+    const auto lines = openParallelPort({"parallel", "/dev/parport0", {1, 0, 4}, 0.25}, kFakeCalls);
     EXPECT_EQ(port.opened, "/dev/parport0");
     EXPECT_EQ(port.controls, (Controls{{PPCLAIM, 0}, {PPWDATA, 0}}));
-    EXPECT_TRUE(lines->send({Mark::Go, 1, os::now()}));
-    EXPECT_FALSE(lines->send({Mark::Onset, 1, os::now()})) << "0 is not sent";
+    const std::int64_t before = os::now();
+    EXPECT_TRUE(lines->send({Mark::Go, 1, 0}));
+    const std::int64_t after = os::now();
+    EXPECT_FALSE(lines->send({Mark::Onset, 1, 0})) << "0 is not sent";
     EXPECT_EQ(port.controls.back(), (std::pair<unsigned long, int>{PPWDATA, 1}));
-    lines->look(os::now() + 1'000'000, notes_);
+    lines->look(before + 249'999'999, notes_);
     EXPECT_EQ(port.controls.back().second, 1) << "the pulse lasts";
-    lines->look(os::now() + 6'000'000, notes_);
+    lines->look(after + 250'000'000, notes_);
     EXPECT_EQ(port.controls.back(), (std::pair<unsigned long, int>{PPWDATA, 0}));
-    EXPECT_TRUE(lines->send({Mark::Success, 1, os::now()}));
+    const std::size_t controls = port.controls.size();
+    lines->look(after + 500'000'000, notes_);
+    lines->end(notes_);
+    EXPECT_EQ(port.controls.size(), controls) << "down once";
+    EXPECT_TRUE(lines->send({Mark::Success, 1, 0}));
     lines->end(notes_);
     EXPECT_EQ(port.controls.back(), (std::pair<unsigned long, int>{PPWDATA, 0})) << "no line stays up";
   }
   EXPECT_EQ(port.controls.back().first, PPRELEASE);
-  EXPECT_TRUE(port.closed);
+  EXPECT_EQ(port.closes, 1);
 }
 
 TEST_F(Triggers, AChangeOfAnInputIsNotedOnce) {
-  const auto lines = openParallelPort("parallel", "/dev/parport0", {}, kFakeCalls);
+  const auto lines = openParallelPort({"parallel", "/dev/parport0"}, kFakeCalls);
   lines->look(1, notes_);
   lines->look(2, notes_);
   EXPECT_TRUE(notes_.empty());
@@ -116,7 +133,7 @@ TEST_F(Triggers, AChangeOfAnInputIsNotedOnce) {
 
 TEST_F(Triggers, ASerialPortsLineGoesUpAndDown) {
   port.lines = TIOCM_RTS;  // whoever had it before
-  const auto lines = openSerialLines("rts", "/dev/ttyS0", {}, kFakeCalls);
+  const auto lines = openSerialLines({"rts", "/dev/ttyS0"}, kFakeCalls);
   EXPECT_EQ(port.lines & TIOCM_RTS, 0);
   lines->send({Mark::Go, 1, os::now()});
   EXPECT_NE(port.lines & TIOCM_RTS, 0);
@@ -133,40 +150,31 @@ TEST_F(Triggers, ASerialPortsLineGoesUpAndDown) {
 
 TEST_F(Triggers, AnInterruptedCallIsMadeAgainAndAFaultIsTold) {
   port.interrupts = 3;
-  const auto lines = openParallelPort("parallel", "/dev/parport0", {}, kFakeCalls);
+  const auto lines = openParallelPort({"parallel", "/dev/parport0"}, kFakeCalls);
   EXPECT_EQ(port.controls.front().first, PPCLAIM);
   port.error = EIO;
   EXPECT_EQ(reachlab::refusalOf([&] { lines->send({Mark::Go, 1, 0}); }), "/dev/parport0: Input/output error");
-  EXPECT_THROW(openParallelPort("parallel", "/dev/missing", {}, kFakeCalls), ResourceError);
 }
 
-// Ticks of a made run, one a millisecond where the instruments are to keep up in real time.
-void play(record::InstrumentLink& link, int trials, bool inRealTime) {
-  record::MadeRun run;
-  const auto ticks = static_cast<std::uint64_t>(trials) * record::MadeRun::kTicksPerTrial;
-  const std::int64_t begin = os::now();
-  for (std::uint64_t tick = 0; tick < ticks; ++tick) {
-    if (tick % record::MadeRun::kTicksPerTrial == 0) {
-      const int trial = static_cast<int>(tick / record::MadeRun::kTicksPerTrial) + 1;
-      link.announce(trial, {trial - 1, 5, false});
-    }
-    if (inRealTime) os::sleepUntil(begin + static_cast<std::int64_t>(tick) * 1'000'000);
-    haptics::TickState state = run.next();
-    state.measuredNs = os::now();
-    EXPECT_TRUE(link.onTick(state, trial::Command::None, 0));
-  }
-}
-
-std::vector<record::RecordedEvent> eventsOf(record::InstrumentLink& link, int trials, bool inRealTime = false) {
+// What instruments say of the ticks of a made run.
+std::vector<record::RecordedEvent> eventsOf(record::InstrumentLink& link, int trials) {
   link.begin(record::madeConfiguration());
-  play(link, trials, inRealTime);
+  record::MadeRun run;
+  for (int trial = 1; trial <= trials; ++trial) {
+    link.announce(trial, {trial - 1, 5, false});
+    for (std::uint64_t tick = 0; tick < record::MadeRun::kTicksPerTrial; ++tick) {
+      haptics::TickState state = run.next();
+      state.measuredNs = os::now();
+      EXPECT_TRUE(link.onTick(state, trial::Command::None, 0));
+    }
+  }
   link.close();
   return link.takeEvents();
 }
 
 // The trial of a made run: armed at 20 ms, go 5 ms later, onset at 50 ms, end at 250 ms; even trials fail.
 TEST_F(Triggers, WhatHappenedIsFoundAtTheTicksThatTheRecordingHasItAt) {
-  const auto link = linked(openParallelPort("parallel", "/dev/parport0", {}, kFakeCalls));
+  const auto link = linked(openParallelPort({"parallel", "/dev/parport0"}, kFakeCalls));
   EXPECT_EQ(link->names(), "parallel");
   const auto events = eventsOf(*link, 2);
   std::vector<std::pair<std::uint64_t, std::string>> found;
@@ -183,55 +191,6 @@ TEST_F(Triggers, WhatHappenedIsFoundAtTheTicksThatTheRecordingHasItAt) {
                                                                        {525, "parallel out end"}}));
   EXPECT_EQ(events.back().trial, 2);
   EXPECT_TRUE(link->takeWarnings().empty());
-}
-
-// Bytes through a pseudo-terminal. The offsets are judged only against being none or nonsense.
-TEST_F(Triggers, BytesComeOutOfALineAndGoIn) {
-  int wire = -1, slave = -1;
-  char name[128] = {};
-  ASSERT_EQ(::openpty(&wire, &slave, name, nullptr, nullptr), 0);
-  ::fcntl(wire, F_SETFL, O_NONBLOCK);
-  struct Arrival {
-    std::int64_t ns;
-    int byte;
-  };
-  std::vector<Arrival> arrived;
-  std::atomic<int> count{0};
-  std::vector<record::RecordedEvent> events;
-  const auto link = linked(openByteLine("box", name, {{1, 2, 4}, 0}, 115200));
-  {
-    std::jthread box([&](const std::stop_token& stop) {
-      while (!stop.stop_requested()) {
-        unsigned char byte = 0;
-        if (::read(wire, &byte, 1) != 1) {
-          os::sleepUntil(os::now() + 50'000);
-          continue;
-        }
-        arrived.push_back({os::now(), byte});
-        ++count;
-        if (byte == 2 && ::write(wire, "\xfe", 1) != 1) ADD_FAILURE();  // the box answers an onset
-      }
-    });
-    events = eventsOf(*link, 3, true);
-    test::until([&] { return count >= 8; });
-  }
-  std::vector<int> bytes;
-  for (const Arrival& arrival : arrived) bytes.push_back(arrival.byte);
-  EXPECT_EQ(bytes, (std::vector<int>{1, 2, 4, 1, 2, 1, 2, 4}));
-  int answers = 0, offsets = 0;
-  for (const record::RecordedEvent& event : events) {
-    if (event.text.starts_with("box in at ")) {
-      EXPECT_EQ(event.value, 0xfe);
-      ++answers;
-    } else {
-      EXPECT_GT(event.value, 0);
-      ++offsets;
-    }
-  }
-  EXPECT_EQ(answers, 3);
-  EXPECT_EQ(offsets, 8);
-  ::close(wire);
-  ::close(slave);
 }
 
 class LabStreamingLayer : public testing::Test {
@@ -291,118 +250,60 @@ TEST_F(LabStreamingLayer, ThatTakesNothingAnyMoreIsLeftOut) {
   EXPECT_EQ(warnings[0], "instrument lsl is lost: liblsl: takes no sample any more; what follows is recorded without it");
 }
 
-TEST(OpenInstruments, RefusesWhatItDoesNotKnow) {
-  EXPECT_EQ(openInstruments({}), nullptr);
-  const auto refusalOf = [](const std::string& spec) { return reachlab::refusalOf([&] { (void)openInstruments({spec}); }, "opened"); };
-  EXPECT_EQ(refusalOf("trumpet"), "instrument: is trumpet, which is unknown; allowed: lsl, parallel:PATH, rts:PATH, byte:PATH");
-  EXPECT_EQ(refusalOf("rts"), "instrument: rts: its port is missing; allowed: rts:/dev/…");
-  EXPECT_NE(refusalOf("byte:/dev/null,go=256").find("go=256; allowed: a number from 0 to 255"), std::string::npos);
-  EXPECT_NE(refusalOf("byte:/dev/null,pulse-ms=5").find("pulse-ms is not known"), std::string::npos) << "a byte has no length";
-  EXPECT_NE(refusalOf("byte:/dev/no-such-line").find("/dev/no-such-line: No such file or directory"), std::string::npos);
-  EXPECT_NE(refusalOf("byte:/dev/null").find("/dev/null: Inappropriate ioctl for device"), std::string::npos);
-}
-
-/// Calls of a port that takes and gives bytes as the test says.
-struct FakeLine {
-  std::string opened;
-  int flags = 0, openError = 0, closes = 0;
-  std::vector<unsigned char> written, waiting;
-  int interrupts = 0, writeError = 0, readError = 0;
-};
-FakeLine byteLine;
-const PortCalls kByteCalls{
-    [](const char* path, int flags) {
-      byteLine.opened = path;
-      byteLine.flags = flags;
-      if (byteLine.openError == 0) return 0;  // any descriptor, even this one
-      errno = byteLine.openError;
-      return -1;
-    },
-    [](int) {
-      ++byteLine.closes;
-      return 0;
-    },
-    [](int, unsigned long, void*) { return 0; },
-    [](int, const void* bytes, std::size_t count) {
-      if (byteLine.interrupts-- > 0) return errno = EINTR, -1L;
-      if (byteLine.writeError != 0) return errno = byteLine.writeError, -1L;
-      byteLine.written.push_back(*static_cast<const unsigned char*>(bytes));
-      return static_cast<long>(count);
-    },
-    [](int, void* bytes, std::size_t count) {
-      if (byteLine.readError != 0) return errno = byteLine.readError, -1L;
-      const std::size_t got = std::min(count, byteLine.waiting.size());
-      std::copy_n(byteLine.waiting.begin(), got, static_cast<unsigned char*>(bytes));
-      byteLine.waiting.erase(byteLine.waiting.begin(), byteLine.waiting.begin() + static_cast<std::ptrdiff_t>(got));
-      return static_cast<long>(got);
-    },
-};
-
-class ByteLines : public testing::Test {
- protected:
-  void SetUp() override { byteLine = {}; }
-  std::unique_ptr<Instrument> open(const TriggerCodes& codes = {}) { return openByteLine("box", "/dev/ttyBox", codes, 115200, kByteCalls); }
-  std::vector<InstrumentNote> notes;
-};
-
-TEST_F(ByteLines, EachCodeIsOneByteAndNoughtIsNone) {
+TEST_F(Triggers, EachCodeIsOneByteAndNoughtIsNone) {
   {
-    const auto box = open({{7, 0, 255}, 0});
+    const auto box = openByteLine({"box", "/dev/ttyBox", {7, 0, 255}}, kFakeCalls);
     EXPECT_EQ(box->name(), "box");
-    EXPECT_EQ(byteLine.opened, "/dev/ttyBox");
-    EXPECT_EQ(byteLine.flags, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
-    byteLine.interrupts = 2;
+    EXPECT_EQ(port.opened, "/dev/ttyBox");
+    EXPECT_EQ(port.flags, O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC);
+    port.interrupts = 2;
     EXPECT_TRUE(box->send({Mark::Go, 1, 0}));
     EXPECT_FALSE(box->send({Mark::Onset, 1, 0}));
     EXPECT_TRUE(box->send({Mark::Success, 1, 0}));
-    EXPECT_EQ(byteLine.written, (std::vector<unsigned char>{7, 255}));
-    byteLine.writeError = EIO;
+    EXPECT_EQ(port.written, (std::vector<unsigned char>{7, 255}));
+    port.error = EIO;
     EXPECT_EQ(refusalOf([&] { box->send({Mark::Go, 1, 0}); }), "/dev/ttyBox: Input/output error");
   }
-  EXPECT_EQ(byteLine.closes, 1);
+  EXPECT_EQ(port.closes, 1);
 }
 
-TEST_F(ByteLines, EveryByteThatComesInIsNotedWithItsTime) {
-  const auto box = open();
-  box->look(5, notes);
-  EXPECT_TRUE(notes.empty());
-  byteLine.waiting = {3, 200};
-  box->look(7, notes);
-  ASSERT_EQ(notes.size(), 2u);
-  EXPECT_EQ(notes[0].ns, 7);
-  EXPECT_EQ(notes[0].text, "in");
-  EXPECT_EQ(notes[0].value, 3);
-  EXPECT_EQ(notes[1].value, 200);
+TEST_F(Triggers, EveryByteThatComesInIsNotedWithItsTime) {
+  const auto box = openByteLine({"box", "/dev/ttyBox"}, kFakeCalls);
+  box->look(5, notes_);
+  EXPECT_TRUE(notes_.empty());
+  port.waiting = {3, 200};
+  box->look(7, notes_);
+  ASSERT_EQ(notes_.size(), 2u);
+  EXPECT_EQ(notes_[0].ns, 7);
+  EXPECT_EQ(notes_[0].text, "in");
+  EXPECT_EQ(notes_[0].value, 3);
+  EXPECT_EQ(notes_[1].value, 200);
   for (const int none : {EAGAIN, EINTR}) {
-    byteLine.readError = none;
-    EXPECT_EQ(refusalOf([&] { box->look(8, notes); }), "") << "none is no fault";
+    port.error = none;
+    EXPECT_EQ(refusalOf([&] { box->look(8, notes_); }), "") << "none is no fault";
   }
-  byteLine.readError = EIO;
-  EXPECT_EQ(refusalOf([&] { box->look(8, notes); }), "/dev/ttyBox: Input/output error");
-  byteLine.readError = 0;
-  byteLine.waiting.assign(100, 1);
-  notes.clear();
-  box->look(9, notes);
-  EXPECT_EQ(notes.size(), 64u) << "the rest at the next look";
+  port.error = EIO;
+  EXPECT_EQ(refusalOf([&] { box->look(8, notes_); }), "/dev/ttyBox: Input/output error");
+  port.error = 0;
+  port.waiting.assign(100, 1);
+  notes_.clear();
+  box->look(9, notes_);
+  EXPECT_EQ(notes_.size(), 64u) << "the rest at the next look";
 }
 
-TEST_F(ByteLines, OneThatMayNotBeOpenedSaysWhatToDo) {
-  byteLine.openError = EACCES;
-  EXPECT_EQ(refusalOf([&] { open(); }), "/dev/ttyBox: Permission denied; become a member of the group that owns it (ls -l shows it)");
-  byteLine.openError = ENOENT;
-  EXPECT_EQ(refusalOf([&] { open(); }), "/dev/ttyBox: No such file or directory");
-  EXPECT_EQ(byteLine.closes, 0);
+TEST_F(Triggers, OneThatMayNotBeOpenedSaysWhatToDo) {
+  const auto refusal = [](int error, int baud = 115200) {
+    port.openError = error;
+    return refusalOf([&] { openByteLine({.name = "box", .path = "/dev/ttyBox", .baud = baud}, kFakeCalls); });
+  };
+  EXPECT_EQ(refusal(EACCES), "/dev/ttyBox: Permission denied; become a member of the group that owns it (ls -l shows it)");
+  EXPECT_EQ(refusal(ENOENT), "/dev/ttyBox: No such file or directory");
+  EXPECT_EQ(port.closes, 0);
+  EXPECT_EQ(refusal(0, 300), "instrument: baud=300; allowed: 9600, 19200, 38400, 57600, 115200, 230400, 1000000");
 }
 
-TEST_F(ByteLines, OnlySpeedsThatThereAreAreTaken) {
-  for (const int baud : {9600, 19200, 38400, 57600, 115200, 230400, 1000000})
-    EXPECT_EQ(refusalOf([&] { openByteLine("box", "/dev/ttyBox", {}, baud, kByteCalls); }), "") << baud;
-  EXPECT_EQ(refusalOf([&] { openByteLine("box", "/dev/ttyBox", {}, 300, kByteCalls); }),
-            "instrument: baud=300; allowed: 9600, 19200, 38400, 57600, 115200, 230400, 1000000");
-}
-
-// The speed that the line then has, by a pseudo-terminal.
-TEST_F(ByteLines, TheLineIsRawAndOfTheSpeedThatWasAskedFor) {
+// The speed that the line then has, and bytes both ways, by a pseudo-terminal.
+TEST_F(Triggers, TheLineIsRawAndOfTheSpeedThatWasAskedFor) {
   int wire = -1, slave = -1;
   char name[128] = {};
   ASSERT_EQ(::openpty(&wire, &slave, name, nullptr, nullptr), 0);
@@ -413,36 +314,35 @@ TEST_F(ByteLines, TheLineIsRawAndOfTheSpeedThatWasAskedFor) {
                                     {115200, B115200},
                                     {230400, B230400},
                                     {1000000, B1000000}}) {
-    const auto box = openByteLine("box", name, {}, baud);
+    const auto box = openByteLine({.name = "box", .path = name, .baud = baud});
     termios line{};
     ASSERT_EQ(::tcgetattr(slave, &line), 0);
     EXPECT_EQ(::cfgetospeed(&line), static_cast<speed_t>(speed)) << baud;
     EXPECT_EQ(line.c_lflag & (ICANON | ECHO), 0u) << "raw";
     EXPECT_NE(line.c_cflag & CREAD, 0u);
     EXPECT_NE(line.c_cflag & CLOCAL, 0u);
+    unsigned char byte = 0;
+    EXPECT_TRUE(box->send({Mark::Success, 1, 0}));
+    ASSERT_EQ(::read(wire, &byte, 1), 1);
+    EXPECT_EQ(byte, 4);
+    ASSERT_EQ(::write(wire, "\xfe", 1), 1);
+    notes_.clear();
+    EXPECT_TRUE(test::until([&] { return box->look(5, notes_), !notes_.empty(); }));
+    EXPECT_EQ(notes_.at(0).value, 0xfe);
   }
   ::close(wire);
   ::close(slave);
 }
 
-TEST_F(Triggers, APulseIsAsLongAsItWasAskedFor) {
-  const auto lines = openParallelPort("parallel", "/dev/parport0", {{3, 5, 9}, 0.25}, kFakeCalls);
-  const std::int64_t before = os::now();
-  EXPECT_TRUE(lines->send({Mark::Onset, 1, 0}));
-  const std::int64_t after = os::now();
-  EXPECT_EQ(port.controls.back(), (std::pair<unsigned long, int>{PPWDATA, 5}));
-  lines->look(before + 249'999'999, notes_);
-  EXPECT_EQ(port.controls.back().second, 5);
-  lines->look(after + 250'000'000, notes_);
-  EXPECT_EQ(port.controls.back().second, 0);
-  const std::size_t controls = port.controls.size();
-  lines->look(after + 500'000'000, notes_);
-  lines->end(notes_);
-  EXPECT_EQ(port.controls.size(), controls) << "down once";
-}
-
-TEST(OpenInstruments, NumbersAreBoundedAndNamesAreWhatWasAskedFor) {
+TEST(OpenInstruments, RefusesWhatItDoesNotKnowAndBoundsItsNumbers) {
+  EXPECT_EQ(openInstruments({}), nullptr);
   const auto refusal = [](const std::string& spec) { return refusalOf([&] { (void)openInstruments({spec}); }); };
+  EXPECT_EQ(refusal("trumpet"), "instrument: is trumpet, which is unknown; allowed: lsl, parallel:PATH, rts:PATH, byte:PATH");
+  EXPECT_EQ(refusal("rts"), "instrument: rts: its port is missing; allowed: rts:/dev/…");
+  EXPECT_EQ(refusal("byte,go=1"), "instrument: byte: its port is missing; allowed: byte:/dev/…");
+  EXPECT_NE(refusal("byte:/dev/null,go=256").find("go=256; allowed: a number from 0 to 255"), std::string::npos);
+  EXPECT_NE(refusal("byte:/dev/null,pulse-ms=5").find("pulse-ms is not known"), std::string::npos) << "a byte has no length";
+  EXPECT_NE(refusal("byte:/dev/null").find("/dev/null: Inappropriate ioctl for device"), std::string::npos);
   const std::string missing = "/dev/no-such-line: No such file or directory";
   for (const char* good : {"byte:/dev/no-such-line,baud=9600,go=0,onset=255", "rts:/dev/no-such-line,pulse-ms=1",
                            "rts:/dev/no-such-line,pulse-ms=1000", "parallel:/dev/no-such-line,success=0"})
@@ -452,9 +352,6 @@ TEST(OpenInstruments, NumbersAreBoundedAndNamesAreWhatWasAskedFor) {
                           "lsl:x,go=1", "lsl,go=1"})
     EXPECT_NE(refusal(bad), missing) << bad;
   EXPECT_NE(refusal("rts:/dev/no-such-line,pulse-ms=2000").find("pulse-ms=2000; allowed: a number from 1 to 1000"), std::string::npos);
-  EXPECT_EQ(refusal("parallel"), "instrument: parallel: its port is missing; allowed: parallel:/dev/…");
-  EXPECT_EQ(refusal("byte,go=1"), "instrument: byte: its port is missing; allowed: byte:/dev/…");
-  EXPECT_EQ(openInstruments({"lsl"})->names(), "lsl");
   EXPECT_EQ(openInstruments({"lsl", "lsl"})->names(), "lsl; lsl");
 }
 
