@@ -14,7 +14,7 @@ namespace reachlab::devices {
 class PhantomDevice final : public haptics::HapticDevice {
  public:
   struct Options {
-    std::string name;             // name in the vendor's configuration; empty: the default device
+    std::string name = {};        // name in the vendor's configuration; empty: the default device
     bool deviceVelocity = false;  // the vendor's smoothed velocity instead of our estimator's
     bool deadMan = false;         // HD_CURRENT_SAFETY_SWITCH must be closed
     bool drivesClock = true;      // false: the tick samples it

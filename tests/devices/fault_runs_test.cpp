@@ -1,3 +1,4 @@
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -5,6 +6,7 @@
 #include <chrono>
 #include <functional>
 #include <limits>
+#include <optional>
 #include <rapidcheck.h>
 #include <thread>
 
@@ -146,103 +148,94 @@ class ArmRig final : public PolledRig {
   std::int64_t answered_ = 0;
 };
 
-class PolhemRig final : public PolledRig {
+/// Behind a link that answers each message once.
+class MessageRig : public PolledRig {
  public:
   bool knowsOwn(Fault) const override { return true; }
   double told() const override { return told_; }
-  double toldLimit() const override { return 5.002; }  // each axis is rounded to a millinewton
-
- protected:
-  struct Port final : MessageLink {
-    explicit Port(PolhemRig& r) : rig(r) {}
-    bool send(std::string_view line) noexcept override {
-      if (rig.has(Fault::Unplug) || rig.has(Fault::Refusal)) return false;
-      int x = 0, y = 0, z = 0;
-      std::sscanf(std::string(line).c_str(), "%d %d %d", &x, &y, &z);
-      rig.told_ = std::hypot(1e-3 * x, 1e-3 * y, 1e-3 * z);
-      rig.asked_ = true;
-      rig.answered_ = timeNs;
-      return true;
-    }
-    Got receive(std::string& line, int) noexcept override {
-      if (rig.has(Fault::Unplug)) return Got::Gone;
-      if (!rig.asked_ || rig.has(Fault::Silence)) return Got::Nothing;
-      rig.asked_ = false;
-      const Vec3 at = rig.seen();
-      char text[80];
-      if (rig.has(Fault::Garbage)) line = "?? !!";
-      else if (rig.has(Fault::NotANumber)) line = "nan nan nan 0 0 0 0 0";
-      else {
-        std::snprintf(text, sizeof text, "%.3f %.3f %.3f 0 0 0 0 0", 1e3 * at.z, 1e3 * at.x, 1e3 * at.y);
-        line = text;
-      }
-      return Got::Message;
-    }
-    std::string fault() const override { return "gone"; }
-    PolhemRig& rig;
-  };
-  std::shared_ptr<Transport> transport() override {
-    return std::make_shared<PolhemSerial>("Polhem", [this]() -> std::unique_ptr<MessageLink> {
-      if (has(Fault::Unplug)) throw ResourceError("gone");
-      return std::make_unique<Port>(*this);
-    });
-  }
-  void serve() override {
-    if (timeNs - answered_ > 500 * kMs || has(Fault::Unplug)) told_ = 0;
-  }
-  double told_ = 0;  // [N]
-  bool asked_ = false;
-  std::int64_t answered_ = 0;
-};
-
-class HaplyRig final : public PolledRig {
- public:
-  bool knowsOwn(Fault) const override { return true; }
-  double told() const override { return told_; }
-  double toldLimit() const override { return 10; }
 
  protected:
   struct Link final : MessageLink {
-    explicit Link(HaplyRig& r) : rig(r) {}
-    ~Link() override { rig.told_ = 0; }  // the service lets go of a client that is gone
+    explicit Link(MessageRig& r) : rig(r) {}
+    ~Link() override {
+      if (rig.letsGo_) rig.told_ = 0;
+    }
     bool send(std::string_view message) noexcept override {
       if (rig.has(Fault::Unplug) || rig.has(Fault::Refusal)) return false;
-      double x = 0, y = 0, z = 0;
-      const std::string text(message);
-      const std::size_t at = text.find("\"values\":");
-      if (at != std::string::npos && std::sscanf(text.c_str() + at, "\"values\":{\"x\":%lf,\"y\":%lf,\"z\":%lf", &x, &y, &z) == 3)
-        rig.told_ = std::hypot(x, y, z);
+      if (const auto force = rig.forceIn(std::string(message))) rig.told_ = norm(*force);
       rig.asked_ = true;
+      rig.answered_ = timeNs;
       return true;
     }
     Got receive(std::string& message, int) noexcept override {
       if (rig.has(Fault::Unplug)) return Got::Gone;
       if (!rig.asked_ || rig.has(Fault::Silence)) return Got::Nothing;
       rig.asked_ = false;
-      const Vec3 at = rig.seen();
-      char text[200];
-      std::snprintf(text, sizeof text, R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{"x":%.17g,"y":%.17g,"z":%.17g}}}]})",
-                    at.x, -at.z, at.y);
-      message = rig.has(Fault::Garbage)      ? "}{"
-                : rig.has(Fault::NotANumber) ? R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{"x":1e999}}}]})"
-                                             : text;
+      message = rig.has(Fault::Garbage) ? "?? }{" : rig.stateAt(rig.seen());
       return Got::Message;
     }
     std::string fault() const override { return "gone"; }
-    HaplyRig& rig;
+    MessageRig& rig;
   };
-  std::shared_ptr<Transport> transport() override {
-    return std::make_shared<HaplyInverse3>(HaplyInverse3::Options{}, [this]() -> std::unique_ptr<MessageLink> {
-      if (has(Fault::Unplug)) throw ResourceError("gone");
-      asked_ = true;  // it greets
-      return std::make_unique<Link>(*this);
-    });
+  explicit MessageRig(bool letsGo) : letsGo_(letsGo) {}
+  std::unique_ptr<MessageLink> link() {
+    if (has(Fault::Unplug)) throw ResourceError("gone");
+    return std::make_unique<Link>(*this);
   }
   void serve() override {
-    if (has(Fault::Unplug)) told_ = 0;  // the service lets go when its client is gone
+    if (has(Fault::Unplug) || (!letsGo_ && timeNs - answered_ > 500 * kMs)) told_ = 0;  // the firmware's watchdog
   }
+  virtual std::optional<Vec3> forceIn(const std::string& message) const = 0;  // [N], its own axes
+  virtual std::string stateAt(const Vec3& at) const = 0;
+  bool letsGo_;      // of the force when its client is gone
   double told_ = 0;  // [N]
   bool asked_ = false;
+  std::int64_t answered_ = 0;
+};
+
+class PolhemRig final : public MessageRig {
+ public:
+  PolhemRig() : MessageRig(false) {}
+  double toldLimit() const override { return 5.002; }  // each axis is rounded to a millinewton
+
+ protected:
+  std::optional<Vec3> forceIn(const std::string& line) const override {
+    int x = 0, y = 0, z = 0;
+    std::sscanf(line.c_str(), "%d %d %d", &x, &y, &z);
+    return Vec3{1e-3 * x, 1e-3 * y, 1e-3 * z};
+  }
+  std::string stateAt(const Vec3& at) const override {
+    if (has(Fault::NotANumber)) return "nan nan nan 0 0 0 0 0";
+    return fmt::format("{:.3f} {:.3f} {:.3f} 0 0 0 0 0", 1e3 * at.z, 1e3 * at.x, 1e3 * at.y);
+  }
+  std::shared_ptr<Transport> transport() override {
+    return std::make_shared<PolhemSerial>("Polhem", [this] { return link(); });
+  }
+};
+
+class HaplyRig final : public MessageRig {
+ public:
+  HaplyRig() : MessageRig(true) {}
+  double toldLimit() const override { return 10; }
+
+ protected:
+  std::optional<Vec3> forceIn(const std::string& message) const override {
+    Vec3 f;
+    const std::size_t at = message.find("\"values\":");
+    if (at == std::string::npos) return std::nullopt;
+    const int read = std::sscanf(message.c_str() + at, R"("values":{"x":%lf,"y":%lf,"z":%lf)", &f.x, &f.y, &f.z);
+    return read == 3 ? std::optional(f) : std::nullopt;
+  }
+  std::string stateAt(const Vec3& at) const override {
+    const std::string axes = has(Fault::NotANumber) ? R"("x":1e999)" : fmt::format(R"("x":{},"y":{},"z":{})", at.x, -at.z, at.y);
+    return R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{)" + axes + "}}}]}";
+  }
+  std::shared_ptr<Transport> transport() override {
+    return std::make_shared<HaplyInverse3>(HaplyInverse3::Options{}, [this] {
+      asked_ = true;  // it greets
+      return link();
+    });
+  }
 };
 
 class ForceDimensionRig final : public PolledRig {

@@ -13,6 +13,7 @@
 #include "devices/vendor/force_dimension.h"
 #include "sim/experiment/experiment.h"
 #include "tests/devices/fakes/fake_dhd.h"
+#include "tests/devices/fakes/fake_message_line.h"
 #include "tests/until.h"
 
 /// The driver behind its I/O thread; waits are for events.
@@ -34,6 +35,7 @@ class ForceDimension : public ::testing::Test {
     return sample;
   }
   experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
+  test::StandingForce wish{{1, 2, 3}};
 };
 
 TEST_F(ForceDimension, TurnsItsAxesIntoTheWorlds) {
@@ -191,39 +193,32 @@ TEST_F(ForceDimension, WhatTheLibraryDoesNotTellIsOfItsModel) {
   EXPECT_NE(info.secondPath.find("20 ms"), std::string::npos);
 }
 
-struct NoForce final : ForceSource {
-  Vec3 newest() noexcept override { return {1, 2, 3}; }
-  std::int64_t now() const noexcept override { return 0; }
-};
-
 TEST_F(ForceDimension, TwentyErrorsInARowAreALossAndOneThatSaysItIsGoneIsAtOnce) {
-  NoForce force;
   haptics::DeviceSample sample;
   for (const auto& [error, calls] : {std::pair{2, 20}, {7, 20}, {12, 20}, {5, 1}, {6, 1}}) {
     test::resetFakeDhd();
     const auto device = openForceDimension(0, "device x", false);
     for (int i = 0; i < 19; ++i) {
       fakeDhd().error = 2;
-      EXPECT_EQ(device->exchange(force, sample), Exchange::Nothing);
+      EXPECT_EQ(device->exchange(wish, sample), Exchange::Nothing);
     }
     fakeDhd().error = 0;
-    EXPECT_EQ(device->exchange(force, sample), Exchange::Report) << "one that is fine begins the count anew";
+    EXPECT_EQ(device->exchange(wish, sample), Exchange::Report) << "one that is fine begins the count anew";
     fakeDhd().error = error;
     int lost = 1;
-    while (device->exchange(force, sample) != Exchange::Lost && lost < 100) ++lost;
+    while (device->exchange(wish, sample) != Exchange::Lost && lost < 100) ++lost;
     EXPECT_EQ(lost, calls) << error;
     fakeDhd().error = 0;
     ASSERT_TRUE(device->reopen());
     fakeDhd().error = 2;
-    for (int i = 0; i < 19; ++i) EXPECT_EQ(device->exchange(force, sample), Exchange::Nothing) << "opened again";
+    for (int i = 0; i < 19; ++i) EXPECT_EQ(device->exchange(wish, sample), Exchange::Nothing) << "opened again";
   }
 }
 
 TEST_F(ForceDimension, ZeroIsToldWhileItIsOpenAndItIsClosedOnce) {
-  NoForce force;
   haptics::DeviceSample sample;
   const auto device = openForceDimension(0, "device x", false);
-  device->exchange(force, sample);
+  device->exchange(wish, sample);
   EXPECT_EQ(fakeDhd().force[0], 3);
   EXPECT_TRUE(device->tellZero());
   for (const auto& part : fakeDhd().force) EXPECT_EQ(part, 0);
@@ -234,20 +229,19 @@ TEST_F(ForceDimension, ZeroIsToldWhileItIsOpenAndItIsClosedOnce) {
   fakeDhd().error = 0;
   EXPECT_TRUE(device->reopen());
   EXPECT_TRUE(fakeDhd().forceOn);
-  device->exchange(force, sample);
+  device->exchange(wish, sample);
   device->close();
   EXPECT_FALSE(fakeDhd().forceOn);
   for (const auto& part : fakeDhd().force) EXPECT_EQ(part, 0);
 }
 
 TEST_F(ForceDimension, AVelocityThatCannotBeReadIsAnError) {
-  NoForce force;
   haptics::DeviceSample sample;
   const auto device = openForceDimension(0, "device x", true);
   fakeDhd().callsUntilFailure = 1;  // the place is read
-  EXPECT_EQ(device->exchange(force, sample), Exchange::Nothing);
+  EXPECT_EQ(device->exchange(wish, sample), Exchange::Nothing);
   EXPECT_EQ(fakeDhd().force[0], 3) << "its force is told all the same";
-  EXPECT_EQ(device->exchange(force, sample), Exchange::Report);
+  EXPECT_EQ(device->exchange(wish, sample), Exchange::Report);
 }
 
 TEST_F(ForceDimension, OneThatCannotBeOpenedIsListedByItsNameWithTheLibrarysWords) {

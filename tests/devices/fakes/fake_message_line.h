@@ -43,6 +43,7 @@ struct FakeMessageLink final : devices::MessageLink {
 
 /// A force that stands, and a clock that the test sets.
 struct StandingForce final : devices::ForceSource {
+  StandingForce(const Vec3& f = {}) : force(f) {}
   Vec3 force;
   std::int64_t ns = 0;
   Vec3 newest() noexcept override { return force; }
