@@ -13,53 +13,23 @@
 #include "devices/make_device.h"
 #include "devices/mapping/guarded_device.h"
 #include "sim/experiment/experiment.h"
+#include "tests/devices/fakes/diary_device.h"
 #include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 
 namespace reachlab::devices {
 namespace {
 
-/// A device that is where it was put and keeps what it was told.
-class Recorded final : public haptics::HapticDevice {
- public:
-  haptics::DeviceInfo info() const override {
-    haptics::DeviceInfo info;
-    info.name = "recorded";
-    info.rendersForce = true;
-    info.workspaceRadius = 0.1;
-    info.resolution = 1e-5;
-    return info;
-  }
-  haptics::DeviceSample read() noexcept override { return sample; }
-  void write(const Vec3& force) noexcept override { told = force; }
-  void prepareTrial(int index, int /*scene*/ = 0) override { calls += "prepare " + std::to_string(index) + "; "; }
-  void cue(haptics::Cue cue) noexcept override { calls += cue == haptics::Cue::Go ? "go; " : "place; "; }
-  void see(std::span<const dynamics::MassState> masses) noexcept override { calls += "see " + std::to_string(masses.size()) + "; "; }
-  haptics::DeviceHealth health() const noexcept override { return haptics::DeviceHealth::Warm; }
-  std::string healthText() const override { return "warm"; }
-  std::string calibrationHint() const override { return "hold it"; }
-  void calibrate() override { calls += "calibrate; "; }
-  bool stopForce() noexcept override {
-    calls += "stop; ";
-    return true;
-  }
-  void startClock(ClockTick tick, void* context) override {
-    calls += "clock; ";
-    tick(context);
-  }
-  void stopClock() noexcept override { calls += "no clock; "; }
-  haptics::DeviceSample sample;
-  Vec3 told;
-  std::string calls;
-};
-
 struct Guarded {
   explicit Guarded(const HandSettings& options) {
-    auto owned = std::make_unique<Recorded>();
+    auto owned = std::make_unique<test::DiaryDevice>();
     inner = owned.get();
+    inner->shown.rendersForce = true;
+    inner->shown.workspaceRadius = 0.1;
+    inner->shown.resolution = 1e-5;
     device = guardDevice(std::move(owned), options);
   }
-  Recorded* inner;
+  test::DiaryDevice* inner;
   std::unique_ptr<haptics::HapticDevice> device;
 };
 
@@ -68,6 +38,7 @@ TEST(GuardedDevice, PassesOnWhatIsAskedOfTheDevice) {
   options.speedLimit = 1;
   Guarded guarded(options);
   haptics::HapticDevice& device = *guarded.device;
+  guarded.inner->state = haptics::DeviceHealth::Warm, guarded.inner->said = "warm", guarded.inner->hint = "hold it";
   device.prepareTrial(7);
   device.cue(haptics::Cue::Go);
   const std::array<dynamics::MassState, 3> masses{};
@@ -126,8 +97,8 @@ TEST(Mapping, TheDeviceDoesTheWorkThatTheHandFeelsDividedByTheScale) {
     const Vec3 force = vector();
     guarded.device->write(force);
     const double outside = dot(force, guarded.device->read().velocity);
-    ASSERT_NEAR(dot(guarded.inner->told, guarded.inner->sample.velocity), outside / mapping.scale, 1e-13);
-    ASSERT_NEAR(norm(guarded.inner->told), norm(force), 1e-14) << "felt as it is computed";
+    ASSERT_NEAR(dot(guarded.inner->force, guarded.inner->sample.velocity), outside / mapping.scale, 1e-13);
+    ASSERT_NEAR(norm(guarded.inner->force), norm(force), 1e-14) << "felt as it is computed";
   }
 }
 
@@ -298,17 +269,8 @@ TEST(HandSettings, SayWhatWasAskedFor) {
 }
 
 TEST(HandSettings, AWallNeedsAWorkspaceOrARadius) {
-  struct Unknown final : haptics::HapticDevice {
-    haptics::DeviceInfo info() const override {
-      haptics::DeviceInfo info;
-      info.name = "unknown";
-      return info;
-    }
-    haptics::DeviceSample read() noexcept override { return {}; }
-    void write(const Vec3&) noexcept override {}
-  };
   const auto refusal = [](const HandSettings& options) {
-    return reachlab::refusalOf([&] { (void)guardDevice(std::make_unique<Unknown>(), options); }, "made");
+    return reachlab::refusalOf([&] { (void)guardDevice(std::make_unique<test::DiaryDevice>("unknown"), options); }, "made");
   };
   HandSettings options;
   options.wall = 0;
@@ -319,7 +281,7 @@ TEST(HandSettings, AWallNeedsAWorkspaceOrARadius) {
   EXPECT_EQ(refusal(options), "made");
   options.deadManButton = 1;
   EXPECT_NE(refusal(options).find("dead-man-button: unknown renders no force"), std::string::npos);
-  auto own = std::make_unique<Unknown>();
+  auto own = std::make_unique<test::DiaryDevice>();
   const haptics::HapticDevice* const inner = own.get();
   EXPECT_EQ(guardDevice(std::move(own), {}).get(), inner) << "nothing asked for: itself";
 }

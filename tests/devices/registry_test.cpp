@@ -13,6 +13,7 @@
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 #include "sim/trial/task_places.h"
+#include "tests/devices/fakes/diary_device.h"
 #include "tests/devices/fakes/fake_dhd.h"
 #include "tests/devices/fakes/fake_hd.h"
 #include "tests/refusal.h"
@@ -51,33 +52,21 @@ TEST(HidOptions, TheLargestCurrentIsFromTenMilliamperesToSixAmperes) {
 }
 
 TEST(DeviceOptions, TakeWhatIsKnownAndRefuseTheRest) {
-  DeviceOptions options("SN1,gain=0.5,mode=fast,other=1", "device x");
+  DeviceOptions options("SN1,gain=0.5,mode=fast,other=x=y,flag", "device x");
   EXPECT_EQ(options.plain(), "SN1");
   EXPECT_EQ(options.number("gain", 1, 0, 2), 0.5);
   EXPECT_EQ(options.number("absent", 7, 0, 9), 7);
   EXPECT_EQ(options.word("mode", {"slow", "fast"}), "fast");
+  EXPECT_EQ(options.take("flag"), "") << "a key without a value";
+  EXPECT_EQ(options.take("mode"), std::nullopt) << "taken";
   EXPECT_THROW(options.done(), FaultError);
-  EXPECT_EQ(options.rest(), "other=1");
+  EXPECT_EQ(options.rest(), "other=x=y");
   EXPECT_NO_THROW(options.done());
-  EXPECT_THROW(DeviceOptions("a=1,a=2", "device x"), FaultError);
+  for (const char* text : {"", "a=1"}) EXPECT_EQ(DeviceOptions(text, "device x").plain(), "");
   for (const char* bad : {"gain=3", "gain=-1", "gain=", "gain=1x", "gain=nan"}) {
     DeviceOptions wrong(bad, "device x");
     EXPECT_THROW(wrong.number("gain", 1, 0, 2), FaultError) << bad;
   }
-}
-
-TEST(DeviceOptions, OnlyTheFirstItemMayBePlain) {
-  DeviceOptions options("a=1,flag", "device x");
-  EXPECT_EQ(options.plain(), "");
-  EXPECT_EQ(options.take("flag"), "") << "a key without a value";
-  EXPECT_EQ(options.take("a"), "1");
-  EXPECT_EQ(options.take("a"), std::nullopt) << "taken";
-  DeviceOptions empty("", "device x");
-  EXPECT_EQ(empty.plain(), "");
-  EXPECT_EQ(empty.rest(), "");
-  EXPECT_NO_THROW(empty.done());
-  DeviceOptions several("S,b=2,c=x=y", "device x");
-  EXPECT_EQ(several.rest(), "b=2,c=x=y");
 }
 
 TEST(DeviceOptions, WhatIsWrongIsSaidWithWhatIsAllowed) {
@@ -172,75 +161,38 @@ TEST(MakeDevice, HandSettingsAreOfTheDeviceWithOrWithoutAName) {
   EXPECT_THROW(makeDevice("simulated,scale=2,colour=1", experiment, 1), FaultError);
 }
 
-/// Says what it is asked under a name of its own.
-struct Named final : haptics::HapticDevice {
-  explicit Named(std::string n) : name(std::move(n)) {}
-  haptics::DeviceInfo info() const override {
-    haptics::DeviceInfo info;
-    info.name = name;
-    info.virtualHand = isVirtual;
-    info.drivesClock = drives;
-    return info;
-  }
-  haptics::DeviceSample read() noexcept override {
-    haptics::DeviceSample sample;
-    sample.position.x = static_cast<double>(name.size());
-    return sample;
-  }
-  void write(const Vec3& f) noexcept override { force = f; }
-  void prepareTrial(int index, int /*scene*/ = 0) override { prepared = index; }
-  void cue(haptics::Cue) noexcept override { ++cues; }
-  void see(std::span<const dynamics::MassState> masses) noexcept override { seen = masses.size(); }
-  haptics::DeviceHealth health() const noexcept override { return state; }
-  std::string healthText() const override { return said; }
-  std::string calibrationHint() const override { return hint; }
-  void calibrate() override { ++calibrated; }
-  bool stopForce() noexcept override { return ++stopped, stops; }
-  void startClock(ClockTick, void*) override { ++clocks; }
-  void stopClock() noexcept override { --clocks; }
-  std::string name, said, hint;
-  bool isVirtual = true, drives = false, stops = true;
-  haptics::DeviceHealth state = haptics::DeviceHealth::Ready;
-  Vec3 force;
-  int prepared = -1, cues = 0, calibrated = 0, stopped = 0, clocks = 0;
-  std::size_t seen = 0;
-};
+using Devices = std::vector<std::unique_ptr<haptics::HapticDevice>>;
 
 TEST(SeveralHands, AreOneDeviceInTheFirstOnesNameAndAllAreAsked) {
-  std::vector<Named*> parts;
-  std::vector<std::unique_ptr<haptics::HapticDevice>> owned;
+  std::vector<test::DiaryDevice*> parts;
+  Devices owned;
   for (const char* name : {"one", "second", "third"}) {
-    auto part = std::make_unique<Named>(name);
+    auto part = std::make_unique<test::DiaryDevice>(name);
+    part->shown.virtualHand = true;
     parts.push_back(part.get());
     owned.push_back(std::move(part));
   }
   const auto device = joinDevices(std::move(owned));
   EXPECT_EQ(device->info().name, "one");
   EXPECT_TRUE(device->info().virtualHand);
-  parts[2]->isVirtual = false;
+  parts[2]->shown.virtualHand = false;
   EXPECT_FALSE(device->info().virtualHand) << "all must be";
   device->prepareTrial(3);
   device->cue(haptics::Cue::Go);
   const std::array<dynamics::MassState, 2> masses{};
   device->see(masses);
   device->calibrate();
-  for (const Named* part : parts) {
-    EXPECT_EQ(part->prepared, 3) << part->name;
-    EXPECT_EQ(part->cues, 1) << part->name;
-    EXPECT_EQ(part->seen, 2u) << part->name;
-    EXPECT_EQ(part->calibrated, 1) << part->name;
-  }
+  device->startClock(nullptr, nullptr);
+  device->stopClock();
+  for (const test::DiaryDevice* part : parts)
+    EXPECT_EQ(part->calls, std::string("prepare 3; go; see 2; calibrate; ") + (part == parts[0] ? "clock; no clock; " : ""));
+  parts[0]->sample.position.x = 3;
   EXPECT_EQ(device->read().position.x, 3);
   device->write({1, 0, 0});
   EXPECT_EQ(parts[0]->force.x, 1);
   EXPECT_EQ(parts[1]->force.x, 0) << "each is told for itself";
   ASSERT_EQ(device->hands().size(), 3u);
   EXPECT_EQ(device->hands()[2], parts[2]);
-  device->startClock(nullptr, nullptr);
-  EXPECT_EQ(parts[0]->clocks, 1);
-  EXPECT_EQ(parts[1]->clocks, 0);
-  device->stopClock();
-  EXPECT_EQ(parts[0]->clocks, 0);
   EXPECT_EQ(device->health(), haptics::DeviceHealth::Ready);
   parts[1]->state = haptics::DeviceHealth::Lost;
   parts[2]->state = haptics::DeviceHealth::Warm;
@@ -252,28 +204,27 @@ TEST(SeveralHands, AreOneDeviceInTheFirstOnesNameAndAllAreAsked) {
   EXPECT_TRUE(device->stopForce());
   parts[0]->stops = false;
   EXPECT_FALSE(device->stopForce());
-  for (const Named* part : parts) EXPECT_EQ(part->stopped, 2) << "each is stopped, whatever another says";
+  for (const test::DiaryDevice* part : parts) EXPECT_TRUE(part->calls.ends_with("stop; stop; ")) << "whatever another says";
 }
 
 TEST(SeveralHands, OnlyTheFirstMayDriveTheClock) {
-  for (const bool first : {true, false}) {
-    std::vector<std::unique_ptr<haptics::HapticDevice>> owned;
-    for (const bool here : {first, !first}) {
-      auto part = std::make_unique<Named>("P");
-      part->drives = here;
+  const auto joined = [](const std::vector<bool>& drives) {
+    Devices owned;
+    for (const bool one : drives) {
+      auto part = std::make_unique<test::DiaryDevice>("P");
+      part->shown.drivesClock = one;
       owned.push_back(std::move(part));
     }
-    if (first) {
-      EXPECT_TRUE(joinDevices(std::move(owned))->info().drivesClock);
-      continue;
-    }
-    EXPECT_EQ(reachlab::refusalOf([&] { joinDevices(std::move(owned)); }),
-              "device: P drives the clock, and is not the first; allowed: one device that drives the clock, named first");
-  }
-  std::vector<std::unique_ptr<haptics::HapticDevice>> alone;
-  alone.push_back(std::make_unique<Named>("A"));
-  const haptics::HapticDevice* const it = alone[0].get();
-  EXPECT_EQ(joinDevices(std::move(alone)).get(), it) << "one is itself";
+    const haptics::HapticDevice* const first = owned[0].get();
+    const auto device = joinDevices(std::move(owned));
+    return std::pair{device->info().drivesClock, device.get() == first};
+  };
+  EXPECT_EQ(joined({true, false}), (std::pair{true, false}));
+  EXPECT_EQ(reachlab::refusalOf([&] {
+              joined({false, true});
+            }),
+            "device: P drives the clock, and is not the first; allowed: one device that drives the clock, named first");
+  EXPECT_EQ(joined({false}), (std::pair{false, true})) << "one is itself";
 }
 
 TEST(SeveralHands, ALineOfDevicesIsTakenApartAndPutTogether) {

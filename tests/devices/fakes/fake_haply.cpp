@@ -116,11 +116,6 @@ Vec3 FakeHaply::lastForce(const std::string& id) const {
   return deviceOf(id).force;
 }
 
-std::uint64_t FakeHaply::forces(const std::string& id) const {
-  const std::lock_guard lock(mutex_);
-  return deviceOf(id).forces;
-}
-
 double FakeHaply::largestForce(const std::string& id) const {
   const std::lock_guard lock(mutex_);
   return deviceOf(id).largest;
@@ -141,7 +136,6 @@ void FakeHaply::hear(const std::string& text) {
       const Json& values = command["commands"]["set_cursor_force"]["values"];
       device.force = {values["x"], values["y"], values["z"]};
       device.largest = std::max(device.largest, norm(device.force));
-      ++device.forces;
     }
 }
 

@@ -43,7 +43,6 @@ class FakeHaply {
   /// Every cursor goes by this law of the time since the service began [s], from now on.
   void moveBy(std::function<Vec3(double)> law);
   Vec3 lastForce(const std::string& id = kFirst) const;
-  std::uint64_t forces(const std::string& id = kFirst) const;
   double largestForce(const std::string& id = kFirst) const;
 
   /// Whether the device is in the service's list.
@@ -58,7 +57,6 @@ class FakeHaply {
     std::string id, grip;
     Vec3 cursor, force;
     bool plugged = true;
-    std::uint64_t forces = 0;
     double largest = 0;
   };
   void run(std::atomic<bool>& listening);
