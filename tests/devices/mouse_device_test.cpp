@@ -19,6 +19,22 @@ namespace {
 thread_local std::int64_t clockNs = 0;  // the tests' own
 std::int64_t now() { return clockNs; }
 
+/// A window that hands the pointer's events over once a frame, each with the tick in which it came.
+struct Window {
+  // One tick, and whether a frame ends with it.
+  void tick(MouseDevice& mouse, bool frameEnds, double speed) {
+    waiting.push_back(clockNs);
+    if (frameEnds) {
+      for (const std::int64_t ns : waiting) mouse.point({1e-9 * speed * static_cast<double>(ns % 1'000'000'000'000), 0, 0}, ns);
+      waiting.clear();
+    }
+    mouse.read();
+    clockNs += 1'000'000;
+  }
+  std::vector<std::int64_t> waiting;
+};
+double playbackOf(const MouseDevice& mouse) { return mouse.delay() - 2 * MouseDevice::kSmoothing; }
+
 TEST(MouseDevice, StaysWhereItIsUntilThePointerMoves) {
   clockNs = 1'000'000'000;
   MouseDevice mouse({-0.1, 0, 0}, now);
@@ -103,15 +119,10 @@ TEST(MouseDevice, ASmoothDragArrivesWithinFivePercentAtAnyRateAndFrameRate) {
 TEST(MouseDevice, HowLateItIsChangesByAPartOfTheTimesPace) {
   clockNs = 5'000'000'000;
   MouseDevice mouse({}, now);
-  std::vector<std::int64_t> waiting;
+  Window window;
   double before = 0, atFirst = 0;
-  for (int tick = 0; tick < 3000; ++tick, clockNs += 1'000'000) {
-    waiting.push_back(clockNs);
-    if (tick % (tick < 1000 ? 8 : 30) == 0) {
-      for (const std::int64_t ns : waiting) mouse.point({0.2e-9 * static_cast<double>(ns - 5'000'000'000), 0, 0}, ns);
-      waiting.clear();
-    }
-    (void)mouse.read();
+  for (int tick = 0; tick < 3000; ++tick) {
+    window.tick(mouse, tick % (tick < 1000 ? 8 : 30) == 0, 0.2);
     const double delay = mouse.delay();
     if (tick > 500) {
       EXPECT_LE(std::abs(delay - before), 1e-3 * MouseDevice::kMostDrift + 1e-8) << tick;
@@ -167,16 +178,9 @@ TEST(MouseDevice, ItsPlaybackIsAsLateAsTheWindowAndNoLaterThanItMayBe) {
   for (const auto& [frame, least, most] : {std::tuple{30, 0.029, 0.034}, {100, 0.099, 0.104}, {400, 0.135, 0.15}}) {
     clockNs = 3'000'000'000;
     MouseDevice mouse({}, now);
-    std::vector<std::int64_t> waiting;
-    for (int tick = 0; tick < 12'000; ++tick, clockNs += 1'000'000) {
-      waiting.push_back(clockNs);
-      if (tick % frame == frame - 1) {
-        for (const std::int64_t ns : waiting) mouse.point({1e-12 * static_cast<double>(ns), 0, 0}, ns);
-        waiting.clear();
-      }
-      mouse.read();
-    }
-    const double playback = mouse.delay() - 2 * MouseDevice::kSmoothing;
+    Window window;
+    for (int tick = 0; tick < 12'000; ++tick) window.tick(mouse, tick % frame == frame - 1, 1e-3);
+    const double playback = playbackOf(mouse);
     EXPECT_GE(playback, least - 2e-3) << frame;
     EXPECT_LE(playback, most + 2e-3) << frame;
   }
@@ -187,16 +191,9 @@ TEST(MouseDevice, ASlowWindowIsForgotten) {
   clockNs = 3'000'000'000;
   MouseDevice mouse({}, now);
   const auto run = [&](int ticks, int frame) {
-    std::vector<std::int64_t> waiting;
-    for (int tick = 0; tick < ticks; ++tick, clockNs += 1'000'000) {
-      waiting.push_back(clockNs);
-      if (tick % frame == frame - 1) {
-        for (const std::int64_t ns : waiting) mouse.point({1e-10 * static_cast<double>(ns % 1'000'000'000), 0, 0}, ns);
-        waiting.clear();
-      }
-      mouse.read();
-    }
-    return mouse.delay() - 2 * MouseDevice::kSmoothing - 0.012;
+    Window window;
+    for (int tick = 0; tick < ticks; ++tick) window.tick(mouse, tick % frame == frame - 1, 0.1);
+    return playbackOf(mouse) - 0.012;
   };
   const double slow = run(6000, 60);
   EXPECT_GT(slow, 0.03);
