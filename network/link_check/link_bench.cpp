@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <set>
 
 #include "analysis/figure/figure.h"
@@ -13,19 +12,21 @@
 namespace reachlab::network {
 namespace {
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+TwoHandsOutcome runOver(const LinkBenchPlan& plan, double roundTrip, TwoHandsSetup setup, const TwoHandsReference& reference) {
+  setup.roundTrip = roundTrip;
+  setup.loss = plan.loss;
+  setup.jitterShare = plan.jitterShare;
+  return runTwoHands(setup, copySettingsFor(setup.experiment), reference);
+}
 
-LinkBenchCell runCell(const LinkBenchPlan& plan, SharedObject object, double roundTrip, const TwoHandsReference& reference) {
-  LinkBenchCell cell{object, roundTrip, 0, plan.seeds, 0, 0, reference.rms, 0};
+LinkBenchRow runCell(const LinkBenchPlan& plan, SharedObject object, double roundTrip, const TwoHandsReference& reference) {
+  LinkBenchRow cell{object, roundTrip, 0, plan.seeds, 0, 0, reference.rms, 0};
   std::vector<TwoHandsOutcome> stable, all;
   for (int seed = 1; seed <= plan.seeds; ++seed) {
     TwoHandsSetup setup;
     setup.experiment = makeSharedExperiment(object);
-    setup.roundTrip = roundTrip;
-    setup.loss = plan.loss;
-    setup.jitterShare = plan.jitterShare;
     setup.seed = static_cast<std::uint64_t>(seed);
-    const TwoHandsOutcome outcome = runTwoHands(setup, copySettingsFor(setup.experiment), reference);
+    const TwoHandsOutcome outcome = runOver(plan, roundTrip, setup, reference);
     all.push_back(outcome);
     if (outcome.stable) stable.push_back(outcome);
     cell.given = std::max(cell.given, outcome.given);
@@ -39,18 +40,20 @@ LinkBenchCell runCell(const LinkBenchPlan& plan, SharedObject object, double rou
   return cell;
 }
 
-double percentStable(const LinkBenchShare& share) { return 100.0 * share.stable / std::max(1, share.runs); }
+double percentStable(const LinkBenchRow& row) { return 100.0 * row.stable / std::max(1, row.runs); }
+
+using Rows = std::vector<LinkBenchRow>;
+using Text = std::function<std::string(const LinkBenchRow&)>;
 
 // Objects down, round trips across.
-template <class Row, class Title, class Cell>
-std::string formatRows(const std::vector<Row>& rows, Title&& title, Cell&& cell) {
+std::string formatRows(const Rows& rows, const Text& title, const Text& cell) {
   std::set<double> across;
-  for (const Row& row : rows) across.insert(row.roundTrip);
+  for (const LinkBenchRow& row : rows) across.insert(row.roundTrip);
   std::string text;
   for (const SharedObject object : kSharedObjects) {
     std::string head, line;
     for (const double roundTrip : across)
-      for (const Row& row : rows) {
+      for (const LinkBenchRow& row : rows) {
         if (row.object != object || row.roundTrip != roundTrip) continue;
         if (line.empty()) line = fmt::format("{:<46}", title(row));
         head += fmt::format(" {:>19}", fmt::format("{:.0f} ms", 1e3 * roundTrip));
@@ -61,37 +64,30 @@ std::string formatRows(const std::vector<Row>& rows, Title&& title, Cell&& cell)
   return text;
 }
 
-figure::Panel panelOf(const std::string& title, const std::string& y, figure::Scale scale) {
+// A panel with one line against the round trip; it has a gap where `valueOf` is not a number.
+figure::Panel panelOf(SharedObject object, const std::string& title, const std::string& y, const Rows& rows,
+                      const std::function<double(const LinkBenchRow&)>& valueOf) {
   figure::Panel panel;
-  panel.title = title;
+  panel.title = fmt::format("{}: {}", nameOf(object), title);
   panel.x.label = "Round trip (ms)";
   panel.y.label = y;
-  panel.y.scale = scale;
+  panel.y.scale = figure::Scale::Log;
   panel.legend = figure::LegendPlace::None;
-  return panel;
-}
-
-// One line against the round trip; it has a gap where `valueOf` is not a number.
-template <class Row, class Value>
-figure::Series seriesOf(const std::vector<Row>& rows, SharedObject object, Value&& valueOf) {
-  figure::Series series;
+  figure::Series& series = panel.series.emplace_back();
   series.color = figure::palette::series(0);
   series.marker = figure::markerOf(0);
-  for (const Row& row : rows)
+  for (const LinkBenchRow& row : rows)
     if (row.object == object) series.x.push_back(1e3 * row.roundTrip), series.y.push_back(valueOf(row));
-  return series;
+  return panel;
 }
 
 }  // namespace
 
-LinkBenchShare runRandomSetups(const LinkBenchPlan& plan, SharedObject object, double roundTrip) {
-  LinkBenchShare share{object, roundTrip, 0, plan.setups, 0, 0};
+LinkBenchRow runRandomSetups(const LinkBenchPlan& plan, SharedObject object, double roundTrip) {
+  LinkBenchRow share{.object = object, .roundTrip = roundTrip, .runs = plan.setups, .ledgerWorst = 0, .ledgerDuration = 0};
   for (int i = 0; i < plan.setups; ++i) {
-    TwoHandsSetup setup = makeRandomSetup(object, plan.seed, i);
-    setup.roundTrip = roundTrip;
-    setup.loss = plan.loss;
-    setup.jitterShare = plan.jitterShare;
-    const TwoHandsOutcome outcome = runTwoHands(setup, copySettingsFor(setup.experiment), makeReference(setup));
+    const TwoHandsSetup setup = makeRandomSetup(object, plan.seed, i);
+    const TwoHandsOutcome outcome = runOver(plan, roundTrip, setup, makeReference(setup));
     if (outcome.stable) ++share.stable;
     share.ledgerWorst = std::max(share.ledgerWorst, outcome.ledgerWorst);
     share.ledgerDuration = std::max(share.ledgerDuration, outcome.ledgerDuration);
@@ -116,26 +112,26 @@ LinkBenchTables runLinkBench(const LinkBenchPlan& plan, const LinkBenchProgress&
 
 std::string formatLinkBench(const LinkBenchTables& tables) {
   return formatRows(
-             tables.cells, [](const LinkBenchCell& c) { return fmt::format("{} ({:.2f} N): stable, mm, N", nameOf(c.object), c.force); },
-             [](const LinkBenchCell& c) { return fmt::format("{}/{} {:.2f} {:.2f}", c.stable, c.runs, 1e3 * c.apart, c.forceError); }) +
+             tables.cells, [](const auto& c) { return fmt::format("{} ({:.2f} N): stable, mm, N", nameOf(c.object), c.force); },
+             [](const auto& c) { return fmt::format("{}/{} {:.2f} {:.2f}", c.stable, c.runs, 1e3 * c.apart, c.forceError); }) +
          formatRows(
-             tables.shares, [](const LinkBenchShare& s) { return fmt::format("{}, random set-ups: stable, J, s above", nameOf(s.object)); },
-             [](const LinkBenchShare& s) {
-               return fmt::format("{:.1f} % {:.2f} {:.2f}", percentStable(s), s.ledgerWorst, s.ledgerDuration);
-             });
+             tables.shares, [](const auto& s) { return fmt::format("{}, random set-ups: stable, J, s above", nameOf(s.object)); },
+             [](const auto& s) { return fmt::format("{:.1f} % {:.2f} {:.2f}", percentStable(s), s.ledgerWorst, s.ledgerDuration); });
 }
 
 std::string linkBenchCsv(const LinkBenchTables& tables) {
   TableText table(',', "");
   table.row({"table", "object", "coupling", "round_trip_s", "runs", "stable", "apart_rms_m", "force_error_rms_n", "force_rms_n", "given_j",
              "ledger_excess_j", "ledger_excess_s"});
-  const auto add = [&](std::string_view name, const auto& row, std::initializer_list<double> values) {
-    table.cell(name).cell(nameOf(row.object)).cell("design").number(row.roundTrip).whole(row.runs).whole(row.stable);
-    for (const double value : values) table.number(value);
-    table.endRow();
+  const auto add = [&](std::string_view name, const Rows& rows) {
+    for (const LinkBenchRow& row : rows) {
+      table.cell(name).cell(nameOf(row.object)).cell("design").number(row.roundTrip).whole(row.runs).whole(row.stable);
+      for (const double value : {row.apart, row.forceError, row.force, row.given, row.ledgerWorst, row.ledgerDuration}) table.number(value);
+      table.endRow();
+    }
   };
-  for (const LinkBenchCell& c : tables.cells) add("seeds", c, {c.apart, c.forceError, c.force, c.given, kNone, kNone});
-  for (const LinkBenchShare& s : tables.shares) add("random", s, {kNone, kNone, kNone, kNone, s.ledgerWorst, s.ledgerDuration});
+  add("seeds", tables.cells);
+  add("random", tables.shares);
   return table.text();
 }
 
@@ -143,20 +139,18 @@ std::string linkBenchCsv(const LinkBenchTables& tables) {
 std::string drawLinkBench(const LinkBenchTables& tables) {
   figure::Figure page;
   page.columns = 2;
+  const auto whileStable = [](double LinkBenchRow::*value, double scale) {
+    return [=](const LinkBenchRow& c) { return c.stable == c.runs ? scale * c.*value : LinkBenchRow::kNone; };
+  };
   for (const SharedObject object : kSharedObjects) {
-    figure::Panel apart = panelOf(fmt::format("{}: copies apart", nameOf(object)), "RMS (mm)", figure::Scale::Log);
-    figure::Panel force = panelOf(fmt::format("{}: force", nameOf(object)), "Error, RMS (N)", figure::Scale::Log);
-    apart.series = {seriesOf(tables.cells, object, [](const LinkBenchCell& c) { return c.stable == c.runs ? 1e3 * c.apart : kNone; })};
-    force.series = {seriesOf(tables.cells, object, [](const LinkBenchCell& c) { return c.stable == c.runs ? c.forceError : kNone; })};
-    page.panels.push_back(std::move(apart));
-    page.panels.push_back(std::move(force));
+    page.panels.push_back(panelOf(object, "copies apart", "RMS (mm)", tables.cells, whileStable(&LinkBenchRow::apart, 1e3)));
+    page.panels.push_back(panelOf(object, "force", "Error, RMS (N)", tables.cells, whileStable(&LinkBenchRow::forceError, 1)));
   }
   if (tables.shares.empty()) return figure::renderSvg(page);
   for (const SharedObject object : kSharedObjects) {
-    figure::Panel share = panelOf(fmt::format("{}: random set-ups", nameOf(object)), "Stable (%)", figure::Scale::Linear);
+    figure::Panel& share = page.panels.emplace_back(panelOf(object, "random set-ups", "Stable (%)", tables.shares, percentStable));
+    share.y.scale = figure::Scale::Linear;
     share.y.from = 0, share.y.to = 100;
-    share.series = {seriesOf(tables.shares, object, percentStable)};
-    page.panels.push_back(std::move(share));
   }
   return figure::renderSvg(page);
 }

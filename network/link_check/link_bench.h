@@ -1,5 +1,6 @@
 #pragma once
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -16,30 +17,26 @@ struct LinkBenchPlan {
   std::uint64_t seed = 5;  // of the random set-ups
 };
 
-/// One object over one link, over the seeds. Means over the stable runs, or over all runs if no run is stable.
-struct LinkBenchCell {
+/// One object over one link: over the seeds, or over random set-ups. NaN: not a number of that table.
+struct LinkBenchRow {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   SharedObject object = SharedObject::Chain;
   double roundTrip = 0;  // [s]
   int stable = 0, runs = 0;
-  double apart = 0, forceError = 0, force = 0;  // [m], [N], [N]
-  double given = 0;                             // [J] the most
-};
-/// The same over random set-ups.
-struct LinkBenchShare {
-  SharedObject object = SharedObject::Chain;
-  double roundTrip = 0;  // [s]
-  int stable = 0, runs = 0;
-  double ledgerWorst = 0, ledgerDuration = 0;  // [J], [s] TwoHandsOutcome
+  // Over the seeds: means over the stable runs, or over all runs if no run is stable.
+  double apart = kNone, forceError = kNone, force = kNone;  // [m], [N], [N]
+  double given = kNone;                                     // [J] the most
+  // Over random set-ups.
+  double ledgerWorst = kNone, ledgerDuration = kNone;  // [J], [s] TwoHandsOutcome
 };
 struct LinkBenchTables {
-  std::vector<LinkBenchCell> cells;
-  std::vector<LinkBenchShare> shares;
+  std::vector<LinkBenchRow> cells, shares;  // over the seeds, over random set-ups
 };
 
 using LinkBenchProgress = std::function<void(const std::string& line)>;
 LinkBenchTables runLinkBench(const LinkBenchPlan& plan, const LinkBenchProgress& progress = {});
 /// Random set-ups of one kind over one link.
-LinkBenchShare runRandomSetups(const LinkBenchPlan& plan, SharedObject object, double roundTrip);
+LinkBenchRow runRandomSetups(const LinkBenchPlan& plan, SharedObject object, double roundTrip);
 
 std::string formatLinkBench(const LinkBenchTables& tables);  // for a terminal
 std::string linkBenchCsv(const LinkBenchTables& tables);     // one line per cell or share

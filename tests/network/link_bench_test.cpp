@@ -18,7 +18,7 @@ LinkBenchPlan planOf(double roundTrip) {
 // The bounds that the design asks of a link: half a millimetre at 50 ms, one and a half at 100. The hands are without noise.
 TEST(LinkBench, TheObjectIsStableAndItsCopiesKeepTogether) {
   for (const double roundTrip : {0.0, 0.05, 0.1})
-    for (const LinkBenchCell& c : runLinkBench(planOf(roundTrip)).cells) {
+    for (const LinkBenchRow& c : runLinkBench(planOf(roundTrip)).cells) {
       EXPECT_EQ(c.stable, c.runs) << nameOf(c.object) << roundTrip;
       EXPECT_LT(c.apart, roundTrip == 0 ? 1e-5 : roundTrip == 0.05 ? 5e-4 : 1.5e-3) << nameOf(c.object) << roundTrip;
       EXPECT_LT(c.forceError, 0.3 * c.force) << nameOf(c.object) << roundTrip;
@@ -47,7 +47,7 @@ TEST(RandomSetups, AreStableAndNoCopyHoldsMoreThanTheHandsPutIn) {
   LinkBenchPlan plan;
   plan.setups = 6;
   for (const SharedObject object : kSharedObjects) {
-    const LinkBenchShare share = runRandomSetups(plan, object, 0.1);
+    const LinkBenchRow share = runRandomSetups(plan, object, 0.1);
     EXPECT_GE(share.stable, 5) << nameOf(object);
     EXPECT_LT(share.ledgerDuration, 0.5) << nameOf(object) << " above " << kLedgerAmount << " J";
   }
@@ -57,7 +57,7 @@ LinkBenchTables twoTables() {
   LinkBenchTables tables;
   tables.cells = {{SharedObject::Chain, 0.25, 7, 8, 0.001220703125, 0.5, 4, 0.25},
                   {SharedObject::Chain, 0.125, 8, 8, 0.000244140625, 0.25, 4, 0.125}};
-  tables.shares = {{SharedObject::Chain, 0.25, 39, 40, 0.5, 0.75}};
+  tables.shares = {{.roundTrip = 0.25, .stable = 39, .runs = 40, .ledgerWorst = 0.5, .ledgerDuration = 0.75}};
   return tables;
 }
 
