@@ -6,7 +6,7 @@
 #include "analysis/figure/figure.h"
 #include "base/fault.h"
 #include "cli/commands/commands.h"
-#include "devices/virtual/stability_map.h"
+#include "devices/virtual/loop_stability.h"
 #include "sim/record/log/atomic_file.h"
 
 namespace reachlab::cli {

@@ -9,10 +9,10 @@
 
 #include "base/ticks.h"
 #include "devices/preflight/reach_demand.h"
-#include "devices/preflight/velocity_delay.h"
 #include "devices/virtual/loop_stability.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment.h"
+#include "sim/haptics/velocity_estimator.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::devices {
@@ -185,7 +185,7 @@ PreflightLine fieldPower(const CompiledExperiment& compiled, double curl, const 
   const Experiment& experiment = compiled.experiment();
   const trial::ProtocolSettings settings = trial::makeProtocolSettings(experiment, compiled.constraint());
   const double radius = norm(settings.target - settings.start) / 2, omega = std::numbers::pi / experiment.task->duration;
-  const double speed = omega * radius, delay = velocityDelay(experiment.velocityEstimator);
+  const double speed = omega * radius, delay = haptics::velocityDelay(experiment.velocityEstimator);
   const double friction = device.viscosity + kLightestHandDamping;
   PreflightLine line{"field_power", Verdict::Fine, curl * speed * speed * std::sin(omega * delay), friction * speed * speed, "W", {}, {}};
   line.sentence = fmt::format(
@@ -265,26 +265,25 @@ std::vector<PreflightLine> checkBeforeBlock(const CompiledExperiment& experiment
 
 namespace {
 
-std::vector<haptics::DeviceInfo> handsOf(haptics::HapticDevice& device) {
-  std::vector<haptics::DeviceInfo> hands;
-  for (const haptics::HapticDevice* hand : device.hands()) hands.push_back(hand->info());
-  return hands;
-}
-
-std::vector<PreflightLine> linesOf(const CompiledExperiment& experiment, const std::vector<haptics::DeviceInfo>& hands, std::size_t hand) {
-  std::vector<PreflightLine> lines = checkBeforeBlock(experiment, hands[hand], hand);
-  for (PreflightLine& line : lines) line.hand = hands.size() > 1 ? static_cast<int>(hand) + 1 : 0;
-  return lines;
+// Of every hand, or of those that feel a force.
+std::vector<PreflightLine> linesOf(const CompiledExperiment& experiment, haptics::HapticDevice& device, bool feltOnly) {
+  const std::vector<haptics::HapticDevice*> hands = device.hands();
+  std::vector<PreflightLine> all;
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    const haptics::DeviceInfo info = hands[i]->info();
+    if (feltOnly && !info.rendersForce) continue;
+    for (PreflightLine& line : checkBeforeBlock(experiment, info, i)) {
+      line.hand = hands.size() > 1 ? static_cast<int>(i) + 1 : 0;
+      all.push_back(std::move(line));
+    }
+  }
+  return all;
 }
 
 }  // namespace
 
 std::vector<PreflightLine> checkBeforeBlock(const CompiledExperiment& experiment, haptics::HapticDevice& device) {
-  const auto hands = handsOf(device);
-  std::vector<PreflightLine> all;
-  for (std::size_t i = 0; i < hands.size(); ++i)
-    for (PreflightLine& line : linesOf(experiment, hands, i)) all.push_back(std::move(line));
-  return all;
+  return linesOf(experiment, device, false);
 }
 
 std::string describe(const PreflightLine& line) {
@@ -294,23 +293,15 @@ std::string describe(const PreflightLine& line) {
                      line.remedy.empty() ? "" : "; what helps: " + line.remedy);
 }
 
-std::vector<std::string> warningsBeforeBlock(const CompiledExperiment& experiment, haptics::HapticDevice& device) {
-  std::vector<std::string> warnings;
-  if (!experiment.experiment().task) return warnings;
-  const auto hands = handsOf(device);
-  for (std::size_t i = 0; i < hands.size(); ++i) {
-    if (!hands[i].rendersForce) continue;
-    for (const PreflightLine& line : linesOf(experiment, hands, i))
-      if (line.verdict == Verdict::Warning) warnings.push_back(describe(line));
-  }
-  return warnings;
-}
-
 std::vector<std::string> warningsBeforeBlock(std::span<const CompiledExperiment> scenes, haptics::HapticDevice& device) {
   std::vector<std::string> warnings;
-  for (const CompiledExperiment& scene : scenes)
-    for (std::string& sentence : warningsBeforeBlock(scene, device))
-      if (std::find(warnings.begin(), warnings.end(), sentence) == warnings.end()) warnings.push_back(std::move(sentence));
+  for (const CompiledExperiment& scene : scenes) {
+    if (!scene.experiment().task) continue;
+    for (const PreflightLine& line : linesOf(scene, device, true))
+      if (std::string sentence = describe(line);
+          line.verdict == Verdict::Warning && std::find(warnings.begin(), warnings.end(), sentence) == warnings.end())
+        warnings.push_back(std::move(sentence));
+  }
   return warnings;
 }
 

@@ -50,9 +50,7 @@ std::vector<PreflightLine> checkBeforeBlock(const experiment::CompiledExperiment
 
 /// One sentence for a row that is not fine, with its remedy: "peak force: …; …", "hand 2: peak force: …; …".
 std::string describe(const PreflightLine& line);
-/// The messages before a run, as sentences: the warnings of those hands that feel a force. Empty without a task.
-std::vector<std::string> warningsBeforeBlock(const experiment::CompiledExperiment& experiment, haptics::HapticDevice& device);
-/// The same of all scenes of a block, each sentence once.
+/// The messages before a block of these scenes, each sentence once: the warnings of those hands that feel a force. Empty without a task.
 std::vector<std::string> warningsBeforeBlock(std::span<const experiment::CompiledExperiment> scenes, haptics::HapticDevice& device);
 
 }  // namespace reachlab::devices

@@ -121,4 +121,14 @@ Vec3 VelocityEstimator::estimate(const DeviceSample& sample) noexcept {
   return filter(difference);
 }
 
+double velocityDelay(const experiment::VelocityEstimatorSpec& spec) {
+  constexpr double kDifference = kTickSeconds / 2;
+  const double ofCutoff = 1 / (2 * std::numbers::pi * spec.cutoff);
+  if (spec.kind == "device" || spec.kind == "kalman") return 0;
+  if (spec.kind == "difference") return kDifference;
+  if (spec.kind == "low-pass") return kDifference + ofCutoff;
+  if (spec.kind == "adaptive-window") return VelocityEstimator::kMaxWindowDuration * kTickSeconds / 2;
+  return kDifference + std::numbers::sqrt2 * ofCutoff;
+}
+
 }  // namespace reachlab::haptics

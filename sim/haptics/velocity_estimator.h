@@ -49,4 +49,8 @@ class VelocityEstimator {
   int count_ = 0;  // samples since the last reset, counts on modulo the window
 };
 
+/// The delay [s] of the estimate of a slow movement, as the filters state it, with the half tick of a difference. `auto` counts as butterworth,
+/// its value for a device that measures no velocity. The adaptive window counts with half of its longest length. Any thread.
+double velocityDelay(const experiment::VelocityEstimatorSpec& spec);
+
 }  // namespace reachlab::haptics

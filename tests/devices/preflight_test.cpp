@@ -24,6 +24,10 @@ std::vector<PreflightLine> check(const experiment::Experiment& experiment, const
   return checkBeforeBlock(experiment::CompiledExperiment(experiment), info);
 }
 
+std::vector<std::string> warnings(const experiment::CompiledExperiment& scene, haptics::HapticDevice& device) {
+  return warningsBeforeBlock(std::span(&scene, 1), device);
+}
+
 PreflightLine lineOf(const std::vector<PreflightLine>& lines, const std::string& name) {
   for (const PreflightLine& line : lines)
     if (line.name == name) return line;
@@ -120,10 +124,10 @@ TEST(Preflight, EachOfTwoHandsIsHeldAgainstItsOwnDevice) {
   EXPECT_EQ(lines[0].limit, 37.5);
   EXPECT_EQ(lines[5].hand, 2);
   EXPECT_EQ(lines[5].limit, 3.3);
-  const std::vector<std::string> weak = warningsBeforeBlock(both, *makeDevice("virtual:highforce + virtual:omni,arm-mass=1", both, 1));
+  const std::vector<std::string> weak = warnings(both, *makeDevice("virtual:highforce + virtual:omni,arm-mass=1", both, 1));
   ASSERT_FALSE(weak.empty());
   for (const std::string& sentence : weak) EXPECT_TRUE(sentence.starts_with("hand 2: ")) << sentence;
-  EXPECT_TRUE(warningsBeforeBlock(both, *makeDevice("simulated + simulated", both, 1)).empty()) << "they feel nothing";
+  EXPECT_TRUE(warnings(both, *makeDevice("simulated + simulated", both, 1)).empty()) << "they feel nothing";
 }
 
 // In parallel-two-hands the second hand's springs are the first one's the other way round, here made ten times stiffer.
@@ -300,7 +304,7 @@ TEST(Preflight, TheStiffnessIsWhatTheHandFeelsOfAllItsSprings) {
   for (const double k : e.object.stiffness) stiffness += k;
   ASSERT_FALSE(e.coupling);
   EXPECT_EQ(lineOf(check(e, plainDevice()), "stability").asked, stiffness);
-  EXPECT_TRUE(warningsBeforeBlock(experiment::CompiledExperiment(e), *makeDevice("simulated", e, 1)).empty());
+  EXPECT_TRUE(warnings(experiment::CompiledExperiment(e), *makeDevice("simulated", e, 1)).empty());
 }
 
 experiment::Experiment reachUnder(const experiment::Environment& environment) {

@@ -11,7 +11,6 @@
 #include "devices/driver/registry.h"
 #include "devices/make_device.h"
 #include "devices/virtual/loop_stability.h"
-#include "devices/virtual/stability_map.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/run_conductor.h"

@@ -1,4 +1,4 @@
-#include "devices/preflight/velocity_delay.h"
+#include "sim/haptics/velocity_estimator.h"
 
 #include <gtest/gtest.h>
 
@@ -6,20 +6,19 @@
 #include <numbers>
 
 #include "base/ticks.h"
-#include "sim/haptics/velocity_estimator.h"
 
-namespace reachlab::devices {
+namespace reachlab::haptics {
 namespace {
 
 /// The delay of the estimate of a hand on a circle, from its phase against the true velocity.
 double measuredDelay(const experiment::VelocityEstimatorSpec& spec, double hertz) {
   const double omega = 2 * std::numbers::pi * hertz;
-  haptics::VelocityEstimator estimator(spec);
+  VelocityEstimator estimator(spec);
   double sine = 0, cosine = 0;
   const int turns = 3, ticks = static_cast<int>(std::lround(turns / (hertz * kTickSeconds)));
   for (int i = 0; i <= 2 * ticks; ++i) {
     const double t = i * kTickSeconds;
-    haptics::DeviceSample sample;
+    DeviceSample sample;
     sample.position = {0.1 * std::cos(omega * t), 0.1 * std::sin(omega * t), 0};
     const Vec3 v = estimator.estimate(sample);
     if (i < ticks) continue;  // settles
@@ -51,4 +50,4 @@ TEST(VelocityDelay, AnAdaptiveWindowHasAtMostHalfOfItsLongest) {
 }
 
 }  // namespace
-}  // namespace reachlab::devices
+}  // namespace reachlab::haptics
