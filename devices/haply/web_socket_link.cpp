@@ -32,21 +32,18 @@ class WebSocketLink final : public MessageLink {
     const auto ends = resolver.resolve(host, std::to_string(port), fault);
     if (fault) throw ResourceError(fmt::format("{}: {}", where, fault.message()));
     auto& tcp = beast::get_lowest_layer(socket_);
-    wait(kConnectPatience, fault,
-         [&](auto&& done) { tcp.async_connect(ends, [done](beast::error_code code, const asio::ip::tcp::endpoint&) { done(code); }); });
+    wait(kConnectPatience, fault, [&](auto&& done) { tcp.async_connect(ends, done); });
     if (fault) throw ResourceError(fmt::format("{}: {}", where, fault.message()));
     tcp.socket().set_option(asio::ip::tcp::no_delay(true), fault);
     socket_.read_message_max(kLargestMessage);
-    wait(kConnectPatience, fault, [&](auto&& done) { socket_.async_handshake(host, "/", [done](beast::error_code code) { done(code); }); });
+    wait(kConnectPatience, fault, [&](auto&& done) { socket_.async_handshake(host, "/", done); });
     if (fault) throw ResourceError(fmt::format("{}: answers, but not as a websocket: {}", where, fault.message()));
     socket_.text(true);
   }
 
   ~WebSocketLink() override {
     beast::error_code ignored;
-    if (!gone_)
-      wait(kClosePatience, ignored,
-           [&](auto&& done) { socket_.async_close(beast::websocket::close_code::normal, [done](beast::error_code code) { done(code); }); });
+    if (!gone_) wait(kClosePatience, ignored, [&](auto&& done) { socket_.async_close(beast::websocket::close_code::normal, done); });
     beast::get_lowest_layer(socket_).socket().close(ignored);
     io_.restart();
     io_.run_for(kClosePatience);  // what was begun ends with the socket closed, before its buffers go
@@ -56,8 +53,7 @@ class WebSocketLink final : public MessageLink {
     if (gone_) return false;
     sending_.assign(message);
     beast::error_code fault;
-    wait(kSendPatience, fault,
-         [&](auto&& done) { socket_.async_write(asio::buffer(sending_), [done](beast::error_code code, std::size_t) { done(code); }); });
+    wait(kSendPatience, fault, [&](auto&& done) { socket_.async_write(asio::buffer(sending_), done); });
     if (fault) lose(fault);
     return !gone_;
   } catch (const std::exception& error) {
@@ -103,7 +99,7 @@ class WebSocketLink final : public MessageLink {
   void wait(milliseconds patience, beast::error_code& fault, Begin&& begin) {
     auto done = std::make_shared<bool>(false);
     auto result = std::make_shared<beast::error_code>();
-    begin([done, result](beast::error_code code) {
+    begin([done, result](beast::error_code code, const auto&... /*what else an operation tells*/) {
       *result = code;
       *done = true;
     });

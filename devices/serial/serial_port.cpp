@@ -21,25 +21,13 @@ namespace {
 class SerialPort final : public MessageLink {
  public:
   explicit SerialPort(const std::string& path) : file_(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
-    if (file_ < 0) {
-      const int error = errno;
-      throw ResourceError(fmt::format("{}: {}{}", path, std::strerror(error),
-                                      error == EACCES ? "; install packaging/udev/70-reachlab.rules and plug it in again" : ""));
-    }
+    if (file_ < 0) refuse(path, "", errno == EACCES ? "; install packaging/udev/70-reachlab.rules and plug it in again" : "");
     termios line{};
-    if (::tcgetattr(file_, &line) != 0) {
-      const int error = errno;
-      ::close(file_);
-      throw ResourceError(fmt::format("{}: is no serial line: {}", path, std::strerror(error)));
-    }
+    if (::tcgetattr(file_, &line) != 0) refuse(path, "is no serial line: ");
     ::cfmakeraw(&line);
     ::cfsetspeed(&line, B115200);
     line.c_cflag |= CLOCAL | CREAD;
-    if (::tcsetattr(file_, TCSANOW, &line) != 0) {
-      const int error = errno;
-      ::close(file_);
-      throw ResourceError(fmt::format("{}: cannot be set to 115200 baud, raw: {}", path, std::strerror(error)));
-    }
+    if (::tcsetattr(file_, TCSANOW, &line) != 0) refuse(path, "cannot be set to 115200 baud, raw: ");
     ::tcflush(file_, TCIOFLUSH);
     serial_struct driver{};  // some drivers gather bytes for 16 ms unless told otherwise; one that does not know the wish needs none
     if (::ioctl(file_, TIOCGSERIAL, &driver) == 0) {
@@ -93,6 +81,11 @@ class SerialPort final : public MessageLink {
   std::string fault() const override { return std::strerror(fault_); }
 
  private:
+  [[noreturn]] void refuse(const std::string& path, const char* what, const char* remedy = "") const {
+    const int error = errno;
+    if (file_ >= 0) ::close(file_);
+    throw ResourceError(fmt::format("{}: {}{}{}", path, what, std::strerror(error), remedy));
+  }
   bool lose(int error) noexcept {
     fault_ = error;
     return false;

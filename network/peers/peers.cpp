@@ -14,6 +14,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cstring>
 #include <ctime>
@@ -40,6 +41,8 @@ using Certificate = std::unique_ptr<X509, Freed<X509_free>>;
 using Request = std::unique_ptr<X509_REQ, Freed<X509_REQ_free>>;
 using Bio = std::unique_ptr<BIO, Freed<BIO_free_all>>;
 using Signed = std::unique_ptr<PKCS7, Freed<PKCS7_free>>;
+
+constexpr long kDay = 86400;  // [s]
 
 [[noreturn]] void fail(const std::string& what) {
   const unsigned long code = ERR_get_error();
@@ -72,21 +75,31 @@ Bio openForReading(const std::string& path) {
 }
 
 Key makeKey() { return Key(need(EVP_EC_gen("P-256"), "a key cannot be made")); }
+/// `write` is called with the open file and returns 1 if it was written.
+template <class Write>
+void writeNew(const std::string& path, bool secret, Write&& write) {
+  const Bio out = openForWriting(path, secret);
+  if (write(out.get()) != 1) fail(path);
+}
 void writeKey(const Key& key, const std::string& path) {
-  const Bio out = openForWriting(path, true);
-  if (PEM_write_bio_PrivateKey(out.get(), key.get(), nullptr, nullptr, 0, nullptr, nullptr) != 1) fail(path);
+  writeNew(path, true, [&](BIO* out) { return PEM_write_bio_PrivateKey(out, key.get(), nullptr, nullptr, 0, nullptr, nullptr); });
 }
 Key readKey(const std::string& path) {
   const Bio in = openForReading(path);
   return Key(need(PEM_read_bio_PrivateKey(in.get(), nullptr, nullptr, nullptr), path + ": is no key"));
 }
 void writeCertificate(const Certificate& certificate, const std::string& path) {
-  const Bio out = openForWriting(path, false);
-  if (PEM_write_bio_X509(out.get(), certificate.get()) != 1) fail(path);
+  writeNew(path, false, [&](BIO* out) { return PEM_write_bio_X509(out, certificate.get()); });
 }
 Certificate readCertificate(const std::string& path) {
   const Bio in = openForReading(path);
   return Certificate(need(PEM_read_bio_X509(in.get(), nullptr, nullptr, nullptr), path + ": is no certificate"));
+}
+
+/// Null when the file holds no request.
+Request readRequest(const std::string& path) {
+  const Bio in = openForReading(path);
+  return Request(PEM_read_bio_X509_REQ(in.get(), nullptr, nullptr, nullptr));
 }
 
 std::string commonName(const X509_NAME* subject) {
@@ -97,8 +110,7 @@ std::string commonName(const X509_NAME* subject) {
 
 /// Of a name that has no entries yet.
 void setCommonName(X509_NAME* subject, const std::string& name) {
-  constexpr int kToItsEnd = -1;
-  constexpr int kAsTheLast = -1;
+  constexpr int kToItsEnd = -1, kAsTheLast = -1;
   X509_NAME_add_entry_by_txt(subject, "CN", MBSTRING_UTF8, reinterpret_cast<const unsigned char*>(name.c_str()), kToItsEnd, kAsTheLast, 0);
 }
 
@@ -110,7 +122,6 @@ Certificate makeCertificate(const std::string& name, const Key& key, const X509*
   std::uint64_t serial = 0;
   RAND_bytes(reinterpret_cast<unsigned char*>(&serial), sizeof serial);
   ASN1_INTEGER_set_uint64(X509_get_serialNumber(certificate), serial >> 1);
-  constexpr long kDay = 86400;
   X509_gmtime_adj(X509_getm_notBefore(certificate), -kDay);
   X509_gmtime_adj(X509_getm_notAfter(certificate), kDay * days);
   // Nobody accepts a certificate beyond its authority's last day.
@@ -138,8 +149,7 @@ void writeSigned(const std::string& document, const Certificate& signer, const K
   const Bio text(need(BIO_new_mem_buf(document.data(), static_cast<int>(document.size())), path));
   constexpr int kFlags = PKCS7_TEXT | PKCS7_DETACHED | PKCS7_STREAM;
   const Signed made(need(PKCS7_sign(signer.get(), key.get(), nullptr, text.get(), kFlags), path + ": cannot be signed"));
-  const Bio out = openForWriting(path, false);
-  if (SMIME_write_PKCS7(out.get(), made.get(), text.get(), kFlags) != 1) fail(path);
+  writeNew(path, false, [&](BIO* out) { return SMIME_write_PKCS7(out, made.get(), text.get(), kFlags); });
 }
 
 /// The text of a signed document, or nothing if `signer` did not sign it.
@@ -187,7 +197,6 @@ constexpr const char* kGovernance = R"(<?xml version="1.0" encoding="utf-8"?>
 std::string grantTo(const std::string& name) { return fmt::format("<subject_name>CN={}</subject_name>", name); }
 std::string permissionsOf(const std::string& name, int days) {
   const std::time_t now = std::time(nullptr);
-  constexpr std::time_t kDay = 86400;
   const auto at = [](std::time_t time) { return fmt::format("{:%Y-%m-%dT%H:%M:%S}", fmt::gmtime(time)); };
   return fmt::format(R"(<?xml version="1.0" encoding="utf-8"?>
 <dds xmlns:xsi="http://www.w3.org/2001/XMLSchema-instance" xsi:noNamespaceSchemaLocation="http://www.omg.org/spec/DDS-SECURITY/20170901/omg_shared_ca_permissions.xsd">
@@ -275,9 +284,7 @@ PeerFolder lookAt(const std::string& folder, bool needsKey) {
       if (has("permissions_ca.pem") && has("governance.p7s") && has("permissions.p7s"))
         if (const std::string fault = documentsFault(folder, found.name); !fault.empty()) found.fault = fault;
     } else if (has("request.pem")) {
-      const Bio in = openForReading(folder + "/request.pem");
-      const Request request(PEM_read_bio_X509_REQ(in.get(), nullptr, nullptr, nullptr));
-      if (request) found.name = commonName(X509_REQ_get_subject_name(request.get()));
+      if (const Request request = readRequest(folder + "/request.pem")) found.name = commonName(X509_REQ_get_subject_name(request.get()));
       found.fault = "waits for the conductor's answer to request.pem";
     } else {
       found.fault = "holds no certificate";
@@ -285,8 +292,8 @@ PeerFolder lookAt(const std::string& folder, bool needsKey) {
   } catch (const Error& error_) {
     found.fault = error_.what();
   }
-  found.complete = has("identity.pem") && has("identity_ca.pem") && has("permissions_ca.pem") && has("governance.p7s") &&
-                   has("permissions.p7s") && (!needsKey || has("key.pem"));
+  constexpr std::array kAnswer{"identity.pem", "identity_ca.pem", "permissions_ca.pem", "governance.p7s", "permissions.p7s"};
+  found.complete = std::all_of(kAnswer.begin(), kAnswer.end(), has) && (!needsKey || has("key.pem"));
   struct stat status {};
   if (needsKey && ::stat((folder + "/key.pem").c_str(), &status) == 0 && (status.st_mode & 077) != 0)
     found.fault = "others may read its key.pem";
@@ -321,14 +328,12 @@ void initStation(const std::string& folder, const std::string& name) {
   X509_REQ_set_pubkey(request.get(), key.get());
   if (X509_REQ_sign(request.get(), key.get(), EVP_sha256()) == 0) fail("a request cannot be signed");
   writeKey(key, folder + "/key.pem");
-  const Bio out = openForWriting(folder + "/request.pem", false);
-  if (PEM_write_bio_X509_REQ(out.get(), request.get()) != 1) fail(folder + "/request.pem");
+  writeNew(folder + "/request.pem", false, [&](BIO* out) { return PEM_write_bio_X509_REQ(out, request.get()); });
 }
 
 std::string addStation(const std::string& folder, const std::string& requestFile, const PeersOptions& options) {
   const Authorities by = readAuthorities(folder);
-  const Bio in = openForReading(requestFile);
-  const Request request(PEM_read_bio_X509_REQ(in.get(), nullptr, nullptr, nullptr));
+  const Request request = readRequest(requestFile);
   if (!request) throw FaultError(Fault{"request", "is none", "a station's request.pem", FilePlace{requestFile}});
   const Key key(X509_REQ_get_pubkey(request.get()));
   if (!key || X509_REQ_verify(request.get(), key.get()) != 1)
