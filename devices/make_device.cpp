@@ -18,6 +18,9 @@ namespace {
 
 struct Spec {
   std::string name, argument;
+  std::string words() const { return "device " + name; }
+  // What a replayed file is called is its own business.
+  bool takesHandSettings() const { return name != "replay"; }
 };
 Spec parse(const std::string& spec) {
   const std::size_t colon = spec.find(':');
@@ -29,32 +32,32 @@ Spec parse(const std::string& spec) {
 
 constexpr std::uint64_t kOfAHand = 0x68616e64;
 
-// What a replayed file is called is its own business.
-bool takesHandSettings(const Spec& asked) { return asked.name != "replay"; }
+/// For what devices are made.
+struct Block {
+  std::span<const experiment::CompiledExperiment> scenes;
+  std::uint64_t seed = 0;
+  std::shared_ptr<void>* learnt = nullptr;
+};
 
 // What a virtual person learns in one scene is kept for the next.
-std::unique_ptr<haptics::HapticDevice> makeInScenes(const DeviceDriver& driver, const std::string& name, const std::string& argument,
-                                                    std::span<const experiment::CompiledExperiment> scenes, std::uint64_t seed,
-                                                    std::shared_ptr<void>* kept) {
+std::unique_ptr<haptics::HapticDevice> makeInScenes(const DeviceDriver& driver, const Spec& asked, const Block& block) {
   std::shared_ptr<void> ofBlock;
-  std::shared_ptr<void>* learnt = kept != nullptr && scenes.size() > 1 ? kept : &ofBlock;
+  std::shared_ptr<void>* learnt = block.learnt != nullptr && block.scenes.size() > 1 ? block.learnt : &ofBlock;
   std::vector<std::unique_ptr<haptics::HapticDevice>> hands;
-  for (const experiment::CompiledExperiment& scene : scenes) {
-    hands.push_back(driver.make({name, argument, scene, seed, learnt}));
-    if (scenes.size() == 1 || !hands.front()->info().virtualHand) return std::move(hands.front());
+  for (const experiment::CompiledExperiment& scene : block.scenes) {
+    hands.push_back(driver.make({asked.name, asked.argument, scene, block.seed, learnt}));
+    if (block.scenes.size() == 1 || !hands.front()->info().virtualHand) return std::move(hands.front());
   }
   return subjects::joinScenes(std::move(hands));
 }
 
-std::unique_ptr<haptics::HapticDevice> makeBy(const DeviceDriver& driver, const Spec& asked,
-                                              std::span<const experiment::CompiledExperiment> scenes, std::uint64_t seed,
-                                              std::shared_ptr<void>* learnt) {
-  if (!takesHandSettings(asked)) return makeInScenes(driver, asked.name, asked.argument, scenes, seed, learnt);
-  DeviceOptions options(asked.argument, "device " + asked.name);
+std::unique_ptr<haptics::HapticDevice> makeBy(const DeviceDriver& driver, const Spec& asked, const Block& block) {
+  if (!asked.takesHandSettings()) return makeInScenes(driver, asked, block);
+  DeviceOptions options(asked.argument, asked.words());
   const HandSettings hand = takeHandSettings(options);
-  if (!hand.any()) return makeInScenes(driver, asked.name, asked.argument, scenes, seed, learnt);
+  if (!hand.any()) return makeInScenes(driver, asked, block);
   const std::string rest = options.rest(), argument = options.plain() + (options.plain().empty() || rest.empty() ? "" : ",") + rest;
-  return guardDevice(makeInScenes(driver, asked.name, argument, scenes, seed, learnt), hand);
+  return guardDevice(makeInScenes(driver, {asked.name, argument}, block), hand);
 }
 
 // Only the first hand's device may be the clock; another one that could be is sampled, unless it is told how.
@@ -63,16 +66,14 @@ Spec sampled(const Spec& asked) {
   return {asked.name, asked.argument + ",clock=computer"};
 }
 
-std::unique_ptr<haptics::HapticDevice> makeHand(const std::string& spec, std::span<const experiment::CompiledExperiment> scenes,
-                                                std::uint64_t seed, bool first, std::shared_ptr<void>* learnt) {
+std::unique_ptr<haptics::HapticDevice> makeHand(const std::string& spec, const Block& block, bool first) {
   const Spec asked = parse(spec);
   if (const DeviceDriver* driver = findDriver(asked.name)) {
-    const std::string words = "device " + asked.name;
     try {
-      return makeBy(*driver, first ? asked : sampled(asked), scenes, seed, learnt);
+      return makeBy(*driver, first ? asked : sampled(asked), block);
     } catch (const ResourceError& error) {  // a loader's or a system's own words do not say what was asked for
-      if (std::string_view(error.what()).starts_with(words)) throw;
-      throw ResourceError(words + ": " + error.what());
+      if (std::string_view(error.what()).starts_with(asked.words())) throw;
+      throw ResourceError(asked.words() + ": " + error.what());
     }
   }
   std::vector<std::string> known;
@@ -84,7 +85,7 @@ std::unique_ptr<haptics::HapticDevice> makeHand(const std::string& spec, std::sp
 
 // Before anything is opened: two threads would tell one device two forces.
 void requireTheirOwn(const std::vector<std::string>& hands) {
-  const auto nameOf = [](const Spec& asked) { return DeviceOptions(asked.argument, "device " + asked.name).plain(); };
+  const auto nameOf = [](const Spec& asked) { return DeviceOptions(asked.argument, asked.words()).plain(); };
   for (std::size_t i = 0; i < hands.size(); ++i) {
     const Spec one = parse(hands[i]);
     const DeviceDriver* driver = findDriver(one.name);
@@ -108,12 +109,12 @@ std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, std::span<const experiment::CompiledExperiment> scenes,
                                                   std::uint64_t seed, std::shared_ptr<void>* learnt) {
   const std::vector<std::string> hands = splitHands(spec);
-  if (hands.size() == 1) return makeHand(spec, scenes, seed, true, learnt);
+  if (hands.size() == 1) return makeHand(spec, {scenes, seed, learnt}, true);
   requireTheirOwn(hands);
   std::vector<std::unique_ptr<haptics::HapticDevice>> all;
   // Two subjects of one seed would move alike.
   for (std::size_t i = 0; i < hands.size(); ++i)
-    all.push_back(makeHand(hands[i], scenes, i == 0 ? seed : seededBits(seed, kOfAHand + i), i == 0, nullptr));
+    all.push_back(makeHand(hands[i], {scenes, i == 0 ? seed : seededBits(seed, kOfAHand + i)}, i == 0));
   return joinDevices(std::move(all));
 }
 
@@ -123,19 +124,17 @@ std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const
 
 HandSettings handSettingsOf(const std::string& spec) {
   const Spec asked = parse(spec);
-  if (!takesHandSettings(asked)) return {};
-  DeviceOptions options(asked.argument, "device " + asked.name);
+  if (!asked.takesHandSettings()) return {};
+  DeviceOptions options(asked.argument, asked.words());
   return takeHandSettings(options);
 }
 
 int trialsOnOffer(const std::string& spec) {
-  if (const std::vector<std::string> hands = splitHands(spec); hands.size() > 1) {
-    int most = 1;
-    for (const std::string& hand : hands) most = std::max(most, trialsOnOffer(hand));
-    return most;
-  }
-  const Spec asked = parse(spec);
-  return asked.name == "replay" && !asked.argument.empty() ? static_cast<int>(readReaches(reachSourceOf(asked.argument)).size()) : 1;
+  std::size_t most = 1;
+  for (const std::string& hand : splitHands(spec))
+    if (const Spec asked = parse(hand); asked.name == "replay" && !asked.argument.empty())
+      most = std::max(most, readReaches(reachSourceOf(asked.argument)).size());
+  return static_cast<int>(most);
 }
 
 }  // namespace reachlab::devices
