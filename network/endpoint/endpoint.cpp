@@ -119,24 +119,18 @@ struct TopicEnds {
   }
 };
 
-dds_qos_t* stateQos() {
+dds_qos_t* makeQos(dds_reliability_kind_t reliability, dds_history_kind_t history, int depth) {
   dds_qos_t* qos = dds_create_qos();
-  dds_qset_reliability(qos, DDS_RELIABILITY_BEST_EFFORT, 0);
-  // A reader holds one instance for all: what several stations send between two rounds must fit.
-  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 32);
+  dds_qset_reliability(qos, reliability, reliability == DDS_RELIABILITY_RELIABLE ? DDS_MSECS(100) : 0);
+  dds_qset_history(qos, history, depth);
   return qos;
 }
-dds_qos_t* reliableQos() {
-  dds_qos_t* qos = dds_create_qos();
-  dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(100));
+// A reader holds one instance for all: what several stations send between two rounds must fit.
+dds_qos_t* stateQos() { return makeQos(DDS_RELIABILITY_BEST_EFFORT, DDS_HISTORY_KEEP_LAST, 32); }
+dds_qos_t* cardQos() { return makeQos(DDS_RELIABILITY_RELIABLE, DDS_HISTORY_KEEP_LAST, 16); }
+dds_qos_t* eventQos() {
+  dds_qos_t* qos = makeQos(DDS_RELIABILITY_RELIABLE, DDS_HISTORY_KEEP_ALL, 0);
   dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
-  dds_qset_history(qos, DDS_HISTORY_KEEP_ALL, 0);
-  return qos;
-}
-dds_qos_t* cardQos() {
-  dds_qos_t* qos = dds_create_qos();
-  dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_MSECS(100));
-  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 16);
   return qos;
 }
 
@@ -151,7 +145,7 @@ class Endpoint {
   Endpoint(LinkMemory& memory, dds_entity_t participant)
       : own_(memory.settings.card), memory_(memory), states_(participant, reach_State_desc, "reach_state", qos(stateQos())),
         probes_(participant, reach_Probe_desc, "reach_probe", qos(stateQos())),
-        events_(participant, reach_Event_desc, "reach_event", qos(reliableQos())),
+        events_(participant, reach_Event_desc, "reach_event", qos(eventQos())),
         cards_(participant, reach_Card_desc, "reach_station", qos(cardQos())), statistics_(dds_create_statistics(states_.reader)) {}
   ~Endpoint() {
     dds_delete_statistics(statistics_);
