@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/system/triple_buffer.h"
 #include "devices/make_device.h"
 #include "sim/haptics/device_watch.h"
 #include "sim/haptics/run_sink.h"
@@ -21,9 +22,10 @@ class LiveDevice::Intervals final : public haptics::RunSink {
     if (count > 0) {
       const double seconds = static_cast<double>(now - beforeNs_) * 1e-9 / static_cast<double>(count);
       const auto bin = static_cast<std::size_t>(std::clamp(seconds / kBinSeconds, 0.0, static_cast<double>(kBins - 1)));
-      bins_[bin].store(bins_[bin].load(std::memory_order_relaxed) + count, std::memory_order_relaxed);
-      total_.store(total_.load(std::memory_order_relaxed) + count, std::memory_order_relaxed);
-      ns_.store(ns_.load(std::memory_order_relaxed) + (now - beforeNs_), std::memory_order_relaxed);
+      counts_.between[bin] += count;
+      counts_.reports += count;
+      counts_.ns += now - beforeNs_;
+      told_.publish(counts_);
     }
     before_ = came;
     beforeNs_ = now;
@@ -31,19 +33,24 @@ class LiveDevice::Intervals final : public haptics::RunSink {
   }
   std::uint32_t massesEvery() const noexcept override { return 0; }
 
-  void fill(View& view) const {
-    for (std::size_t i = 0; i < kBins; ++i) view.between[i] = bins_[i].load(std::memory_order_relaxed);
-    view.reports = total_.load(std::memory_order_relaxed);
-    const double seconds = static_cast<double>(ns_.load(std::memory_order_relaxed)) * 1e-9;
-    view.rate = seconds > 0 ? static_cast<double>(view.reports) / seconds : 0;
+  void fill(View& view) {
+    if (const Counts* newest = told_.takeLatest()) known_ = *newest;
+    view.between = known_.between;
+    view.reports = known_.reports;
+    view.rate = known_.ns > 0 ? static_cast<double>(known_.reports) / (static_cast<double>(known_.ns) * 1e-9) : 0;
   }
 
  private:
+  struct Counts {
+    std::array<std::uint64_t, kBins> between{};
+    std::uint64_t reports = 0;
+    std::int64_t ns = 0;  // in which they came
+  };
   std::uint64_t before_ = 0;  // the haptic thread's
   std::int64_t beforeNs_ = 0;
-  std::array<std::atomic<std::uint64_t>, kBins> bins_{};
-  std::atomic<std::uint64_t> total_{0};
-  std::atomic<std::int64_t> ns_{0};
+  Counts counts_;
+  TripleBuffer<Counts> told_;
+  Counts known_;  // the controlling thread's
 };
 
 LiveDevice::LiveDevice(const std::string& spec, const experiment::CompiledExperiment& experiment)

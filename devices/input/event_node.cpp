@@ -80,21 +80,15 @@ std::vector<TabletNode> findTablets(const std::string& folder) {
 std::vector<TabletNode> (*listTablets)() = [] { return findTablets("/dev/input"); };
 
 bool PenState::take(const input_event& event) noexcept {
-  if (event.type == EV_ABS && (event.code == ABS_X || event.code == ABS_Y)) {
-    Axis& axis = event.code == ABS_X ? x_ : y_;
-    axis.value = event.value;
-    axis.told = true;
-  }
+  if (event.type == EV_ABS && (event.code == ABS_X || event.code == ABS_Y)) (event.code == ABS_X ? x_ : y_) = event.value;
   if (event.type == EV_KEY && event.code == BTN_TOOL_PEN) near_ = event.value != 0;
   if (event.type == EV_KEY && event.code == BTN_TOUCH) touching_ = event.value != 0;
   return event.type == EV_SYN && event.code == SYN_REPORT;
 }
 
-bool PenState::position(double& x, double& y) const noexcept {
-  if (!near_ || !x_.told || !y_.told) return false;
-  x = x_.share();
-  y = -y_.share();
-  return true;
+std::optional<Vec3> PenState::position() const noexcept {
+  if (!near_ || !x_ || !y_) return std::nullopt;
+  return Vec3{rangeX_.share(*x_), -rangeY_.share(*y_), 0};
 }
 
 InputPort::InputPort(const std::string& path) : file_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {

@@ -3,9 +3,12 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
+
+#include "base/math/vec3.h"
 
 /// Tablets as the kernel lists them (/dev/input/event*, linux/input.h).
 namespace reachlab::devices {
@@ -32,23 +35,17 @@ extern std::vector<TabletNode> (*listTablets)();
 /// Keeps the state of the pen that the events report. One thread.
 class PenState {
  public:
-  explicit PenState(const TabletNode& node) : x_(node.x), y_(node.y) {}
+  explicit PenState(const TabletNode& node) : rangeX_(node.x), rangeY_(node.y) {}
   /// True at the end of a report (SYN_REPORT).
   bool take(const input_event& event) noexcept;
-  /// The position on the tablet, measured from its middle as a share of its size, x to the right, y up. False while the pen is away.
-  bool position(double& x, double& y) const noexcept;
+  /// The position on the tablet, measured from its middle as a share of its size, x to the right, y up. Nothing while the pen is away.
+  std::optional<Vec3> position() const noexcept;
   /// Bit 0: the pen touches the tablet.
   std::uint32_t buttons() const noexcept { return touching_ ? 1 : 0; }
 
  private:
-  struct Axis {
-    explicit Axis(const InputAxis& r) : range(r) {}
-    double share() const noexcept { return range.share(value); }
-    InputAxis range;
-    std::int32_t value = 0;
-    bool told = false;
-  };
-  Axis x_, y_;
+  InputAxis rangeX_, rangeY_;
+  std::optional<std::int32_t> x_, y_;  // as the events told
   bool near_ = false, touching_ = false;
 };
 

@@ -81,8 +81,7 @@ class TabletHand final : public haptics::HapticDevice {
     thread_ = haptics::LeavableThread([shared = shared_, reader, halfWidth, middle = Vec3{0, 0, start.z}] {
       while (!shared->stopping.load(std::memory_order_acquire)) {
         const bool there = reader->read([&](std::int64_t ns) {
-          double x = 0, y = 0;
-          if (reader->state().position(x, y)) shared->hand.point(middle + halfWidth * Vec3{x, y, 0}, ns);
+          if (const auto pen = reader->state().position()) shared->hand.point(middle + halfWidth * *pen, ns);
         });
         shared->buttons.store(reader->state().buttons(), std::memory_order_relaxed);
         shared->lost.store(!there, std::memory_order_release);

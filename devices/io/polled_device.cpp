@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <condition_variable>
+#include <future>
 #include <mutex>
+#include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "base/system/os.h"
@@ -39,12 +41,11 @@ struct PolledDevice::Shared final : ForceSource {
   std::atomic<std::int64_t> exchangeSinceNs{0};  // when the exchange under way began; 0: none is
   std::atomic<std::uint64_t> reports{0};
   // Between the controlling thread and the I/O thread only.
+  std::promise<void> firstReport;
   std::mutex mutex;
-  std::condition_variable changed;
-  bool calibrationAsked = false, calibrated = false;
-  std::string calibrationFault;
-  std::string loss;   // the transport's words
-  TimedForce latest;  // the I/O thread's
+  std::optional<std::promise<std::string>> calibration;  // asked for and not done: its fault, or an empty text
+  std::string loss;                                      // the transport's words
+  TimedForce latest;                                     // the I/O thread's
 
   std::int64_t nextReopenNs = 0;  // the I/O thread's
   bool zeroTold = false;          // the I/O thread's, since the device was lost
@@ -66,25 +67,17 @@ void PolledDevice::Shared::takeReport() {
   sample.takenNs = now();
   samples.publish(sample);
   lost.store(false, std::memory_order_release);
-  const bool first = sample.reports == 1;
   reports.store(sample.reports, std::memory_order_release);
-  if (first) {
-    const std::lock_guard lock(mutex);
-    changed.notify_all();
-  }
+  if (sample.reports == 1) firstReport.set_value();
 }
 
 void PolledDevice::Shared::serveCalibration() {
+  std::optional<std::promise<std::string>> asked;
   {
     const std::lock_guard lock(mutex);
-    if (!calibrationAsked) return;
+    asked = std::exchange(calibration, std::nullopt);
   }
-  const std::string fault = transport->calibrate();
-  const std::lock_guard lock(mutex);
-  calibrationAsked = false;
-  calibrated = true;
-  calibrationFault = fault;
-  changed.notify_all();
+  if (asked) asked->set_value(transport->calibrate());
 }
 
 Vec3 PolledDevice::Shared::newest() noexcept {
@@ -169,10 +162,7 @@ PolledDevice::PolledDevice(std::shared_ptr<Transport> transport, int patienceMs)
       os::requestExactSleep();
       shared->guard();
     });
-  std::unique_lock lock(shared_->mutex);
-  const bool came = shared_->changed.wait_for(lock, std::chrono::milliseconds(patienceMs), [&] { return shared_->reports > 0; });
-  lock.unlock();
-  if (came) return;
+  if (shared_->firstReport.get_future().wait_for(std::chrono::milliseconds(patienceMs)) == std::future_status::ready) return;
   shared_->stopping = true;
   std::string why;
   if (thread_.join(kPatience)) why = shared_->transport->lossText();
@@ -226,12 +216,14 @@ bool PolledDevice::stopForce() noexcept {
 std::string PolledDevice::calibrationHint() const { return shared_->transport->calibrationHint(); }
 
 void PolledDevice::calibrate() {
-  std::unique_lock lock(shared_->mutex);
-  shared_->calibrationAsked = true;
-  shared_->calibrated = false;
-  const bool came = shared_->changed.wait_for(lock, std::chrono::seconds(5), [&] { return shared_->calibrated; });
-  if (!came) throw ResourceError(fmt::format("device {}: it did not answer the calibration within 5 s", info_.name));
-  if (!shared_->calibrationFault.empty()) throw ResourceError(fmt::format("device {}: {}", info_.name, shared_->calibrationFault));
+  std::future<std::string> answer;
+  {
+    const std::lock_guard lock(shared_->mutex);
+    answer = shared_->calibration.emplace().get_future();
+  }
+  if (answer.wait_for(std::chrono::seconds(5)) != std::future_status::ready)
+    throw ResourceError(fmt::format("device {}: it did not answer the calibration within 5 s", info_.name));
+  if (const std::string fault = answer.get(); !fault.empty()) throw ResourceError(fmt::format("device {}: {}", info_.name, fault));
 }
 
 }  // namespace reachlab::devices

@@ -3,9 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <numbers>
+#include <sstream>
+#include <vector>
 
 #include "base/as_number.h"
 #include "base/fault.h"
@@ -91,15 +92,11 @@ class GuardedDevice final : public haptics::HapticDevice {
 std::optional<Vec3> takeVector(DeviceOptions& options, const std::string& key, double most) {
   const auto text = options.take(key);
   if (!text) return std::nullopt;
-  std::array<double, 3> parts{};
-  const char *at = text->data(), *const end = at + text->size();
-  bool good = true;
-  for (std::size_t i = 0; i < 3 && good; ++i) {
-    const auto [next, error] = std::from_chars(at, end, parts[i]);
-    good = error == std::errc() && std::abs(parts[i]) <= most && (i == 2 ? next == end : next != end && *next == '/');
-    at = next + (i < 2 ? 1 : 0);
-  }
-  if (!good) throw FaultError(Fault{"device", fmt::format("{}={}", key, *text), fmt::format("X/Y/Z, each within {}", most)});
+  std::vector<double> parts;
+  std::istringstream in(*text + '/');  // an empty last part counts
+  for (std::string part; std::getline(in, part, '/');) parts.push_back(asNumber<double>(part).value_or(NAN));
+  if (parts.size() != 3 || !std::all_of(parts.begin(), parts.end(), [&](double x) { return std::abs(x) <= most; }))
+    throw FaultError(Fault{"device", fmt::format("{}={}", key, *text), fmt::format("X/Y/Z, each within {}", most)});
   return Vec3{parts[0], parts[1], parts[2]};
 }
 
