@@ -1,4 +1,6 @@
 #pragma once
+#include <gtest/gtest.h>
+
 #include <string>
 #include <vector>
 
@@ -27,6 +29,12 @@ std::vector<Fault> faultsToldBy(const Work& work) {
   } catch (const FaultError& refusal) {
     return refusal.faults;
   }
+}
+
+/// Whether a sentence has these words in it.
+inline testing::AssertionResult holds(const std::string& sentence, const std::string& words) {
+  if (sentence.find(words) != std::string::npos) return testing::AssertionSuccess() << '"' << sentence << "\" has \"" << words << '"';
+  return testing::AssertionFailure() << '"' << sentence << "\" has no \"" << words << '"';
 }
 
 }  // namespace reachlab

@@ -5,6 +5,7 @@
 #include "base/text_file.h"
 #include "test_paths.h"
 #include "tests/until.h"
+#include "tests/refusal.h"
 
 namespace reachlab::devices {
 namespace {
@@ -15,7 +16,7 @@ TEST(ExampleDriver, IsTheOneOfTheManualsPage) {
   const std::string example = readTextFile(REACHLAB_SOURCE_DIR "/tests/devices/example_driver.h"),
                     page = readTextFile(REACHLAB_SOURCE_DIR "/docs/write-a-driver.md");
   ASSERT_FALSE(example.empty());
-  EXPECT_NE(page.find(example), std::string::npos) << "docs/write-a-driver.md shows another text than the one that is tested";
+  EXPECT_TRUE(holds(page, example)) << "docs/write-a-driver.md shows another text than the one that is tested";
 }
 
 TEST(ExampleDriver, GivesPlacesTakesForcesAndSurvivesAPulledCable) {

@@ -15,6 +15,7 @@
 #include "tests/devices/fakes/fake_dhd.h"
 #include "tests/devices/fakes/fake_message_line.h"
 #include "tests/until.h"
+#include "tests/refusal.h"
 
 /// The driver behind its I/O thread; waits are for events.
 namespace reachlab::devices {
@@ -33,6 +34,13 @@ class ForceDimension : public ::testing::Test {
     haptics::DeviceSample sample;
     until([&] { return (sample = device.read()).reports >= seen + 3; });
     return sample;
+  }
+  // A force along the world's x, which is the device's y, arrives.
+  static bool isFelt(haptics::HapticDevice& device) {
+    return until([&] {
+      device.write({1, 0, 0});
+      return fakeDhd().force[1] == 1;
+    });
   }
   experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
   test::StandingForce wish{{1, 2, 3}};
@@ -80,16 +88,13 @@ TEST_F(ForceDimension, NoneThereIsSaidInTheLibrarysWords) {
   const auto rows = findDriver("forcedimension")->find(*findDriver("forcedimension"));
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_FALSE(rows[0].present);
-  EXPECT_NE(rows[0].whyNot.find("no device"), std::string::npos) << rows[0].whyNot;
+  EXPECT_TRUE(holds(rows[0].whyNot, "no device"));
   EXPECT_THROW(open(), ResourceError);
 }
 
 TEST_F(ForceDimension, AForceThatIsNotRenewedIsTakenBack) {
   const auto device = open();
-  ASSERT_TRUE(until([&] {
-    device->write({1, 0, 0});
-    return fakeDhd().force[1] == 1;
-  }));
+  ASSERT_TRUE(isFelt(*device));
   EXPECT_TRUE(until([&] { return fakeDhd().force[1] == 0; })) << "the tick hangs: the I/O thread says zero";
 }
 
@@ -107,7 +112,7 @@ TEST_F(ForceDimension, AnErrorAtEachCallIsARefusalOrPassesAndNothingIsLeftOpen) 
       EXPECT_TRUE(device.read().valid) << calls << ": one error is passed over";
       EXPECT_EQ(device.read().reports, 19u + (fakeDhd().callsUntilFailure >= 0 ? 1u : 0u)) << calls;
     } catch (const ResourceError& error) {
-      EXPECT_NE(std::string(error.what()).find("communication error"), std::string::npos) << error.what();
+      EXPECT_TRUE(holds(std::string(error.what()), "communication error")) << error.what();
       EXPECT_LT(calls, 2) << "opening and switching the forces on are two calls";
     }
     EXPECT_FALSE(fakeDhd().open) << calls;
@@ -127,10 +132,7 @@ TEST_F(ForceDimension, AHangingCallIsLeftBehind) {
 
 TEST_F(ForceDimension, ACallThatHangsUnderForceIsToldOffByAnotherThreadAndTheForceComesBack) {
   const auto device = open();
-  ASSERT_TRUE(until([&] {
-    device->write({1, 0, 0});
-    return fakeDhd().force[1] == 1;
-  }));
+  ASSERT_TRUE(isFelt(*device));
   fakeDhd().hangs = true;
   EXPECT_TRUE(until([&] {
     device->write({1, 0, 0});
@@ -141,10 +143,10 @@ TEST_F(ForceDimension, ACallThatHangsUnderForceIsToldOffByAnotherThreadAndTheFor
 }
 
 TEST_F(ForceDimension, ItsOwnWatchdogTakesTheForceOffWhereTheLibraryOffersOne) {
-  EXPECT_NE(open()->info().secondPath.find("its own watchdog"), std::string::npos);
+  EXPECT_TRUE(holds(open()->info().secondPath, "its own watchdog"));
   EXPECT_EQ(fakeDhd().watchdog * 125, 20'000) << "[us]";
   fakeDhd().watchdog = -1;
-  EXPECT_NE(open()->info().secondPath.find("no watchdog"), std::string::npos);
+  EXPECT_TRUE(holds(open()->info().secondPath, "no watchdog"));
 }
 
 TEST_F(ForceDimension, TheSameSampleAgainIsNoReport) {
@@ -190,7 +192,7 @@ TEST_F(ForceDimension, WhatTheLibraryDoesNotTellIsOfItsModel) {
   EXPECT_EQ(info.rate, 2000);
   EXPECT_EQ(openForceDimension(0, "device x", false)->period(), 500'000);
   EXPECT_TRUE(info.version.starts_with("DHD, libd")) << info.version;
-  EXPECT_NE(info.secondPath.find("20 ms"), std::string::npos);
+  EXPECT_TRUE(holds(info.secondPath, "20 ms"));
 }
 
 TEST_F(ForceDimension, TwentyErrorsInARowAreALossAndOneThatSaysItIsGoneIsAtOnce) {
@@ -252,8 +254,8 @@ TEST_F(ForceDimension, OneThatCannotBeOpenedIsListedByItsNameWithTheLibrarysWord
   EXPECT_TRUE(rows[0].present);
   EXPECT_FALSE(rows[1].present);
   EXPECT_EQ(rows[1].name, "forcedimension:1");
-  EXPECT_NE(rows[1].whyNot.find("device forcedimension:1: libd"), std::string::npos) << rows[1].whyNot;
-  EXPECT_NE(rows[1].whyNot.find("communication error (DHD error 2)"), std::string::npos) << rows[1].whyNot;
+  EXPECT_TRUE(holds(rows[1].whyNot, "device forcedimension:1: libd"));
+  EXPECT_TRUE(holds(rows[1].whyNot, "communication error (DHD error 2)"));
 }
 
 TEST_F(ForceDimension, AnIndexHasOneOrTwoDigits) {
@@ -286,12 +288,9 @@ TEST_F(TwoForceDimensions, OneThatIsLostLeavesTheOtherToBeTold) {
   auto left = open("forcedimension:0 + forcedimension:1");
   fakeDhd(1).error = 2;
   ASSERT_TRUE(until([&] { return left->health() == haptics::DeviceHealth::Lost; }));
-  EXPECT_NE(left->healthText().find("4712"), std::string::npos) << "by its serial number: " << left->healthText();
+  EXPECT_TRUE(holds(left->healthText(), "4712")) << "by its serial number: " << left->healthText();
   EXPECT_TRUE(newest(*left).valid);
-  ASSERT_TRUE(until([&] {
-    left->write({1, 0, 0});
-    return fakeDhd(0).force[1] == 1;
-  }));
+  ASSERT_TRUE(isFelt(*left));
   left.reset();
   EXPECT_EQ(fakeDhd(0).force[1], 0);
   EXPECT_FALSE(fakeDhd(0).open);

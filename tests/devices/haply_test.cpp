@@ -296,7 +296,7 @@ TEST(Haply, GivesItsPlaceAndGetsItsForceInItsOwnAxes) {
       return service.lastForce() == Vec3{1, -3, 2};
     }));
     EXPECT_TRUE(until([&] { return service.lastForce() == Vec3{}; })) << "a force that is not renewed is taken back";
-    EXPECT_NE(device->info().version.find("gravity_compensation"), std::string::npos) << device->info().version;
+    EXPECT_TRUE(holds(device->info().version, "gravity_compensation"));
   }
 }
 
@@ -338,7 +338,7 @@ TEST(Haply, TwoAtOneServiceAreTwoHandsEachWithItsPlaceForceAndGrip) {
   ASSERT_TRUE(until([&] { return !right.read().valid; }));
   EXPECT_TRUE(left->read().valid);
   EXPECT_EQ(left->health(), haptics::DeviceHealth::Lost) << "the worst of them";
-  EXPECT_NE(left->healthText().find("06A1"), std::string::npos) << left->healthText();
+  EXPECT_TRUE(holds(left->healthText(), "06A1"));
   EXPECT_TRUE(until([&] { return service.lastForce("06A1") == Vec3{}; })) << "it is told zero though it is not in the list";
 }
 
@@ -348,16 +348,16 @@ TEST(Haply, OfSeveralGripsOnlyTheOneThatIsNamedIsTaken) {
   ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
   EXPECT_EQ(device->read().buttons, 0u) << "a dead-man's button of the other hand would be none";
   EXPECT_FALSE(device->read().hasOrientation);
-  EXPECT_NE(refusal(service, "049D,grip=1").find("there is: 61548, 61549"), std::string::npos) << refusal(service, "049D,grip=1");
+  EXPECT_TRUE(holds(refusal(service, "049D,grip=1"), "there is: 61548, 61549"));
 }
 
 TEST(Haply, WhatCannotBeHadIsRefusedInWords) {
-  EXPECT_NE(refusal(FakeHaply(FakeHaply::Speaks::OldObjects)).find("another version"), std::string::npos);
-  EXPECT_NE(refusal(FakeHaply(FakeHaply::Speaks::Garbage)).find("no Inverse service"), std::string::npos);
-  EXPECT_NE(refusal(FakeHaply(FakeHaply::Speaks::NoDevice)).find("no Inverse3 is connected"), std::string::npos);
-  EXPECT_NE(refusal(FakeHaply(FakeHaply::Speaks::NoWebsocket)).find("not as a websocket"), std::string::npos);
-  EXPECT_NE(refusal(FakeHaply(FakeHaply::Speaks::ClosesAtOnce)).find("closed"), std::string::npos);
-  EXPECT_NE(refusal(FakeHaply(), "FFFF").find("there is: 049D"), std::string::npos);
+  EXPECT_TRUE(holds(refusal(FakeHaply(FakeHaply::Speaks::OldObjects)), "another version"));
+  EXPECT_TRUE(holds(refusal(FakeHaply(FakeHaply::Speaks::Garbage)), "no Inverse service"));
+  EXPECT_TRUE(holds(refusal(FakeHaply(FakeHaply::Speaks::NoDevice)), "no Inverse3 is connected"));
+  EXPECT_TRUE(holds(refusal(FakeHaply(FakeHaply::Speaks::NoWebsocket)), "not as a websocket"));
+  EXPECT_TRUE(holds(refusal(FakeHaply(FakeHaply::Speaks::ClosesAtOnce)), "closed"));
+  EXPECT_TRUE(holds(refusal(FakeHaply(), "FFFF"), "there is: 049D"));
 }
 
 TEST(Haply, NobodyThereIsSaidInTheSystemsWords) {
@@ -365,10 +365,9 @@ TEST(Haply, NobodyThereIsSaidInTheSystemsWords) {
     FakeHaply service;
     return service.port();
   }();
-  EXPECT_NE(reachlab::refusalOf([&] {
-              makeDevice(fmt::format("haply:port={}", gone), experiment::readExperiment("chain-slow"), 1);
-            }).find("refused"),
-            std::string::npos);
+  EXPECT_TRUE(
+      holds(reachlab::refusalOf([&] { makeDevice(fmt::format("haply:port={}", gone), experiment::readExperiment("chain-slow"), 1); }),
+            "refused"));
 }
 
 }  // namespace

@@ -132,9 +132,9 @@ TEST_F(HidDevices, ArmsAreListedByTheNamesThatOpenThem) {
   EXPECT_EQ(found[1].name, "hid:C");
   EXPECT_FALSE(found[1].present);
   EXPECT_EQ(found[1].description, "KTH Arm");
-  EXPECT_NE(found[1].whyNot.find("Permission denied"), std::string::npos) << "before its firmware: " << found[1].whyNot;
+  EXPECT_TRUE(holds(found[1].whyNot, "Permission denied")) << "before its firmware: " << found[1].whyNot;
   EXPECT_FALSE(found[2].present);
-  EXPECT_NE(found[2].whyNot.find("reports of 13 bytes, and 14 are needed"), std::string::npos) << found[2].whyNot;
+  EXPECT_TRUE(holds(found[2].whyNot, "reports of 13 bytes, and 14 are needed"));
   EXPECT_EQ(found[3].name, "hid:/dev/hidraw4") << "the older ones behind";
   EXPECT_EQ(found[3].description, findDriver("hid")->description) << "one that has no title";
   EXPECT_TRUE(found[3].present) << "14 bytes are enough";
@@ -174,11 +174,11 @@ TEST_F(HidDevices, AnArmIsChosenBySerialNumberOrPathOrTheFirst) {
   EXPECT_EQ(make("hid:A2")->info().name, "woodenhaptics_v2015 A2");
   EXPECT_EQ(make("hid:/dev/hidraw4,model=polhem_v1")->info().name, "polhem_v1 A2");
   EXPECT_EQ(refusalOf("hid:A3"), "device hid:A3: not connected; there is: A1, A2");
-  EXPECT_NE(refusalOf("hid,model=omni").find("woodenhaptics_v2015, woodenhaptics_v2019"), std::string::npos);
-  EXPECT_NE(refusalOf("hid,calibrate=now").find("no, start"), std::string::npos);
+  EXPECT_TRUE(holds(refusalOf("hid,model=omni"), "woodenhaptics_v2015, woodenhaptics_v2019"));
+  EXPECT_TRUE(holds(refusalOf("hid,calibrate=now"), "no, start"));
   EXPECT_THROW(make("hid,colour=red"), FaultError);
   fakeHids().list[0].descriptor = vendorPage(8);
-  EXPECT_NE(refusalOf("hid").find("device hid: its firmware is too old: it sends reports of 8 bytes"), std::string::npos);
+  EXPECT_TRUE(holds(refusalOf("hid"), "device hid: its firmware is too old: it sends reports of 8 bytes"));
 }
 
 // A force to the right at the angles of no counts: what the motors are told is held to the largest current, 2 A unless it is told.

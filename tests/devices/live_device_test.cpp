@@ -8,6 +8,7 @@
 #include "sim/experiment/experiment.h"
 #include "tests/devices/fakes/fake_hidapi.h"
 #include "tests/until.h"
+#include "tests/refusal.h"
 
 namespace reachlab::devices {
 namespace {
@@ -76,7 +77,7 @@ TEST(LiveDevice, ReportsOfADeviceAreCountedByTheirNumber) {
       test::fakeHids().list[0].gone = true;
     }
     ASSERT_TRUE(until([&] { return !(view = live.look()).fault.empty(); }));
-    EXPECT_NE(view.fault.find("woodenhaptics_v2015 A1"), std::string::npos) << view.fault;
+    EXPECT_TRUE(holds(view.fault, "woodenhaptics_v2015 A1"));
     EXPECT_TRUE(until([&] { return live.look().fault.ends_with(": no connection any more"); })) << live.look().fault;
   }
   test::resetFakeHids();

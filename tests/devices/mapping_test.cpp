@@ -176,7 +176,7 @@ TEST(Mapping, OneThatCannotBeSavedIsSaid) {
 TEST(Mapping, IsReadBackAsItWasSaved) {
   const TemporaryFolder folder;
   const std::string file = mappingFile(folder.path(), "03", "phantom");
-  EXPECT_NE(file.find("sub-03_phantom.json"), std::string::npos);
+  EXPECT_TRUE(holds(file, "sub-03_phantom.json"));
   const Mapping mapping{1.5, {0.1, -0.2, 0.3}, {0.1, 0.2, -0.3}, true};
   saveMapping(mapping, file);
   const Mapping back = readMapping(file);
@@ -238,10 +238,10 @@ TEST(HandSettings, AreBoundedAndNoneIsNone) {
         "speed-limit=21",     "stylus-mass=-0.1", "stylus-mass=2.1", "passivity=yes",    "dead-man-button=0", "dead-man-button=33",
         "dead-man-button=1.5"})
     EXPECT_NE(refusalOf(bad), "taken") << bad;
-  EXPECT_NE(refusalOf("offset=1/2").find("offset=1/2; allowed: X/Y/Z, each within 10"), std::string::npos) << refusalOf("offset=1/2");
-  EXPECT_NE(refusalOf("rotation=a/b/c").find("each within 360"), std::string::npos);
-  EXPECT_NE(refusalOf("wall=maybe").find("wall=maybe; allowed: yes, no or a radius up to 10 m"), std::string::npos);
-  EXPECT_NE(refusalOf("dead-man-button=1.5").find("dead-man-button=1.5; allowed: a button's number, 1 to 32"), std::string::npos);
+  EXPECT_TRUE(holds(refusalOf("offset=1/2"), "offset=1/2; allowed: X/Y/Z, each within 10"));
+  EXPECT_TRUE(holds(refusalOf("rotation=a/b/c"), "each within 360"));
+  EXPECT_TRUE(holds(refusalOf("wall=maybe"), "wall=maybe; allowed: yes, no or a radius up to 10 m"));
+  EXPECT_TRUE(holds(refusalOf("dead-man-button=1.5"), "dead-man-button=1.5; allowed: a button's number, 1 to 32"));
 }
 
 TEST(HandSettings, SayWhatWasAskedFor) {
@@ -274,13 +274,13 @@ TEST(HandSettings, AWallNeedsAWorkspaceOrARadius) {
   };
   HandSettings options;
   options.wall = 0;
-  EXPECT_NE(refusal(options).find("wall=yes: the workspace of unknown is not known; allowed: wall=RADIUS_M"), std::string::npos);
+  EXPECT_TRUE(holds(refusal(options), "wall=yes: the workspace of unknown is not known; allowed: wall=RADIUS_M"));
   options.wall = 0.1;
   EXPECT_EQ(refusal(options), "made");
   options = {};
   EXPECT_EQ(refusal(options), "made");
   options.deadManButton = 1;
-  EXPECT_NE(refusal(options).find("dead-man-button: unknown renders no force"), std::string::npos);
+  EXPECT_TRUE(holds(refusal(options), "dead-man-button: unknown renders no force"));
   auto own = std::make_unique<test::DiaryDevice>();
   const haptics::HapticDevice* const inner = own.get();
   EXPECT_EQ(guardDevice(std::move(own), {}).get(), inner) << "nothing asked for: itself";

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "tests/devices/arm_poses.h"
 #include "tests/devices/fakes/fake_message_line.h"
+#include "tests/refusal.h"
 
 namespace reachlab::devices {
 namespace {
@@ -255,7 +256,7 @@ TEST_F(OpenArmOverAPort, ZeroIsToldWithoutBeingAskedFor) {
 TEST_F(OpenArmOverAPort, ReportsOfAnOldFirmwareAreNotBelievedAndSaidToBeOld) {
   line->waiting.push_back(Report(8, 1));
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Nothing);
-  EXPECT_NE(arm->lossText().find("too old: it sends reports of 8 bytes, and 14 are needed"), std::string::npos) << arm->lossText();
+  EXPECT_TRUE(holds(arm->lossText(), "too old: it sends reports of 8 bytes, and 14 are needed"));
   line->waiting.push_back(reportAt({0, 0, 6000}));
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Report);
   EXPECT_EQ(arm->lossText(), "") << "a short one among whole ones is a fault of the line";

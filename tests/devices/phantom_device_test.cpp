@@ -64,7 +64,7 @@ TEST_F(Phantom, ReadsItsLimitsFromTheDevice) {
   EXPECT_EQ(info.maxForce, 3.3);
   EXPECT_EQ(info.maxContinuousForce, 0.88);
   EXPECT_NEAR(info.workspaceRadius, 0.035, 1e-15);
-  EXPECT_NE(info.name.find("Omni"), std::string::npos);
+  EXPECT_TRUE(holds(info.name, "Omni"));
   EXPECT_TRUE(info.drivesClock);
   EXPECT_TRUE(info.rendersForce);
 }
@@ -117,8 +117,8 @@ TEST_F(Phantom, EveryRefusalAtOpeningIsSaidInTheLibrarysWordsAndLeavesNothingOpe
     test::resetFakeHd();
     fakeHd().failures[call] = 0x0600;
     const std::string said = refusal();
-    EXPECT_NE(said.find("HD_INVALID_LICENSE (0x0600)"), std::string::npos) << call << ": " << said;
-    EXPECT_NE(said.find("device phantom"), std::string::npos);
+    EXPECT_TRUE(holds(said, "HD_INVALID_LICENSE (0x0600)")) << call << ": " << said;
+    EXPECT_TRUE(holds(said, "device phantom"));
     EXPECT_FALSE(fakeHd().devices[""].open);
   }
   for (const char* call : {"hdScheduleAsynchronous", "hdStartScheduler"}) {
@@ -254,7 +254,7 @@ TEST_F(Phantom, ACallThatComesAfterTheEndTouchesNothing) {
 
 TEST_F(Phantom, OneThatIsInUseIsRefusedAndLeftToItsUser) {
   PhantomDevice device({});
-  EXPECT_NE(refusal().find("another program has it"), std::string::npos) << refusal();
+  EXPECT_TRUE(holds(refusal(), "another program has it"));
   EXPECT_TRUE(fakeHd().devices[""].open);
   const auto rows = findDriver("phantom")->find(*findDriver("phantom"));
   ASSERT_EQ(rows.size(), 1u);
@@ -316,7 +316,7 @@ TEST_F(Phantom, AContinuousForceThatIsNoneIsUnknown) {
   }
   for (const double told : {-3.3, std::numeric_limits<double>::infinity()}) {
     fakeHd().maxForce = told;
-    EXPECT_NE(refusal().find("it does not tell its largest force (HD_NOMINAL_MAX_FORCE)"), std::string::npos);
+    EXPECT_TRUE(holds(refusal(), "it does not tell its largest force (HD_NOMINAL_MAX_FORCE)"));
   }
 }
 
@@ -409,12 +409,12 @@ TEST_F(Phantom, NoneThereIsSaidInTheLibrarysWords) {
   const auto rows = driver.find(driver);
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_FALSE(rows[0].present);
-  EXPECT_NE(refusal({"Nowhere"}).find("phantom:Nowhere"), std::string::npos);
-  EXPECT_NE(rows[0].whyNot.find("HD_DEVICE_FAULT (0x0300); is it connected, switched on"), std::string::npos) << rows[0].whyNot;
+  EXPECT_TRUE(holds(refusal({"Nowhere"}), "phantom:Nowhere"));
+  EXPECT_TRUE(holds(rows[0].whyNot, "HD_DEVICE_FAULT (0x0300); is it connected, switched on"));
   for (const auto& [code, hint] : {std::pair{0x0302u, "is it connected"}, {0x0303u, "is it connected"}, {0x0600u, "licence manager"}}) {
     test::resetFakeHd();
     fakeHd().failures["hdInitDevice"] = code;
-    EXPECT_NE(refusal().find(hint), std::string::npos) << refusal();
+    EXPECT_TRUE(holds(refusal(), hint));
   }
   test::resetFakeHd();
   fakeHd().failures["hdInitDevice"] = 0x0304;
@@ -446,7 +446,7 @@ TEST_F(Phantom, BothWaysToServeItAreTimed) {
 TEST(SharedLibrary, OneThatIsNotThereIsRefusedWithAllNamesAndTheLoadersWords) {
   const std::string said = refusalOf<ResourceError>([] { const SharedLibrary library({"libnowhere.so.7", "libnowhere.so"}); });
   EXPECT_TRUE(said.starts_with("libnowhere.so.7: ")) << said;
-  EXPECT_NE(said.find("; looked for libnowhere.so.7, libnowhere.so where the loader looks"), std::string::npos) << said;
+  EXPECT_TRUE(holds(said, "; looked for libnowhere.so.7, libnowhere.so where the loader looks"));
   const SharedLibrary found({"libnowhere.so", "libm.so.6", "libc.so.6"});
   EXPECT_EQ(found.name(), "libm.so.6") << "the first that there is";
   EXPECT_NE(found.find("cos").address, nullptr);

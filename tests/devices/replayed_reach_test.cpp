@@ -96,10 +96,10 @@ TEST_F(Files, AFolderIsPlayedInNameOrderAndFromTheFirstAgain) {
 
 TEST_F(Files, SaysWhatIsWrongWithAFile) {
   EXPECT_THROW(readReach((folder / "missing.csv").string()), ResourceError);
-  EXPECT_NE(reachlab::refusalOf([&] {
-              makeReplayHand((folder / "missing").string(), {}, {1, 0, 0});
-            }).find(experiment::resourceFolder() + "/reaches"),
-            std::string::npos);
+  EXPECT_TRUE(holds(reachlab::refusalOf([&] {
+                      makeReplayHand((folder / "missing").string(), {}, {1, 0, 0});
+                    }),
+                    experiment::resourceFolder() + "/reaches"));
   EXPECT_THROW(makeReplayHand(folder.path(), {}, {1, 0, 0}), ResourceError) << "an empty folder";
   const std::string header = "time_s,x_m,y_m,z_m\n";
   EXPECT_THROW(layOnto(readReach(write("one.csv", header + "0,0,0,0\n")), {}, {1, 0, 0}), FaultError) << "one place is no reach";

@@ -19,6 +19,7 @@
 #include "tests/hidraw/block.h"
 #include "tests/hidraw/hidraw_bed.h"
 #include "tests/until.h"
+#include "tests/refusal.h"
 
 /// The unmodified program and the real hidapi on devices that umockdev shows: run under umockdev-wrapper. Waits are for events.
 namespace reachlab::devices {
@@ -40,7 +41,7 @@ TEST_F(ArmOverHidraw, IsListedByTheNameThatOpensIt) {
   EXPECT_TRUE(rows[0].present) << rows[0].whyNot;
   const test::Ended listed = test::reach("list devices --json");
   EXPECT_EQ(listed.exitCode, 0);
-  EXPECT_NE(listed.out.find("hid:SN0001"), std::string::npos);
+  EXPECT_TRUE(holds(listed.out, "hid:SN0001"));
 }
 
 // The same vendor page with 8 bytes in and out: the protocol before that of 14.
@@ -53,13 +54,11 @@ TEST(OldArmOverHidraw, IsListedWithWhatToDoAndRefusedBeforeItIsOpened) {
   const std::size_t row = listed.out.find("hid:SN0000");
   ASSERT_NE(row, std::string::npos) << listed.out;
   const std::string line = listed.out.substr(row, listed.out.find('\n', row) - row);
-  EXPECT_NE(line.find("not there: its firmware is too old: it sends reports of 8 bytes, and 14 are needed; put a newer one on it"),
-            std::string::npos)
-      << line;
+  EXPECT_TRUE(holds(line, "not there: its firmware is too old: it sends reports of 8 bytes, and 14 are needed; put a newer one on it"));
   const TemporaryFolder folder;
   const test::Ended run = test::reach("run chain-slow --device hid:SN0000 --data " + folder.path());
   EXPECT_EQ(run.exitCode, 3) << run.out;
-  EXPECT_NE(run.err.find("its firmware is too old"), std::string::npos) << run.err;
+  EXPECT_TRUE(holds(run.err, "its firmware is too old"));
   EXPECT_EQ(bed.opened(), 0);
 }
 
@@ -171,7 +170,7 @@ TEST_F(ArmOverHidraw, UnpluggedInMidTrialTheTrialIsInterruptedAndTheRunTakenUpAg
   bed.unplug();
   const test::Ended lost = program.end();
   EXPECT_EQ(lost.exitCode, 3) << lost.out << lost.err;
-  EXPECT_NE(lost.out.find("outcome=interrupted reason=device_lost"), std::string::npos) << lost.out << lost.err;
+  EXPECT_TRUE(holds(lost.out, "outcome=interrupted reason=device_lost")) << lost.out << lost.err;
   EXPECT_TRUE(lost.err.find("is lost") != std::string::npos || lost.err.find("gave no new report") != std::string::npos) << lost.err;
   expectNoForceOnceItIsLost(folder);
   bed.plug();
@@ -179,7 +178,7 @@ TEST_F(ArmOverHidraw, UnpluggedInMidTrialTheTrialIsInterruptedAndTheRunTakenUpAg
   const test::Ended resumed = test::reach(run + " --resume", "timeout -s INT 90");
   if (resumed.exitCode != 0) {
     EXPECT_EQ(resumed.exitCode, 3) << resumed.err;
-    EXPECT_NE(resumed.err.find("device "), std::string::npos) << resumed.err;
+    EXPECT_TRUE(holds(resumed.err, "device "));
   }
   const auto lines = test::trialLines(resumed.out);
   EXPECT_GE(lines.size(), resumed.exitCode == 0 ? 2u : 0u) << "the lost trial, and what was not begun: " << resumed.out;
@@ -250,7 +249,7 @@ TEST(SpaceMouseOverHidraw, ABlockOfReachesAtItsOwnRateWithTheLoopAtOneKilohertz)
   const Block block = judge(run);
   EXPECT_EQ(block.trials, 3) << run.out << run.err;
   EXPECT_GT(firmware.reports, 100);
-  EXPECT_NE(run.err.find("ticks/s"), std::string::npos) << run.err;
+  EXPECT_TRUE(holds(run.err, "ticks/s"));
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "sim/record/log/atomic_file.h"
 #include "sim/session/session.h"
 #include "tests/record/made_run.h"
+#include "tests/refusal.h"
 
 // One station's trials, with the test in the endpoint's place: it writes what the network would have brought.
 namespace reachlab::network {
@@ -139,6 +140,9 @@ class OneStation : public testing::Test {
   }
   static bool never(const StationNews&) { return false; }
   static bool begun(const StationNews& news) { return news.begun; }
+  static bool ended(const StationNews& news) { return news.ended.has_value(); }
+  static bool finished(const StationNews& news) { return news.finished; }
+  static bool isTwoWords(const StationNews& news) { return news.words.size() >= 2; }
   // Station 2, told by the conductor to put up the first trial.
   void beginAsFollower() {
     open(2, false);
@@ -177,9 +181,9 @@ TEST_F(OneStation, OnlyTheConductorsWordCounts) {
   const StationNews refused = pollUntil(begun, 0.3);
   EXPECT_FALSE(refused.begun);
   ASSERT_EQ(refused.words.size(), 1u);
-  EXPECT_NE(refused.words[0].find("station 1 is not the conductor"), std::string::npos) << refused.words[0];
+  EXPECT_TRUE(holds(refused.words[0], "station 1 is not the conductor"));
   tell(1, LinkEvent::Kind::Finish, 1);
-  EXPECT_FALSE(pollUntil([](const StationNews& news) { return news.finished; }, 0.2).finished);
+  EXPECT_FALSE(pollUntil(finished, 0.2).finished);
 }
 
 TEST_F(OneStation, AFollowerPutsUpWhatTheConductorArmsAndEndsWhenItIsTold) {
@@ -190,16 +194,16 @@ TEST_F(OneStation, AFollowerPutsUpWhatTheConductorArmsAndEndsWhenItIsTold) {
   EXPECT_TRUE(pollUntil(begun).begun) << "what was told before its card came is done";
   EXPECT_FALSE(pollUntil(begun, 0.2).begun) << "once";
   tell(1, LinkEvent::Kind::Interrupt, 1);
-  const StationNews ended = pollUntil([](const StationNews& news) { return news.ended.has_value(); });
-  ASSERT_TRUE(ended.ended);
-  EXPECT_EQ(ended.ended->result.reason, trial::Reason::Experimenter);
-  EXPECT_FALSE(ended.finished) << "another trial may follow";
+  const StationNews news = pollUntil(ended);
+  ASSERT_TRUE(news.ended);
+  EXPECT_EQ(news.ended->result.reason, trial::Reason::Experimenter);
+  EXPECT_FALSE(news.finished) << "another trial may follow";
   tell(1, LinkEvent::Kind::Arm, 2);
   EXPECT_TRUE(pollUntil(begun).begun);
   tell(1, LinkEvent::Kind::Finish, 2);
-  EXPECT_FALSE(pollUntil([](const StationNews& news) { return news.finished; }, 0.2).finished) << "the trial under way goes to its end";
+  EXPECT_FALSE(pollUntil(finished, 0.2).finished) << "the trial under way goes to its end";
   tell(1, LinkEvent::Kind::Interrupt, 2);
-  EXPECT_TRUE(pollUntil([](const StationNews& news) { return news.finished; }).finished);
+  EXPECT_TRUE(pollUntil(finished).finished);
 }
 
 TEST_F(OneStation, ATrialThatIsOverForTheOthersIsNotPutUp) {
@@ -233,7 +237,7 @@ TEST_F(OneStation, TheConductorArmsWhenEveryLineIsGoodAndSaysWhyNot) {
   ASSERT_TRUE(arm);
   EXPECT_EQ(arm->frequency, 3) << "a chain's, which the check before the block has found to do";
   station_->stop();
-  EXPECT_TRUE(pollUntil([](const StationNews& news) { return news.finished; }).finished);
+  EXPECT_TRUE(pollUntil(finished).finished);
   EXPECT_TRUE(sent(LinkEvent::Kind::Finish));
   close();
   EXPECT_TRUE(noted("simulated with limp hands over this link (round trip 2.0 ms")) << "what was checked is in the log";
@@ -274,9 +278,9 @@ TEST_F(OneStation, WhatIsGivenToTheCopyLastIsInTheLogToo) {
 TEST_F(OneStation, TheConductorsOutcomeIsKeptBesideWhatTheCopyHereCameTo) {
   beginAsFollower();
   tell(1, LinkEvent::Kind::Interrupt, 1);
-  EXPECT_TRUE(pollUntil([](const StationNews& news) { return news.ended.has_value(); }).ended);
+  EXPECT_TRUE(pollUntil(ended).ended);
   tell(1, LinkEvent::Kind::Ended, 1, trial::Outcome::Interrupted);
-  const StationNews told = pollUntil([](const StationNews& news) { return news.words.size() >= 2; });
+  const StationNews told = pollUntil(isTwoWords);
   ASSERT_EQ(told.words.size(), 2u);
   EXPECT_EQ(told.words[1], "trial 1: interrupted by the conductor's copy, which counts; aborted (experimenter) by the copy here");
   close();
@@ -288,17 +292,17 @@ TEST_F(OneStation, ATrialThatAnyStationBrokeOffIsBrokenOffForAll) {
   beginAsFollower();
   const std::jthread other = sendFrom(1);
   tell(1, LinkEvent::Kind::Ended, 1, trial::Outcome::Interrupted);
-  const StationNews ended = pollUntil([](const StationNews& news) { return news.ended.has_value(); });
-  ASSERT_TRUE(ended.ended);
-  EXPECT_EQ(ended.ended->result.reason, trial::Reason::PeerLost);
+  const StationNews news = pollUntil(ended);
+  ASSERT_TRUE(news.ended);
+  EXPECT_EQ(news.ended->result.reason, trial::Reason::PeerLost);
 }
 
 TEST_F(OneStation, AWordThatComesAfterTheEndBreaksTheTrialOffForAll) {
   beginAsFollower();
   tell(1, LinkEvent::Kind::Interrupt, 1);
-  EXPECT_TRUE(pollUntil([](const StationNews& news) { return news.ended.has_value(); }).ended);
+  EXPECT_TRUE(pollUntil(ended).ended);
   tell(1, LinkEvent::Kind::Ended, 1, trial::Outcome::Success);
-  const StationNews told = pollUntil([](const StationNews& news) { return news.words.size() >= 2; }, 0.5);
+  const StationNews told = pollUntil(isTwoWords, 0.5);
   ASSERT_EQ(told.words.size(), 1u) << "the outcome is aborted at both";
   close();
   EXPECT_TRUE(noted("trial 1: outcome aborted (experimenter) by the one that broke it off, station 2; aborted (experimenter) here"));
