@@ -27,13 +27,13 @@
 #include "gui/docks/device_dock.h"
 #include "gui/docks/prediction_dock.h"
 #include "gui/docks/session_dock.h"
-#include "gui/docks/signal_dock.h"
 #include "gui/docks/stations_dock.h"
 #include "gui/docks/trials_dock.h"
-#include "gui/docks/velocity_dock.h"
 #include "gui/inspector/inspector.h"
 #include "gui/plot/criterion_style.h"
+#include "gui/plot/signal_plot.h"
 #include "gui/plot/signal_point.h"
+#include "gui/plot/velocity_plot.h"
 #include "gui/scene/scene_view.h"
 #include "gui/session/plan_pages.h"
 #include "gui/session/session_overlay.h"
@@ -172,7 +172,7 @@ void MainWindow::wireDocks() {
   connect(plans_, &PlanPages::resumeRequested, this, &MainWindow::resumeSession);
   connect(plans_, &PlanPages::composeRequested, this, &MainWindow::composePlan);
   connect(plans_, &PlanPages::composed, this, &MainWindow::openExperiment);
-  connect(&docks_.signal->plot(), &plot::SignalPlot::watchedChanged, this, [this](int mass) { session_.watch(mass); });
+  connect(docks_.signal, &plot::SignalPlot::watchedChanged, this, [this](int mass) { session_.watch(mass); });
   connect(docks_.predictions, &docks::PredictionDock::chosenChanged, this, &MainWindow::drawPredictions);
 }
 
@@ -306,7 +306,7 @@ void MainWindow::runOpened() {
   const session::RecordedRun& run = *session_.run();
   card_->close();
   strip_->clearTally();
-  docks_.signal->plot().clear();
+  docks_.signal->clear();
   lastNs_ = 0;
   score_ = 0;
   succeeded_.clear();
@@ -339,7 +339,7 @@ void MainWindow::runClosed() {
 void MainWindow::drainTrace() {
   for (plot::TracePoint point; session_.tryTake(point);) {
     trace_.add(point, plot());
-    docks_.signal->plot().add(plot::signalPointOf(point, std::exchange(lastNs_, point.measuredNs)));
+    docks_.signal->add(plot::signalPointOf(point, std::exchange(lastNs_, point.measuredNs)));
   }
 }
 
@@ -381,7 +381,7 @@ void MainWindow::oneFrame() {
   playGo(session_.run()->latest());
   showOverlay();
   plot().refresh();
-  docks_.signal->plot().refresh();
+  docks_.signal->refresh();
 }
 
 void MainWindow::joinStations() {
@@ -412,7 +412,7 @@ void MainWindow::playGo(const haptics::TickState& state) {
   gone_ = gone;
 }
 
-plot::VelocityPlot& MainWindow::plot() { return docks_.velocity->plot(); }
+plot::VelocityPlot& MainWindow::plot() { return *docks_.velocity; }
 docks::ConstraintChooser& MainWindow::chooser() { return docks_.constraint->chooser(); }
 const scene::OverlayState& MainWindow::overlay() const { return screens_->overlay(); }
 QString MainWindow::message() const { return messages_->newest(); }

@@ -1,21 +1,40 @@
 #include "gui/docks/all_docks.h"
 
 #include <QMainWindow>
+#include <functional>
+#include <string>
+#include <utility>
 
 #include "gui/docks/constraint_dock.h"
-#include "gui/docks/coupling_dock.h"
 #include "gui/docks/device_dock.h"
-#include "gui/docks/environment_dock.h"
-#include "gui/docks/object_dock.h"
+#include "gui/docks/experiment_docks.h"
 #include "gui/docks/prediction_dock.h"
 #include "gui/docks/session_dock.h"
-#include "gui/docks/signal_dock.h"
 #include "gui/docks/stations_dock.h"
-#include "gui/docks/task_dock.h"
 #include "gui/docks/trials_dock.h"
-#include "gui/docks/velocity_dock.h"
+#include "gui/plot/signal_plot.h"
+#include "gui/plot/velocity_plot.h"
+#include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::docks {
+
+namespace {
+
+// Holds one plot. `show` tells the plot about the experiment.
+class PlotDock : public Dock {
+ public:
+  using Show = std::function<void(const experiment::Experiment&)>;
+  PlotDock(const QString& title, const QString& name, QWidget* plot, Show show, QWidget* parent)
+      : Dock(title, name, parent), show_(std::move(show)) {
+    setBody(plot, false);
+  }
+
+ private:
+  void display(const experiment::CompiledExperiment& experiment, bool) override { show_(experiment.experiment()); }
+  Show show_;
+};
+
+}  // namespace
 
 Docks makeDocks(QMainWindow& window, bool station) {
   Docks docks;
@@ -26,16 +45,25 @@ Docks makeDocks(QMainWindow& window, bool station) {
   };
   window.setCorner(Qt::BottomLeftCorner, Qt::LeftDockWidgetArea);
   window.setCorner(Qt::BottomRightCorner, Qt::RightDockWidgetArea);
-  docks.velocity = add(new VelocityDock(&window), Qt::BottomDockWidgetArea);
-  docks.signal = add(new SignalDock(&window), Qt::BottomDockWidgetArea);
-  window.tabifyDockWidget(docks.velocity, docks.signal);
+  docks.velocity = new plot::VelocityPlot;
+  const auto showTask = [plot = docks.velocity, name = std::string()](const experiment::Experiment& e) mutable {
+    const experiment::Task task = e.task.value_or(experiment::Task{});
+    if (std::exchange(name, e.name) != name) plot->forgetTrials();
+    plot->setTask(task.duration, task.tolerance.time);
+  };
+  docks.signal = new plot::SignalPlot;
+  const auto showMasses = [plot = docks.signal](const experiment::Experiment& e) {
+    plot->setMasses(static_cast<int>(e.object.masses.size()));
+  };
+  Dock* velocity = add(new PlotDock("Velocity", "plotDock", docks.velocity, showTask, &window), Qt::BottomDockWidgetArea);
+  Dock* front = velocity;
+  window.tabifyDockWidget(velocity,
+                          add(new PlotDock("Signals", "signalDock", docks.signal, showMasses, &window), Qt::BottomDockWidgetArea));
   if (station) {
-    docks.stations = add(new StationsDock(&window), Qt::BottomDockWidgetArea);
-    window.tabifyDockWidget(docks.velocity, docks.stations);
-    docks.stations->raise();
-  } else {
-    docks.velocity->raise();
+    front = docks.stations = add(new StationsDock(&window), Qt::BottomDockWidgetArea);
+    window.tabifyDockWidget(velocity, front);
   }
+  front->raise();
   docks.session = add(new SessionDock(&window), Qt::LeftDockWidgetArea);
   docks.constraint = add(new ConstraintDock(&window), Qt::LeftDockWidgetArea);
   docks.predictions = add(new PredictionDock(&window), Qt::LeftDockWidgetArea);
@@ -44,12 +72,12 @@ Docks makeDocks(QMainWindow& window, bool station) {
   window.tabifyDockWidget(docks.predictions, docks.trials);
   window.tabifyDockWidget(docks.trials, docks.devices);
   docks.predictions->raise();
-  Dock* object = add(new ObjectDock(&window), Qt::RightDockWidgetArea);
-  Dock* coupling = add(new CouplingDock(&window), Qt::RightDockWidgetArea);
-  Dock* task = add(new TaskDock(&window), Qt::RightDockWidgetArea);
-  window.tabifyDockWidget(task, add(new EnvironmentDock(&window), Qt::RightDockWidgetArea));
+  Dock* object = add(makeObjectDock(&window), Qt::RightDockWidgetArea);
+  Dock* coupling = add(makeCouplingDock(&window), Qt::RightDockWidgetArea);
+  Dock* task = add(makeTaskDock(&window), Qt::RightDockWidgetArea);
+  window.tabifyDockWidget(task, add(makeEnvironmentDock(&window), Qt::RightDockWidgetArea));
   task->raise();
-  window.resizeDocks({docks.velocity}, {270}, Qt::Vertical);
+  window.resizeDocks({velocity}, {270}, Qt::Vertical);
   window.resizeDocks({docks.session, docks.constraint, docks.predictions}, {1, 190, 260},
                      Qt::Vertical);  // the session has its least height
   window.resizeDocks({object, coupling, task}, {270, 110, 380}, Qt::Vertical);

@@ -3,6 +3,11 @@
 
 class QMainWindow;
 
+namespace reachlab::gui::plot {
+class SignalPlot;
+class VelocityPlot;
+}  // namespace reachlab::gui::plot
+
 namespace reachlab::gui::docks {
 
 class ConstraintDock;
@@ -10,22 +15,20 @@ class DeviceDock;
 class Dock;
 class PredictionDock;
 class SessionDock;
-class SignalDock;
 class StationsDock;
 class TrialsDock;
-class VelocityDock;
 
-/// The docks of the window, which owns them.
+/// The docks of the window, which owns them, and the plots in two of them.
 struct Docks {
   SessionDock* session = nullptr;
   ConstraintDock* constraint = nullptr;
   PredictionDock* predictions = nullptr;
-  VelocityDock* velocity = nullptr;
   TrialsDock* trials = nullptr;
   DeviceDock* devices = nullptr;
-  SignalDock* signal = nullptr;
-  StationsDock* stations = nullptr;  // null where the window is none of several stations
-  std::vector<Dock*> all;            // these and those that need nothing but the experiment
+  plot::VelocityPlot* velocity = nullptr;  // of the trial under way, with the task's window in time
+  plot::SignalPlot* signal = nullptr;      // of any signal of the run
+  StationsDock* stations = nullptr;        // null where the window is none of several stations
+  std::vector<Dock*> all;                  // these and those that need nothing but the experiment
 };
 
 /// Makes every dock and puts it in its place. `station`: the window is one of several stations.

@@ -1,44 +1,37 @@
-#include "gui/docks/coupling_dock.h"
-
-#include <QFormLayout>
-
-#include "gui/widgets/fault_label.h"
-#include "gui/widgets/unit_spin_box.h"
+#include "gui/docks/experiment_docks.h"
+#include "gui/docks/form_dock.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::docks {
+namespace {
 
-CouplingDock::CouplingDock(QWidget* parent) : Dock(QStringLiteral("Coupling"), QStringLiteral("couplingDock"), parent) {
-  auto* body = new QWidget;
-  auto* form = new QFormLayout(body);
-  stiffness_ = new widgets::UnitSpinBox(0, 1e6, QStringLiteral("N/m"));
-  stiffness_->setObjectName(QStringLiteral("couplingStiffness"));
-  damping_ = new widgets::UnitSpinBox(0, 1e5, QStringLiteral("N s/m"));
-  form->addRow(QStringLiteral("stiffness"), stiffness_);
-  form->addRow(QStringLiteral("damping"), damping_);
-  faults()->setObjectName(QStringLiteral("couplingFaults"));
-  form->addRow(faults());
-  stiffness_->setName(QStringLiteral("stiffness"));
-  damping_->setName(QStringLiteral("damping"));
-  for (auto* number : {stiffness_, damping_}) faults()->watch(number);
-  stiffness_->setToolTip(QStringLiteral("spring between the hand and the mass that it drives"));
-  damping_->setToolTip(QStringLiteral("damper beside this spring"));
-  setBody(body);
-  const auto tell = [this] {
+class CouplingDock : public FormDock {
+ public:
+  explicit CouplingDock(QWidget* parent) : FormDock("Coupling", "couplingDock", parent) {
+    addNumber({"stiffness", "stiffness", 0, 1e6, "N/m", "spring between the hand and the mass that it drives"}, coupling_.stiffness)
+        ->setObjectName("couplingStiffness");
+    addNumber({"damping", "damping", 0, 1e5, "N s/m", "damper beside this spring"}, coupling_.damping);
+    endForm();
+  }
+
+ private:
+  void fill(const experiment::CompiledExperiment& experiment) override {
+    const std::optional<experiment::Coupling>& coupling = experiment.experiment().coupling;
+    if (!coupling) body()->setEnabled(false);
+    body()->setToolTip(coupling ? QString() : "the springs of a parallel object are the hand's own");
+    coupling_ = coupling.value_or(experiment::Coupling());
+  }
+  void tell() override {
     experiment::Experiment changed = shown();
-    changed.coupling = experiment::Coupling{stiffness_->value(), damping_->value()};
-    Q_EMIT edited(changed, QStringLiteral("coupling"));
-  };
-  connect(stiffness_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, tell);
-  connect(damping_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, tell);
-}
+    changed.coupling = coupling_;
+    Q_EMIT edited(changed, "coupling");
+  }
 
-void CouplingDock::display(const experiment::CompiledExperiment& experiment, bool editable) {
-  const std::optional<experiment::Coupling>& coupling = experiment.experiment().coupling;
-  body()->setEnabled(editable && coupling.has_value());
-  body()->setToolTip(coupling ? QString() : QStringLiteral("the springs of a parallel object are the hand's own"));
-  stiffness_->show(coupling ? coupling->stiffness : 0);
-  damping_->show(coupling ? coupling->damping : 0);
-}
+  experiment::Coupling coupling_;  // as entered
+};
+
+}  // namespace
+
+Dock* makeCouplingDock(QWidget* parent) { return new CouplingDock(parent); }
 
 }  // namespace reachlab::gui::docks

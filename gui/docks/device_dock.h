@@ -41,9 +41,6 @@ class DeviceDock : public Dock {
   /// It is to be the hand.
   void taken(const QString& name);
 
- protected:
-  void display(const experiment::CompiledExperiment&, bool) override {}
-
  private:
   bool mayAsk() const;
   QString withOptions(const QString& name) const;

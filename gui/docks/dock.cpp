@@ -38,6 +38,7 @@ class Scroll : public QScrollArea {
 
 Dock::Dock(const QString& title, const QString& name, QWidget* parent) : QDockWidget(title, parent), faults_(new widgets::FaultLabel) {
   setObjectName(name);
+  faults_->setObjectName(QString(name).replace(QLatin1String("Dock"), QLatin1String("Faults")));
   faults_->setParent(this);  // until the dock gives it a place
   faults_->hide();
 }

@@ -16,7 +16,7 @@ namespace reachlab::gui::docks {
 class Dock : public QDockWidget {
   Q_OBJECT
  public:
-  /// `name`: by which the layout is remembered.
+  /// `name`: by which the layout is remembered. The faults of "objectDock" are named "objectFaults".
   Dock(const QString& title, const QString& name, QWidget* parent);
 
   /// Displays the experiment and emits nothing. `editable` is false if the settings belong to a plan's file.
@@ -29,7 +29,7 @@ class Dock : public QDockWidget {
   void edited(const reachlab::experiment::Experiment& changed, const QString& what);
 
  protected:
-  virtual void display(const experiment::CompiledExperiment& experiment, bool editable) = 0;
+  virtual void display(const experiment::CompiledExperiment&, bool /*editable*/) {}
   /// Shows the faults of the entries alone, after another experiment is displayed. For docks that check their entries themselves.
   virtual void showEntryFaults();
   /// `scrolls`: on a small screen the dock may be lower than its content.

@@ -1,5 +1,3 @@
-#include "gui/docks/environment_dock.h"
-
 #include <QComboBox>
 #include <QFormLayout>
 #include <QGroupBox>
@@ -12,6 +10,7 @@
 #include <map>
 #include <string_view>
 
+#include "gui/docks/experiment_docks.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/key_field.h"
 #include "gui/widgets/named.h"
@@ -148,7 +147,34 @@ void takeFrom(const std::vector<widgets::KeyField*>& fields, T& of) {
   eachKey(of, [&](const Key&, auto& value) { setNumbers(value, (*field++)->value()); });
 }
 
-}  // namespace
+class EnvironmentDock : public Dock {
+ public:
+  explicit EnvironmentDock(QWidget* parent);
+
+ private:
+  // The fields of one kind of force, or of the cursor, in the order of its keys.
+  struct Page {
+    QWidget* widget = nullptr;
+    std::vector<widgets::KeyField*> fields;
+  };
+  template <class T>
+  Page makePage(const QString& name, const T& of);
+  QWidget* makeForces();
+  QWidget* makeCursor();
+  void display(const experiment::CompiledExperiment& experiment, bool editable) override;
+  void showForce();
+  void tell(experiment::Environment forces, std::optional<experiment::Cursor> cursor);
+  void tellForce();
+  void tellCursor();
+  std::size_t row() const;  // of the chosen force; their number if no force is chosen
+
+  QListWidget* list_;
+  QComboBox* kind_;
+  QPushButton* remove_;
+  std::vector<Page> kinds_;  // in the order of experiment::ForceLaw
+  QGroupBox* cursorBox_;
+  Page cursor_;
+};
 
 template <class T>
 EnvironmentDock::Page EnvironmentDock::makePage(const QString& name, const T& of) {
@@ -178,7 +204,6 @@ EnvironmentDock::EnvironmentDock(QWidget* parent) : Dock(QStringLiteral("Environ
   auto* column = new QVBoxLayout(body);
   column->addWidget(makeForces());
   column->addWidget(makeCursor());
-  faults()->setObjectName(QStringLiteral("environmentFaults"));
   column->addWidget(faults());
   column->addStretch(1);
   setBody(body);
@@ -302,5 +327,9 @@ void EnvironmentDock::tell(experiment::Environment forces, std::optional<experim
   changed.cursor = cursor;
   Q_EMIT edited(changed, QStringLiteral("environment"));
 }
+
+}  // namespace
+
+Dock* makeEnvironmentDock(QWidget* parent) { return new EnvironmentDock(parent); }
 
 }  // namespace reachlab::gui::docks

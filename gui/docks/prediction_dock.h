@@ -28,9 +28,6 @@ class PredictionDock : public Dock {
  Q_SIGNALS:
   void chosenChanged();
 
- protected:
-  void display(const experiment::CompiledExperiment&, bool) override {}
-
  private:
   void fillErrors();
 

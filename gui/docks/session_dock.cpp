@@ -30,7 +30,6 @@ SessionDock::SessionDock(QWidget* parent) : Dock(QStringLiteral("Session"), QStr
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);
   layout->addWidget(makeWho());
-  faults()->setObjectName(QStringLiteral("sessionFaults"));
   layout->addWidget(faults());
   addPause(*layout);
   layout->addStretch();

@@ -1,5 +1,3 @@
-#include "gui/docks/task_dock.h"
-
 #include <QFormLayout>
 #include <QLabel>
 #include <cmath>
@@ -10,10 +8,9 @@
 #include "constraints/formula/formula.h"
 #include "constraints/geometry/arc_length.h"
 #include "constraints/geometry/task_path.h"
-#include "gui/widgets/fault_label.h"
+#include "gui/docks/experiment_docks.h"
+#include "gui/docks/form_dock.h"
 #include "gui/widgets/named.h"
-#include "gui/widgets/number_list_edit.h"
-#include "gui/widgets/unit_spin_box.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::docks {
@@ -44,136 +41,87 @@ QString lengthOfReach(const constraints::Constraint& constraint, const experimen
   }
 }
 
+class TaskDock : public FormDock {
+ public:
+  explicit TaskDock(QWidget* parent) : FormDock("Task", "taskDock", parent), length_(widgets::named<QLabel>("taskLength")) {
+    start_ = addList("start", "taskStart", {}, [this](const std::vector<double>& q) { task_.start = q; });
+    target_ = addList("target", "taskTarget", {}, [this](const std::vector<double>& q) { task_.target = q; });
+    length_->setProperty("role", "quiet");
+    form().addRow(QString(), length_);
+    via_ = addList("via x y z [m]", "taskVia",
+                   "Places that the last mass, or a bare hand, passes in this order before it arrives: x y z of each.",
+                   [this](const std::vector<double>& numbers) {
+                     task_.via.clear();
+                     for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
+                       task_.via.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
+                   });
+    via_->setRule({.list = "via", .most = 60, .multipleOf = 3});
+    viaRadius_ =
+        addNumber({"± via", "radius of via", 1e-5, 1, "m", "Distance within which such a place counts as passed."}, task_.viaRadius);
+    addNumber({"time T", "time T", 0.05, 60, "s", "duration of the movement that is asked for, from its onset"}, task_.duration)
+        ->setObjectName("taskDuration");
+    addNumber({"± ΔT", "ΔT", 0.001, 30, "s", "how much earlier or later than T the movement may end"}, task_.tolerance.time);
+    addNumber({"± Δx", "Δx", 1e-5, 1, "m", "how near the target every mass must be at the end"}, task_.tolerance.position);
+    addNumber({"± Δv", "Δv", 1e-5, 10, "m/s", "how slow every mass must be at the end"}, task_.tolerance.velocity);
+    endForm();
+  }
+
+ private:
+  void fill(const experiment::CompiledExperiment& experiment) override {
+    if (!experiment.experiment().task) return;
+    task_ = *experiment.experiment().task;
+    const constraints::Constraint& constraint = experiment.constraint();
+    const bool free = constraint.kind == constraints::ConstraintKind::Free;
+    widgets::NumberListRule rule{.formulas = !free};
+    if (free) rule.names = QStringList{"x", "y", "z"};
+    else
+      for (const std::string& name : constraints::variablesOf(constraint.kind)) rule.names << QString::fromStdString(name);
+    rule.fewest = rule.most = static_cast<std::size_t>(rule.names.size());
+    showPlace(*start_, "start", task_.start, "target", task_.target, constraint, rule);
+    showPlace(*target_, "target", task_.target, "start", task_.start, constraint, rule);
+    const QString length = lengthOfReach(constraint, task_);
+    length_->setText(length);
+    length_->setVisible(!length.isEmpty());
+    std::vector<double> via;
+    for (const Vec3& place : task_.via) via.insert(via.end(), {place.x, place.y, place.z});
+    via_->setNumbers(via);
+    viaRadius_->setEnabled(!via.empty());
+  }
+
+  // `other`: the other end of the reach, from which lengths are counted.
+  void showPlace(widgets::NumberListEdit& field, const QString& name, const std::vector<double>& place, const QString& otherName,
+                 const std::vector<double>& other, const constraints::Constraint& constraint, widgets::NumberListRule rule) {
+    // A formula's own measure, rad where it is an angle.
+    const QString unit = rule.names.join(QLatin1Char(' ')) + (rule.formulas ? " [1]" : " [m]");
+    QString tip = "three coordinates in metres";
+    if (rule.formulas)
+      tip = QStringLiteral(
+                "the position on the constraint, by its parameters (rad for an angle): %1.\nFractions of pi may be typed: pi/2, 3*pi/4")
+                .arg(unit);
+    if (constraint.kind == constraints::ConstraintKind::Curve)
+      tip += QStringLiteral(".\n\"0.2 m\" means 0.2 m along the curve, counted from the %1").arg(otherName);
+    field.setToolTip(tip + ".\nThe position can also be dragged in the scene while no run is open.");
+    qobject_cast<QLabel*>(form().labelForField(&field))->setText(name + QLatin1Char(' ') + unit);
+    rule.list = name;
+    rule.atLength = lengthsFrom(constraint, other, place);
+    field.setRule(rule);
+    field.setNumbers(place);
+  }
+
+  void tell() override {
+    experiment::Experiment changed = shown();
+    changed.task = task_;
+    Q_EMIT edited(changed, "task");
+  }
+
+  experiment::Task task_;  // as entered
+  widgets::NumberListEdit *start_, *target_, *via_;
+  widgets::UnitSpinBox* viaRadius_;
+  QLabel* length_;
+};
+
 }  // namespace
 
-TaskDock::TaskDock(QWidget* parent) : Dock(QStringLiteral("Task"), QStringLiteral("taskDock"), parent) {
-  auto* body = new QWidget;
-  auto* form = new QFormLayout(body);
-  start_ = new widgets::NumberListEdit;
-  target_ = widgets::named<widgets::NumberListEdit>("taskTarget");
-  duration_ = widgets::named<widgets::UnitSpinBox>("taskDuration", 0.05, 60, QStringLiteral("s"));
-  time_ = new widgets::UnitSpinBox(0.001, 30, QStringLiteral("s"));
-  position_ = new widgets::UnitSpinBox(1e-5, 1, QStringLiteral("m"));
-  velocity_ = new widgets::UnitSpinBox(1e-5, 10, QStringLiteral("m/s"));
-  start_->setObjectName(QStringLiteral("taskStart"));
-  via_ = widgets::named<widgets::NumberListEdit>("taskVia");
-  via_->setToolTip(QStringLiteral("Places that the last mass, or a bare hand, passes in this order before it arrives: x y z of each."));
-  widgets::NumberListRule places;
-  places.list = QStringLiteral("via");
-  places.multipleOf = 3;
-  places.most = 60;
-  via_->setRule(places);
-  viaRadius_ = new widgets::UnitSpinBox(1e-5, 1, QStringLiteral("m"));
-  viaRadius_->setToolTip(QStringLiteral("Distance within which such a place counts as passed."));
-  startLabel_ = new QLabel;
-  targetLabel_ = new QLabel;
-  form->addRow(startLabel_, start_);
-  form->addRow(targetLabel_, target_);
-  length_ = widgets::named<QLabel>("taskLength");
-  length_->setProperty("role", "quiet");
-  form->addRow(QString(), length_);
-  form->addRow(QStringLiteral("via x y z [m]"), via_);
-  form->addRow(QStringLiteral("± via"), viaRadius_);
-  form->addRow(QStringLiteral("time T"), duration_);
-  form->addRow(QStringLiteral("± ΔT"), time_);
-  form->addRow(QStringLiteral("± Δx"), position_);
-  form->addRow(QStringLiteral("± Δv"), velocity_);
-  faults()->setObjectName(QStringLiteral("taskFaults"));
-  form->addRow(faults());
-  duration_->setName(QStringLiteral("time T"));
-  time_->setName(QStringLiteral("ΔT"));
-  position_->setName(QStringLiteral("Δx"));
-  velocity_->setName(QStringLiteral("Δv"));
-  viaRadius_->setName(QStringLiteral("radius of via"));
-  for (auto* list : {start_, target_, via_}) faults()->watch(list);
-  for (auto* number : {duration_, time_, position_, velocity_, viaRadius_}) faults()->watch(number);
-  duration_->setToolTip(QStringLiteral("duration of the movement that is asked for, from its onset"));
-  time_->setToolTip(QStringLiteral("how much earlier or later than T the movement may end"));
-  position_->setToolTip(QStringLiteral("how near the target every mass must be at the end"));
-  velocity_->setToolTip(QStringLiteral("how slow every mass must be at the end"));
-  setBody(body);
-
-  const auto bind = [this](widgets::UnitSpinBox* box, auto set) {
-    connect(box, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this, set](double v) {
-      set(task_, v);
-      tell();
-    });
-  };
-  bind(duration_, [](experiment::Task& t, double v) { t.duration = v; });
-  bind(time_, [](experiment::Task& t, double v) { t.tolerance.time = v; });
-  bind(position_, [](experiment::Task& t, double v) { t.tolerance.position = v; });
-  bind(velocity_, [](experiment::Task& t, double v) { t.tolerance.velocity = v; });
-  bind(viaRadius_, [](experiment::Task& t, double v) { t.viaRadius = v; });
-  connect(via_, &widgets::NumberListEdit::numbersEdited, this, [this] {
-    const std::vector<double> numbers = *via_->numbers();
-    task_.via.clear();
-    for (std::size_t i = 0; i + 2 < numbers.size(); i += 3) task_.via.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
-    tell();
-  });
-  connect(start_, &widgets::NumberListEdit::numbersEdited, this, [this] {
-    task_.start = *start_->numbers();
-    tell();
-  });
-  connect(target_, &widgets::NumberListEdit::numbersEdited, this, [this] {
-    task_.target = *target_->numbers();
-    tell();
-  });
-}
-
-void TaskDock::display(const experiment::CompiledExperiment& experiment, bool editable) {
-  body()->setEnabled(editable);
-  if (!experiment.experiment().task) return;
-  const experiment::Task& task = task_ = *experiment.experiment().task;
-  const constraints::ConstraintKind kind = experiment.constraint().kind;  // what the numbers of start and target are
-  widgets::NumberListRule rule;
-  QString unit;
-  if (kind == constraints::ConstraintKind::Free) {
-    rule.names = QStringList{QStringLiteral("x"), QStringLiteral("y"), QStringLiteral("z")};
-    unit = QStringLiteral("x y z [m]");
-  } else {
-    for (const std::string& name : constraints::variablesOf(kind)) rule.names << QString::fromStdString(name);
-    unit = rule.names.join(QLatin1Char(' ')) + QStringLiteral(" [1]");  // a formula's own measure, rad where it is an angle
-  }
-  const constraints::Constraint& constraint = experiment.constraint();
-  rule.fewest = rule.most = static_cast<std::size_t>(rule.names.size());
-  rule.formulas = kind != constraints::ConstraintKind::Free;
-  rule.list = QStringLiteral("start");
-  rule.atLength = lengthsFrom(constraint, task.target, task.start);
-  start_->setRule(rule);
-  startLabel_->setText(QStringLiteral("start ") + unit);
-  rule.list = QStringLiteral("target");
-  rule.atLength = lengthsFrom(constraint, task.start, task.target);
-  target_->setRule(rule);
-  targetLabel_->setText(QStringLiteral("target ") + unit);
-  QString places = QStringLiteral("three coordinates in metres");
-  if (rule.formulas)
-    places = QStringLiteral(
-                 "the position on the constraint, by its parameters (rad for an angle): %1.\nFractions of pi may be typed: pi/2, 3*pi/4")
-                 .arg(unit);
-  if (kind == constraints::ConstraintKind::Curve) places += QStringLiteral(".\n\"0.2 m\" means 0.2 m along the curve, counted from the %1");
-  places += QStringLiteral(".\nThe position can also be dragged in the scene while no run is open.");
-  start_->setToolTip(kind == constraints::ConstraintKind::Curve ? places.arg(QStringLiteral("target")) : places);
-  target_->setToolTip(kind == constraints::ConstraintKind::Curve ? places.arg(QStringLiteral("start")) : places);
-  const QString length = lengthOfReach(constraint, task);
-  length_->setText(length);
-  length_->setVisible(!length.isEmpty());
-  start_->setNumbers(task.start);
-  target_->setNumbers(task.target);
-  std::vector<double> via;
-  for (const Vec3& place : task.via) via.insert(via.end(), {place.x, place.y, place.z});
-  via_->setNumbers(via);
-  viaRadius_->show(task.viaRadius);
-  viaRadius_->setEnabled(!via.empty());
-  duration_->show(task.duration);
-  time_->show(task.tolerance.time);
-  position_->show(task.tolerance.position);
-  velocity_->show(task.tolerance.velocity);
-}
-
-void TaskDock::tell() {
-  experiment::Experiment changed = shown();
-  changed.task = task_;
-  Q_EMIT edited(changed, QStringLiteral("task"));
-}
+Dock* makeTaskDock(QWidget* parent) { return new TaskDock(parent); }
 
 }  // namespace reachlab::gui::docks

@@ -34,9 +34,6 @@ class TrialsDock : public Dock {
   void excludeRequested(int number, const QString& reason);  // as it is now
   void takeBackRequested();
 
- protected:
-  void display(const experiment::CompiledExperiment&, bool) override {}
-
  private:
   struct Row {
     int number = 0;

@@ -9,10 +9,10 @@
 #include <QMainWindow>
 #include <QPushButton>
 #include <QVBoxLayout>
+#include <memory>
 
 #include "gui/docks/all_docks.h"
-#include "gui/docks/environment_dock.h"
-#include "gui/docks/object_dock.h"
+#include "gui/docks/experiment_docks.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/fault_words.h"
 #include "gui/widgets/key_field.h"
@@ -70,11 +70,11 @@ TEST(Dock, TakesAnExperimentAndGivesTheEditedOneWithTheRestAsItWas) {
 
 TEST(ObjectDock, AnEditLeavesWhatItDoesNotShow) {
   const experiment::CompiledExperiment chain = experiment::openExperiment("chain-moderate");
-  ObjectDock dock;
-  dock.showExperiment(chain, true);
+  const std::unique_ptr<Dock> dock(makeObjectDock());
+  dock->showExperiment(chain, true);
   experiment::Experiment told;
-  QObject::connect(&dock, &Dock::edited, &dock, [&](const experiment::Experiment& e, const QString&) { told = e; });
-  auto* masses = dock.findChild<widgets::NumberListEdit*>(QStringLiteral("masses"));
+  QObject::connect(dock.get(), &Dock::edited, dock.get(), [&](const experiment::Experiment& e, const QString&) { told = e; });
+  auto* masses = dock->findChild<widgets::NumberListEdit*>(QStringLiteral("masses"));
   masses->setText(QStringLiteral("0.5 0.4"));
   Q_EMIT masses->editingFinished();
   EXPECT_EQ(told.object.masses, (std::vector<double>{0.5, 0.4}));
@@ -86,13 +86,13 @@ TEST(ObjectDock, AnEditLeavesWhatItDoesNotShow) {
 class EnvironmentDockTest : public ::testing::Test {
  protected:
   EnvironmentDockTest() {
-    QObject::connect(&dock_, &Dock::edited, &dock_, [this](const experiment::Experiment& e, const QString& what) {
+    QObject::connect(dock_.get(), &Dock::edited, dock_.get(), [this](const experiment::Experiment& e, const QString& what) {
       told_ = e;
       what_ = what;
     });
     showExperiment(experiment::readExperiment("centre-out"));
   }
-  void showExperiment(const experiment::Experiment& e) { dock_.showExperiment(experiment::CompiledExperiment(e), true); }
+  void showExperiment(const experiment::Experiment& e) { dock_->showExperiment(experiment::CompiledExperiment(e), true); }
   // The user's change, taken over as the window takes it.
   void takeOver() {
     ASSERT_TRUE(experiment::problems(told_).empty());
@@ -100,7 +100,7 @@ class EnvironmentDockTest : public ::testing::Test {
   }
   template <class Widget>
   Widget* child(const char* name) {
-    auto* found = dock_.findChild<Widget*>(QLatin1String(name));
+    auto* found = dock_->findChild<Widget*>(QLatin1String(name));
     EXPECT_NE(found, nullptr) << name;
     return found;
   }
@@ -113,7 +113,7 @@ class EnvironmentDockTest : public ::testing::Test {
     for (auto* box : child<widgets::KeyField>(field)->findChildren<widgets::UnitSpinBox*>()) found.push_back(box);
     return found;
   }
-  EnvironmentDock dock_;
+  std::unique_ptr<Dock> dock_{makeEnvironmentDock()};
   experiment::Experiment told_;
   QString what_;
 };
@@ -165,7 +165,7 @@ TEST_F(EnvironmentDockTest, ShowsEveryKeyOfAFileAndTellsItUnchanged) {
     child<QListWidget>("forces")->setCurrentRow(static_cast<int>(row));
     const QString kind = child<QComboBox>("forceKind")->currentText();
     int fields = 0;
-    for (auto* field : dock_.findChildren<widgets::KeyField*>())
+    for (auto* field : dock_->findChildren<widgets::KeyField*>())
       if (field->objectName().startsWith(kind + QLatin1Char('.'))) {
         ++fields;
         EXPECT_FALSE(field->toolTip().isEmpty()) << field->objectName().toStdString();
@@ -188,7 +188,7 @@ TEST_F(EnvironmentDockTest, AnEntryThatIsRefusedAloneHoldsWithTheNext) {
   const QStringList faults = widgets::inWords(experiment::problems(told_));
   ASSERT_EQ(faults.size(), 1);
   EXPECT_TRUE(faults[0].startsWith(QStringLiteral("force 1, duration: is 0.1, shorter than rise and fall"))) << faults[0].toStdString();
-  dock_.showFaults(faults);
+  dock_->showFaults(faults);
   EXPECT_EQ(child<QLabel>("environmentFaults")->text(), faults[0]);
   numbersOf("pulse.duration_s")[0]->setValue(0.2);
   const auto& pulse = std::get<experiment::PulseForce>(told_.environment.at(0).law);
