@@ -2,10 +2,8 @@
 #include <QImage>
 #include <QObject>
 #include <QString>
-#include <condition_variable>
-#include <deque>
-#include <mutex>
-#include <thread>
+#include <QThreadPool>
+#include <atomic>
 
 class QTimer;
 
@@ -23,7 +21,6 @@ class FrameRecorder : public QObject {
  public:
   static constexpr int kPerSecond = 25;
   FrameRecorder(scene::SceneView& view, QObject* parent);
-  ~FrameRecorder() override;
 
   void start(const QString& folder);
   /// `ended` follows when the last picture is written.
@@ -35,18 +32,15 @@ class FrameRecorder : public QObject {
 
  private:
   void take();
-  void write(const std::stop_token& stop);
+  void write(const QImage& picture);  // on the pool's thread
 
   scene::SceneView& view_;
   QTimer* timer_;
   QString folder_;
-  QSize size_;        // of the film, from its first picture on [pixel]
-  std::mutex mutex_;  // guards what follows
-  std::condition_variable_any changed_;
-  std::deque<QImage> waiting_;
-  int written_ = 0, leftOut_ = 0, failed_ = 0;
-  bool last_ = false;
-  std::jthread thread_;
+  QSize size_;  // of the film, from its first picture on [pixel]
+  int leftOut_ = 0;
+  std::atomic<int> waiting_{0}, written_{0}, failed_{0};
+  QThreadPool pool_;  // of one thread, which writes in the order of the film; last: it ends before what it uses
 };
 
 }  // namespace reachlab::gui::app
