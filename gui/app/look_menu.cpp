@@ -1,19 +1,15 @@
-#include "gui/app/look_menu.h"
-
 #include <QActionGroup>
 #include <QColorDialog>
 #include <QFileDialog>
-#include <QHBoxLayout>
 #include <QInputDialog>
-#include <QLabel>
-#include <QMenu>
 #include <QSettings>
 #include <QSlider>
 #include <QStatusBar>
-#include <QWidgetAction>
+#include <functional>
+#include <tuple>
 
 #include "gui/app/frame_recorder.h"
-#include "gui/app/main_window.h"
+#include "gui/app/menu_entries.h"
 #include "gui/scene/scene_view.h"
 #include "gui/scene_plan/part_names.h"
 #include "gui/widgets/theme.h"
@@ -49,128 +45,94 @@ scene::Camera cameraOf(const experiment::NamedCamera& named) {
   return {named.position, named.focus, named.up, named.angle, named.parallel};
 }
 
-// A switch of the experiment's look; set anew whenever the menu opens.
-void addSwitch(MainWindow& window, QMenu& menu, const QString& title, const char* name, bool SceneLook::*part) {
-  QAction* action = menu.addAction(title);
-  action->setObjectName(QLatin1String(name));
-  action->setCheckable(true);
-  QObject::connect(&menu, &QMenu::aboutToShow, action, [&window, action, part] {
-    action->setChecked(window.look().*part);
-    action->setEnabled(!window.session().isPlan());  // a plan's experiments stand in their files
-  });
-  QObject::connect(action, &QAction::triggered, &window, [&window, part](bool on) {
-    SceneLook look = window.look();
-    look.*part = on;
-    window.setLook(look);
-  });
+void changeLook(MainWindow& window, const std::function<void(SceneLook&)>& change) {
+  SceneLook look = window.look();
+  change(look);
+  if (!(look == window.look()))
+    window.edit(experiment::withLook(window.session().experiment(), look), QObject::tr("Another look of the scene"),
+                QObject::tr("look of the scene"));
+}
+
+void addParts(MainWindow& window, QMenu& menu) {
+  const std::tuple<const char*, const char*, bool SceneLook::*> parts[] = {{"lookTrace", "Trace of the hand", &SceneLook::trace},
+                                                                           {"lookArrow", "Arrow of the force", &SceneLook::forceArrow}};
+  for (const auto& [name, title, part] : parts)
+    addExperimentSwitch(
+        window, menu, QObject::tr(title), name, [&window, part = part] { return window.look().*part; },
+        [&window, part = part](bool on) { changeLook(window, [&](SceneLook& look) { look.*part = on; }); });
 }
 
 void addDepthCues(MainWindow& window, QMenu& menu) {
-  auto* group = new QActionGroup(&menu);
   const std::pair<const char*, const char*> cues[] = {{"none", "No depth cue"}, {"grid", "Grid below"}, {"shadow", "Grid and shadows"}};
-  for (const auto& [name, title] : cues) {
-    QAction* action = group->addAction(QObject::tr(title));
-    menu.addAction(action);
-    action->setObjectName(QStringLiteral("depth_") + QLatin1String(name));
-    action->setCheckable(true);
-    QObject::connect(&menu, &QMenu::aboutToShow, action, [&window, action, name = name] {
-      action->setChecked(window.look().depthCue == name);
-      action->setEnabled(!window.session().isPlan());
-    });
-    QObject::connect(action, &QAction::triggered, &window, [&window, name = name] {
-      SceneLook look = window.look();
-      look.depthCue = name;
-      window.setLook(look);
-    });
-  }
+  auto* group = new QActionGroup(&menu);
+  for (const auto& [name, title] : cues)
+    group->addAction(addExperimentSwitch(
+        window, menu, QObject::tr(title), QLatin1String("depth_") + name, [&window, name = name] { return window.look().depthCue == name; },
+        [&window, name = name](bool) { changeLook(window, [&](SceneLook& look) { look.depthCue = name; }); }));
 }
 
 void addOpacity(MainWindow& window, QMenu& menu) {
-  auto* row = new QWidget;
-  auto* layout = new QHBoxLayout(row);
-  auto* slider = new QSlider(Qt::Horizontal);
-  slider->setObjectName(QStringLiteral("surfaceOpacity"));
-  slider->setRange(0, 100);
-  slider->setMinimumWidth(140);
-  layout->addWidget(new QLabel(QObject::tr("Surface's opacity")));
-  layout->addWidget(slider);
+  QSlider* slider = addSlider(menu, QObject::tr("Surface's opacity"), "surfaceOpacity", 140);
   QObject::connect(&menu, &QMenu::aboutToShow, slider, [&window, slider] {
     slider->setValue(static_cast<int>(100 * window.look().surfaceOpacity + 0.5));
     slider->setEnabled(!window.session().isPlan());
   });
-  QObject::connect(slider, &QSlider::sliderReleased, &window, [&window, slider] {
-    SceneLook look = window.look();
-    look.surfaceOpacity = 0.01 * slider->value();
-    window.setLook(look);
-  });
-  auto* action = new QWidgetAction(&menu);
-  action->setDefaultWidget(row);
-  menu.addAction(action);
+  QObject::connect(slider, &QSlider::sliderReleased, &window,
+                   [&window, slider] { changeLook(window, [&](SceneLook& look) { look.surfaceOpacity = 0.01 * slider->value(); }); });
 }
 
 void listColours(MainWindow& window, QMenu& menu) {
   menu.clear();
   menu.setEnabled(!window.session().isPlan());
   for (const std::string& part : experiment::colouredParts()) {
-    QAction* action = menu.addAction(swatchOf(drawnColour(window, part)), wordsOf(part) + QStringLiteral("…"));
-    action->setProperty("part", QString::fromStdString(part));
-    QObject::connect(action, &QAction::triggered, &window, [&window, part] {
-      SceneLook look = window.look();
+    const auto choose = [&window, part] {
       const QColor chosen =
           QColorDialog::getColor(drawnColour(window, part), &window, QObject::tr("Colour of the scene: %1").arg(wordsOf(part)));
-      if (!chosen.isValid()) return;
-      look.colours[part] = chosen.name().toStdString();
-      window.setLook(look);
-    });
+      if (chosen.isValid()) changeLook(window, [&](SceneLook& look) { look.colours[part] = chosen.name().toStdString(); });
+    };
+    QAction* action = addEntry(window, menu, wordsOf(part) + QStringLiteral("…"), choose);
+    action->setIcon(swatchOf(drawnColour(window, part)));
+    action->setProperty("part", QString::fromStdString(part));
   }
   menu.addSeparator();
-  QObject::connect(menu.addAction(QObject::tr("The theme's own")), &QAction::triggered, &window, [&window] {
-    SceneLook look = window.look();
-    look.colours.clear();
-    window.setLook(look);
+  addEntry(window, menu, QObject::tr("The theme's own"), [&window] { changeLook(window, [](SceneLook& look) { look.colours.clear(); }); });
+}
+
+void rememberView(MainWindow& window) {
+  const QString text = QInputDialog::getText(&window, QObject::tr("Remember this view"), QObject::tr("Its name, for the menu"));
+  const std::string name = text.trimmed().toStdString();
+  if (name.empty()) return;
+  const scene::Camera& c = window.view().camera();
+  changeLook(window, [&](SceneLook& look) {
+    std::erase_if(look.cameras, [&](const experiment::NamedCamera& known) { return known.name == name; });
+    look.cameras.push_back({name, c.position, c.focus, c.up, c.angle, c.parallel});
   });
 }
 
 void listCameras(MainWindow& window, QMenu& menu) {
   menu.clear();
-  const SceneLook look = window.look();
-  for (const experiment::NamedCamera& camera : look.cameras)
-    QObject::connect(menu.addAction(QString::fromStdString(camera.name)), &QAction::triggered, &window,
-                     [&window, camera] { window.view().setCamera(cameraOf(camera)); });
+  const std::vector<experiment::NamedCamera> cameras = window.look().cameras;
+  for (const experiment::NamedCamera& camera : cameras)
+    addEntry(window, menu, QString::fromStdString(camera.name), [&window, camera] { window.view().setCamera(cameraOf(camera)); });
   menu.addSeparator();
-  QAction* keep = menu.addAction(QObject::tr("Remember this view…"));
+  QAction* keep = addEntry(window, menu, QObject::tr("Remember this view…"), [&window] { rememberView(window); });
   keep->setObjectName(QStringLiteral("rememberView"));
   keep->setEnabled(!window.session().isPlan());
-  QObject::connect(keep, &QAction::triggered, &window, [&window] {
-    const QString name = QInputDialog::getText(&window, QObject::tr("Remember this view"), QObject::tr("Its name, for the menu"));
-    if (!name.trimmed().isEmpty()) window.rememberView(name.trimmed());
-  });
   QMenu* forget = menu.addMenu(QObject::tr("Forget"));
-  forget->setEnabled(!look.cameras.empty() && !window.session().isPlan());
-  for (std::size_t i = 0; i < look.cameras.size(); ++i)
-    QObject::connect(forget->addAction(QString::fromStdString(look.cameras[i].name)), &QAction::triggered, &window, [&window, i] {
-      SceneLook changed = window.look();
-      changed.cameras.erase(changed.cameras.begin() + static_cast<std::ptrdiff_t>(i));
-      window.setLook(changed);
-    });
+  forget->setEnabled(!cameras.empty() && !window.session().isPlan());
+  for (const experiment::NamedCamera& camera : cameras)
+    addEntry(window, *forget, QString::fromStdString(camera.name),
+             [&window, camera] { changeLook(window, [&](SceneLook& look) { std::erase(look.cameras, camera); }); });
 }
 
 void addScenery(MainWindow& window, QMenu& menu) {
-  QAction* open = menu.addAction(QObject::tr("Scene from a file…"));
-  QObject::connect(open, &QAction::triggered, &window, [&window] {
+  QAction* open = addEntry(window, menu, QObject::tr("Scene from a file…"), [&window] {
     const QString file =
         QFileDialog::getOpenFileName(&window, QObject::tr("Scene from a file"), {}, QObject::tr("Scenes (*.wrl *.gltf *.glb)"));
-    if (file.isEmpty()) return;
-    SceneLook look = window.look();
-    look.sceneFile = file.toStdString();
-    window.setLook(look);
+    if (!file.isEmpty()) changeLook(window, [&](SceneLook& look) { look.sceneFile = file.toStdString(); });
   });
-  QAction* none = menu.addAction(QObject::tr("Remove the scene from a file"));
-  QObject::connect(none, &QAction::triggered, &window, [&window] {
-    SceneLook look = window.look();
-    look.sceneFile.clear();
-    window.setLook(look);
-  });
+  QAction* none = addEntry(window, menu, QObject::tr("Remove the scene from a file"),
+                           [&window] { changeLook(window, [](SceneLook& look) { look.sceneFile.clear(); }); });
   QObject::connect(&menu, &QMenu::aboutToShow, open, [&window, open, none] {
     open->setEnabled(!window.session().isPlan());
     none->setEnabled(!window.session().isPlan() && !window.look().sceneFile.empty());
@@ -209,17 +171,13 @@ void addLookMenu(MainWindow& window, QMenu& menu) {
   QMenu* cameras = menu.addMenu(QObject::tr("View &from"));
   cameras->setObjectName(QStringLiteral("cameras"));
   QObject::connect(cameras, &QMenu::aboutToShow, cameras, [&window, cameras] { listCameras(window, *cameras); });
-  QAction* parallel = menu.addAction(QObject::tr("&Parallel projection"));
-  parallel->setObjectName(QStringLiteral("parallel"));
-  parallel->setCheckable(true);
-  QObject::connect(parallel, &QAction::triggered, &window, [&window](bool on) { window.view().setParallel(on); });
-  QAction* stereo = menu.addAction(QObject::tr("Stereo, for red and cyan glasses"));
-  stereo->setCheckable(true);
-  QObject::connect(stereo, &QAction::triggered, &window, [&window](bool on) { window.view().setStereo(on); });
+  addSwitch(window, menu, QObject::tr("&Parallel projection"), [&window](bool on) {
+    window.view().setParallel(on);
+  })->setObjectName(QStringLiteral("parallel"));
+  addSwitch(window, menu, QObject::tr("Stereo, for red and cyan glasses"), [&window](bool on) { window.view().setStereo(on); });
   QMenu* look = menu.addMenu(QObject::tr("&Look of the scene"));
   look->setObjectName(QStringLiteral("look"));
-  addSwitch(window, *look, QObject::tr("Trace of the hand"), "lookTrace", &SceneLook::trace);
-  addSwitch(window, *look, QObject::tr("Arrow of the force"), "lookArrow", &SceneLook::forceArrow);
+  addParts(window, *look);
   look->addSeparator();
   addDepthCues(window, *look);
   look->addSeparator();
@@ -228,14 +186,13 @@ void addLookMenu(MainWindow& window, QMenu& menu) {
   QObject::connect(look, &QMenu::aboutToShow, colours, [&window, colours] { listColours(window, *colours); });
   look->addSeparator();
   addScenery(window, *look);
-  QAction* light = menu.addAction(QObject::tr("Light theme"));
-  light->setObjectName(QStringLiteral("lightTheme"));
-  light->setCheckable(true);
-  light->setChecked(QSettings().value(QStringLiteral("window/theme")).toString() == QLatin1String("light"));
-  QObject::connect(light, &QAction::triggered, &window, [&window](bool on) {
-    QSettings().setValue(QStringLiteral("window/theme"), on ? QStringLiteral("light") : QStringLiteral("dark"));
-    window.tell(QObject::tr("The %1 theme is used when you open the window again.").arg(on ? QObject::tr("light") : QObject::tr("dark")));
+  QAction* light = addSwitch(window, menu, QObject::tr("Light theme"), [&window](bool on) {
+    const QString theme = on ? QStringLiteral("light") : QStringLiteral("dark");
+    QSettings().setValue(QStringLiteral("window/theme"), theme);
+    window.tell(QObject::tr("The %1 theme is used when you open the window again.").arg(theme));
   });
+  light->setObjectName(QStringLiteral("lightTheme"));
+  light->setChecked(QSettings().value(QStringLiteral("window/theme")).toString() == QLatin1String("light"));
   addMovie(window, menu);
 }
 

@@ -98,6 +98,7 @@ MainWindow::MainWindow(const session::SessionRequest& request, const std::option
   if (!file_.isEmpty()) screens_->lookIn(QFileInfo(file_).path());
   connect(screens_, &Screens::said, this, &MainWindow::say);
   connect(screens_, &Screens::placeChosen, this, &MainWindow::movePlace);
+  connect(screens_, &Screens::optionsChanged, this, &MainWindow::showOverlay);
   auto* reading = new widgets::WorkStrip(QStringLiteral("readingScene"), tr("Cancel"));
   statusBar()->addPermanentWidget(reading);
   model::ModelReader& reader = screens_->modelReader();
@@ -555,8 +556,6 @@ void MainWindow::analyse(const QString& dataset) { analysis_.begin(dataset); }
 
 void MainWindow::composePlan() { plans_->compose(this, file_); }
 void MainWindow::chooseConstraint() { docks_.constraint->choose(); }
-void MainWindow::toggleSubjectWindow() { screens_->toggleSubject(); }
-void MainWindow::showSubjectOn(const QString& screen) { screens_->showSubjectOn(screen); }
 
 void MainWindow::setSubjectsLanguage(const QString& code) {
   words_.setLanguage(code);
@@ -570,17 +569,5 @@ void MainWindow::say(const QString& sentence) {
 }
 void MainWindow::warn(const QString& sentence) { messages_->say(widgets::Grade::Attention, sentence); }
 void MainWindow::tell(const QString& sentence) { messages_->say(widgets::Grade::Done, sentence); }
-
-void MainWindow::setSideBySide(bool on) {
-  screens_->setSideBySide(on);
-  showOverlay();
-}
-
-void MainWindow::setForcesShown(bool on) {
-  screens_->setForcesShown(on);
-  showOverlay();
-}
-
-void MainWindow::setMuted(bool muted) { sounds_.setMuted(muted); }
 
 }  // namespace reachlab::gui::app

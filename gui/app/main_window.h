@@ -54,6 +54,7 @@ class MainWindow : public QMainWindow {
 
   SessionController& session() { return session_; }
   scene::SceneView& view() { return *view_; }
+  Screens& screens() { return *screens_; }
   plot::VelocityPlot& plot();
   docks::PredictionDock& predictions() { return *docks_.predictions; }
   docks::SessionDock& sessionDock() { return *docks_.session; }
@@ -101,19 +102,10 @@ class MainWindow : public QMainWindow {
   bool saveExperimentAs();
   void chooseConstraint();
   void composePlan();
-  void toggleSubjectWindow();
-  void showSubjectOn(const QString& screen);
   /// Remembered (QSettings).
   void setSubjectsLanguage(const QString& code);
-  /// Changes the subject's screen, which is part of the experiment.
-  void setSubjectScreen(const reachlab::experiment::SubjectScreen& screen);
-  /// An edit of the experiment.
-  void setLook(const reachlab::experiment::SceneLook& look);
-  /// Stores the present camera as a named camera of the experiment. A camera with the same name is replaced.
-  void rememberView(const QString& name);
-  void setSideBySide(bool on);
-  void setForcesShown(bool on);
-  void setMuted(bool muted);
+  /// An edit of the experiment, called `what`. Asks first if it would end a run, which `doing` ends.
+  void edit(const reachlab::experiment::Experiment& changed, const QString& doing, const QString& what);
   void resetLayout();
   void switchLayout(WindowLayout layout);
   void openManual();

@@ -156,25 +156,9 @@ void MainWindow::dropEvent(QDropEvent* event) {
   openExperiment(event->mimeData()->urls().front().toLocalFile());
 }
 
-void MainWindow::setSubjectScreen(const experiment::SubjectScreen& screen) {
-  experiment::Experiment changed = session_.experiment();
-  changed.subjectScreen = screen;
-  if (!mayEndRun(tr("Another picture for the subject"))) return;
-  if (const QStringList faults = edits_.tryEdit(changed, tr("subject's screen")); !faults.isEmpty()) say(faults.join(QLatin1Char('\n')));
-}
-
-void MainWindow::setLook(const experiment::SceneLook& look) {
-  if (look == this->look() || !mayEndRun(tr("Another look of the scene"))) return;
-  const QStringList faults = edits_.tryEdit(experiment::withLook(session_.experiment(), look), tr("look of the scene"));
-  if (!faults.isEmpty()) say(faults.join(QLatin1Char('\n')));
-}
-
-void MainWindow::rememberView(const QString& name) {
-  const scene::Camera& c = view_->camera();
-  experiment::SceneLook changed = look();
-  std::erase_if(changed.cameras, [&](const experiment::NamedCamera& known) { return known.name == name.toStdString(); });
-  changed.cameras.push_back({name.toStdString(), c.position, c.focus, c.up, c.angle, c.parallel});
-  setLook(changed);
+void MainWindow::edit(const experiment::Experiment& changed, const QString& doing, const QString& what) {
+  if (!mayEndRun(doing)) return;
+  if (const QStringList faults = edits_.tryEdit(changed, what); !faults.isEmpty()) say(faults.join(QLatin1Char('\n')));
 }
 
 void MainWindow::resizeEvent(QResizeEvent* event) {

@@ -144,6 +144,7 @@ void Screens::setSideBySide(bool on) {
   rebuild();
   main_.setCamera(kept);
   main_.fit();
+  Q_EMIT optionsChanged();
 }
 
 void Screens::setForcesShown(bool on) {
@@ -153,6 +154,7 @@ void Screens::setForcesShown(bool on) {
   const scene::SceneFrame kept = main_.frame();
   main_.setPlan(plan, false);  // the subject's picture is left alone, also in mid-trial
   main_.showFrame(kept);
+  Q_EMIT optionsChanged();
 }
 
 bool Screens::massesHide() const {

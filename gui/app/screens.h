@@ -70,6 +70,8 @@ class Screens : public QObject {
   void handDragged(double x, double y, double z, qint64 eventMs);
   /// Start or target was dragged to this place: constraint parameters, or metres without a constraint.
   void placeChosen(reachlab::gui::scene::TaskPlace place, const std::vector<double>& q);
+  /// Masses are drawn side by side, or forces are shown, or no longer.
+  void optionsChanged();
   /// Faults of a scene file.
   void said(const QString& sentence);
 

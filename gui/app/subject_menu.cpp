@@ -1,15 +1,10 @@
-#include "gui/app/subject_menu.h"
-
 #include <QActionGroup>
 #include <QGuiApplication>
-#include <QHBoxLayout>
-#include <QLabel>
-#include <QMenu>
 #include <QScreen>
 #include <QSlider>
-#include <QWidgetAction>
 
-#include "gui/app/main_window.h"
+#include "gui/app/menu_entries.h"
+#include "gui/app/screens.h"
 #include "gui/subject/subject_window.h"
 #include "gui/subject/subject_words.h"
 #include "sim/experiment/experiment.h"
@@ -22,23 +17,21 @@ void listScreens(MainWindow& window, QMenu& menu) {
   auto* group = new QActionGroup(&menu);
   const QString known = subject::rememberedScreen();
   for (const QScreen* screen : QGuiApplication::screens()) {
-    QAction* action = menu.addAction(subject::titleOf(*screen));
-    action->setCheckable(true);
-    action->setChecked(screen->name() == known);
+    const QString name = screen->name();
+    QAction* action = addSwitch(window, menu, subject::titleOf(*screen), [&window, name] { window.screens().showSubjectOn(name); });
+    action->setChecked(name == known);
     group->addAction(action);
-    QObject::connect(action, &QAction::triggered, &window, [&window, name = screen->name()] { window.showSubjectOn(name); });
   }
 }
 
 void addLanguages(MainWindow& window, QMenu& menu) {
   auto* group = new QActionGroup(&menu);
   for (const subject::Language& language : subject::languages()) {
-    QAction* action = menu.addAction(language.name);
-    action->setObjectName(QStringLiteral("language_") + language.code);
-    action->setCheckable(true);
-    action->setChecked(language.code == window.subjectsLanguage());
+    const QString code = language.code;
+    QAction* action = addSwitch(window, menu, language.name, [&window, code] { window.setSubjectsLanguage(code); });
+    action->setObjectName("language_" + code);
+    action->setChecked(code == window.subjectsLanguage());
     group->addAction(action);
-    QObject::connect(action, &QAction::triggered, &window, [&window, code = language.code] { window.setSubjectsLanguage(code); });
   }
 }
 
@@ -47,39 +40,22 @@ void addShown(MainWindow& window, QMenu& menu) {
   const std::pair<const char*, bool Screen::*> parts[] = {
       {"Semaphore", &Screen::semaphore}, {"Target", &Screen::target}, {"Masses and springs", &Screen::masses},
       {"Words", &Screen::words},         {"Score", &Screen::score},   {"Square for a light sensor", &Screen::photodiode}};
-  for (const auto& [title, part] : parts) {
-    QAction* action = menu.addAction(QLatin1String(title));
-    action->setObjectName(QStringLiteral("subject ") + QLatin1String(title));
-    action->setCheckable(true);
-    const auto show = [&window, action, part = part] {
-      action->setChecked(window.session().experiment().subjectScreen.*part);
-      action->setEnabled(!window.session().isPlan());  // a plan's experiments stand in their files
-    };
-    show();
-    QObject::connect(&menu, &QMenu::aboutToShow, action, show);
-    QObject::connect(action, &QAction::triggered, &window, [&window, part = part](bool on) {
-      Screen screen = window.session().experiment().subjectScreen;
-      screen.*part = on;
-      window.setSubjectScreen(screen);
-    });
-  }
+  for (const auto& [title, part] : parts)
+    addExperimentSwitch(
+        window, menu, title, QLatin1String("subject ") + title,
+        [&window, part = part] { return window.session().experiment().subjectScreen.*part; },
+        [&window, part = part](bool on) {
+          experiment::Experiment changed = window.session().experiment();
+          changed.subjectScreen.*part = on;
+          window.edit(changed, QObject::tr("Another picture for the subject"), QObject::tr("subject's screen"));
+        });
 }
 
 void addVolume(MainWindow& window, QMenu& menu) {
-  auto* row = new QWidget;
-  auto* layout = new QHBoxLayout(row);
-  auto* slider = new QSlider(Qt::Horizontal);
-  slider->setObjectName(QStringLiteral("volume"));
-  slider->setRange(0, 100);
-  slider->setMinimumWidth(160);
+  QSlider* slider = addSlider(menu, QObject::tr("Volume"), "volume", 160);
   slider->setValue(static_cast<int>(100 * window.sounds().volume()));
-  layout->addWidget(new QLabel(QObject::tr("Volume")));
-  layout->addWidget(slider);
   QObject::connect(slider, &QSlider::valueChanged, &window, [&window](int percent) { window.sounds().setVolume(percent / 100.0); });
   QObject::connect(slider, &QSlider::sliderReleased, &window, [&window] { window.sounds().play(SoundCues::Cue::Success); });
-  auto* action = new QWidgetAction(&menu);
-  action->setDefaultWidget(row);
-  menu.addAction(action);
 }
 
 }  // namespace

@@ -1,15 +1,13 @@
 #include "gui/app/window_menus.h"
 
-#include <QAction>
 #include <QDockWidget>
 #include <QFileDialog>
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QUndoStack>
 
-#include "gui/app/look_menu.h"
-#include "gui/app/main_window.h"
-#include "gui/app/subject_menu.h"
+#include "gui/app/menu_entries.h"
+#include "gui/app/screens.h"
 #include "gui/plot/velocity_plot.h"
 #include "gui/scene/renderer_name.h"
 #include "gui/scene/scene_view.h"
@@ -19,21 +17,6 @@
 
 namespace reachlab::gui::app {
 namespace {
-
-template <typename Slot>
-QAction* add(MainWindow& window, QMenu* menu, const QString& text, const QKeySequence& key, Slot slot) {
-  QAction* action = menu->addAction(text);
-  action->setShortcut(key);
-  QObject::connect(action, &QAction::triggered, &window, slot);
-  return action;
-}
-
-template <typename Slot>
-QAction* addSwitch(MainWindow& window, QMenu* menu, const QString& text, const QKeySequence& key, Slot slot) {
-  QAction* action = add(window, menu, text, key, slot);
-  action->setCheckable(true);
-  return action;
-}
 
 void say(MainWindow& window, const QString& title, const QString& text) {
   auto* box = new QMessageBox(QMessageBox::NoIcon, title, text, QMessageBox::Close, &window);
@@ -77,107 +60,121 @@ void sayAbout(MainWindow& window) {
 
 void listRecent(MainWindow& window, QMenu& menu) {
   menu.clear();
-  for (const QString& file : recentFiles()) add(window, &menu, file, {}, [&window, file] { window.openExperiment(file); });
+  for (const QString& file : recentFiles()) addEntry(window, menu, file, [&window, file] { window.openExperiment(file); });
   menu.setEnabled(!menu.isEmpty());
 }
 
 void addExperimentMenu(MainWindow& window) {
-  QMenu* menu = window.menuBar()->addMenu(QStringLiteral("&Experiment"));
-  QMenu* fresh = menu->addMenu(QStringLiteral("&New"));
-  for (const Template& from : templates()) add(window, fresh, QLatin1String(from.title), {}, [&window, from] { window.beginNew(from); });
-  add(window, menu, QStringLiteral("&Open…"), QKeySequence::Open, &MainWindow::openFile);
-  add(window, menu, QStringLiteral("&Inspect a dataset…"), QKeySequence(QStringLiteral("Ctrl+I")), [&window] {
+  QMenu& menu = *window.menuBar()->addMenu(QStringLiteral("&Experiment"));
+  QMenu* fresh = menu.addMenu(QStringLiteral("&New"));
+  for (const Template& from : templates()) addEntry(window, *fresh, QLatin1String(from.title), [&window, from] { window.beginNew(from); });
+  addEntry(window, menu, QStringLiteral("&Open…"), &MainWindow::openFile, QKeySequence::Open);
+  const auto inspect = [&window] {
     const QString folder = QFileDialog::getExistingDirectory(&window, QStringLiteral("Inspect a dataset or a session"));
     if (!folder.isEmpty()) window.inspect(folder);
-  });
-  add(window, menu, QStringLiteral("&Analyse a dataset…"), {}, [&window] {
+  };
+  addEntry(window, menu, QStringLiteral("&Inspect a dataset…"), inspect, QStringLiteral("Ctrl+I"));
+  const auto analyse = [&window] {
     const QString folder = QFileDialog::getExistingDirectory(&window, QStringLiteral("Analyse a dataset"));
     if (!folder.isEmpty()) window.analyse(folder);
-  })->setObjectName(QStringLiteral("analyse"));
-  QMenu* recent = menu->addMenu(QStringLiteral("Open &recent"));
+  };
+  addEntry(window, menu, QStringLiteral("&Analyse a dataset…"), analyse)->setObjectName(QStringLiteral("analyse"));
+  QMenu* recent = menu.addMenu(QStringLiteral("Open &recent"));
   recent->setObjectName(QStringLiteral("recent"));
-  QObject::connect(menu, &QMenu::aboutToShow, recent, [&window, recent] { listRecent(window, *recent); });
-  QMenu* shipped = menu->addMenu(QStringLiteral("S&hipped"));
-  for (const std::string& name : experiment::shippedExperiments())
-    add(window, shipped, QString::fromStdString(name), {}, [&window, name] { window.openExperiment(QString::fromStdString(name)); });
-  add(window, menu, QStringLiteral("Session &plan…"), QKeySequence(QStringLiteral("Ctrl+P")), &MainWindow::composePlan);
-  add(window, menu, QStringLiteral("&Save"), QKeySequence::Save, [&window] { window.saveExperiment(); });
-  add(window, menu, QStringLiteral("Save &as…"), QKeySequence::SaveAs, [&window] { window.saveExperimentAs(); });
-  menu->addSeparator();
-  add(window, menu, QStringLiteral("&Quit"), QKeySequence::Quit, &QWidget::close);
+  QObject::connect(&menu, &QMenu::aboutToShow, recent, [&window, recent] { listRecent(window, *recent); });
+  QMenu* shipped = menu.addMenu(QStringLiteral("S&hipped"));
+  for (const std::string& shippedName : experiment::shippedExperiments()) {
+    const QString name = QString::fromStdString(shippedName);
+    addEntry(window, *shipped, name, [&window, name] { window.openExperiment(name); });
+  }
+  addEntry(window, menu, QStringLiteral("Session &plan…"), &MainWindow::composePlan, QStringLiteral("Ctrl+P"));
+  addEntry(window, menu, QStringLiteral("&Save"), &MainWindow::saveExperiment, QKeySequence::Save);
+  addEntry(window, menu, QStringLiteral("Save &as…"), &MainWindow::saveExperimentAs, QKeySequence::SaveAs);
+  menu.addSeparator();
+  addEntry(window, menu, QStringLiteral("&Quit"), &QWidget::close, QKeySequence::Quit);
 }
 
 void addEditMenu(MainWindow& window) {
-  QMenu* menu = window.menuBar()->addMenu(QStringLiteral("E&dit"));
+  QMenu& menu = *window.menuBar()->addMenu(QStringLiteral("E&dit"));
   QAction* undo = window.edits().createUndoAction(&window, QStringLiteral("&Undo"));
   undo->setShortcut(QKeySequence::Undo);
   QAction* redo = window.edits().createRedoAction(&window, QStringLiteral("&Redo"));
   redo->setShortcut(QKeySequence::Redo);
-  menu->addActions({undo, redo});
-  menu->addSeparator();
-  add(window, menu, QStringLiteral("Choose or type a &constraint…"), QKeySequence(QStringLiteral("Ctrl+K")), &MainWindow::chooseConstraint);
+  menu.addActions({undo, redo});
+  menu.addSeparator();
+  addEntry(window, menu, QStringLiteral("Choose or type a &constraint…"), &MainWindow::chooseConstraint, QStringLiteral("Ctrl+K"));
 }
 
 void addTrialMenu(MainWindow& window, TrialActions& actions) {
-  QMenu* menu = window.menuBar()->addMenu(QStringLiteral("&Trial"));
-  actions.next = add(window, menu, QStringLiteral("&Start"), Qt::Key_Space, &MainWindow::nextTrial);
+  QMenu& menu = *window.menuBar()->addMenu(QStringLiteral("&Trial"));
+  actions.next = addEntry(window, menu, QStringLiteral("&Start"), &MainWindow::nextTrial, Qt::Key_Space);
   actions.next->setToolTip(QStringLiteral("Starts the run, then the next trial. Space works in the scene and on this button."));
   // Space in a list or on a box is theirs: it begins a recording only in the scene, to which the window adds this action.
   actions.next->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-  actions.abort = add(window, menu, QStringLiteral("&Abort"), Qt::Key_Escape, &MainWindow::abortTrial);
+  actions.abort = addEntry(window, menu, QStringLiteral("&Abort"), &MainWindow::abortTrial, Qt::Key_Escape);
   actions.abort->setToolTip(QStringLiteral("Aborts the trial. It does not count."));
   // Not a letter alone: one that went astray would repeat a trial.
-  actions.repeat = add(window, menu, QStringLiteral("&Repeat"), QKeySequence(QStringLiteral("Ctrl+R")), &MainWindow::repeatTrial);
+  actions.repeat = addEntry(window, menu, QStringLiteral("&Repeat"), &MainWindow::repeatTrial, QStringLiteral("Ctrl+R"));
   actions.repeat->setToolTip(QStringLiteral("Repeats the last trial at the end of the run."));
-  add(window, menu, QStringLiteral("Res&ume the session"), {}, &MainWindow::resumeSession)->setObjectName(QStringLiteral("resume"));
-  actions.end = add(window, menu, QStringLiteral("&End run"), QKeySequence(QStringLiteral("Ctrl+E")), &MainWindow::endRun);
+  addEntry(window, menu, QStringLiteral("Res&ume the session"), &MainWindow::resumeSession)->setObjectName(QStringLiteral("resume"));
+  actions.end = addEntry(window, menu, QStringLiteral("&End run"), &MainWindow::endRun, QStringLiteral("Ctrl+E"));
   actions.end->setToolTip(QStringLiteral("Ends the run: closes the log and writes the dataset."));
-  actions.nextSubject = add(window, menu, QStringLiteral("Next su&bject"), {}, &MainWindow::nextSubject);
+  actions.nextSubject = addEntry(window, menu, QStringLiteral("Next su&bject"), &MainWindow::nextSubject);
   actions.nextSubject->setObjectName(QStringLiteral("nextSubject"));
   for (QAction* action : {actions.next, actions.abort, actions.repeat, actions.end}) action->setAutoRepeat(false);
 }
 
-void addViewMenu(MainWindow& window, TrialActions& actions) {
-  QMenu* menu = window.menuBar()->addMenu(QStringLiteral("&View"));
-  add(window, menu, QStringLiteral("&Whole scene"), Qt::Key_Home, [&window] { window.view().resetCamera(); });
-  const char axes[] = {'x', 'y', 'z'};
-  for (int i = 0; i < 3; ++i)
-    add(window, menu, QStringLiteral("Along %1").arg(QLatin1Char(axes[i])), QKeySequence(QStringLiteral("Ctrl+%1").arg(i + 1)),
-        [&window, axis = axes[i]] { window.view().lookAlong(axis); });
-  menu->addSeparator();
-  QAction* aside = addSwitch(window, menu, QStringLiteral("&Masses side by side"), Qt::Key_F, &MainWindow::setSideBySide);
-  aside->setObjectName(QStringLiteral("sideBySide"));
-  aside->setChecked(window.session().experiment().object.kind == experiment::ObjectKind::Parallel);
-  addSwitch(window, menu, QStringLiteral("Surfaces as &wire frame"), Qt::Key_W,
-            [&window](bool on) { window.view().setSurfaceStyle(on ? scene::SurfaceStyle::Wire : scene::SurfaceStyle::Glass); });
-  QAction* forces = addSwitch(window, menu, QStringLiteral("&Forces on the hand"), {}, &MainWindow::setForcesShown);
-  forces->setObjectName(QStringLiteral("forcesShown"));
-  forces->setChecked(true);
-  addLookMenu(window, *menu);
-  menu->addSeparator();
-  actions.subjectsScreen = add(window, menu, QStringLiteral("&Subject's screen"), Qt::Key_F11, &MainWindow::toggleSubjectWindow);
-  add(window, menu, QStringLiteral("Save pi&cture…"), QKeySequence(QStringLiteral("Ctrl+Shift+P")), &MainWindow::savePicture);
-  menu->addSeparator();
-  addSubjectMenu(window, *menu);
-  addSwitch(window, menu, QStringLiteral("Without s&ound"), {}, &MainWindow::setMuted);
-  menu->addSeparator();
-  menu = menu->addMenu(QStringLiteral("&Docks"));  // ten of them would make the menu longer than a small screen
-  for (QDockWidget* dock : window.findChildren<QDockWidget*>()) menu->addAction(dock->toggleViewAction());
-  menu->addSeparator();
+void addDocksMenu(MainWindow& window, QMenu& menu) {
+  for (QDockWidget* dock : window.findChildren<QDockWidget*>()) menu.addAction(dock->toggleViewAction());
+  menu.addSeparator();
   const std::pair<const char*, WindowLayout> layouts[] = {
       {"Layout: &set up", WindowLayout::SetUp}, {"Layout: &run", WindowLayout::Run}, {"Layout: &inspect", WindowLayout::Inspect}};
   int number = 1;
   for (const auto& [title, layout] : layouts)
-    add(window, menu, QLatin1String(title), QKeySequence(QStringLiteral("Alt+%1").arg(number++)),
-        [&window, layout = layout] { window.switchLayout(layout); });
-  add(window, menu, QStringLiteral("In their &places"), {}, &MainWindow::resetLayout)->setObjectName(QStringLiteral("resetLayout"));
+    addEntry(
+        window, menu, title, [&window, layout = layout] { window.switchLayout(layout); }, QStringLiteral("Alt+%1").arg(number++));
+  addEntry(window, menu, QStringLiteral("In their &places"), &MainWindow::resetLayout)->setObjectName(QStringLiteral("resetLayout"));
+}
+
+void addViewMenu(MainWindow& window, TrialActions& actions) {
+  QMenu& menu = *window.menuBar()->addMenu(QStringLiteral("&View"));
+  scene::SceneView& view = window.view();
+  Screens& screens = window.screens();
+  addEntry(
+      window, menu, QStringLiteral("&Whole scene"), [&view] { view.resetCamera(); }, Qt::Key_Home);
+  int number = 1;
+  for (const char axis : {'x', 'y', 'z'})
+    addEntry(
+        window, menu, QStringLiteral("Along %1").arg(axis), [&view, axis] { view.lookAlong(axis); },
+        QStringLiteral("Ctrl+%1").arg(number++));
+  menu.addSeparator();
+  QAction* aside = addSwitch(
+      window, menu, QStringLiteral("&Masses side by side"), [&screens](bool on) { screens.setSideBySide(on); }, Qt::Key_F);
+  aside->setObjectName(QStringLiteral("sideBySide"));
+  aside->setChecked(window.session().experiment().object.kind == experiment::ObjectKind::Parallel);
+  const auto style = [&view](bool on) { view.setSurfaceStyle(on ? scene::SurfaceStyle::Wire : scene::SurfaceStyle::Glass); };
+  addSwitch(window, menu, QStringLiteral("Surfaces as &wire frame"), style, Qt::Key_W);
+  QAction* forces = addSwitch(window, menu, QStringLiteral("&Forces on the hand"), [&screens](bool on) { screens.setForcesShown(on); });
+  forces->setObjectName(QStringLiteral("forcesShown"));
+  forces->setChecked(true);
+  addLookMenu(window, menu);
+  menu.addSeparator();
+  actions.subjectsScreen = addEntry(
+      window, menu, QStringLiteral("&Subject's screen"), [&screens] { screens.toggleSubject(); }, Qt::Key_F11);
+  addEntry(window, menu, QStringLiteral("Save pi&cture…"), &MainWindow::savePicture, QStringLiteral("Ctrl+Shift+P"));
+  menu.addSeparator();
+  addSubjectMenu(window, menu);
+  addSwitch(window, menu, QStringLiteral("Without s&ound"), [&window](bool on) { window.sounds().setMuted(on); });
+  menu.addSeparator();
+  addDocksMenu(window, *menu.addMenu(QStringLiteral("&Docks")));  // ten of them would make the menu longer than a small screen
 }
 
 void addHelpMenu(MainWindow& window) {
-  QMenu* menu = window.menuBar()->addMenu(QStringLiteral("&Help"));
-  add(window, menu, QStringLiteral("&Manual"), {}, &MainWindow::openManual);
-  add(window, menu, QStringLiteral("&Keys and mouse"), Qt::Key_F1, [&window] { sayKeys(window); });
-  add(window, menu, QStringLiteral("&About"), {}, [&window] { sayAbout(window); });
+  QMenu& menu = *window.menuBar()->addMenu(QStringLiteral("&Help"));
+  addEntry(window, menu, QStringLiteral("&Manual"), &MainWindow::openManual);
+  addEntry(
+      window, menu, QStringLiteral("&Keys and mouse"), [&window] { sayKeys(window); }, Qt::Key_F1);
+  addEntry(window, menu, QStringLiteral("&About"), [&window] { sayAbout(window); });
 }
 
 }  // namespace

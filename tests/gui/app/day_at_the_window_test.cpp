@@ -20,6 +20,7 @@
 
 #include "gui/app/main_window.h"
 #include "gui/session/remembered_session.h"
+#include "gui/app/screens.h"
 #include "gui/app/window_layout.h"
 #include "gui/docks/prediction_dock.h"
 #include "gui/docks/session_dock.h"
@@ -114,7 +115,7 @@ QString wordsOn(const scene::SceneOverlay& overlay) {
 
 TEST_F(Day, TheSubjectsScreenHasTheKeysAndShowsNoNumberNameOrKey) {
   MainWindow& window = open();
-  window.toggleSubjectWindow();
+  window.screens().toggleSubject();
   subject::SubjectWindow* screen = nullptr;
   for (QWidget* top : QApplication::topLevelWidgets())
     if (auto* found = qobject_cast<subject::SubjectWindow*>(top)) screen = found;

@@ -18,6 +18,7 @@
 #include <map>
 
 #include "gui/app/experiment_files.h"
+#include "gui/app/screens.h"
 #include "gui/app/window_layout.h"
 #include "gui/choosers/constraint_chooser.h"
 #include "gui/docks/session_dock.h"
@@ -347,7 +348,7 @@ TEST_F(MenuActions, OfTheSubjectsScreenOpenItAndChangeIt) {
   ASSERT_TRUE(waits([&] { return subjects() == nullptr; }));
   at(QStringLiteral("View/Subject's screen on/*"))->trigger();
   ASSERT_TRUE(waits([&] { return subjects() != nullptr; }));
-  window.toggleSubjectWindow();
+  window.screens().toggleSubject();
   using Screen = experiment::SubjectScreen;
   const std::pair<const char*, bool Screen::*> parts[] = {
       {"Semaphore", &Screen::semaphore}, {"Target", &Screen::target}, {"Masses and springs", &Screen::masses},

@@ -54,7 +54,7 @@ class SubjectsScreen : public AtTheWindow {
 TEST_F(SubjectsScreen, ShowsWhatTheExperimentSaysAndNothingElse) {
   showing(R"({ "semaphore": false, "masses": false, "target": false, "words": false, "score": true, "photodiode": true })");
   open();
-  window_->toggleSubjectWindow();
+  window_->screens().toggleSubject();
   ASSERT_TRUE(QTest::qWaitForWindowExposed(&screen()));
   EXPECT_FALSE(said().semaphoreShown);
   EXPECT_TRUE(said().instruction.isEmpty()) << said().instruction.toStdString();
@@ -78,7 +78,7 @@ TEST_F(SubjectsScreen, ShowsWhatTheExperimentSaysAndNothingElse) {
 TEST_F(SubjectsScreen, SpeaksTheSubjectsLanguageAndIsChangedWithTheExperiment) {
   showing("{}");
   open();
-  window_->toggleSubjectWindow();
+  window_->screens().toggleSubject();
   ASSERT_TRUE(QTest::qWaitForWindowExposed(&screen()));
   EXPECT_EQ(said().instruction, QStringLiteral("Please wait"));
   EXPECT_EQ(screen().patch(), Patch::None);
