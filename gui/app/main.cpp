@@ -34,32 +34,32 @@
 #include "sim/experiment/resources.h"
 #include "sim/record/configuration/limits.h"
 
+namespace reachlab::gui::app {
 namespace {
 
 struct Arguments {
-  reachlab::session::SessionRequest request;
-  std::vector<std::string> given;  // names of the options of `request` that were given
+  session::SessionRequest request;
   std::string pictures;
-  std::optional<reachlab::network::StationSetup> station;
+  std::optional<network::StationSetup> station;
 };
 
 // What only a station has; `number`: which it is, 0 where it is none or only observes.
-void parseStation(CLI::App& app, int number, bool observes, const CLI::App& options, reachlab::network::StationSetup& setup, Arguments& a) {
+void parseStation(CLI::App& app, int number, bool observes, const CLI::App& options, network::StationSetup& setup, Arguments& a) {
   if (number == 0 && !observes) {
     if (options.count_all() > 0)
-      throw reachlab::FaultError(reachlab::Fault{"--station", "is missing; give it with the other options of a station",
-                                                 "1 to " + std::to_string(reachlab::network::kMaxStations)});
+      throw FaultError(
+          Fault{"--station", "is missing; give it with the other options of a station", "1 to " + std::to_string(network::kMaxStations)});
     return;
   }
   setup.link.station = number;
-  reachlab::network::completeStationSetup(setup, a.request.device, app.get_name());
+  network::completeStationSetup(setup, a.request.device, app.get_name());
   a.station = setup;
 }
 
 Arguments parse(CLI::App& app, int argc, char** argv) {
-  app.formatter(std::make_shared<reachlab::HelpFormat>());  // before the groups, which take it over
+  app.formatter(std::make_shared<HelpFormat>());  // before the groups, which take it over
   Arguments a;
-  reachlab::session::SessionRequest& r = a.request;
+  session::SessionRequest& r = a.request;
   r.what = "chain-moderate";
   r.device = "mouse";
   app.set_version_flag("--version", "reachlab " REACHLAB_VERSION);
@@ -77,7 +77,7 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
   app.add_option("--trials", r.trials, "Number of trials of an experiment. A plan has its own numbers [default: 20]")
       ->check(CLI::Range(1, 1000000));
   app.add_option("--run", r.run, "Run number. A number that is taken is refused [default: the next free number]")
-      ->check(CLI::Range(1, reachlab::record::kMaxRun));
+      ->check(CLI::Range(1, record::kMaxRun));
   app.add_option("--subject", r.place.subject, "Subject's label, letters and digits [default: 01]");
   app.add_option("--session", r.place.session, "Session's label, letters and digits [default: 01]");
   app.add_option("--data", r.place.data, "Folder of the dataset [default: ./data]");
@@ -85,18 +85,18 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
   app.add_option("--seed", r.seed, "Seed of noise and order [default: a seed is drawn and stored]")
       ->check(CLI::Validator(
           [](std::string& text) {
-            const auto fault = reachlab::session::seedFault(text);
-            return fault ? reachlab::toText(*fault) : std::string();
+            const auto fault = session::seedFault(text);
+            return fault ? toText(*fault) : std::string();
           },
           "SEED"));
   app.add_flag("--resume", r.resume, "Continue with the trial at which this session broke off");
   app.add_option("--pictures", a.pictures, "Draw every constraint and every shipped experiment into this folder, and end");
   int number = 0;
-  reachlab::network::StationSetup setup;
+  network::StationSetup setup;
   CLI::App* station = app.add_option_group("Station", "One of several stations that move one object together");
   auto* here = station->add_option("--station", number, "Which of the experiment's hands is here, from 1")
-                   ->check(CLI::Range(1, reachlab::network::kMaxStations));
-  reachlab::network::addStationOptions(*station, setup);
+                   ->check(CLI::Range(1, network::kMaxStations));
+  network::addStationOptions(*station, setup);
   bool observes = false;
   station->add_flag("--observe,--look-on", observes, "Without a hand: show the stations. Nothing is recorded, and they do not wait for it")
       ->excludes(here)
@@ -108,77 +108,64 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
     if (option->get_type_name().find("INT") != std::string::npos)
       option->transform(CLI::Validator(
           [](std::string& text) {
-            text = reachlab::withoutLeadingZeros(text);
+            text = withoutLeadingZeros(text);
             return std::string();
           },
           ""));
-  reachlab::refuseEmptyWords(argc, argv);
+  refuseEmptyWords(argc, argv);
   app.parse(argc, argv);
-  for (const char* name : {"--device", "--subject", "--session", "--data", "--trials"})
-    if (app.count(name) > 0) a.given.emplace_back(name);
   parseStation(app, number, observes, *station, setup, a);
+  if (a.station) return a;  // its partners rely on what is asked for
+  // What is not asked for is as at the last start.
+  const session::SessionRequest last = rememberedRequest(r);
+  if (app.count("--device") == 0) r.device = last.device;
+  if (app.count("--subject") == 0) r.place.subject = last.place.subject;
+  if (app.count("--session") == 0) r.place.session = last.place.session;
+  if (app.count("--data") == 0) r.place.data = last.place.data;
   return a;
-}
-
-// What was not asked for is as at the last start. A station's partners rely on what is asked for.
-reachlab::session::SessionRequest withRemembered(const Arguments& arguments) {
-  const reachlab::session::SessionRequest& asked = arguments.request;
-  if (arguments.station) return asked;
-  reachlab::session::SessionRequest request = reachlab::gui::app::rememberedRequest(asked);
-  for (const std::string& name : arguments.given) {
-    if (name == "--device") request.device = asked.device;
-    if (name == "--subject") request.place.subject = asked.place.subject;
-    if (name == "--session") request.place.session = asked.place.session;
-    if (name == "--data") request.place.data = asked.place.data;
-  }
-  return request;
 }
 
 int run(const Arguments& arguments, int argc, char** argv) {
   // The scene is drawn over GLX; on Wayland desktops XWayland serves it.
   if (std::getenv("QT_QPA_PLATFORM") == nullptr) {
     if (std::getenv("DISPLAY") == nullptr)
-      throw reachlab::ResourceError("there is no display, because DISPLAY is not set; use `reach run`, which needs no window");
-    if (!reachlab::gui::app::displayAnswers())
-      throw reachlab::ResourceError(
-          "the display " + std::string(std::getenv("DISPLAY")) +
-          " does not answer; set DISPLAY to the display of your session, or use `reach run`, which needs no window");
+      throw ResourceError("there is no display, because DISPLAY is not set; use `reach run`, which needs no window");
+    if (!displayAnswers())
+      throw ResourceError("the display " + std::string(std::getenv("DISPLAY")) +
+                          " does not answer; set DISPLAY to the display of your session, or use `reach run`, which needs no window");
     setenv("QT_QPA_PLATFORM", "xcb", 0);
   }
   QCoreApplication::setAttribute(Qt::AA_EnableHighDpiScaling);
   QCoreApplication::setAttribute(Qt::AA_UseHighDpiPixmaps);
   QCoreApplication::setAttribute(Qt::AA_CompressHighFrequencyEvents, false);  // each move of the pointer is a sample of the hand
-  reachlab::gui::scene::applySurfaceFormat();
+  scene::applySurfaceFormat();
   QApplication application(argc, argv);
-  QApplication::setOrganizationName(QStringLiteral("reachlab"));
-  QApplication::setApplicationName(QStringLiteral("reachlab"));
-  if (QSettings().value(QStringLiteral("window/theme")).toString() == QLatin1String("light"))
-    reachlab::gui::widgets::setTheme(reachlab::gui::widgets::Theme::Light);
-  reachlab::gui::widgets::applyTheme(application);
+  if (QSettings().value(QStringLiteral("window/theme")).toString() == QLatin1String("light")) widgets::setTheme(widgets::Theme::Light);
+  widgets::applyTheme(application);
   if (!arguments.pictures.empty()) {
-    const int drawn = reachlab::gui::scene::drawPictures(QString::fromStdString(arguments.pictures));
+    const int drawn = scene::drawPictures(QString::fromStdString(arguments.pictures));
     std::printf("%d pictures and their contact sheets in %s\n", drawn, arguments.pictures.c_str());
     return 0;
   }
-  reachlab::session::SessionRequest request = withRemembered(arguments);
+  session::SessionRequest request = arguments.request;
   const QString what = QString::fromStdString(request.what);
-  const bool recorded = reachlab::gui::app::isRecorded(what);
+  const bool recorded = isRecorded(what);
   if (recorded) request.what = "chain-moderate";
-  reachlab::gui::app::MainWindow window(request, arguments.station);
-  window.setWindowIcon(QIcon(QString::fromStdString(reachlab::experiment::resourceFolder()) + QStringLiteral("/icons/reachlab.png")));
+  MainWindow window(request, arguments.station);
+  window.setWindowIcon(QIcon(QString::fromStdString(experiment::resourceFolder()) + QStringLiteral("/icons/reachlab.png")));
   if (recorded) window.inspect(what);
-  const auto trials = reachlab::gui::app::rememberedTrials();
+  const auto trials = rememberedTrials();
   if (trials && !request.trials && !arguments.station) window.sessionDock().setTrials(*trials);
   window.show();
   if (!recorded && !request.resume && !arguments.station) window.offerResume();
-  if (arguments.station) QTimer::singleShot(0, &window, &reachlab::gui::app::MainWindow::joinStations);
+  if (arguments.station) QTimer::singleShot(0, &window, &MainWindow::joinStations);
   return QApplication::exec();
 }
 
 // On the terminal, and where there is none (started from a menu) in a box.
 int sayFault(const std::string& message, const std::string& sentence, int status, int argc, char** argv) {
   std::fputs(message.c_str(), stderr);
-  if (isatty(STDERR_FILENO) == 1 || !reachlab::gui::app::displayAnswers()) return status;
+  if (isatty(STDERR_FILENO) == 1 || !displayAnswers()) return status;
   std::unique_ptr<QApplication> application;
   if (QCoreApplication::instance() == nullptr) application = std::make_unique<QApplication>(argc, argv);
   QMessageBox(QMessageBox::Critical, QStringLiteral("Reachlab"), QString::fromStdString(sentence), QMessageBox::Close).exec();
@@ -186,24 +173,29 @@ int sayFault(const std::string& message, const std::string& sentence, int status
 }
 
 }  // namespace
+}  // namespace reachlab::gui::app
 
 int main(int argc, char** argv) {
-  reachlab::requireProcessorLevel();
-  reachlab::endOnUncaught();
-  reachlab::os::holdStandardDescriptors();
-  reachlab::endOnSignals();
+  using namespace reachlab;
+  using namespace reachlab::gui::app;
+  requireProcessorLevel();
+  endOnUncaught();
+  os::holdStandardDescriptors();
+  endOnSignals();
+  QCoreApplication::setOrganizationName(QStringLiteral("reachlab"));  // by which the settings are found
+  QCoreApplication::setApplicationName(QStringLiteral("reachlab"));
   CLI::App app{"reachlab: the window of Reachlab", "reachlab"};
   try {
     return run(parse(app, argc, argv), argc, argv);
   } catch (const CLI::Success& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    const reachlab::Fault fault = reachlab::faultOf(app, e);
-    return sayFault(reachlab::messageOf(fault), reachlab::toText(fault), 2, argc, argv);
-  } catch (const reachlab::FaultError& e) {
-    return sayFault(reachlab::messageOf(e.faults), e.what(), 2, argc, argv);
+    const Fault fault = faultOf(app, e);
+    return sayFault(messageOf(fault), toText(fault), 2, argc, argv);
+  } catch (const FaultError& e) {
+    return sayFault(messageOf(e.faults), e.what(), 2, argc, argv);
   } catch (const std::exception& e) {
-    const reachlab::ErrorReport report = reachlab::errorReportOf(e);
-    return sayFault(reachlab::messageOf(report.sentence), report.sentence, report.exitCode, argc, argv);
+    const ErrorReport report = errorReportOf(e);
+    return sayFault(messageOf(report.sentence), report.sentence, report.exitCode, argc, argv);
   }
 }
