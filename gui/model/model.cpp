@@ -12,7 +12,6 @@
 #include "base/json/json_reader.h"
 #include "base/system/helper_program.h"
 #include "base/text_file.h"
-#include "gui/model/model_reader.h"
 #include "gui/model/model_stream.h"
 #include "gui/model/vrml.h"
 
@@ -121,8 +120,6 @@ Model readStream(std::string_view bytes, const std::string& file) {
   check(model, file);
   return model;
 }
-
-Model readModel(const std::string& file) { return readModel(file, {}); }
 
 Model readModel(const std::string& file, const Watch& watch) {
   const QFileInfo info(QString::fromStdString(file));

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -27,12 +28,18 @@ inline constexpr std::size_t kMostTriangles = 500'000;
 inline constexpr std::uintmax_t kMostBytes = 64'000'000;
 
 /// "hand" or "mass7": a part that moves in a scene.
-bool isMoving(const std::string& name);
+inline bool isMoving(const std::string& name) {
+  return name == "hand" || (name.size() > 4 && name.size() < 8 && name.starts_with("mass") && name[4] != '0' &&
+                            name.find_first_not_of("0123456789", 4) == std::string::npos);
+}
 
 /// Throws FaultError for a part that cannot be drawn: a corner without a point, a number that is not finite, or too much data.
 void check(const Model& model, const std::string& file);
 
+/// Called now and then with the finished share [0, 1], or NaN if it is not known. It throws to stop the work.
+using Watch = std::function<void(double share)>;
+
 /// Reads a scene file by its ending: wrl (VRML 2.0), gltf or glb (read by a separate process). Throws FaultError, ResourceError.
-Model readModel(const std::string& file);
+Model readModel(const std::string& file, const Watch& watch = {});
 
 }  // namespace reachlab::gui::model

@@ -6,12 +6,9 @@
 #include <thread>
 
 #include "gui/model/model.h"
-#include "gui/model/watch.h"
 
 namespace reachlab::gui::model {
 
-/// As readModel(file). `watch` gets the share that is read, and may throw.
-Model readModel(const std::string& file, const Watch& watch);
 /// The file that an experiment names so: beside the experiment or recording in `folder`, if it is there.
 std::string findSceneFile(const std::string& named, const QString& folder);
 

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <map>
 #include <memory>
 #include <optional>
@@ -30,50 +29,20 @@ struct Node {
   std::shared_ptr<const Node> appearance, geometry;  // of a Shape
   std::optional<Look> look;                          // of an Appearance or Material
   std::optional<ModelPart> solid;                    // of a geometry, without its name and colour
-  std::vector<Vec3> points;                          // of a Coordinate
-  enum class Kind { Group, Shape, Look, Geometry, Points, Nothing } kind = Kind::Nothing;
+  std::optional<std::vector<Vec3>> points;           // of a Coordinate
+  bool passedOver = false;
 };
 
 using NodePtr = std::shared_ptr<const Node>;
 
 const char* const kKnown =
     "Group, Transform, Shape, Appearance, Material, Box, Sphere, Cylinder, Cone, IndexedFaceSet, Coordinate, Anchor, Billboard, Collision";
-// Nothing of them is drawn.
-const char* const kPassedOver[] = {"WorldInfo",
-                                   "NavigationInfo",
-                                   "Viewpoint",
-                                   "Background",
-                                   "Fog",
-                                   "DirectionalLight",
-                                   "PointLight",
-                                   "SpotLight",
-                                   "TimeSensor",
-                                   "TouchSensor",
-                                   "PlaneSensor",
-                                   "SphereSensor",
-                                   "CylinderSensor",
-                                   "ProximitySensor",
-                                   "VisibilitySensor",
-                                   "PositionInterpolator",
-                                   "OrientationInterpolator",
-                                   "ColorInterpolator",
-                                   "ScalarInterpolator",
-                                   "CoordinateInterpolator",
-                                   "NormalInterpolator",
-                                   "Sound",
-                                   "AudioClip",
-                                   "Script",
-                                   "ImageTexture",
-                                   "PixelTexture",
-                                   "MovieTexture",
-                                   "TextureTransform",
-                                   "TextureCoordinate",
-                                   "Normal",
-                                   "Color",
-                                   "PointSet",
-                                   "IndexedLineSet",
-                                   "Text",
-                                   "FontStyle"};
+// Nothing of them is drawn. Each stands between blanks.
+constexpr std::string_view kPassedOver =
+    " WorldInfo NavigationInfo Viewpoint Background Fog DirectionalLight PointLight SpotLight TimeSensor TouchSensor"
+    " PlaneSensor SphereSensor CylinderSensor ProximitySensor VisibilitySensor PositionInterpolator OrientationInterpolator"
+    " ColorInterpolator ScalarInterpolator CoordinateInterpolator NormalInterpolator Sound AudioClip Script ImageTexture"
+    " PixelTexture MovieTexture TextureTransform TextureCoordinate Normal Color PointSet IndexedLineSet Text FontStyle ";
 
 class Reader {
  public:
@@ -86,14 +55,17 @@ class Reader {
   }
 
  private:
-  // A node, or a ROUTE, of which nothing is drawn.
+  // Nothing is drawn of a ROUTE.
+  bool skipRoute() {
+    if (!words_.tryTake("ROUTE")) return false;
+    words_.take();
+    words_.expect("TO", "ROUTE");
+    words_.take();
+    return true;
+  }
+
   void readStatement(std::vector<NodePtr>& nodes, int depth) {
-    if (words_.tryTake("ROUTE")) {
-      words_.take();
-      words_.expect("TO", "ROUTE");
-      words_.take();
-      return;
-    }
+    if (skipRoute()) return;
     for (const char* refused : {"PROTO", "EXTERNPROTO", "Inline"})
       if (words_.word() == refused) words_.fail(refused, "is not read", "a scene that is written out, in one file");
     if (words_.tryTake("NULL")) return;
@@ -113,25 +85,23 @@ class Reader {
     std::string name;
     if (words_.tryTake("DEF")) name = takeName("DEF");
     const std::string type(words_.word());
-    if (words_.isQuoted() || words_.ended() || type == "{" || type == "}" || type == "[" || type == "]")
+    if (words_.isQuoted() || words_.ended() || words_.isBracket())
       words_.fail({}, words_.ended() ? "ends in the middle" : fmt::format("has {} where a node begins", words_.shown()), kKnown);
     auto node = std::make_shared<Node>();
     node->name = name;
-    const bool passedOver = std::find(std::begin(kPassedOver), std::end(kPassedOver), type) != std::end(kPassedOver);
+    node->passedOver = kPassedOver.find(" " + type + " ") != std::string_view::npos;
     const auto read = readers().find(type);
-    if (!passedOver && read == readers().end()) words_.fail(words_.shown(), "is no node that is read", kKnown);
+    if (!node->passedOver && read == readers().end()) words_.fail(words_.shown(), "is no node that is read", kKnown);
     words_.take();
     words_.expect("{", type);
-    if (passedOver) skipBlock(type);
+    if (node->passedOver) skipBlock(type);
     else (this->*read->second)(*node, depth);
     if (!name.empty()) defined_[name] = node;
     return node;
   }
 
   std::string takeName(const std::string& key) {
-    const char first = words_.ended() ? '{' : words_.word().front();
-    if (words_.isQuoted() || first == '{' || first == '}' || first == '[' || first == ']')
-      words_.fail(key, words_.ended() ? "ends in the middle" : fmt::format("has {}", words_.shown()), "a name");
+    if (words_.isQuoted() || words_.ended() || words_.isBracket()) words_.fail(key, words_.found(), "a name");
     return words_.take();
   }
 
@@ -149,7 +119,7 @@ class Reader {
   // The value of a field of which nothing is drawn: words up to the next field are its own only where brackets hold them together.
   void skipValue(const std::string& field) {
     if (words_.tryTake("{")) return skipBlock(field);
-    if (words_.tryTake("[")) return skipList(field);
+    if (words_.tryTake("[")) return skipTo("]", field);
     if (words_.tryTake("DEF")) takeName("DEF");
     if (words_.tryTake("USE")) return static_cast<void>(takeName("USE"));
     if (words_.word() == "}" || words_.word() == "]" || words_.ended()) words_.fail(field, "has no value");
@@ -166,22 +136,17 @@ class Reader {
   }
 
   void skipBlock(const std::string& what) { skipTo("}", what); }
-  void skipList(const std::string& what) { skipTo("]", what); }
   void skipTo(std::string_view closing, const std::string& what) {
     std::vector<std::string> open{std::string(closing)};
     while (!open.empty()) {
-      if (words_.ended()) words_.fail(what, "ends in the middle", std::string(open.back()));
-      if (words_.isQuoted()) {
-        words_.take();
-        continue;
-      }
+      if (words_.ended()) words_.fail(what, "ends in the middle", open.back());
+      const bool bracket = !words_.isQuoted() && words_.isBracket();
       const std::string word = words_.take();
+      if (!bracket) continue;
       if (word == "{") open.emplace_back("}");
       else if (word == "[") open.emplace_back("]");
-      else if (word == "}" || word == "]") {
-        if (word != open.back()) words_.fail(what, fmt::format("closes with {}", word), open.back());
-        open.pop_back();
-      }
+      else if (word == open.back()) open.pop_back();
+      else words_.fail(what, fmt::format("closes with {}", word), open.back());
       if (open.size() > 4 * kDeepest) words_.fail(what, "is nested too deep", "a flatter scene");
     }
   }
@@ -191,14 +156,9 @@ class Reader {
   void readFields(const std::string& type, Take take) {
     while (!words_.tryTake("}")) {
       if (words_.ended()) words_.fail(type, "ends in the middle", "}");
-      if (words_.isQuoted() || words_.word() == "{" || words_.word() == "[" || words_.word() == "]" || isNumber(words_.word()))
+      if (words_.isQuoted() || words_.isBracket() || isNumber(words_.word()))
         words_.fail(type, fmt::format("has {} where a field begins", words_.shown()));
-      if (words_.tryTake("ROUTE")) {
-        words_.take();
-        words_.expect("TO", "ROUTE");
-        words_.take();
-        continue;
-      }
+      if (skipRoute()) continue;
       const std::string field = words_.take();
       if (!take(field)) skipValue(field);
     }
@@ -218,12 +178,10 @@ class Reader {
   }
 
   void readGroup(Node& node, int depth) {
-    node.kind = Node::Kind::Group;
     readFields("Group", [&](const std::string& field) { return field == "children" && (readChildren(node.children, depth), true); });
   }
 
   void readTransform(Node& node, int depth) {
-    node.kind = Node::Kind::Group;
     Vec3 shift, centre, scale{1, 1, 1}, axis{0, 0, 1}, scaleAxis{0, 0, 1};
     double angle = 0, scaleAngle = 0;
     readFields("Transform", [&](const std::string& field) {
@@ -242,13 +200,12 @@ class Reader {
   }
 
   void readShape(Node& node, int depth) {
-    node.kind = Node::Kind::Shape;
     readFields("Shape", [&](const std::string& field) {
       const bool appearance = field == "appearance";
       if (!appearance && field != "geometry") return false;
       if (words_.tryTake("NULL")) return true;
       NodePtr read = readNode(depth + 1);
-      if (read->kind != (appearance ? Node::Kind::Look : Node::Kind::Geometry) && read->kind != Node::Kind::Nothing)
+      if (!(appearance ? read->look.has_value() : read->solid.has_value()) && !read->passedOver)
         words_.fail(field, appearance ? "is no Appearance" : "is no geometry",
                     appearance ? "Appearance" : "Box, Sphere, Cylinder, Cone, IndexedFaceSet");
       (appearance ? node.appearance : node.geometry) = std::move(read);
@@ -257,7 +214,6 @@ class Reader {
   }
 
   void readAppearance(Node& node, int depth) {
-    node.kind = Node::Kind::Look;
     node.look = Look{};
     readFields("Appearance", [&](const std::string& field) {
       if (field != "material") return false;
@@ -270,7 +226,6 @@ class Reader {
   }
 
   void readMaterial(Node& node, int) {
-    node.kind = Node::Kind::Look;
     Look look;
     const auto share = [&](const std::string& field) {
       const double value = words_.number(field);
@@ -298,7 +253,7 @@ class Reader {
   bool boolean(const std::string& field) {
     if (words_.tryTake("TRUE")) return true;
     if (words_.tryTake("FALSE")) return false;
-    words_.fail(field, fmt::format("has {}", words_.shown()), "TRUE, FALSE");
+    words_.fail(field, "has " + words_.shown(), "TRUE, FALSE");
   }
 
   void readBox(Node& node, int) {
@@ -308,13 +263,13 @@ class Reader {
       size.x = length(field), size.y = length(field), size.z = length(field);
       return true;
     });
-    addBox(solidOf(node), {}, size);
+    addBox(node.solid.emplace(), {}, size);
   }
 
   void readSphere(Node& node, int) {
     double radius = 1;
     readFields("Sphere", [&](const std::string& field) { return field == "radius" && (radius = length(field), true); });
-    addSphere(solidOf(node), {}, radius);
+    addSphere(node.solid.emplace(), {}, radius);
   }
 
   void readCylinder(Node& node, int) { readRound(node, "Cylinder", "radius"); }
@@ -334,22 +289,17 @@ class Reader {
       else return false;
       return true;
     });
-    addFrustum(solidOf(node), {}, radius, cone ? 0 : radius, height, bottom, top, side);
-  }
-
-  static ModelPart& solidOf(Node& node) {
-    node.kind = Node::Kind::Geometry;
-    return node.solid.emplace();
+    addFrustum(node.solid.emplace(), {}, radius, cone ? 0 : radius, height, bottom, top, side);
   }
 
   void readCoordinate(Node& node, int) {
-    node.kind = Node::Kind::Points;
+    std::vector<Vec3>& points = node.points.emplace();
     readFields("Coordinate", [&](const std::string& field) {
       if (field != "point") return false;
-      if (!words_.tryTake("[")) return node.points.push_back(readVector(field)), true;
+      if (!words_.tryTake("[")) return points.push_back(readVector(field)), true;
       while (!words_.tryTake("]")) {
-        if (node.points.size() >= kMostPoints) words_.fail(field, fmt::format("has more than {} points", kMostPoints), "fewer");
-        node.points.push_back(readVector(field));
+        if (points.size() >= kMostPoints) words_.fail(field, fmt::format("has more than {} points", kMostPoints), "fewer");
+        points.push_back(readVector(field));
       }
       return true;
     });
@@ -366,7 +316,7 @@ class Reader {
       else if (field == "coord") {
         if (words_.tryTake("NULL")) return true;
         points = readNode(depth + 1);
-        if (points->kind != Node::Kind::Points) words_.fail(field, "is no Coordinate", "Coordinate");
+        if (!points->points) words_.fail(field, "is no Coordinate", "Coordinate");
       } else if (field == "coordIndex") {
         if (!words_.tryTake("[")) return corners.push_back(words_.whole(field)), true;
         while (!words_.tryTake("]")) {
@@ -378,8 +328,8 @@ class Reader {
       }
       return true;
     });
-    ModelPart& solid = solidOf(node);
-    if (points) solid.points = points->points;
+    ModelPart& solid = node.solid.emplace();
+    if (points) solid.points = *points->points;
     std::vector<std::uint32_t> face;
     if (!corners.empty() && corners.back() >= 0) corners.push_back(-1);
     for (const int corner : corners) {
@@ -418,7 +368,7 @@ void collect(const Node& node, const Transform& frame, const std::string& moving
   if (++work.nodes > 4 * kMostNodes) throw FaultError(Fault{"USE", "means too much again and again", "a smaller scene", FilePlace{file}});
   const bool named = isMoving(node.name);
   const std::string& name = named ? node.name : moving;
-  if (node.kind == Node::Kind::Shape && node.geometry && node.geometry->solid && !node.geometry->solid->triangles.empty()) {
+  if (node.geometry && node.geometry->solid && !node.geometry->solid->triangles.empty()) {
     ModelPart part = *node.geometry->solid;
     work.triangles += part.triangles.size();
     if (work.triangles > kMostTriangles)

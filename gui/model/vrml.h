@@ -2,7 +2,6 @@
 #include <string_view>
 
 #include "gui/model/model.h"
-#include "gui/model/watch.h"
 
 namespace reachlab::gui::model {
 

@@ -1,7 +1,5 @@
 #include "gui/model/vrml_words.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "base/as_number.h"
@@ -43,13 +41,15 @@ void VrmlWords::advance() {
     step();
     return;
   }
-  if (isBracket(text_[at_])) {
+  if (model::isBracket(text_[at_])) {
     step();
   } else {
-    while (at_ < text_.size() && !isBlank(text_[at_]) && !isBracket(text_[at_]) && text_[at_] != '#' && text_[at_] != '"') step();
+    while (at_ < text_.size() && !isBlank(text_[at_]) && !model::isBracket(text_[at_]) && text_[at_] != '#' && text_[at_] != '"') step();
   }
   word_ = text_.substr(first, at_ - first);
 }
+
+bool VrmlWords::isBracket() const { return word_.size() == 1 && model::isBracket(word_[0]); }
 
 std::string VrmlWords::take() {
   std::string taken(word_);
@@ -64,21 +64,21 @@ bool VrmlWords::tryTake(std::string_view wanted) {
 }
 
 void VrmlWords::expect(std::string_view wanted, const std::string& within) {
-  if (!tryTake(wanted)) fail(within, ended() ? "ends in the middle" : fmt::format("has {}", shown()), fmt::format("{}", wanted));
+  if (!tryTake(wanted)) fail(within, found(), std::string(wanted));
 }
 
 double VrmlWords::number(const std::string& key) {
   std::string_view digits = word_;
   if (!digits.empty() && digits.front() == '+') digits.remove_prefix(1);
   const auto value = asNumber<double>(digits);
-  if (quoted_ || !value || !std::isfinite(*value)) fail(key, ended() ? "ends in the middle" : fmt::format("has {}", shown()), "a number");
+  if (quoted_ || !value || !std::isfinite(*value)) fail(key, found(), "a number");
   advance();
   return *value;
 }
 
 int VrmlWords::whole(const std::string& key) {
   const auto value = asNumber<int>(word_);
-  if (quoted_ || !value) fail(key, ended() ? "ends in the middle" : fmt::format("has {}", shown()), "a whole number");
+  if (quoted_ || !value) fail(key, found(), "a whole number");
   advance();
   return *value;
 }

@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "base/fault.h"
-#include "gui/model/watch.h"
+#include "gui/model/model.h"
 
 namespace reachlab::gui::model {
 
@@ -28,6 +28,10 @@ class VrmlWords {
   [[noreturn]] void fail(const std::string& key, const std::string& what, const std::string& allowed = {}) const;
   /// The word as a person reads it, shortened.
   std::string shown() const;
+  /// The fault of a word that is not the expected one: "has 3", or that the text ends here.
+  std::string found() const { return ended() ? "ends in the middle" : "has " + shown(); }
+  /// One of { } [ ].
+  bool isBracket() const;
 
  private:
   void advance();
