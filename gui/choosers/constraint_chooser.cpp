@@ -1,11 +1,8 @@
 #include "gui/choosers/constraint_chooser.h"
 
-#include <QHBoxLayout>
-#include <QLabel>
 #include <QLineEdit>
 #include <QListWidget>
 #include <QPushButton>
-#include <QScrollArea>
 #include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <filesystem>
@@ -21,6 +18,7 @@
 #include "gui/scene/scene_view.h"
 #include "gui/scene/thumbnail.h"
 #include "gui/scene_plan/definition_reach.h"
+#include "gui/widgets/fault_label.h"
 #include "gui/widgets/named.h"
 #include "gui/widgets/shape_sliders.h"
 
@@ -94,59 +92,43 @@ QVBoxLayout* ConstraintChooser::makePicture() {
   font.setPointSizeF(15);
   font.setWeight(QFont::DemiBold);
   title_->setFont(font);
-  sentence_ = new QLabel;
-  sentence_->setProperty("role", "quiet");
-  sentence_->setWordWrap(true);
+  sentence_ = widgets::roleLabel("quiet");
   preview_ = new scene::SceneView;
-  preview_->setOverlay([] {
-    scene::OverlayState o;
-    o.semaphoreShown = false;
-    return o;
-  }());
-  middle->addWidget(title_);
-  middle->addWidget(sentence_);
-  middle->addWidget(preview_, 1);
+  scene::OverlayState overlay;
+  overlay.semaphoreShown = false;
+  preview_->setOverlay(overlay);
+  widgets::addAll(*middle, {title_, sentence_, preview_});
+  middle->setStretch(2, 1);
   return middle;
 }
 
 QWidget* ConstraintChooser::makeSide() {
+  using widgets::named;
+  formula_ = new FormulaEditor;
+  sliders_ = new widgets::ShapeSliders;
+  name_ = named<QLineEdit>("definitionName");
+  name_->setPlaceholderText("name-of-mine");
+  save_ = named<QPushButton>("save", "Save as definition");
+  saved_ = widgets::roleLabel("quiet");
+  saved_->setObjectName("saved");
+  use_ = named<QPushButton>("use", "Reach on this");
+  use_->setProperty("role", "go");
+  refusal_ = named<widgets::FaultLabel>("refusal");
+  usePoint_ = named<QPushButton>("usePoint", "Reach on this with one mass");
+  usePoint_->hide();
+  for (QPushButton* button : {save_, use_, usePoint_}) button->setAutoDefault(false);
   auto* side = new QWidget;
   side->setFixedWidth(350);
-  auto* sideLayout = new QVBoxLayout(side);
-  sideLayout->setContentsMargins(0, 0, 0, 0);
-  sideLayout->addWidget(new QLabel(QStringLiteral("<b>Formula</b>")));
-  formula_ = new FormulaEditor;
-  sideLayout->addWidget(formula_);
-  sideLayout->addSpacing(8);
-  sideLayout->addWidget(new QLabel(QStringLiteral("<b>Shape</b>")));
-  sliders_ = new widgets::ShapeSliders;
-  sideLayout->addWidget(sliders_);
-  sideLayout->addStretch();
-  auto* saving = new QHBoxLayout;
-  name_ = widgets::named<QLineEdit>("definitionName");
-  name_->setPlaceholderText(QStringLiteral("name-of-mine"));
-  save_ = widgets::named<QPushButton>("save", QStringLiteral("Save as definition"));
-  save_->setAutoDefault(false);
-  saving->addWidget(name_, 1);
-  saving->addWidget(save_);
-  sideLayout->addLayout(saving);
-  saved_ = widgets::named<QLabel>("saved");
-  saved_->setProperty("role", "quiet");
-  saved_->setWordWrap(true);
-  sideLayout->addWidget(saved_);
-  use_ = widgets::named<QPushButton>("use", QStringLiteral("Reach on this"));
-  use_->setProperty("role", "go");
-  use_->setAutoDefault(false);
-  sideLayout->addWidget(use_);
-  refusal_ = widgets::named<QLabel>("refusal");
-  refusal_->setProperty("role", "fault");
-  refusal_->setWordWrap(true);
-  refusal_->hide();
-  usePoint_ = widgets::named<QPushButton>("usePoint", QStringLiteral("Reach on this with one mass"));
-  usePoint_->setAutoDefault(false);
-  usePoint_->hide();
-  sideLayout->addWidget(refusal_);
-  sideLayout->addWidget(usePoint_);
+  auto* column = new QVBoxLayout(side);
+  column->setContentsMargins(0, 0, 0, 0);
+  widgets::addAll(*column, {new QLabel("<b>Formula</b>"), formula_});
+  column->addSpacing(8);
+  widgets::addAll(*column, {new QLabel("<b>Shape</b>"), sliders_});
+  column->addStretch();
+  QHBoxLayout* saving = widgets::rowOf({name_, save_});
+  saving->setStretch(0, 1);
+  column->addLayout(saving);
+  widgets::addAll(*column, {saved_, use_, refusal_, usePoint_});
   return side;
 }
 
@@ -203,8 +185,7 @@ void ConstraintChooser::filter(const QString& words) {
 }
 
 void ConstraintChooser::answer(const QStringList& faults) {
-  refusal_->setText(faults.join(QLatin1Char('\n')));
-  refusal_->setVisible(!faults.isEmpty());
+  refusal_->setFaults(faults);
   usePoint_->setVisible(!faults.isEmpty() && severalMasses_);
   if (faults.isEmpty()) close();
 }

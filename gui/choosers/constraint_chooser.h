@@ -16,8 +16,9 @@ namespace reachlab::gui::scene {
 class SceneView;
 }
 namespace reachlab::gui::widgets {
+class FaultLabel;
 class ShapeSliders;
-}
+}  // namespace reachlab::gui::widgets
 
 namespace reachlab::gui::docks {
 
@@ -72,7 +73,8 @@ class ConstraintChooser : public QDialog {
   scene::SceneView* preview_;
   widgets::ShapeSliders* sliders_;
   FormulaEditor* formula_;
-  QLabel *title_, *sentence_, *saved_, *refusal_;
+  QLabel *title_, *sentence_, *saved_;
+  widgets::FaultLabel* refusal_;
   QPushButton *use_, *usePoint_, *save_;
   bool severalMasses_ = false;
 };

@@ -1,7 +1,5 @@
 #include "gui/choosers/device_dialog.h"
 
-#include <QHBoxLayout>
-#include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
 #include <QTimer>
@@ -22,13 +20,13 @@ constexpr int kLookMs = 33;
 
 QString millimetres(double metres) { return QStringLiteral("%1").arg(1e3 * metres, 7, 'f', 2); }
 
-bool inWindowOnly(const QString& name) {
+}  // namespace
+
+bool isInWindowOnly(const QString& device) {
   const devices::DeviceDriver* driver =
-      devices::findDriver(name.section(QLatin1Char(':'), 0, 0).section(QLatin1Char(','), 0, 0).toStdString());
+      devices::findDriver(device.section(QLatin1Char(':'), 0, 0).section(QLatin1Char(','), 0, 0).toStdString());
   return driver != nullptr && driver->inWindowOnly;
 }
-
-}  // namespace
 
 DeviceDialog::DeviceDialog(const experiment::CompiledExperiment& experiment, const QString& chosen,
                            std::function<void(const QString& name)> take, QWidget* parent)
@@ -37,26 +35,21 @@ DeviceDialog::DeviceDialog(const experiment::CompiledExperiment& experiment, con
   setWindowTitle(tr("Device"));
   resize(860, 390);
   auto* layout = new QVBoxLayout(this);
-  auto* line = new QHBoxLayout;
   name_ = widgets::named<QLineEdit>("deviceName", chosen);
   name_->setPlaceholderText(tr("device, with its options: hid:SERIAL,model=polhem_v1"));
   open_ = widgets::named<QPushButton>("deviceOpen");
   calibrate_ = widgets::named<QPushButton>("deviceCalibrate", tr("Calibrate"));
   take_ = widgets::named<QPushButton>("deviceTake", tr("Use it"));
-  line->addWidget(name_, 1);
-  for (QPushButton* button : {open_, calibrate_, take_}) {
-    button->setAutoDefault(false);
-    line->addWidget(button);
-  }
+  for (QPushButton* button : {open_, calibrate_, take_}) button->setAutoDefault(false);
+  QHBoxLayout* line = widgets::rowOf({name_, open_, calibrate_, take_});
+  line->setStretch(0, 1);
   layout->addLayout(line);
   hint_ = new QLabel;
   hint_->setWordWrap(true);
-  layout->addWidget(hint_);
   view_ = new DeviceView;
-  layout->addWidget(view_);
   numbers_ = widgets::named<QLabel>("deviceNumbers");
   numbers_->setTextFormat(Qt::PlainText);
-  layout->addWidget(numbers_);
+  widgets::addAll(*layout, {hint_, view_, numbers_});
 
   timer_ = new QTimer(this);
   connect(timer_, &QTimer::timeout, this, &DeviceDialog::look);
@@ -77,8 +70,8 @@ DeviceDialog::~DeviceDialog() = default;
 void DeviceDialog::showButtons() {
   const QString name = name_->text().trimmed();
   open_->setText(device_ ? tr("Let it go") : tr("Look at it"));
-  open_->setEnabled(device_ != nullptr || (!name.isEmpty() && !inWindowOnly(name)));
-  open_->setToolTip(inWindowOnly(name) ? tr("it is seen in the window itself") : QString());
+  open_->setEnabled(device_ != nullptr || (!name.isEmpty() && !isInWindowOnly(name)));
+  open_->setToolTip(isInWindowOnly(name) ? tr("it is seen in the window itself") : QString());
   calibrate_->setEnabled(device_ != nullptr && !device_->calibrationHint().empty());
   take_->setEnabled(!name.isEmpty());
   name_->setEnabled(!device_);

@@ -14,6 +14,9 @@ namespace reachlab::gui::docks {
 
 class DeviceView;
 
+/// Whether the device of this name, with its options, is seen only in the window itself, as the mouse is.
+bool isInWindowOnly(const QString& device);
+
 /// A device live: its place, the force on it, how regularly it reports, and its calibration. No object is held.
 class DeviceDialog : public QDialog {
  public:

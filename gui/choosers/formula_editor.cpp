@@ -3,7 +3,6 @@
 #include <QComboBox>
 #include <QFontDatabase>
 #include <QGridLayout>
-#include <QLabel>
 #include <QLineEdit>
 #include <QRegularExpression>
 #include <QSignalBlocker>
@@ -12,6 +11,8 @@
 #include <string_view>
 
 #include "constraints/formula/formula.h"
+#include "gui/widgets/fault_label.h"
+#include "gui/widgets/named.h"
 
 namespace reachlab::gui::docks {
 
@@ -57,41 +58,29 @@ FormulaEditor::FormulaEditor(QWidget* parent) : QWidget(parent) {
   auto* grid = new QGridLayout(this);
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setVerticalSpacing(2);
-  kind_ = new QComboBox;
-  kind_->setObjectName(QStringLiteral("formulaKind"));
+  kind_ = widgets::named<QComboBox>("formulaKind");
   kind_->addItems({QStringLiteral("curve in phi"), QStringLiteral("surface in u, v")});
   grid->addWidget(kind_, 0, 0, 1, 2);
-  const QString names[] = {QStringLiteral("x ="), QStringLiteral("y ="), QStringLiteral("z =")};
   for (std::size_t i = 0; i < 3; ++i) {
     const int row = 1 + 2 * static_cast<int>(i);
+    const QLatin1Char axis("xyz"[i]);
     lines_[i] = new QLineEdit;
-    lines_[i]->setObjectName(QStringLiteral("formula_%1").arg(QLatin1Char("xyz"[i])));
+    lines_[i]->setObjectName(QStringLiteral("formula_%1").arg(axis));
     lines_[i]->setFont(QFontDatabase::systemFont(QFontDatabase::FixedFont));
     lines_[i]->setMaxLength(10000);
-    faults_[i] = new QLabel;
-    faults_[i]->setObjectName(QStringLiteral("fault_%1").arg(QLatin1Char("xyz"[i])));
-    faults_[i]->setProperty("role", "fault");
-    faults_[i]->setWordWrap(true);
-    faults_[i]->setTextFormat(Qt::PlainText);
-    faults_[i]->hide();
-    grid->addWidget(new QLabel(names[i]), row, 0);
+    faults_[i] = new widgets::FaultLabel;
+    faults_[i]->setObjectName(QStringLiteral("fault_%1").arg(axis));
+    grid->addWidget(new QLabel(QStringLiteral("%1 =").arg(axis)), row, 0);
     grid->addWidget(lines_[i], row, 1);
     grid->addWidget(faults_[i], row + 1, 1);
     connect(lines_[i], &QLineEdit::textChanged, this, [this] { check(), Q_EMIT changed(); });
   }
-  fault_ = new QLabel;
-  fault_->setObjectName(QStringLiteral("fault"));
-  fault_->setProperty("role", "fault");
-  fault_->setWordWrap(true);
-  fault_->setTextFormat(Qt::PlainText);
-  fault_->hide();
+  fault_ = widgets::named<widgets::FaultLabel>("fault");
   grid->addWidget(fault_, 7, 0, 1, 2);
-  auto* help =
-      new QLabel(QStringLiteral("metres; + − * / ^ ( ) pi e, sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs sign; "
-                                "any other name becomes a slider"));
-  help->setProperty("role", "quiet");
-  help->setWordWrap(true);
-  grid->addWidget(help, 8, 0, 1, 2);
+  grid->addWidget(widgets::roleLabel("quiet",
+                                     "metres; + − * / ^ ( ) pi e, sin cos tan asin acos atan atan2 sinh cosh tanh exp log sqrt abs sign; "
+                                     "any other name becomes a slider"),
+                  8, 0, 1, 2);
   connect(kind_, qOverload<int>(&QComboBox::activated), this, [this] { check(), Q_EMIT changed(); });
 }
 
@@ -116,10 +105,7 @@ std::array<std::string, 3> FormulaEditor::coordinates() const {
   return {lines_[0]->text().toStdString(), lines_[1]->text().toStdString(), lines_[2]->text().toStdString()};
 }
 
-void FormulaEditor::setFault(const QString& fault) {
-  fault_->setText(fault);
-  fault_->setVisible(!fault.isEmpty());
-}
+void FormulaEditor::setFault(const QString& fault) { fault_->setFaults({fault}); }
 
 void FormulaEditor::check() {
   const auto text = coordinates();
@@ -139,8 +125,7 @@ void FormulaEditor::check() {
         if (const std::string meant = variableMeant(kind(), name); !meant.empty() && messages[i].isEmpty())
           messages[i] =
               QStringLiteral("%1 becomes a slider; did you mean %2?").arg(QString::fromStdString(name), QString::fromStdString(meant));
-    faults_[i]->setText(messages[i]);
-    faults_[i]->setVisible(!messages[i].isEmpty());
+    faults_[i]->setFaults({messages[i]});
   }
   if (!fine_) setFault({});
 }

@@ -9,8 +9,11 @@
 #include "constraints/catalogue/definition.h"
 
 class QComboBox;
-class QLabel;
 class QLineEdit;
+
+namespace reachlab::gui::widgets {
+class FaultLabel;
+}
 
 namespace reachlab::gui::docks {
 
@@ -42,8 +45,8 @@ class FormulaEditor : public QWidget {
 
   QComboBox* kind_;
   std::array<QLineEdit*, 3> lines_{};
-  std::array<QLabel*, 3> faults_{};
-  QLabel* fault_;
+  std::array<widgets::FaultLabel*, 3> faults_{};
+  widgets::FaultLabel* fault_;
   bool fine_ = true;
 };
 

@@ -1,9 +1,7 @@
 #include "gui/docks/constraint_dock.h"
 
-#include <QLabel>
 #include <QPushButton>
 #include <QVBoxLayout>
-#include <QVariant>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -14,6 +12,7 @@
 #include "gui/choosers/constraint_chooser.h"
 #include "gui/scene_plan/definition_reach.h"
 #include "gui/widgets/fault_label.h"
+#include "gui/widgets/named.h"
 #include "gui/widgets/shape_sliders.h"
 
 namespace reachlab::gui::docks {
@@ -63,19 +62,12 @@ ConstraintDock::ConstraintDock(QWidget* parent) : Dock(QStringLiteral("Constrain
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);
   name_ = new QLabel;
-  formula_ = new QLabel;
-  formula_->setProperty("role", "quiet");
-  formula_->setWordWrap(true);
+  formula_ = widgets::roleLabel("quiet");
   sliders_ = new widgets::ShapeSliders;
-  auto* another = new QPushButton(QStringLiteral("Choose or type another…  (Ctrl+K)"));
-  another->setObjectName(QStringLiteral("choose"));
+  auto* another = widgets::tipped(widgets::named<QPushButton>("choose", "Choose or type another…  (Ctrl+K)"),
+                                  "shows the catalogue of curves and surfaces, and takes a formula of your own");
   another->setFocusPolicy(Qt::NoFocus);
-  another->setToolTip(QStringLiteral("shows the catalogue of curves and surfaces, and takes a formula of your own"));
-  layout->addWidget(name_);
-  layout->addWidget(formula_);
-  layout->addWidget(sliders_);
-  layout->addWidget(faults());
-  layout->addWidget(another);
+  widgets::addAll(*layout, {name_, formula_, sliders_, faults(), another});
   layout->addStretch();
   setBody(body);
   connect(sliders_, &widgets::ShapeSliders::moved, this, [this] {

@@ -1,8 +1,6 @@
 #include "gui/docks/device_dock.h"
 
-#include <QHBoxLayout>
 #include <QHeaderView>
-#include <QLabel>
 #include <QPushButton>
 #include <QTimer>
 #include <QTreeWidget>
@@ -10,6 +8,7 @@
 
 #include "devices/hands/several_hands.h"
 #include "gui/choosers/device_dialog.h"
+#include "gui/widgets/named.h"
 #include "gui/widgets/theme.h"
 #include "gui/widgets/wait_cursor.h"
 
@@ -18,11 +17,6 @@ namespace {
 
 constexpr int kRefreshMs = 1000;
 enum Column { kName, kWords };
-
-bool isInWindowOnly(const QTreeWidgetItem& row) {
-  const devices::DeviceDriver* driver = devices::findDriver(row.text(kName).section(QLatin1Char(':'), 0, 0).toStdString());
-  return driver != nullptr && driver->inWindowOnly;
-}
 
 bool isPresent(const QTreeWidgetItem& row) { return row.data(kName, Qt::UserRole).toBool(); }
 
@@ -42,12 +36,12 @@ QTreeWidgetItem* addGroup(QTreeWidget& rows, const QString& title) {
 
 DeviceDock::DeviceDock(const Finding& finding, QWidget* parent)
     : Dock(tr("Devices"), QStringLiteral("deviceDock"), parent), finding_(finding) {
+  using widgets::named, widgets::tipped;
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(2);
-  rows_ = new QTreeWidget;
-  rows_->setObjectName(QStringLiteral("deviceRows"));
+  rows_ = named<QTreeWidget>("deviceRows");
   rows_->setColumnCount(2);
   rows_->setHeaderHidden(true);
   rows_->setRootIsDecorated(false);
@@ -57,25 +51,16 @@ DeviceDock::DeviceDock(const Finding& finding, QWidget* parent)
   rows_->header()->setSectionResizeMode(kWords, QHeaderView::Stretch);
   rows_->setMinimumSize(180, 90);
   layout->addWidget(rows_, 1);
-  hint_ = new QLabel;
-  hint_->setObjectName(QStringLiteral("deviceHint"));
+  hint_ = named<QLabel>("deviceHint");
   hint_->setTextFormat(Qt::PlainText);
   hint_->setTextInteractionFlags(Qt::TextSelectableByMouse);  // a command or a place is copied from it
   hint_->setWordWrap(true);
   hint_->setContentsMargins(4, 2, 4, 2);
   layout->addWidget(hint_);
-  auto* line = new QHBoxLayout;
-  const auto button = [&](const QString& text, const char* name, const QString& tip) {
-    auto* made = new QPushButton(text);
-    made->setObjectName(QLatin1String(name));
-    made->setToolTip(tip);
-    line->addWidget(made);
-    return made;
-  };
-  take_ = button(tr("Use it"), "deviceUse", tr("the chosen device is the hand of the next run"));
-  look_ = button(tr("Look at it…"), "deviceLook", tr("live: position, force, times between reports, calibration"));
-  again_ = button(tr("Look again"), "deviceAgain", tr("asks every driver again, including the vendors' libraries"));
-  layout->addLayout(line);
+  take_ = tipped(named<QPushButton>("deviceUse", tr("Use it")), tr("the chosen device is the hand of the next run"));
+  look_ = tipped(named<QPushButton>("deviceLook", tr("Look at it…")), tr("live: position, force, times between reports, calibration"));
+  again_ = tipped(named<QPushButton>("deviceAgain", tr("Look again")), tr("asks every driver again, including the vendors' libraries"));
+  layout->addLayout(widgets::rowOf({take_, look_, again_}));
   setBody(body, false);
 
   connect(rows_, &QTreeWidget::currentItemChanged, this, &DeviceDock::showButtons);
@@ -144,7 +129,7 @@ void DeviceDock::showButtons() {
   const QTreeWidgetItem* row = rows_->currentItem();
   const bool usable = !busy_ && !chosen().isEmpty() && isPresent(*row);
   take_->setEnabled(usable);
-  look_->setEnabled(usable && !isInWindowOnly(*row));
+  look_->setEnabled(usable && !isInWindowOnly(row->text(kName)));
   again_->setEnabled(!busy_);
   hint_->setText(busy_                ? tr("The run uses its devices. End the run to search for devices again.")
                  : chosen().isEmpty() ? QString()

@@ -1,8 +1,6 @@
 #include <QComboBox>
 #include <QFormLayout>
 #include <QGroupBox>
-#include <QHBoxLayout>
-#include <QLabel>
 #include <QListWidget>
 #include <QPushButton>
 #include <QSignalBlocker>
@@ -191,8 +189,7 @@ EnvironmentDock::Page EnvironmentDock::makePage(const QString& name, const T& of
     auto* field = new widgets::KeyField(words, unit, shape.choices.isEmpty() ? key.range : experiment::upTo(3600, {}), shape);
     field->setObjectName(name + QLatin1Char('.') + QLatin1String(key.name));
     auto* label = new QLabel(shape.columns > 1 ? QStringLiteral("%1 [%2]").arg(words, unit) : words);
-    for (QWidget* part : {static_cast<QWidget*>(field), static_cast<QWidget*>(label)}) part->setToolTip(tipOf(whole));
-    form->addRow(label, field);
+    form->addRow(widgets::tipped(label, tipOf(whole)), widgets::tipped(field, tipOf(whole)));
     faults()->watch(field);
     page.fields.push_back(field);
   });
@@ -210,23 +207,19 @@ EnvironmentDock::EnvironmentDock(QWidget* parent) : Dock(QStringLiteral("Environ
 }
 
 QWidget* EnvironmentDock::makeForces() {
+  using widgets::named, widgets::tipped;
   auto* box = new QGroupBox(tr("Forces on the hand"));
   auto* column = new QVBoxLayout(box);
-  list_ = widgets::named<QListWidget>("forces");
-  list_->setToolTip(tr("The forces add up. Choose one to see its numbers."));
+  list_ = tipped(named<QListWidget>("forces"), tr("The forces add up. Choose one to see its numbers."));
   list_->setFixedHeight(64);
   column->addWidget(list_);
-  auto* buttons = new QHBoxLayout;
-  auto* add = widgets::named<QPushButton>("addForce", tr("Add"));
-  add->setToolTip(tr("adds a force on the hand, which begins as a curl field"));
-  remove_ = widgets::named<QPushButton>("removeForce", tr("Remove"));
-  remove_->setToolTip(tr("removes the chosen force"));
-  kind_ = widgets::named<QComboBox>("forceKind");
-  kind_->setToolTip(tr("Kind of the chosen force. Another kind begins with the numbers of a published experiment."));
+  auto* add = tipped(named<QPushButton>("addForce", tr("Add")), tr("adds a force on the hand, which begins as a curl field"));
+  remove_ = tipped(named<QPushButton>("removeForce", tr("Remove")), tr("removes the chosen force"));
+  kind_ = tipped(named<QComboBox>("forceKind"),
+                 tr("Kind of the chosen force. Another kind begins with the numbers of a published experiment."));
   for (const std::string& name : experiment::kForceKindNames) kind_->addItem(QString::fromStdString(name));
-  buttons->addWidget(add);
-  buttons->addWidget(remove_);
-  buttons->addWidget(kind_, 1);
+  QHBoxLayout* buttons = widgets::rowOf({add, remove_, kind_});
+  buttons->setStretch(2, 1);
   column->addLayout(buttons);
   for (std::size_t kind = 0; kind < beginnings().size(); ++kind) {
     kinds_.push_back(makePage(kind_->itemText(static_cast<int>(kind)), beginnings()[kind]));
@@ -298,7 +291,8 @@ void EnvironmentDock::display(const experiment::CompiledExperiment& experiment, 
 void EnvironmentDock::showForce() {
   const std::size_t chosen = row();
   const bool any = chosen < shown().environment.size();
-  for (QWidget* part : {static_cast<QWidget*>(remove_), static_cast<QWidget*>(kind_)}) part->setEnabled(any);
+  remove_->setEnabled(any);
+  kind_->setEnabled(any);
   const std::size_t kind = any ? shown().environment[chosen].law.index() : kinds_.size();
   for (std::size_t i = 0; i < kinds_.size(); ++i) kinds_[i].widget->setVisible(i == kind);
   if (!any) return;

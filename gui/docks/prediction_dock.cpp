@@ -1,6 +1,5 @@
 #include "gui/docks/prediction_dock.h"
 
-#include <QLabel>
 #include <QSignalBlocker>
 #include <QTableWidget>
 #include <QVBoxLayout>
@@ -8,6 +7,7 @@
 #include <cmath>
 
 #include "gui/plot/criterion_style.h"
+#include "gui/widgets/named.h"
 #include "gui/widgets/theme.h"
 
 namespace reachlab::gui::docks {
@@ -43,11 +43,7 @@ PredictionDock::PredictionDock(QWidget* parent)
   for (int i = 0; i < predict::kCriterionCount; ++i)
     table_->item(i, kName)->setToolTip(text(predict::describe(static_cast<predict::Criterion>(i))));
   table_->setFixedHeight(predict::kCriterionCount * kRowHeight + 30);
-  layout->addWidget(table_);
-  note_ = new QLabel(QStringLiteral("m/s; dashed on the plot where ticked"));
-  note_->setProperty("role", "quiet");
-  note_->setWordWrap(true);
-  layout->addWidget(note_);
+  widgets::addAll(*layout, {table_, widgets::roleLabel("quiet", "m/s; dashed on the plot where ticked")});
   layout->addStretch();
   setBody(body);
   connect(table_, &QTableWidget::itemChanged, this, [this](QTableWidgetItem* item) {

@@ -6,7 +6,6 @@
 #include "gui/plot/trial_errors.h"
 
 class QTableWidget;
-class QLabel;
 
 namespace reachlab::gui::docks {
 
@@ -32,7 +31,6 @@ class PredictionDock : public Dock {
   void fillErrors();
 
   QTableWidget* table_;
-  QLabel* note_;
   std::vector<std::optional<double>> latest_;
   struct Sum {
     double squares = 0;  // so that the root of the mean is the paper's epsilon of the series

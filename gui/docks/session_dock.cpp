@@ -3,7 +3,6 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFormLayout>
-#include <QGridLayout>
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
@@ -27,103 +26,70 @@
 namespace reachlab::gui::docks {
 
 SessionDock::SessionDock(QWidget* parent) : Dock(QStringLiteral("Session"), QStringLiteral("sessionDock"), parent) {
-  auto* body = new QWidget;
-  auto* layout = new QVBoxLayout(body);
-  layout->addWidget(makeWho());
-  layout->addWidget(faults());
-  addPause(*layout);
-  layout->addStretch();
-  setBody(body, false);
-  wire();
-}
-
-QWidget* SessionDock::makeWho() {
+  using widgets::named, widgets::tipped, widgets::rowOf;
+  subject_ = tipped(named<QLineEdit>("subject"), "Label of the subject in the dataset: letters and digits");
+  session_ = tipped(named<QLineEdit>("session"), "Label of this visit in the dataset: letters and digits");
+  day_ = tipped(new QSpinBox, "Day of the plan, if the label of the session is no number");
+  day_->setRange(0, 999);
+  day_->setSpecialValueText("–");
+  age_ = tipped(named<QLineEdit>("age"), "Age in years, for the table of participants");
+  age_->setPlaceholderText("age");
+  age_->setMaximumWidth(54);
+  sex_ = tipped(new QComboBox, "Sex, for the table of participants");
+  sex_->addItems({"sex", "F", "M", "O"});
+  hand_ = tipped(new QComboBox, "Handedness, for the table of participants: right, left, ambidextrous");
+  hand_->addItems({"hand", "R", "L", "A"});
+  data_ = tipped(named<QLineEdit>("data"), "Folder of the dataset. It is created if it does not exist.");
   who_ = new QWidget;
   auto* form = new QFormLayout(who_);
   form->setContentsMargins(0, 0, 0, 0);
-  subject_ = widgets::named<QLineEdit>("subject");
-  subject_->setToolTip(QStringLiteral("Label of the subject in the dataset: letters and digits"));
-  session_ = widgets::named<QLineEdit>("session");
-  session_->setToolTip(QStringLiteral("Label of this visit in the dataset: letters and digits"));
-  day_ = new QSpinBox;
-  day_->setRange(0, 999);
-  day_->setSpecialValueText(QStringLiteral("–"));
-  day_->setToolTip(QStringLiteral("Day of the plan, if the label of the session is no number"));
-  auto* ids = new QHBoxLayout;
-  ids->addWidget(subject_);
-  ids->addWidget(new QLabel(QStringLiteral("session")));
-  ids->addWidget(session_);
-  ids->addWidget(new QLabel(QStringLiteral("day")));
-  ids->addWidget(day_);
-  form->addRow(QStringLiteral("subject"), ids);
-  age_ = widgets::named<QLineEdit>("age");
-  age_->setPlaceholderText(QStringLiteral("age"));
-  age_->setMaximumWidth(54);
-  sex_ = new QComboBox;
-  age_->setToolTip(QStringLiteral("Age in years, for the table of participants"));
-  sex_->setToolTip(QStringLiteral("Sex, for the table of participants"));
-  sex_->addItems({QStringLiteral("sex"), QStringLiteral("F"), QStringLiteral("M"), QStringLiteral("O")});
-  hand_ = new QComboBox;
-  hand_->setToolTip(QStringLiteral("Handedness, for the table of participants: right, left, ambidextrous"));
-  hand_->addItems({QStringLiteral("hand"), QStringLiteral("R"), QStringLiteral("L"), QStringLiteral("A")});
-  auto* person = new QHBoxLayout;
-  person->addWidget(age_);
-  person->addWidget(sex_);
-  person->addWidget(hand_);
-  form->addRow(QStringLiteral("person"), person);
-  form->addRow(QStringLiteral("device"), makeDeviceRow());
-  data_ = widgets::named<QLineEdit>("data");
-  data_->setToolTip(QStringLiteral("Folder of the dataset. It is created if it does not exist."));
-  form->addRow(QStringLiteral("data in"), data_);
-  return who_;
-}
+  form->addRow("subject", rowOf({subject_, new QLabel("session"), session_, new QLabel("day"), day_}));
+  form->addRow("person", rowOf({age_, sex_, hand_}));
+  form->addRow("device", makeDeviceRow());
+  form->addRow("data in", data_);
 
-QHBoxLayout* SessionDock::makeDeviceRow() {
-  device_ = widgets::named<QComboBox>("device");
-  device_->setEditable(true);
-  device_->addItems({QStringLiteral("mouse"), QStringLiteral("simulated"), QStringLiteral("simulated:noise=0"), QStringLiteral("replay:")});
-  offered_ = device_->count();
-  auto* look = new QTimer(this);
-  connect(look, &QTimer::timeout, this, &SessionDock::offerPlugged);
-  look->start(1000);
-  trials_ = widgets::named<QSpinBox>("trialCount");
-  trials_->setRange(1, 100000);
-  trials_->setToolTip(QStringLiteral("Trials of the next run. A plan has its own number of trials."));
-  auto* hands = new QHBoxLayout;
-  hands->addWidget(device_, 1);
-  auto* devices = widgets::named<QPushButton>("devicesButton", QStringLiteral("…"));
-  devices->setToolTip(QStringLiteral("opens the dock Devices: the present devices, why others are missing, and a live view"));
-  devices->setMaximumWidth(48);
-  connect(devices, &QPushButton::clicked, this, &SessionDock::devicesRequested);
-  hands->addWidget(devices);
-  hands->addWidget(new QLabel(QStringLiteral("trials")));
-  hands->addWidget(trials_);
-  QString usage;
-  for (const devices::DeviceDriver& d : devices::deviceDrivers()) usage += QString::fromStdString(d.usage + ": " + d.description + "\n");
-  device_->setToolTip(usage.trimmed());
-  return hands;
-}
-
-void SessionDock::addPause(QVBoxLayout& layout) {
-  automatic_ = new QCheckBox(QStringLiteral("start the next trial after"));
-  pause_ = new widgets::UnitSpinBox(0, 600, QStringLiteral("s"));
+  automatic_ = tipped(new QCheckBox("start the next trial after"),
+                      "The next trial begins without a key after this pause. A plan has its own pauses.");
+  pause_ = tipped(new widgets::UnitSpinBox(0, 600, "s"), automatic_->toolTip());
   pause_->show(1);
-  automatic_->setToolTip(QStringLiteral("The next trial begins without a key after this pause. A plan has its own pauses."));
-  pause_->setToolTip(automatic_->toolTip());
-  auto* pausing = new QHBoxLayout;
-  pausing->addWidget(automatic_);
-  pausing->addWidget(pause_);
+  QHBoxLayout* pausing = rowOf({automatic_, pause_});
   pausing->addStretch();
-  layout.addLayout(pausing);
-}
 
-void SessionDock::wire() {
+  auto* body = new QWidget;
+  auto* layout = new QVBoxLayout(body);
+  layout->addWidget(who_);
+  layout->addWidget(faults());
+  layout->addLayout(pausing);
+  layout->addStretch();
+  setBody(body, false);
+
   for (QLineEdit* field : {subject_, session_, age_, data_}) {
     connect(field, &QLineEdit::textChanged, this, &SessionDock::check);
     connect(field, &QLineEdit::textChanged, this, &SessionDock::changed);
   }
   connect(device_, &QComboBox::currentTextChanged, this, &SessionDock::changed);
   connect(trials_, QOverload<int>::of(&QSpinBox::valueChanged), this, &SessionDock::changed);
+}
+
+QHBoxLayout* SessionDock::makeDeviceRow() {
+  QString usage;
+  for (const devices::DeviceDriver& d : devices::deviceDrivers()) usage += QString::fromStdString(d.usage + ": " + d.description + "\n");
+  device_ = widgets::tipped(widgets::named<QComboBox>("device"), usage.trimmed());
+  device_->setEditable(true);
+  device_->addItems({"mouse", "simulated", "simulated:noise=0", "replay:"});
+  offered_ = device_->count();
+  auto* look = new QTimer(this);
+  connect(look, &QTimer::timeout, this, &SessionDock::offerPlugged);
+  look->start(1000);
+  trials_ = widgets::tipped(widgets::named<QSpinBox>("trialCount"), "Trials of the next run. A plan has its own number of trials.");
+  trials_->setRange(1, 100000);
+  auto* devices = widgets::tipped(widgets::named<QPushButton>("devicesButton", "…"),
+                                  "opens the dock Devices: the present devices, why others are missing, and a live view");
+  devices->setMaximumWidth(48);
+  connect(devices, &QPushButton::clicked, this, &SessionDock::devicesRequested);
+  QHBoxLayout* row = widgets::rowOf({device_, devices, new QLabel("trials"), trials_});
+  row->setStretch(0, 1);
+  return row;
 }
 
 // What was plugged in or out is offered or not any more; what is typed stays.

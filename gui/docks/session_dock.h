@@ -9,7 +9,6 @@ class QComboBox;
 class QHBoxLayout;
 class QLineEdit;
 class QSpinBox;
-class QVBoxLayout;
 
 namespace reachlab::gui::widgets {
 class UnitSpinBox;
@@ -51,10 +50,7 @@ class SessionDock : public Dock {
   void display(const experiment::CompiledExperiment& experiment, bool editable) override;
 
  private:
-  QWidget* makeWho();
   QHBoxLayout* makeDeviceRow();
-  void addPause(QVBoxLayout& layout);
-  void wire();
   void check();
   void offerPlugged();
 

@@ -1,12 +1,12 @@
 #include "gui/docks/stations_dock.h"
 
 #include <QHeaderView>
-#include <QLabel>
 #include <QTableWidget>
 #include <QVBoxLayout>
 
 #include "gui/scene_plan/hand_colours.h"
 #include "gui/widgets/inks.h"
+#include "gui/widgets/named.h"
 #include "gui/widgets/theme.h"
 #include "gui/widgets/themes.h"
 
@@ -45,8 +45,7 @@ QString milliseconds(double seconds, int digits) { return QString::number(1e3 * 
 }  // namespace
 
 StationsDock::StationsDock(QWidget* parent) : Dock(tr("Stations"), QStringLiteral("stationsDock"), parent) {
-  table_ = new QTableWidget(0, kColumns);
-  table_->setObjectName(QStringLiteral("stations"));
+  table_ = widgets::named<QTableWidget>("stations", 0, kColumns);
   table_->setHorizontalHeaderLabels({tr("link"), tr("no."), tr("name"), tr("round trip\n[ms]"), tr("jitter\n[ms]"), tr("lost\n[%]"),
                                      tr("overtaken\n[%]"), tr("clock\n[ms]"), tr("age\n[ms]"), tr("device"), tr("software")});
   const std::pair<Column, QString> tips[] = {
@@ -66,16 +65,14 @@ StationsDock::StationsDock(QWidget* parent) : Dock(tr("Stations"), QStringLitera
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setStretchLastSection(true);
   table_->setMinimumSize(240, 100);
-  sentence_ = new QLabel;
-  sentence_->setObjectName(QStringLiteral("stationsSentence"));
+  sentence_ = widgets::named<QLabel>("stationsSentence");
   told_ = new QLabel;
   for (QLabel* label : {sentence_, told_}) label->setWordWrap(true), label->setTextFormat(Qt::PlainText);
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);
   layout->setContentsMargins(8, 4, 8, 6);
-  layout->addWidget(table_, 1);
-  layout->addWidget(sentence_);
-  layout->addWidget(told_);
+  widgets::addAll(*layout, {table_, sentence_, told_});
+  layout->setStretch(0, 1);
   setBody(body, false);
 }
 

@@ -1,6 +1,5 @@
 #include "gui/docks/trials_dock.h"
 
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QTableWidget>
 #include <QToolButton>
@@ -8,6 +7,7 @@
 
 #include "gui/scene/trial_texts.h"
 #include "gui/widgets/inks.h"
+#include "gui/widgets/named.h"
 
 namespace reachlab::gui::docks {
 namespace {
@@ -30,8 +30,7 @@ QString outcomeWords(const trial::TrialResult& result) {
 }  // namespace
 
 TrialsDock::TrialsDock(QWidget* parent) : Dock(QStringLiteral("Trials"), QStringLiteral("trialsDock"), parent) {
-  table_ = new QTableWidget(0, kColumns);
-  table_->setObjectName(QStringLiteral("trials"));
+  table_ = widgets::named<QTableWidget>("trials", 0, kColumns);
   table_->setHorizontalHeaderLabels(
       {QStringLiteral("trial"), QStringLiteral("outcome"), QStringLiteral("t [s]"), QStringLiteral("ε"), QString()});
   table_->horizontalHeaderItem(kTime)->setToolTip(QStringLiteral("from the hand's onset to the end [s]"));
@@ -52,10 +51,8 @@ TrialsDock::TrialsDock(QWidget* parent) : Dock(QStringLiteral("Trials"), QString
   layout->addWidget(table_, 1);
   auto* line = new QHBoxLayout;
   const auto button = [&](const QString& text, const char* name, const QString& tip) {
-    auto* made = new QToolButton;
+    auto* made = widgets::tipped(widgets::named<QToolButton>(name), tip);
     made->setText(text);
-    made->setObjectName(QLatin1String(name));
-    made->setToolTip(tip);
     made->setFocusPolicy(Qt::NoFocus);
     line->addWidget(made);
     return made;

@@ -1,20 +1,18 @@
 #include "gui/session/session_strip.h"
 
 #include <QAction>
-#include <QHBoxLayout>
 #include <QLineEdit>
 #include <QPushButton>
-#include <QVariant>
 
 #include "gui/scene/trial_texts.h"
 #include "gui/widgets/elided_label.h"
+#include "gui/widgets/named.h"
 
 namespace reachlab::gui::app {
 namespace {
 
 QPushButton* buttonOf(QAction* action, const char* name) {
-  auto* button = new QPushButton;
-  button->setObjectName(QLatin1String(name));
+  auto* button = widgets::named<QPushButton>(name);
   button->setFocusPolicy(Qt::TabFocus);  // a click leaves the keys where they are
   const auto follow = [button, action] {
     button->setText(QStringLiteral("%1  (%2)").arg(action->iconText(), action->shortcut().toString(QKeySequence::NativeText)));
@@ -30,43 +28,39 @@ QPushButton* buttonOf(QAction* action, const char* name) {
 }  // namespace
 
 SessionStrip::SessionStrip(QAction* next, QAction* abort, QAction* repeat, QAction* end)
-    : QToolBar(tr("Session")), run_(new widgets::ElidedLabel), tally_(new widgets::ElidedLabel), note_(new QLineEdit) {
+    : QToolBar(tr("Session")), run_(new widgets::ElidedLabel), tally_(widgets::named<widgets::ElidedLabel>("tally")),
+      note_(widgets::named<QLineEdit>("note")) {
   setObjectName(QStringLiteral("sessionStrip"));
   setMovable(false);
   setFloatable(false);
   toggleViewAction()->setEnabled(false);
   toggleViewAction()->setVisible(false);
+  QPushButton* start = buttonOf(next, "next");
+  start->setProperty("role", QStringLiteral("go"));
+  start->setMinimumWidth(start->fontMetrics().horizontalAdvance(QStringLiteral("Next block  (Space)")) + 40);  // of the longest words
   auto* body = new QWidget;
   auto* row = new QHBoxLayout(body);
   row->setContentsMargins(8, 4, 8, 4);
   row->setSpacing(6);
-  QPushButton* start = buttonOf(next, "next");
-  start->setProperty("role", QStringLiteral("go"));
-  start->setMinimumWidth(start->fontMetrics().horizontalAdvance(QStringLiteral("Next block  (Space)")) + 40);  // of the longest words
-  row->addWidget(start);
-  row->addWidget(buttonOf(abort, "abort"));
-  row->addWidget(buttonOf(repeat, "repeat"));
-  row->addWidget(buttonOf(end, "end"));
+  widgets::addAll(*row, {start, buttonOf(abort, "abort"), buttonOf(repeat, "repeat"), buttonOf(end, "end")});
   auto* lines = new QVBoxLayout;
   lines->setSpacing(0);
   run_->setProperty("role", "quiet");
-  tally_->setObjectName(QStringLiteral("tally"));
   QFont bold = tally_->font();
   bold.setWeight(QFont::DemiBold);
   tally_->setFont(bold);
-  lines->addWidget(run_);
-  lines->addWidget(tally_);
+  widgets::addAll(*lines, {run_, tally_});
   row->addSpacing(8);
   row->addLayout(lines, 3);
-  note_->setObjectName(QStringLiteral("note"));
   note_->setPlaceholderText(tr("Note for the record (Enter)"));
   note_->setToolTip(tr("A note that is recorded with its time. Enter keeps it."));
   note_->setMinimumWidth(210);
   row->addWidget(note_, 1);
   addWidget(body);
   connect(note_, &QLineEdit::returnPressed, this, [this] {
-    if (note_->text().trimmed().isEmpty()) return;
-    Q_EMIT noteWritten(note_->text().trimmed());
+    const QString text = note_->text().trimmed();
+    if (text.isEmpty()) return;
+    Q_EMIT noteWritten(text);
     note_->clear();
   });
   clearTally();

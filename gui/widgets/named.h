@@ -1,5 +1,10 @@
 #pragma once
+#include <QHBoxLayout>
+#include <QLabel>
 #include <QString>
+#include <QVariant>
+#include <QWidget>
+#include <initializer_list>
 #include <utility>
 
 namespace reachlab::gui::widgets {
@@ -10,6 +15,33 @@ Widget* named(const char* name, Arguments&&... arguments) {
   auto* widget = new Widget(std::forward<Arguments>(arguments)...);
   widget->setObjectName(QLatin1String(name));
   return widget;
+}
+
+/// The widget, with this tool tip.
+template <typename Widget>
+Widget* tipped(Widget* widget, const QString& tip) {
+  widget->setToolTip(tip);
+  return widget;
+}
+
+/// A label of several lines in the theme's colours of a role: "quiet" or "fault".
+inline QLabel* roleLabel(const char* role, const QString& text = {}) {
+  auto* label = new QLabel(text);
+  label->setProperty("role", role);
+  label->setWordWrap(true);
+  return label;
+}
+
+/// Adds the widgets to the layout, one after the other.
+inline void addAll(QBoxLayout& layout, std::initializer_list<QWidget*> widgets) {
+  for (QWidget* widget : widgets) layout.addWidget(widget);
+}
+
+/// The widgets beside one another, from left to right.
+inline QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets) {
+  auto* row = new QHBoxLayout;
+  addAll(*row, widgets);
+  return row;
 }
 
 }  // namespace reachlab::gui::widgets

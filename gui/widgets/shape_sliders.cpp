@@ -1,8 +1,6 @@
 #include "gui/widgets/shape_sliders.h"
 
 #include <QFormLayout>
-#include <QHBoxLayout>
-#include <QLabel>
 #include <QSignalBlocker>
 #include <QSlider>
 #include <QVBoxLayout>
@@ -10,6 +8,7 @@
 #include <cmath>
 #include <utility>
 
+#include "gui/widgets/named.h"
 #include "gui/widgets/unit_spin_box.h"
 
 namespace reachlab::gui::widgets {
@@ -61,9 +60,8 @@ void ShapeSliders::addRow(const constraints::ShapeParameter& p, double value) {
   box->show(value);
   auto* line = new QHBoxLayout;
   line->addWidget(slider, 1);
-  auto* label = new QLabel(plainName(p));
   const QString meaning = QStringLiteral("%1: %2").arg(QString::fromStdString(p.name), QString::fromStdString(p.meaning));
-  label->setToolTip(meaning);
+  auto* label = tipped(new QLabel(plainName(p)), meaning);
   slider->setToolTip(meaning);
   box->setToolTip(meaning);
   const std::size_t at = rows_.size();

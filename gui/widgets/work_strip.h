@@ -1,9 +1,8 @@
 #pragma once
-#include <QHBoxLayout>
-#include <QLabel>
 #include <QProgressBar>
 #include <QToolButton>
-#include <QWidget>
+
+#include "gui/widgets/named.h"
 
 namespace reachlab::gui::widgets {
 
@@ -16,9 +15,7 @@ class WorkStrip : public QWidget {
     row->setContentsMargins(0, 0, 0, 0);
     bar_->setFixedWidth(120);
     stop_->setText(button);
-    row->addWidget(what_);
-    row->addWidget(bar_);
-    row->addWidget(stop_);
+    addAll(*row, {what_, bar_, stop_});
     hide();
   }
   /// `percent`: below 0 where nobody knows.
