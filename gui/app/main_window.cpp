@@ -30,6 +30,7 @@
 #include "gui/docks/stations_dock.h"
 #include "gui/docks/trials_dock.h"
 #include "gui/inspector/inspector.h"
+#include "gui/plan/start_page.h"
 #include "gui/plot/criterion_style.h"
 #include "gui/plot/signal_plot.h"
 #include "gui/plot/signal_point.h"
@@ -37,7 +38,6 @@
 #include "gui/scene/scene_view.h"
 #include "gui/session/plan_pages.h"
 #include "gui/session/session_overlay.h"
-#include "gui/session/trial_marking.h"
 #include "gui/widgets/card.h"
 #include "gui/widgets/messages.h"
 #include "gui/widgets/work_strip.h"
@@ -165,13 +165,16 @@ void MainWindow::wireDocks() {
   docks_.devices->setHand(QString::fromStdString(dock->device()));
   connect(docks_.trials, &docks::TrialsDock::noteRequested, this,
           [this](int number) { strip_->beginNote(QStringLiteral("trial %1: ").arg(number)); });
-  wireMarking(*docks_.trials, session_, *messages_);
-  connect(plans_, &PlanPages::beginRequested, this, [this] {
+  connect(docks_.trials, &docks::TrialsDock::markRequested, this, &MainWindow::markTrial);
+  connect(docks_.trials, &docks::TrialsDock::takeBackRequested, this, [this] {
+    if (!session_.takeBackRepeat()) warn(tr("No repeat is planned."));
+  });
+  connect(&plans_->startPage(), &plan::StartPage::beginRequested, this, [this] {
     session_.beginAnew();
     beginNext();
   });
-  connect(plans_, &PlanPages::resumeRequested, this, &MainWindow::resumeSession);
-  connect(plans_, &PlanPages::composeRequested, this, &MainWindow::composePlan);
+  connect(&plans_->startPage(), &plan::StartPage::resumeRequested, this, &MainWindow::resumeSession);
+  connect(&plans_->startPage(), &plan::StartPage::composeRequested, this, &MainWindow::composePlan);
   connect(plans_, &PlanPages::composed, this, &MainWindow::openExperiment);
   connect(docks_.signal, &plot::SignalPlot::watchedChanged, this, [this](int mass) { session_.watch(mass); });
   connect(docks_.predictions, &docks::PredictionDock::chosenChanged, this, &MainWindow::drawPredictions);

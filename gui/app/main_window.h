@@ -148,6 +148,8 @@ class MainWindow : public QMainWindow {
   /// True when no trial of an open run would be lost, or the user says so.
   bool mayEndRun(const QString& doing);
   bool mayBeLeft();
+  /// Changes the mark of a trial of the open run. A file beside the log keeps it at once.
+  void markTrial(int number, const std::function<void(record::TrialMark&)>& change);
   bool saveTo(const QString& file, const experiment::Experiment& experiment);
 
   SessionController session_;

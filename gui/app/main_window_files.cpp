@@ -9,19 +9,21 @@
 #include <QVBoxLayout>
 
 #include "base/error.h"
+#include "base/system/error_report.h"
 #include "gui/app/main_window.h"
 #include "gui/app/questions.h"
 #include "gui/app/screens.h"
 #include "gui/app/window_layout.h"
 #include "gui/docks/dock.h"
 #include "gui/docks/session_dock.h"
+#include "gui/docks/trials_dock.h"
 #include "gui/inspector/inspector.h"
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/messages.h"
 #include "sim/dynamics/scene.h"
 #include "sim/experiment/experiment.h"
 
-// What the window opens, saves and edits.
+// What the window opens, saves, edits and marks.
 namespace reachlab::gui::app {
 
 void MainWindow::openExperiment(const QString& what) {
@@ -136,6 +138,23 @@ bool MainWindow::mayBeLeft() {
     case Unsaved::Cancel: break;
   }
   return false;
+}
+
+void MainWindow::markTrial(int number, const std::function<void(record::TrialMark&)>& change) {
+  if (session_.run() == nullptr) return warn(tr("The run is closed. Mark its trials on the page Inspect."));
+  try {
+    const std::string& log = session_.run()->logPath();
+    record::RunMarks marks = record::readMarks(log);
+    record::TrialMark mark;
+    mark.trial = number;
+    if (const record::TrialMark* known = marks.find(number)) mark = *known;
+    change(mark);
+    marks.set(mark);
+    record::writeMarks(log, marks);
+    docks_.trials->setMark(number, mark);
+  } catch (const std::exception& e) {
+    say(QString::fromStdString(errorReportOf(e).sentence));
+  }
 }
 
 void MainWindow::savePicture() {

@@ -1,6 +1,7 @@
 #include "gui/docks/trials_dock.h"
 
 #include <QHeaderView>
+#include <QInputDialog>
 #include <QTableWidget>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -58,13 +59,9 @@ TrialsDock::TrialsDock(QWidget* parent) : Dock(QStringLiteral("Trials"), QString
     return made;
   };
   connect(button(tr("⚑ Flag"), "flagTrial", tr("flags the chosen trial, or the newest trial, to look at it again")), &QToolButton::clicked,
-          this, [this] {
-            if (const auto at = chosen()) Q_EMIT flagRequested(rows_[*at].number);
-          });
+          this, &TrialsDock::flag);
   connect(button(tr("Exclude…"), "excludeTrial", tr("excludes the trial from the analysis, with a reason")), &QToolButton::clicked, this,
-          [this] {
-            if (const auto at = chosen()) Q_EMIT excludeRequested(rows_[*at].number, QString::fromStdString(rows_[*at].mark.excluded));
-          });
+          &TrialsDock::exclude);
   connect(button(tr("Undo repeat"), "undoRepeat", tr("cancels the last planned repeat")), &QToolButton::clicked, this,
           &TrialsDock::takeBackRequested);
   line->addStretch(1);
@@ -94,6 +91,21 @@ std::optional<std::size_t> TrialsDock::chosen() const {
   if (rows_.empty()) return std::nullopt;
   const QList<QTableWidgetItem*> items = table_->selectedItems();
   return rows_.size() - 1 - static_cast<std::size_t>(items.isEmpty() ? 0 : items.front()->row());
+}
+
+void TrialsDock::flag() {
+  if (const auto at = chosen()) Q_EMIT markRequested(rows_[*at].number, [](record::TrialMark& mark) { mark.flagged = !mark.flagged; });
+}
+
+void TrialsDock::exclude() {
+  const auto at = chosen();
+  if (!at) return;
+  const int number = rows_[*at].number;
+  bool fine = false;
+  const QString reason =
+      QInputDialog::getText(this, tr("Exclude trial %1").arg(number), tr("Reason for the exclusion (empty: the trial counts):"),
+                            QLineEdit::Normal, QString::fromStdString(rows_[*at].mark.excluded), &fine);
+  if (fine) Q_EMIT markRequested(number, [&](record::TrialMark& mark) { mark.excluded = reason.trimmed().toStdString(); });
 }
 
 void TrialsDock::setMark(int number, const record::TrialMark& mark) {

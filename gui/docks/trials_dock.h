@@ -1,4 +1,5 @@
 #pragma once
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -29,9 +30,8 @@ class TrialsDock : public Dock {
  Q_SIGNALS:
   /// A row was double-clicked: something is to be noted about that trial.
   void noteRequested(int number);
-  /// Of the row that is chosen, else of the newest.
-  void flagRequested(int number);
-  void excludeRequested(int number, const QString& reason);  // as it is now
+  /// The mark of a trial is to be changed: that of the chosen row, or else of the newest.
+  void markRequested(int number, const std::function<void(reachlab::record::TrialMark&)>& change);
   void takeBackRequested();
 
  private:
@@ -42,6 +42,8 @@ class TrialsDock : public Dock {
     record::TrialMark mark = {};
   };
   std::optional<std::size_t> chosen() const;
+  void flag();
+  void exclude();
   void fill(int tableRow);
 
   QTableWidget* table_;

@@ -3,6 +3,7 @@
 #include <QEvent>
 #include <QTimer>
 #include <algorithm>
+#include <utility>
 
 #include "base/system/error_report.h"
 #include "gui/docks/session_dock.h"
@@ -17,9 +18,6 @@ PlanPages::PlanPages(SessionController& session, docks::SessionDock& dock, scene
     : QObject(&view), session_(session), dock_(dock), view_(view), page_(new plan::StartPage(&view)) {
   page_->hide();
   view.installEventFilter(this);
-  connect(page_, &plan::StartPage::beginRequested, this, &PlanPages::beginRequested);
-  connect(page_, &plan::StartPage::resumeRequested, this, &PlanPages::resumeRequested);
-  connect(page_, &plan::StartPage::composeRequested, this, &PlanPages::composeRequested);
   connect(page_, &plan::StartPage::placeEdited, this, [this](const QString& subject, const QString& sessionLabel) {
     session::SessionRequest request = dock_.request();
     request.place.subject = subject.toStdString();
@@ -35,16 +33,12 @@ void PlanPages::refresh() {
   const bool shown = session_.isPlan() && session_.run() == nullptr;
   view_.setOverlayVisible(!shown);  // two pages of words over one another are none
   if (!shown) {
-    known_ = false;
+    shown_.reset();
     return page_->hide();
   }
   const session::SessionRequest request = dock_.request();
   const session::Plan& plan = session_.programme().plan;
-  if (known_ && request.place == knownPlace_ && request.day == knownDay_ && plan.text == knownPlan_) return;
-  known_ = true;
-  knownPlace_ = request.place;
-  knownDay_ = request.day;
-  knownPlan_ = plan.text;
+  if (const Shown now{request.place, request.day, plan.text}; std::exchange(shown_, now) == now) return;
   plan::StartPage::Shown what;
   what.plan = QString::fromStdString(plan.name);
   what.subject = QString::fromStdString(request.place.subject);

@@ -1,6 +1,9 @@
 #pragma once
 #include <QObject>
 #include <QPointer>
+#include <optional>
+#include <string>
+#include <tuple>
 
 #include "sim/session/session.h"
 
@@ -27,17 +30,13 @@ class PlanPages : public QObject {
   /// Shows or hides the start page. Reads the disk again after another subject, session or plan, or after the end of a run. Called by a
   /// timer.
   void refresh();
-  /// The recordings have changed.
-  void forget() { known_ = false; }
+  plan::StartPage& startPage() { return *page_; }
   /// The start page offers to resume the session that was begun.
   bool resumes() const;
   /// `file`: the path of the open plan. Empty if the plan is shipped or there is no plan.
   void compose(QWidget* window, const QString& file);
 
  Q_SIGNALS:
-  void beginRequested();
-  void resumeRequested();
-  void composeRequested();
   void composed(const QString& file);
 
  protected:
@@ -51,10 +50,8 @@ class PlanPages : public QObject {
   scene::SceneView& view_;
   plan::StartPage* page_;
   QPointer<plan::PlanComposer> composer_;
-  bool known_ = false;
-  session::SessionPlace knownPlace_;
-  std::optional<int> knownDay_;
-  std::string knownPlan_;
+  using Shown = std::tuple<session::SessionPlace, std::optional<int>, std::string>;  // place, day, and text of the plan
+  std::optional<Shown> shown_;                                                       // on the start page
 };
 
 }  // namespace reachlab::gui::app

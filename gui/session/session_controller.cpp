@@ -37,14 +37,6 @@ bool isSameSession(const session::SessionRequest& a, const session::SessionReque
 
 }  // namespace
 
-QString wordsOf(const session::SessionNotice& notice) {
-  QStringList sentences;
-  if (notice.unfinished)
-    sentences << QStringLiteral("An earlier run of this session is not finished. Trial, Resume continues it. This is a new run.");
-  for (const std::string& sentence : notice.unreadable) sentences << QString::fromStdString(sentence);
-  return sentences.join(QLatin1Char('\n'));
-}
-
 SessionController::SessionController(const session::SessionRequest& request, std::optional<network::StationSetup> station, QObject* parent)
     : QObject(parent), programme_(session::readProgramme(request.what)), shown_(firstExperiment(programme_, request)),
       resume_(request.resume), asked_(request), setup_(std::move(station)),
@@ -142,7 +134,9 @@ void SessionController::planRuns(const session::SessionRequest& request) {
   asked_ = request;
   learnt_.reset();
   resume_ = false;
-  if (const QString words = wordsOf(recorded_->notice()); !words.isEmpty()) onOpening_ << words;
+  if (recorded_->notice().unfinished)
+    onOpening_ << QStringLiteral("An earlier run of this session is not finished. Trial, Resume continues it. This is a new run.");
+  for (const std::string& sentence : recorded_->notice().unreadable) onOpening_ << QString::fromStdString(sentence);
 }
 
 void SessionController::openRun(const session::SessionRequest& request) {

@@ -38,7 +38,6 @@ class SessionController : public QObject {
 
   /// The shown experiment, which is that of the plan's open or first block if there is a plan.
   const experiment::Experiment& experiment() const { return shown_.experiment(); }
-  const constraints::Constraint& constraint() const { return shown_.constraint(); }
   const experiment::CompiledExperiment& compiled() const { return shown_; }
   const session::Programme& programme() const { return programme_; }
   /// A plan has its settings in its file: they are shown, not edited.
@@ -172,8 +171,5 @@ class SessionController : public QObject {
   std::mutex changing_;
   std::jthread endsOnSignal_;  // last: it looks at all of the above
 };
-
-/// Remarks before a session, as sentences of the window. Empty if there is no remark.
-QString wordsOf(const session::SessionNotice& notice);
 
 }  // namespace reachlab::gui::app

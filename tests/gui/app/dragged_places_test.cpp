@@ -22,7 +22,7 @@ class DraggedPlaces : public AtTheWindow {
   }
   scene::SceneView& view() { return window_->view(); }
   const experiment::Task& task() { return *window_->session().experiment().task; }
-  QPoint pixelOf(const std::vector<double>& q) { return view().pixelOf(placeOn(window_->session().constraint(), q)).toPoint(); }
+  QPoint pixelOf(const std::vector<double>& q) { return view().pixelOf(placeOn(window_->session().compiled().constraint(), q)).toPoint(); }
   void send(QEvent::Type type, const QPoint& at, Qt::MouseButtons buttons) {
     QMouseEvent event(type, at, type == QEvent::MouseMove ? Qt::NoButton : Qt::LeftButton, buttons, {});
     QApplication::sendEvent(view().focusProxy(), &event);
@@ -37,7 +37,7 @@ class DraggedPlaces : public AtTheWindow {
     drop(to);
   }
   double apart(const std::vector<double>& q, const QPoint& from) {
-    const QPointF off = view().pixelOf(placeOn(window_->session().constraint(), q)) - from;
+    const QPointF off = view().pixelOf(placeOn(window_->session().compiled().constraint(), q)) - from;
     return std::hypot(off.x(), off.y());
   }
   void keepPicture(const QString& name) {
@@ -159,8 +159,8 @@ TEST_F(TypedPlaces, AreLengthsAlongTheCurve) {
     double sum = 0;
     constexpr int kParts = 100'000;
     for (int i = 0; i < kParts; ++i)
-      sum += norm(placeOn(window_->session().constraint(), std::vector{from + (to - from) * (i + 1) / kParts}) -
-                  placeOn(window_->session().constraint(), std::vector{from + (to - from) * i / kParts}));
+      sum += norm(placeOn(window_->session().compiled().constraint(), std::vector{from + (to - from) * (i + 1) / kParts}) -
+                  placeOn(window_->session().compiled().constraint(), std::vector{from + (to - from) * i / kParts}));
     return sum;
   };
   EXPECT_NEAR(lengthBetween(task().start.at(0), task().target.at(0)), 0.1, 1e-6) << faults().toStdString();
