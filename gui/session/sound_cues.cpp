@@ -6,7 +6,6 @@
 #include <QSoundEffect>
 #include <QUrl>
 #include <algorithm>
-#include <array>
 
 #include "base/error.h"
 #include "sim/experiment/resources.h"
@@ -14,25 +13,21 @@
 namespace reachlab::gui::app {
 namespace {
 
-constexpr std::array kFiles{"go.wav", "success.wav", "failure.wav"};
+constexpr const char* kFiles[] = {"go.wav", "success.wav", "failure.wav"};
 
 QString volumeKey() { return QStringLiteral("sound/volume"); }
 
 }  // namespace
 
-struct SoundCues::Impl {
-  std::array<std::unique_ptr<QSoundEffect>, kFiles.size()> effects;  // none without a sound device
-};
-
-SoundCues::SoundCues() : impl_(std::make_unique<Impl>()) {
+SoundCues::SoundCues() {
   if (QAudioDeviceInfo::defaultOutputDevice().isNull()) return;
   try {
     const QString folder = QString::fromStdString(experiment::resourceFolder()) + QStringLiteral("/sounds/");
-    for (std::size_t i = 0; i < kFiles.size(); ++i) {
+    for (std::size_t i = 0; i < effects_.size(); ++i) {
       const QString file = folder + QLatin1String(kFiles[i]);
       if (!QFileInfo::exists(file)) continue;
-      impl_->effects[i] = std::make_unique<QSoundEffect>();
-      impl_->effects[i]->setSource(QUrl::fromLocalFile(file));
+      effects_[i] = std::make_unique<QSoundEffect>();
+      effects_[i]->setSource(QUrl::fromLocalFile(file));
     }
   } catch (const Error&) {  // no resources: a silent program is better than none
   }
@@ -42,7 +37,7 @@ SoundCues::SoundCues() : impl_(std::make_unique<Impl>()) {
 SoundCues::~SoundCues() = default;
 
 void SoundCues::play(Cue cue) {
-  const auto& effect = impl_->effects[static_cast<std::size_t>(cue)];
+  const auto& effect = effects_[static_cast<std::size_t>(cue)];
   if (effect && !muted_) effect->play();
 }
 
@@ -50,7 +45,7 @@ void SoundCues::setVolume(double volume) {
   volume_ = std::clamp(volume, 0.0, 1.0);
   QSettings().setValue(volumeKey(), volume_);
   const qreal amplitude = QAudio::convertVolume(volume_, QAudio::LogarithmicVolumeScale, QAudio::LinearVolumeScale);
-  for (const auto& effect : impl_->effects)
+  for (const auto& effect : effects_)
     if (effect) effect->setVolume(amplitude);
 }
 

@@ -1,5 +1,8 @@
 #pragma once
+#include <array>
 #include <memory>
+
+class QSoundEffect;
 
 namespace reachlab::gui::app {
 
@@ -19,8 +22,7 @@ class SoundCues {
   double volume() const { return volume_; }
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::array<std::unique_ptr<QSoundEffect>, 3> effects_;  // none without a sound device
   bool muted_ = false;
   double volume_ = 0.7;
 };

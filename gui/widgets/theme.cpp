@@ -60,20 +60,13 @@ void applyTheme(QApplication& application) {
   QApplication::setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
   QPalette palette;
   using namespace colours;
-  palette.setColor(QPalette::Window, toQColor(kWindow));
-  palette.setColor(QPalette::WindowText, toQColor(kText));
-  palette.setColor(QPalette::Base, toQColor(kBase));
-  palette.setColor(QPalette::AlternateBase, toQColor(kWindow));
-  palette.setColor(QPalette::Text, toQColor(kText));
-  palette.setColor(QPalette::Button, toQColor(kButton));
-  palette.setColor(QPalette::ButtonText, toQColor(kText));
-  palette.setColor(QPalette::BrightText, toQColor(kTarget));
-  palette.setColor(QPalette::Highlight, toQColor(kAccent));
+  const std::pair<QPalette::ColorRole, Colour> roles[] = {
+      {QPalette::Window, kWindow},    {QPalette::WindowText, kText},    {QPalette::Base, kBase},        {QPalette::AlternateBase, kWindow},
+      {QPalette::Text, kText},        {QPalette::Button, kButton},      {QPalette::ButtonText, kText},  {QPalette::BrightText, kTarget},
+      {QPalette::Highlight, kAccent}, {QPalette::ToolTipBase, kButton}, {QPalette::ToolTipText, kText}, {QPalette::Link, kAccent}};
+  for (const auto& [role, colour] : roles) palette.setColor(role, toQColor(colour));
   palette.setColor(QPalette::HighlightedText, Qt::white);
-  palette.setColor(QPalette::ToolTipBase, toQColor(kButton));
-  palette.setColor(QPalette::ToolTipText, toQColor(kText));
   palette.setColor(QPalette::PlaceholderText, ink(155));
-  palette.setColor(QPalette::Link, toQColor(kAccent));
   for (const auto role : {QPalette::WindowText, QPalette::Text, QPalette::ButtonText})
     palette.setColor(QPalette::Disabled, role, toQColor(kNeutral));
   palette.setColor(QPalette::Disabled, QPalette::Light, toQColor(kBase));  // of the etching beside a menu's words: not seen
