@@ -10,7 +10,6 @@
 
 #include "gui/app/frame_recorder.h"
 #include "gui/app/menu_entries.h"
-#include "gui/scene/scene_view.h"
 #include "gui/scene_plan/part_names.h"
 #include "gui/widgets/theme.h"
 #include "gui/widgets/work_strip.h"

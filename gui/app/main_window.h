@@ -6,42 +6,28 @@
 #include "gui/app/dataset_analysis.h"
 #include "gui/app/edit_history.h"
 #include "gui/app/experiment_files.h"
+#include "gui/app/screens.h"
 #include "gui/app/status_line.h"
 #include "gui/app/window_layout.h"
 #include "gui/app/window_menus.h"
 #include "gui/docks/all_docks.h"
-#include "gui/inspector/inspection.h"
+#include "gui/inspector/inspector.h"
 #include "gui/plot/live_forecast.h"
 #include "gui/plot/live_trace.h"
-#include "gui/scene/scene_overlay.h"
+#include "gui/scene/scene_view.h"
+#include "gui/session/plan_pages.h"
 #include "gui/session/session_controller.h"
+#include "gui/session/session_strip.h"
 #include "gui/session/sound_cues.h"
 #include "gui/subject/subject_words.h"
+#include "gui/widgets/card.h"
+#include "gui/widgets/messages.h"
 #include "sim/experiment/scene_look.h"
 
 class QTabWidget;
 class QTimer;
 
-namespace reachlab::gui::docks {
-class ConstraintChooser;
-}
-namespace reachlab::gui::inspector {
-class InspectorPage;
-}
-namespace reachlab::gui::scene {
-class SceneView;
-enum class TaskPlace;
-}  // namespace reachlab::gui::scene
-namespace reachlab::gui::widgets {
-class Card;
-class Messages;
-}  // namespace reachlab::gui::widgets
-
 namespace reachlab::gui::app {
-
-class PlanPages;
-class Screens;
-class SessionStrip;
 
 /// The window of `reachlab`: the scene in the middle, docks around it. It wires docks, pictures and session, and owns no logic of any.
 class MainWindow : public QMainWindow {

@@ -7,10 +7,7 @@
 #include <QUndoStack>
 
 #include "gui/app/menu_entries.h"
-#include "gui/app/screens.h"
-#include "gui/plot/velocity_plot.h"
 #include "gui/scene/renderer_name.h"
-#include "gui/scene/scene_view.h"
 #include "gui/session/session_controller.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"

@@ -5,15 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "gui/docks/constraint_dock.h"
-#include "gui/docks/device_dock.h"
 #include "gui/docks/experiment_docks.h"
-#include "gui/docks/prediction_dock.h"
-#include "gui/docks/session_dock.h"
-#include "gui/docks/stations_dock.h"
-#include "gui/docks/trials_dock.h"
-#include "gui/plot/signal_plot.h"
-#include "gui/plot/velocity_plot.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::docks {

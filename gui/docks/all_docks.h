@@ -1,22 +1,18 @@
 #pragma once
 #include <vector>
 
+#include "gui/docks/constraint_dock.h"
+#include "gui/docks/device_dock.h"
+#include "gui/docks/prediction_dock.h"
+#include "gui/docks/session_dock.h"
+#include "gui/docks/stations_dock.h"
+#include "gui/docks/trials_dock.h"
+#include "gui/plot/signal_plot.h"
+#include "gui/plot/velocity_plot.h"
+
 class QMainWindow;
 
-namespace reachlab::gui::plot {
-class SignalPlot;
-class VelocityPlot;
-}  // namespace reachlab::gui::plot
-
 namespace reachlab::gui::docks {
-
-class ConstraintDock;
-class DeviceDock;
-class Dock;
-class PredictionDock;
-class SessionDock;
-class StationsDock;
-class TrialsDock;
 
 /// The docks of the window, which owns them, and the plots in two of them.
 struct Docks {
