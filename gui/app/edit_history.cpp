@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "base/error.h"
-#include "gui/session/session_controller.h"
 #include "gui/widgets/fault_words.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/scene_look.h"

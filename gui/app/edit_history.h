@@ -3,11 +3,10 @@
 #include <QStringList>
 #include <QUndoStack>
 
+#include "gui/session/session_controller.h"
 #include "sim/session/session.h"
 
 namespace reachlab::gui::app {
-
-class SessionController;
 
 /// Changes by the user, for undo and redo. Each change holds the whole programme, checked and compiled.
 class EditHistory {

@@ -3,7 +3,6 @@
 #include <QPainter>
 #include <QTimer>
 
-#include "gui/scene/scene_view.h"
 
 namespace reachlab::gui::app {
 namespace {

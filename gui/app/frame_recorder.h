@@ -5,11 +5,9 @@
 #include <QThreadPool>
 #include <atomic>
 
-class QTimer;
+#include "gui/scene/scene_view.h"
 
-namespace reachlab::gui::scene {
-class SceneView;
-}
+class QTimer;
 
 namespace reachlab::gui::app {
 

@@ -9,9 +9,7 @@
 #include "constraints/formula/formula.h"
 #include "constraints/geometry/task_path.h"
 #include "gui/scene/place_under.h"
-#include "gui/scene/scene_view.h"
 #include "gui/scene/trial_texts.h"
-#include "gui/subject/subject_window.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/scene_look.h"
 

@@ -9,22 +9,16 @@
 
 #include "gui/model/model_reader.h"
 #include "gui/scene/scene_overlay.h"
+#include "gui/scene/scene_view.h"
 #include "gui/scene_plan/late_cursor.h"
 #include "gui/scene_plan/scene_plan.h"
+#include "gui/subject/subject_window.h"
 #include "network/link/station_sink.h"
 #include "sim/experiment/compiled_experiment.h"
 
 class QAction;
 class QLabel;
 class QTimer;
-
-namespace reachlab::gui::scene {
-class SceneView;
-enum class TaskPlace;
-}  // namespace reachlab::gui::scene
-namespace reachlab::gui::subject {
-class SubjectWindow;
-}
 
 namespace reachlab::gui::app {
 

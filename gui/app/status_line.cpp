@@ -4,7 +4,6 @@
 #include <QStatusBar>
 #include <cmath>
 
-#include "sim/session/recorded_session.h"
 
 namespace reachlab::gui::app {
 

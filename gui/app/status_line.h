@@ -1,14 +1,8 @@
 #pragma once
+#include "sim/session/recorded_session.h"
 
 class QLabel;
 class QStatusBar;
-
-namespace reachlab::record {
-struct RecordedTrial;
-}
-namespace reachlab::session {
-class RecordedRun;
-}
 
 namespace reachlab::gui::app {
 

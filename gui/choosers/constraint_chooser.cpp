@@ -14,13 +14,9 @@
 #include "base/system/error_report.h"
 #include "constraints/constraint.h"
 #include "constraints/regularity/undefined.h"
-#include "gui/choosers/formula_editor.h"
-#include "gui/scene/scene_view.h"
 #include "gui/scene/thumbnail.h"
 #include "gui/scene_plan/definition_reach.h"
-#include "gui/widgets/fault_label.h"
 #include "gui/widgets/named.h"
-#include "gui/widgets/shape_sliders.h"
 
 namespace reachlab::gui::docks {
 namespace {

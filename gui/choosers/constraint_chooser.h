@@ -4,6 +4,10 @@
 #include <vector>
 
 #include "constraints/catalogue/definition.h"
+#include "gui/choosers/formula_editor.h"
+#include "gui/scene/scene_view.h"
+#include "gui/widgets/fault_label.h"
+#include "gui/widgets/shape_sliders.h"
 #include "sim/experiment/experiment.h"
 
 class QLabel;
@@ -12,17 +16,7 @@ class QListWidget;
 class QPushButton;
 class QVBoxLayout;
 
-namespace reachlab::gui::scene {
-class SceneView;
-}
-namespace reachlab::gui::widgets {
-class FaultLabel;
-class ShapeSliders;
-}  // namespace reachlab::gui::widgets
-
 namespace reachlab::gui::docks {
-
-class FormulaEditor;
 
 /// A choice with everything that an experiment needs to use it.
 struct ConstraintChoice {

@@ -8,7 +8,6 @@
 
 #include "base/error.h"
 #include "devices/driver/registry.h"
-#include "gui/choosers/device_view.h"
 #include "gui/widgets/inks.h"
 #include "gui/widgets/named.h"
 #include "gui/widgets/wait_cursor.h"

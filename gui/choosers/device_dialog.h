@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "devices/live_device.h"
+#include "gui/choosers/device_view.h"
 
 class QLabel;
 class QLineEdit;
@@ -11,8 +12,6 @@ class QPushButton;
 class QTimer;
 
 namespace reachlab::gui::docks {
-
-class DeviceView;
 
 /// Whether the device of this name, with its options, is seen only in the window itself, as the mouse is.
 bool isInWindowOnly(const QString& device);

@@ -11,7 +11,6 @@
 #include <string_view>
 
 #include "constraints/formula/formula.h"
-#include "gui/widgets/fault_label.h"
 #include "gui/widgets/named.h"
 
 namespace reachlab::gui::docks {

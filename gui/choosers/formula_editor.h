@@ -7,13 +7,10 @@
 #include <vector>
 
 #include "constraints/catalogue/definition.h"
+#include "gui/widgets/fault_label.h"
 
 class QComboBox;
 class QLineEdit;
-
-namespace reachlab::gui::widgets {
-class FaultLabel;
-}
 
 namespace reachlab::gui::docks {
 

@@ -9,11 +9,8 @@
 
 #include "base/error.h"
 #include "constraints/constraint.h"
-#include "gui/choosers/constraint_chooser.h"
 #include "gui/scene_plan/definition_reach.h"
-#include "gui/widgets/fault_label.h"
 #include "gui/widgets/named.h"
-#include "gui/widgets/shape_sliders.h"
 
 namespace reachlab::gui::docks {
 namespace {

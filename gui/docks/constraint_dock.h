@@ -1,15 +1,11 @@
 #pragma once
+#include "gui/choosers/constraint_chooser.h"
 #include "gui/docks/dock.h"
+#include "gui/widgets/shape_sliders.h"
 
 class QLabel;
 
-namespace reachlab::gui::widgets {
-class ShapeSliders;
-}  // namespace reachlab::gui::widgets
-
 namespace reachlab::gui::docks {
-
-class ConstraintChooser;
 
 /// The constraint in use: its name, its sliders, and the button for the chooser. Depends on definitions, not on the simulator.
 class ConstraintDock : public Dock {

@@ -7,7 +7,6 @@
 #include <QVBoxLayout>
 
 #include "devices/hands/several_hands.h"
-#include "gui/choosers/device_dialog.h"
 #include "gui/widgets/named.h"
 #include "gui/widgets/theme.h"
 #include "gui/widgets/wait_cursor.h"

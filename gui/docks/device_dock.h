@@ -6,6 +6,7 @@
 
 #include "devices/driver/registry.h"
 #include "devices/hot_plug.h"
+#include "gui/choosers/device_dialog.h"
 #include "gui/docks/dock.h"
 
 class QLabel;
@@ -13,8 +14,6 @@ class QPushButton;
 class QTreeWidget;
 
 namespace reachlab::gui::docks {
-
-class DeviceDialog;
 
 /// Lists the present devices, and the missing devices with a reason. Plugging shows by itself while the dock is visible and no run has the
 /// devices. Drivers are asked in the window's thread, and some drivers open a device for a moment.

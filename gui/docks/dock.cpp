@@ -4,7 +4,6 @@
 #include <QScrollArea>
 #include <QScrollBar>
 
-#include "gui/widgets/fault_label.h"
 
 namespace reachlab::gui::docks {
 namespace {

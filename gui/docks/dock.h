@@ -2,12 +2,9 @@
 #include <QDockWidget>
 #include <QStringList>
 
+#include "gui/widgets/fault_label.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
-
-namespace reachlab::gui::widgets {
-class FaultLabel;
-}
 
 namespace reachlab::gui::docks {
 

@@ -9,7 +9,6 @@
 #include <string_view>
 
 #include "gui/docks/experiment_docks.h"
-#include "gui/widgets/fault_label.h"
 #include "gui/widgets/key_field.h"
 #include "gui/widgets/named.h"
 #include "sim/experiment/experiment_keys.h"

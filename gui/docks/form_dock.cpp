@@ -2,7 +2,6 @@
 
 #include <QFormLayout>
 
-#include "gui/widgets/fault_label.h"
 #include "gui/widgets/named.h"
 
 namespace reachlab::gui::docks {

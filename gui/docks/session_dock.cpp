@@ -16,11 +16,9 @@
 #include "base/error.h"
 #include "devices/driver/registry.h"
 #include "devices/hot_plug.h"
-#include "gui/widgets/fault_label.h"
 #include "gui/widgets/fault_words.h"
 #include "gui/widgets/inks.h"
 #include "gui/widgets/named.h"
-#include "gui/widgets/unit_spin_box.h"
 #include "sim/record/configuration/run_configuration.h"
 
 namespace reachlab::gui::docks {

@@ -2,6 +2,7 @@
 #include <string>
 
 #include "gui/docks/dock.h"
+#include "gui/widgets/unit_spin_box.h"
 #include "sim/session/session.h"
 
 class QCheckBox;
@@ -9,10 +10,6 @@ class QComboBox;
 class QHBoxLayout;
 class QLineEdit;
 class QSpinBox;
-
-namespace reachlab::gui::widgets {
-class UnitSpinBox;
-}  // namespace reachlab::gui::widgets
 
 namespace reachlab::gui::docks {
 

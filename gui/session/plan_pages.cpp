@@ -6,11 +6,6 @@
 #include <utility>
 
 #include "base/system/error_report.h"
-#include "gui/docks/session_dock.h"
-#include "gui/plan/plan_composer.h"
-#include "gui/plan/start_page.h"
-#include "gui/scene/scene_view.h"
-#include "gui/session/session_controller.h"
 
 namespace reachlab::gui::app {
 

@@ -5,22 +5,14 @@
 #include <string>
 #include <tuple>
 
+#include "gui/docks/session_dock.h"
+#include "gui/plan/plan_composer.h"
+#include "gui/plan/start_page.h"
+#include "gui/scene/scene_view.h"
+#include "gui/session/session_controller.h"
 #include "sim/session/session.h"
 
-namespace reachlab::gui::docks {
-class SessionDock;
-}
-namespace reachlab::gui::plan {
-class PlanComposer;
-class StartPage;
-}  // namespace reachlab::gui::plan
-namespace reachlab::gui::scene {
-class SceneView;
-}
-
 namespace reachlab::gui::app {
-
-class SessionController;
 
 /// A plan in the window: the start page over the scene while no run is open, and the composer dialog.
 class PlanPages : public QObject {

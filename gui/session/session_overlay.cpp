@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include "gui/scene/trial_texts.h"
-#include "gui/session/session_controller.h"
-#include "gui/subject/subject_words.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::app {

@@ -1,13 +1,9 @@
 #pragma once
 #include "gui/scene/scene_overlay.h"
-
-namespace reachlab::gui::subject {
-class SubjectWords;
-}
+#include "gui/session/session_controller.h"
+#include "gui/subject/subject_words.h"
 
 namespace reachlab::gui::app {
-
-class SessionController;
 
 /// Texts over the scene for the present state of the session. `mouse`: the mouse is the hand. `massesHide`: masses are at the same
 /// position.

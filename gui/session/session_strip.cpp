@@ -5,7 +5,6 @@
 #include <QPushButton>
 
 #include "gui/scene/trial_texts.h"
-#include "gui/widgets/elided_label.h"
 #include "gui/widgets/named.h"
 
 namespace reachlab::gui::app {

@@ -2,15 +2,12 @@
 #include <QToolBar>
 #include <map>
 
+#include "gui/widgets/elided_label.h"
 #include "sim/record/configuration/run_configuration.h"
 #include "sim/trial/outcome.h"
 
 class QAction;
 class QLineEdit;
-
-namespace reachlab::gui::widgets {
-class ElidedLabel;
-}
 
 namespace reachlab::gui::app {
 

@@ -6,7 +6,6 @@
 #include <QHBoxLayout>
 #include <QSignalBlocker>
 
-#include "gui/widgets/unit_spin_box.h"
 
 namespace reachlab::gui::widgets {
 

@@ -3,13 +3,12 @@
 #include <vector>
 
 #include "base/number_range.h"
+#include "gui/widgets/unit_spin_box.h"
 
 class QCheckBox;
 class QComboBox;
 
 namespace reachlab::gui::widgets {
-
-class UnitSpinBox;
 
 /// The form of a key's value.
 struct KeyForm {

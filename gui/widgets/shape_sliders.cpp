@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "gui/widgets/named.h"
-#include "gui/widgets/unit_spin_box.h"
 
 namespace reachlab::gui::widgets {
 namespace {

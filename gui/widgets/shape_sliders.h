@@ -5,14 +5,13 @@
 #include <vector>
 
 #include "constraints/catalogue/definition.h"
+#include "gui/widgets/unit_spin_box.h"
 
 class QFormLayout;
 class QHBoxLayout;
 class QSlider;
 
 namespace reachlab::gui::widgets {
-
-class UnitSpinBox;
 
 /// "minor radius" for minor_radius_m: the unit is shown behind the number.
 QString plainName(const constraints::ShapeParameter& parameter);
