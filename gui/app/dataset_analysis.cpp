@@ -12,13 +12,13 @@ namespace {
 
 QString findReach() {
   const QString here = QCoreApplication::applicationDirPath();
-  for (const QString& place : {QStringLiteral("/reach"), QStringLiteral("/../cli/reach")})
+  for (const char* place : {"/reach", "/../cli/reach"})
     if (QFileInfo(here + place).isExecutable()) return here + place;
-  return QStandardPaths::findExecutable(QStringLiteral("reach"));
+  return QStandardPaths::findExecutable("reach");
 }
 
 QString reportOf(const QString& dataset) {
-  return QString::fromStdString(analysis::analysisFolderOf(dataset.toStdString())) + QStringLiteral("/report.html");
+  return QString::fromStdString(analysis::analysisFolderOf(dataset.toStdString())) + "/report.html";
 }
 
 }  // namespace
@@ -49,7 +49,7 @@ void DatasetAnalysis::begin(const QString& dataset) {
   }
   dataset_ = dataset;
   Q_EMIT told(tr("%1 is being analysed.").arg(dataset_));
-  process_.start(program_, {QStringLiteral("analyze"), dataset_});
+  process_.start(program_, {"analyze", dataset_});
 }
 
 void DatasetAnalysis::end(bool good) {

@@ -14,7 +14,7 @@ namespace {
 
 constexpr int kMostRecent = 8;
 
-QString recentKey() { return QStringLiteral("recentFiles"); }
+QString recentKey() { return "recentFiles"; }
 
 }  // namespace
 

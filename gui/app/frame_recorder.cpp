@@ -3,7 +3,6 @@
 #include <QPainter>
 #include <QTimer>
 
-
 namespace reachlab::gui::app {
 namespace {
 

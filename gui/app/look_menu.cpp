@@ -89,7 +89,7 @@ void listColours(MainWindow& window, QMenu& menu) {
           QColorDialog::getColor(drawnColour(window, part), &window, QObject::tr("Colour of the scene: %1").arg(wordsOf(part)));
       if (chosen.isValid()) changeLook(window, [&](SceneLook& look) { look.colours[part] = chosen.name().toStdString(); });
     };
-    QAction* action = addEntry(window, menu, wordsOf(part) + QStringLiteral("…"), choose);
+    QAction* action = addEntry(window, menu, wordsOf(part) + "…", choose);
     action->setIcon(swatchOf(drawnColour(window, part)));
     action->setProperty("part", QString::fromStdString(part));
   }
@@ -115,7 +115,7 @@ void listCameras(MainWindow& window, QMenu& menu) {
     addEntry(window, menu, QString::fromStdString(camera.name), [&window, camera] { window.view().setCamera(cameraOf(camera)); });
   menu.addSeparator();
   QAction* keep = addEntry(window, menu, QObject::tr("Remember this view…"), [&window] { rememberView(window); });
-  keep->setObjectName(QStringLiteral("rememberView"));
+  keep->setObjectName("rememberView");
   keep->setEnabled(!window.session().isPlan());
   QMenu* forget = menu.addMenu(QObject::tr("Forget"));
   forget->setEnabled(!cameras.empty() && !window.session().isPlan());
@@ -141,7 +141,7 @@ void addScenery(MainWindow& window, QMenu& menu) {
 void addMovie(MainWindow& window, QMenu& menu) {
   auto* recorder = new FrameRecorder(window.view(), &window);
   QAction* action = menu.addAction(QObject::tr("Record pictures for a film…"));
-  action->setObjectName(QStringLiteral("recordFrames"));
+  action->setObjectName("recordFrames");
   action->setCheckable(true);
   QObject::connect(action, &QAction::triggered, &window, [&window, recorder, action](bool on) {
     if (!on) return recorder->stop();
@@ -149,7 +149,7 @@ void addMovie(MainWindow& window, QMenu& menu) {
     if (folder.isEmpty()) return action->setChecked(false);
     recorder->start(folder);
   });
-  auto* filming = new widgets::WorkStrip(QStringLiteral("filming"), QObject::tr("Stop"));
+  auto* filming = new widgets::WorkStrip("filming", QObject::tr("Stop"));
   window.statusBar()->addPermanentWidget(filming);
   QObject::connect(&filming->button(), &QToolButton::clicked, recorder, &FrameRecorder::stop);
   QObject::connect(recorder, &FrameRecorder::progressed, filming, [filming](int written, int leftOut) {
@@ -168,14 +168,14 @@ void addMovie(MainWindow& window, QMenu& menu) {
 
 void addLookMenu(MainWindow& window, QMenu& menu) {
   QMenu* cameras = menu.addMenu(QObject::tr("View &from"));
-  cameras->setObjectName(QStringLiteral("cameras"));
+  cameras->setObjectName("cameras");
   QObject::connect(cameras, &QMenu::aboutToShow, cameras, [&window, cameras] { listCameras(window, *cameras); });
   addSwitch(window, menu, QObject::tr("&Parallel projection"), [&window](bool on) {
     window.view().setParallel(on);
-  })->setObjectName(QStringLiteral("parallel"));
+  })->setObjectName("parallel");
   addSwitch(window, menu, QObject::tr("Stereo, for red and cyan glasses"), [&window](bool on) { window.view().setStereo(on); });
   QMenu* look = menu.addMenu(QObject::tr("&Look of the scene"));
-  look->setObjectName(QStringLiteral("look"));
+  look->setObjectName("look");
   addParts(window, *look);
   look->addSeparator();
   addDepthCues(window, *look);
@@ -186,12 +186,12 @@ void addLookMenu(MainWindow& window, QMenu& menu) {
   look->addSeparator();
   addScenery(window, *look);
   QAction* light = addSwitch(window, menu, QObject::tr("Light theme"), [&window](bool on) {
-    const QString theme = on ? QStringLiteral("light") : QStringLiteral("dark");
-    QSettings().setValue(QStringLiteral("window/theme"), theme);
+    const QString theme = on ? "light" : "dark";
+    QSettings().setValue("window/theme", theme);
     window.tell(QObject::tr("The %1 theme is used when you open the window again.").arg(theme));
   });
-  light->setObjectName(QStringLiteral("lightTheme"));
-  light->setChecked(QSettings().value(QStringLiteral("window/theme")).toString() == QLatin1String("light"));
+  light->setObjectName("lightTheme");
+  light->setChecked(QSettings().value("window/theme").toString() == QLatin1String("light"));
   addMovie(window, menu);
 }
 

@@ -138,7 +138,7 @@ int run(const Arguments& arguments, int argc, char** argv) {
   QCoreApplication::setAttribute(Qt::AA_CompressHighFrequencyEvents, false);  // each move of the pointer is a sample of the hand
   scene::applySurfaceFormat();
   QApplication application(argc, argv);
-  if (QSettings().value(QStringLiteral("window/theme")).toString() == QLatin1String("light")) widgets::setTheme(widgets::Theme::Light);
+  if (QSettings().value("window/theme").toString() == QLatin1String("light")) widgets::setTheme(widgets::Theme::Light);
   widgets::applyTheme(application);
   if (!arguments.pictures.empty()) {
     const int drawn = scene::drawPictures(QString::fromStdString(arguments.pictures));
@@ -150,7 +150,7 @@ int run(const Arguments& arguments, int argc, char** argv) {
   const bool recorded = isRecorded(what);
   if (recorded) request.what = "chain-moderate";
   MainWindow window(request, arguments.station);
-  window.setWindowIcon(QIcon(QString::fromStdString(experiment::resourceFolder()) + QStringLiteral("/icons/reachlab.png")));
+  window.setWindowIcon(QIcon(QString::fromStdString(experiment::resourceFolder()) + "/icons/reachlab.png"));
   if (recorded) window.inspect(what);
   const auto trials = rememberedTrials();
   if (trials && !request.trials && !arguments.station) window.sessionDock().setTrials(*trials);
@@ -166,7 +166,7 @@ int sayFault(const std::string& message, const std::string& sentence, int status
   if (isatty(STDERR_FILENO) == 1 || !displayAnswers()) return status;
   std::unique_ptr<QApplication> application;
   if (QCoreApplication::instance() == nullptr) application = std::make_unique<QApplication>(argc, argv);
-  QMessageBox(QMessageBox::Critical, QStringLiteral("Reachlab"), QString::fromStdString(sentence), QMessageBox::Close).exec();
+  QMessageBox(QMessageBox::Critical, "Reachlab", QString::fromStdString(sentence), QMessageBox::Close).exec();
   return status;
 }
 
@@ -180,8 +180,8 @@ int main(int argc, char** argv) {
   endOnUncaught();
   os::holdStandardDescriptors();
   endOnSignals();
-  QCoreApplication::setOrganizationName(QStringLiteral("reachlab"));  // by which the settings are found
-  QCoreApplication::setApplicationName(QStringLiteral("reachlab"));
+  QCoreApplication::setOrganizationName("reachlab");  // by which the settings are found
+  QCoreApplication::setApplicationName("reachlab");
   CLI::App app{"reachlab: the window of Reachlab", "reachlab"};
   try {
     return run(parse(app, argc, argv), argc, argv);

@@ -62,11 +62,11 @@ void showTitle(MainWindow& window, const QString& name) {
 
 MainWindow::MainWindow(const session::SessionRequest& request, const std::optional<network::StationSetup>& station, QWidget* parent)
     : QMainWindow(parent), session_(request, station), edits_(session_) {
-  setObjectName(QStringLiteral("reachlab"));
+  setObjectName("reachlab");
   setAcceptDrops(true);
   what_ = QString::fromStdString(request.what);
   if (QFileInfo::exists(what_)) file_ = what_;
-  words_.setLanguage(QSettings().value(QStringLiteral("subject/language"), QStringLiteral("en")).toString());
+  words_.setLanguage(QSettings().value("subject/language", "en").toString());
   addCentre();
   docks_ = docks::makeDocks(*this, station.has_value());
   if (station) screens_->setOwnHand(station->link.station - 1);
@@ -83,7 +83,7 @@ MainWindow::MainWindow(const session::SessionRequest& request, const std::option
   connect(screens_, &Screens::said, this, &MainWindow::say);
   connect(screens_, &Screens::placeChosen, this, &MainWindow::movePlace);
   connect(screens_, &Screens::optionsChanged, this, &MainWindow::showOverlay);
-  auto* reading = new widgets::WorkStrip(QStringLiteral("readingScene"), tr("Cancel"));
+  auto* reading = new widgets::WorkStrip("readingScene", tr("Cancel"));
   statusBar()->addPermanentWidget(reading);
   model::ModelReader& reader = screens_->modelReader();
   connect(&reader, &model::ModelReader::progressed, reading, &widgets::WorkStrip::tell);
@@ -112,9 +112,9 @@ void MainWindow::addCentre() {
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(0);
   view_ = new scene::SceneView;
-  view_->setObjectName(QStringLiteral("scene"));
+  view_->setObjectName("scene");
   pages_ = new QTabWidget;
-  pages_->setObjectName(QStringLiteral("pages"));
+  pages_->setObjectName("pages");
   pages_->setDocumentMode(true);
   pages_->tabBar()->setExpanding(false);
   pages_->addTab(view_, tr("Reach"));
@@ -268,15 +268,15 @@ void MainWindow::showStage() {
 void MainWindow::showEnd() {
   const record::RunConfiguration& run = session_.run()->configuration();
   const QString folder = dataFolder();
-  std::vector<widgets::Card::Choice> choices{{tr("Inspect"), QStringLiteral("endInspect"), [this, folder] {
+  std::vector<widgets::Card::Choice> choices{{tr("Inspect"), "endInspect", [this, folder] {
                                                 session_.endRun();
                                                 inspect(folder);
                                               }}};
-  choices.push_back({tr("Next subject"), QStringLiteral("endNextSubject"), [this] {
+  choices.push_back({tr("Next subject"), "endNextSubject", [this] {
                        session_.endRun();
                        nextSubject();
                      }});
-  if (!session_.isPlan()) choices.push_back({tr("Next run"), QStringLiteral("endNextRun"), [this] { session_.endRun(); }});
+  if (!session_.isPlan()) choices.push_back({tr("Next run"), "endNextRun", [this] { session_.endRun(); }});
   card_->offer(session_.isPlan() ? tr("The session is complete") : tr("Run %1 is complete").arg(run.run),
                tr("%1\n\nSubject %2, session %3.\nRecorded in %4")
                    .arg(strip_->tally(), QString::fromStdString(run.subject), QString::fromStdString(run.session), folder),
@@ -484,8 +484,8 @@ void MainWindow::offerResume() {
                tr("Run %1 was interrupted. Its finished trials are safe in %2.\n\nDevice %3, seed %4. The first trial waits for Space.")
                    .arg(found->run)
                    .arg(QString::fromStdString(place.data), QString::fromStdString(found->request.device), found->seed),
-               {{tr("Not now"), QStringLiteral("resumeNot"), [] { forgetOpenRun(); }},
-                {tr("Resume"), QStringLiteral("resumeYes"),
+               {{tr("Not now"), "resumeNot", [] { forgetOpenRun(); }},
+                {tr("Resume"), "resumeYes",
                  [this, run = *found] {
                    what_ = file_ = QString::fromStdString(run.request.what);
                    session::SessionRequest request = docks_.session->request();  // with the instruments and the backup of this start
@@ -535,7 +535,7 @@ void MainWindow::showPage() {
 void MainWindow::openManual() {
   const QString page = manualPage();
   if (page.isEmpty() || !QDesktopServices::openUrl(QUrl::fromLocalFile(page)))
-    say(page.isEmpty() ? QStringLiteral("The manual is not installed. Install the package reachlab-doc.")
+    say(page.isEmpty() ? "The manual is not installed. Install the package reachlab-doc."
                        : QStringLiteral("No program opens the manual. Open this file in a browser: %1").arg(page));
 }
 
@@ -546,7 +546,7 @@ void MainWindow::chooseConstraint() { docks_.constraint->choose(); }
 
 void MainWindow::setSubjectsLanguage(const QString& code) {
   words_.setLanguage(code);
-  QSettings().setValue(QStringLiteral("subject/language"), words_.language());
+  QSettings().setValue("subject/language", words_.language());
   showOverlay();
 }
 

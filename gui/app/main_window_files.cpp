@@ -20,7 +20,7 @@ namespace reachlab::gui::app {
 
 void MainWindow::openExperiment(const QString& what) {
   if (isRecorded(what)) return inspect(what);
-  if (!mayEndRun(QStringLiteral("Opening another experiment")) || !mayBeLeft()) return;
+  if (!mayEndRun("Opening another experiment") || !mayBeLeft()) return;
   try {
     screens_->lookIn(QFileInfo(what).path());
     const session::Programme opened = session::readProgramme(what.toStdString());
@@ -61,25 +61,25 @@ void MainWindow::openFile() {
 }
 
 void MainWindow::beginNew(const Template& from) {
-  if (!mayEndRun(QStringLiteral("A new experiment")) || !mayBeLeft()) return;
+  if (!mayEndRun("A new experiment") || !mayBeLeft()) return;
   file_.clear();
-  edits_.open(session::programmeOf(newExperiment(from)), QStringLiteral("new experiment"));
+  edits_.open(session::programmeOf(newExperiment(from)), "new experiment");
 }
 
 bool MainWindow::saveExperiment() { return file_.isEmpty() ? saveExperimentAs() : saveTo(file_, session_.experiment()); }
 
 bool MainWindow::saveExperimentAs() {
   const QString proposed = file_.isEmpty() ? QString::fromStdString(session_.experiment().name + ".json") : file_;
-  QString file = QFileDialog::getSaveFileName(this, QStringLiteral("Save experiment"), proposed, QStringLiteral("Experiments (*.json)"));
+  QString file = QFileDialog::getSaveFileName(this, "Save experiment", proposed, "Experiments (*.json)");
   if (file.isEmpty()) return false;
-  if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".json");
+  if (QFileInfo(file).suffix().isEmpty()) file += ".json";
   experiment::Experiment named = session_.experiment();
   named.name = QFileInfo(file).completeBaseName().toStdString();  // or two experiments would be recorded under one name
   return saveTo(file, named);
 }
 
 bool MainWindow::saveTo(const QString& file, const experiment::Experiment& experiment) {
-  if (session_.isPlan()) return say(QStringLiteral("Use Session plan… (Ctrl+P) to compose and save a plan.")), false;
+  if (session_.isPlan()) return say("Use Session plan… (Ctrl+P) to compose and save a plan."), false;
   try {
     writeExperiment(experiment, file);
     if (experiment.name != session_.experiment().name && session_.run() == nullptr)
@@ -97,8 +97,7 @@ bool MainWindow::saveTo(const QString& file, const experiment::Experiment& exper
 void MainWindow::tryEdit(docks::Dock& dock, const experiment::Experiment& changed, const QString& what) {
   experiment::Experiment same = changed;
   same.text = session_.experiment().text;
-  if (!(same == session_.experiment()) && !mayEndRun(QStringLiteral("A change")))
-    return dock.showExperiment(session_.compiled(), !session_.isPlan());
+  if (!(same == session_.experiment()) && !mayEndRun("A change")) return dock.showExperiment(session_.compiled(), !session_.isPlan());
   dock.showFaults(edits_.tryEdit(changed, what));
 }
 
@@ -151,9 +150,9 @@ void MainWindow::markTrial(int number, const std::function<void(record::TrialMar
 
 void MainWindow::savePicture() {
   const QImage picture = view_->grabScene();
-  QString file = QFileDialog::getSaveFileName(this, tr("Save picture"), QStringLiteral("scene.png"), tr("PNG (*.png)"));
+  QString file = QFileDialog::getSaveFileName(this, tr("Save picture"), "scene.png", tr("PNG (*.png)"));
   if (file.isEmpty()) return;
-  if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".png");
+  if (QFileInfo(file).suffix().isEmpty()) file += ".png";
   if (picture.save(file)) tell(tr("Written: %1").arg(file));
   else say(tr("%1 cannot be written. Choose another folder, or free disk space.").arg(file));
 }
@@ -183,7 +182,7 @@ void MainWindow::moveEvent(QMoveEvent* event) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (!mayEndRun(QStringLiteral("Closing the window")) || !mayBeLeft()) return event->ignore();
+  if (!mayEndRun("Closing the window") || !mayBeLeft()) return event->ignore();
   rememberLayout(*this, layout_);
   session_.endRun();  // an unfinished trial is kept as interrupted
   screens_->closeSubject();

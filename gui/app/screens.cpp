@@ -25,8 +25,8 @@ Screens::Screens(scene::SceneView& main) : main_(main), mirror_(new QLabel(&main
   connect(&main, &scene::SceneView::placeDragged, this, &Screens::dragPlace);
   connect(&main, &scene::SceneView::placeDropped, this, &Screens::dropPlace);
   connect(&main, &scene::SceneView::placeLeft, this, &Screens::leavePlace);
-  mirror_->setObjectName(QStringLiteral("subjectMirror"));
-  mirror_->setStyleSheet(QStringLiteral("border: 1px solid #6b7788; background: black;"));
+  mirror_->setObjectName("subjectMirror");
+  mirror_->setStyleSheet("border: 1px solid #6b7788; background: black;");
   mirror_->setAttribute(Qt::WA_TransparentForMouseEvents);
   mirror_->hide();
   mirrorTimer_->setInterval(kMirrorMs);
@@ -123,7 +123,7 @@ void Screens::dragPlace(scene::TaskPlace place, const QPointF& pixel) {
   QStringList words;
   for (std::size_t i = 0; i < q->size(); ++i)
     words << QStringLiteral("%1 = %2").arg(QString::fromStdString(names[i])).arg((*q)[i], 0, 'g', 5);
-  main_.showPlace(place, placeOn(constraint, *q), words.join(QStringLiteral(", ")));
+  main_.showPlace(place, placeOn(constraint, *q), words.join(", "));
 }
 
 void Screens::dropPlace(scene::TaskPlace place) {

@@ -4,24 +4,23 @@
 #include <QStatusBar>
 #include <cmath>
 
-
 namespace reachlab::gui::app {
 
 StatusLine::StatusLine(QStatusBar& bar)
     : rate_(new QLabel), ticks_(new QLabel), trial_(new QLabel), method_(new QLabel), recording_(new QLabel) {
-  ticks_->setObjectName(QStringLiteral("ticks"));
+  ticks_->setObjectName("ticks");
   ticks_->setToolTip(
-      QStringLiteral("Servo cycles of 1 ms in this run.\nlate: cycles that began later than their time, but were computed.\n"
-                     "missed: cycles that were left out, because the computer was busy.\n"
-                     "clamped: cycles in which the force was limited to the maximum of the device.\n"
-                     "not recorded: cycles that the disk was too slow for."));
-  recording_->setObjectName(QStringLiteral("recording"));
-  recording_->setToolTip(QStringLiteral("The log of the run that is open or was open last"));
+      "Servo cycles of 1 ms in this run.\nlate: cycles that began later than their time, but were computed.\n"
+      "missed: cycles that were left out, because the computer was busy.\n"
+      "clamped: cycles in which the force was limited to the maximum of the device.\n"
+      "not recorded: cycles that the disk was too slow for.");
+  recording_->setObjectName("recording");
+  recording_->setToolTip("The log of the run that is open or was open last");
   recording_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  trial_->setObjectName(QStringLiteral("trialTime"));
-  trial_->setToolTip(QStringLiteral(
+  trial_->setObjectName("trialTime");
+  trial_->setToolTip(
       "The last trial from its go signal to its end, by the computer's clock; ticks of 1 ms that it missed, and that were not "
-      "recorded"));
+      "recorded");
   for (QLabel* label : {rate_, ticks_, trial_, method_}) bar.addWidget(label);
   bar.addPermanentWidget(recording_);
   runClosed();
@@ -36,7 +35,7 @@ void StatusLine::runOpened(const session::RecordedRun& run) {
   recording_->setText(QString::fromStdString(run.logPath()));
 }
 
-void StatusLine::runClosed() { rate_->setText(QStringLiteral("no run is open")); }
+void StatusLine::runClosed() { rate_->setText("no run is open"); }
 
 void StatusLine::refresh(session::RecordedRun& run) {
   const haptics::LoopReport report = run.report();

@@ -15,7 +15,7 @@ constexpr int kThreeColumns = 1200, kThreeRows = 680;
 constexpr QSize kWanted(1560, 960), kFrame(20, 50);  // of the window, and of the title bar and borders around it
 constexpr int kLayoutVersion = 7;                    // another set of docks is another layout
 
-QString key(const char* name) { return QStringLiteral("window/") + QLatin1String(name); }
+QString key(const char* name) { return QLatin1String("window/") + QLatin1String(name); }
 
 QString docksKey(WindowLayout layout) {
   const char* names[] = {"docksSetUp", "docksRun", "docksInspect"};
@@ -26,9 +26,8 @@ QString docksKey(WindowLayout layout) {
 QStringList docksOf(WindowLayout layout) {
   switch (layout) {
     case WindowLayout::SetUp: break;
-    case WindowLayout::Run:
-      return {QStringLiteral("sessionDock"), QStringLiteral("plotDock"), QStringLiteral("trialsDock"), QStringLiteral("stationsDock")};
-    case WindowLayout::Inspect: return {QStringLiteral("none")};
+    case WindowLayout::Run: return {"sessionDock", "plotDock", "trialsDock", "stationsDock"};
+    case WindowLayout::Inspect: return {"none"};
   }
   return {};
 }
@@ -39,7 +38,7 @@ void stackOnNarrowScreen(QMainWindow& window) {
   const QScreen* screen = QGuiApplication::primaryScreen();
   if (screen == nullptr) return;
   const bool narrow = screen->availableSize().width() < kThreeColumns, low = screen->availableSize().height() < kThreeRows;
-  auto* onto = window.findChild<QDockWidget*>(low ? QStringLiteral("sessionDock") : QStringLiteral("trialsDock"));
+  auto* onto = window.findChild<QDockWidget*>(low ? "sessionDock" : "trialsDock");
   if (onto == nullptr) return;
   for (QDockWidget* dock : window.findChildren<QDockWidget*>())
     if ((narrow && window.dockWidgetArea(dock) == Qt::RightDockWidgetArea) ||
@@ -79,6 +78,6 @@ WindowLayout restoreLayout(QMainWindow& window) {
   return layout;
 }
 
-void forgetLayout() { QSettings().remove(QStringLiteral("window")); }
+void forgetLayout() { QSettings().remove("window"); }
 
 }  // namespace reachlab::gui::app

@@ -34,21 +34,18 @@ void listKeys(const QList<QAction*>& actions, QStringList& rows) {
 }
 
 void sayKeys(MainWindow& window) {
-  QStringList rows{keyRow(QStringLiteral("left drag"), QStringLiteral("moves the hand (device mouse)")),
-                   keyRow(QStringLiteral("right drag"), QStringLiteral("turns the view")),
-                   keyRow(QStringLiteral("middle drag"), QStringLiteral("shifts the view")),
-                   keyRow(QStringLiteral("wheel"), QStringLiteral("zooms")),
-                   keyRow(QStringLiteral("Tab"), QStringLiteral("goes to the next field or button"))};
+  QStringList rows{keyRow("left drag", "moves the hand (device mouse)"), keyRow("right drag", "turns the view"),
+                   keyRow("middle drag", "shifts the view"), keyRow("wheel", "zooms"), keyRow("Tab", "goes to the next field or button")};
   listKeys(window.menuBar()->actions(), rows);
   const int half = (rows.size() + 1) / 2;
   QString columns;
   for (const QStringList& column : {QStringList(rows.mid(0, half)), QStringList(rows.mid(half))})
     columns += QStringLiteral("<td><table cellpadding=2>%1</table></td>").arg(column.join(QString()));
-  say(window, QStringLiteral("Keys and mouse"), QStringLiteral("<table><tr>%1</tr></table>").arg(columns));
+  say(window, "Keys and mouse", QStringLiteral("<table><tr>%1</tr></table>").arg(columns));
 }
 
 void sayAbout(MainWindow& window) {
-  say(window, QStringLiteral("Reachlab"),
+  say(window, "Reachlab",
       QStringLiteral("<b>Reachlab %1</b><br>A laboratory for rest-to-rest reaching movements.<br>BSD-3-Clause.<br><br>"
                      "Qt %2, VTK %3, Qwt %4<br>Drawn by %5")
           .arg(QStringLiteral(REACHLAB_VERSION), QLatin1String(qVersion()), scene::libraryVersion(), plot::libraryVersion(),
@@ -62,62 +59,62 @@ void listRecent(MainWindow& window, QMenu& menu) {
 }
 
 void addExperimentMenu(MainWindow& window) {
-  QMenu& menu = *window.menuBar()->addMenu(QStringLiteral("&Experiment"));
-  QMenu* fresh = menu.addMenu(QStringLiteral("&New"));
+  QMenu& menu = *window.menuBar()->addMenu("&Experiment");
+  QMenu* fresh = menu.addMenu("&New");
   for (const Template& from : templates()) addEntry(window, *fresh, QLatin1String(from.title), [&window, from] { window.beginNew(from); });
-  addEntry(window, menu, QStringLiteral("&Open…"), &MainWindow::openFile, QKeySequence::Open);
+  addEntry(window, menu, "&Open…", &MainWindow::openFile, QKeySequence::Open);
   const auto inspect = [&window] {
-    const QString folder = QFileDialog::getExistingDirectory(&window, QStringLiteral("Inspect a dataset or a session"));
+    const QString folder = QFileDialog::getExistingDirectory(&window, "Inspect a dataset or a session");
     if (!folder.isEmpty()) window.inspect(folder);
   };
-  addEntry(window, menu, QStringLiteral("&Inspect a dataset…"), inspect, QStringLiteral("Ctrl+I"));
+  addEntry(window, menu, "&Inspect a dataset…", inspect, QKeySequence("Ctrl+I"));
   const auto analyse = [&window] {
-    const QString folder = QFileDialog::getExistingDirectory(&window, QStringLiteral("Analyse a dataset"));
+    const QString folder = QFileDialog::getExistingDirectory(&window, "Analyse a dataset");
     if (!folder.isEmpty()) window.analyse(folder);
   };
-  addEntry(window, menu, QStringLiteral("&Analyse a dataset…"), analyse)->setObjectName(QStringLiteral("analyse"));
-  QMenu* recent = menu.addMenu(QStringLiteral("Open &recent"));
-  recent->setObjectName(QStringLiteral("recent"));
+  addEntry(window, menu, "&Analyse a dataset…", analyse)->setObjectName("analyse");
+  QMenu* recent = menu.addMenu("Open &recent");
+  recent->setObjectName("recent");
   QObject::connect(&menu, &QMenu::aboutToShow, recent, [&window, recent] { listRecent(window, *recent); });
-  QMenu* shipped = menu.addMenu(QStringLiteral("S&hipped"));
+  QMenu* shipped = menu.addMenu("S&hipped");
   for (const std::string& shippedName : experiment::shippedExperiments()) {
     const QString name = QString::fromStdString(shippedName);
     addEntry(window, *shipped, name, [&window, name] { window.openExperiment(name); });
   }
-  addEntry(window, menu, QStringLiteral("Session &plan…"), &MainWindow::composePlan, QStringLiteral("Ctrl+P"));
-  addEntry(window, menu, QStringLiteral("&Save"), &MainWindow::saveExperiment, QKeySequence::Save);
-  addEntry(window, menu, QStringLiteral("Save &as…"), &MainWindow::saveExperimentAs, QKeySequence::SaveAs);
+  addEntry(window, menu, "Session &plan…", &MainWindow::composePlan, QKeySequence("Ctrl+P"));
+  addEntry(window, menu, "&Save", &MainWindow::saveExperiment, QKeySequence::Save);
+  addEntry(window, menu, "Save &as…", &MainWindow::saveExperimentAs, QKeySequence::SaveAs);
   menu.addSeparator();
-  addEntry(window, menu, QStringLiteral("&Quit"), &QWidget::close, QKeySequence::Quit);
+  addEntry(window, menu, "&Quit", &QWidget::close, QKeySequence::Quit);
 }
 
 void addEditMenu(MainWindow& window) {
-  QMenu& menu = *window.menuBar()->addMenu(QStringLiteral("E&dit"));
-  QAction* undo = window.edits().createUndoAction(&window, QStringLiteral("&Undo"));
+  QMenu& menu = *window.menuBar()->addMenu("E&dit");
+  QAction* undo = window.edits().createUndoAction(&window, "&Undo");
   undo->setShortcut(QKeySequence::Undo);
-  QAction* redo = window.edits().createRedoAction(&window, QStringLiteral("&Redo"));
+  QAction* redo = window.edits().createRedoAction(&window, "&Redo");
   redo->setShortcut(QKeySequence::Redo);
   menu.addActions({undo, redo});
   menu.addSeparator();
-  addEntry(window, menu, QStringLiteral("Choose or type a &constraint…"), &MainWindow::chooseConstraint, QStringLiteral("Ctrl+K"));
+  addEntry(window, menu, "Choose or type a &constraint…", &MainWindow::chooseConstraint, QKeySequence("Ctrl+K"));
 }
 
 void addTrialMenu(MainWindow& window, TrialActions& actions) {
-  QMenu& menu = *window.menuBar()->addMenu(QStringLiteral("&Trial"));
-  actions.next = addEntry(window, menu, QStringLiteral("&Start"), &MainWindow::nextTrial, Qt::Key_Space);
-  actions.next->setToolTip(QStringLiteral("Starts the run, then the next trial. Space works in the scene and on this button."));
+  QMenu& menu = *window.menuBar()->addMenu("&Trial");
+  actions.next = addEntry(window, menu, "&Start", &MainWindow::nextTrial, Qt::Key_Space);
+  actions.next->setToolTip("Starts the run, then the next trial. Space works in the scene and on this button.");
   // Space in a list or on a box is theirs: it begins a recording only in the scene, to which the window adds this action.
   actions.next->setShortcutContext(Qt::WidgetWithChildrenShortcut);
-  actions.abort = addEntry(window, menu, QStringLiteral("&Abort"), &MainWindow::abortTrial, Qt::Key_Escape);
-  actions.abort->setToolTip(QStringLiteral("Aborts the trial. It does not count."));
+  actions.abort = addEntry(window, menu, "&Abort", &MainWindow::abortTrial, Qt::Key_Escape);
+  actions.abort->setToolTip("Aborts the trial. It does not count.");
   // Not a letter alone: one that went astray would repeat a trial.
-  actions.repeat = addEntry(window, menu, QStringLiteral("&Repeat"), &MainWindow::repeatTrial, QStringLiteral("Ctrl+R"));
-  actions.repeat->setToolTip(QStringLiteral("Repeats the last trial at the end of the run."));
-  addEntry(window, menu, QStringLiteral("Res&ume the session"), &MainWindow::resumeSession)->setObjectName(QStringLiteral("resume"));
-  actions.end = addEntry(window, menu, QStringLiteral("&End run"), &MainWindow::endRun, QStringLiteral("Ctrl+E"));
-  actions.end->setToolTip(QStringLiteral("Ends the run: closes the log and writes the dataset."));
-  actions.nextSubject = addEntry(window, menu, QStringLiteral("Next su&bject"), &MainWindow::nextSubject);
-  actions.nextSubject->setObjectName(QStringLiteral("nextSubject"));
+  actions.repeat = addEntry(window, menu, "&Repeat", &MainWindow::repeatTrial, QKeySequence("Ctrl+R"));
+  actions.repeat->setToolTip("Repeats the last trial at the end of the run.");
+  addEntry(window, menu, "Res&ume the session", &MainWindow::resumeSession)->setObjectName("resume");
+  actions.end = addEntry(window, menu, "&End run", &MainWindow::endRun, QKeySequence("Ctrl+E"));
+  actions.end->setToolTip("Ends the run: closes the log and writes the dataset.");
+  actions.nextSubject = addEntry(window, menu, "Next su&bject", &MainWindow::nextSubject);
+  actions.nextSubject->setObjectName("nextSubject");
   for (QAction* action : {actions.next, actions.abort, actions.repeat, actions.end}) action->setAutoRepeat(false);
 }
 
@@ -130,15 +127,15 @@ void addDocksMenu(MainWindow& window, QMenu& menu) {
   for (const auto& [title, layout] : layouts)
     addEntry(
         window, menu, title, [&window, layout = layout] { window.switchLayout(layout); }, QStringLiteral("Alt+%1").arg(number++));
-  addEntry(window, menu, QStringLiteral("In their &places"), &MainWindow::resetLayout)->setObjectName(QStringLiteral("resetLayout"));
+  addEntry(window, menu, "In their &places", &MainWindow::resetLayout)->setObjectName("resetLayout");
 }
 
 void addViewMenu(MainWindow& window, TrialActions& actions) {
-  QMenu& menu = *window.menuBar()->addMenu(QStringLiteral("&View"));
+  QMenu& menu = *window.menuBar()->addMenu("&View");
   scene::SceneView& view = window.view();
   Screens& screens = window.screens();
   addEntry(
-      window, menu, QStringLiteral("&Whole scene"), [&view] { view.resetCamera(); }, Qt::Key_Home);
+      window, menu, "&Whole scene", [&view] { view.resetCamera(); }, Qt::Key_Home);
   int number = 1;
   for (const char axis : {'x', 'y', 'z'})
     addEntry(
@@ -146,32 +143,32 @@ void addViewMenu(MainWindow& window, TrialActions& actions) {
         QStringLiteral("Ctrl+%1").arg(number++));
   menu.addSeparator();
   QAction* aside = addSwitch(
-      window, menu, QStringLiteral("&Masses side by side"), [&screens](bool on) { screens.setSideBySide(on); }, Qt::Key_F);
-  aside->setObjectName(QStringLiteral("sideBySide"));
+      window, menu, "&Masses side by side", [&screens](bool on) { screens.setSideBySide(on); }, Qt::Key_F);
+  aside->setObjectName("sideBySide");
   aside->setChecked(window.session().experiment().object.kind == experiment::ObjectKind::Parallel);
   const auto style = [&view](bool on) { view.setSurfaceStyle(on ? scene::SurfaceStyle::Wire : scene::SurfaceStyle::Glass); };
-  addSwitch(window, menu, QStringLiteral("Surfaces as &wire frame"), style, Qt::Key_W);
-  QAction* forces = addSwitch(window, menu, QStringLiteral("&Forces on the hand"), [&screens](bool on) { screens.setForcesShown(on); });
-  forces->setObjectName(QStringLiteral("forcesShown"));
+  addSwitch(window, menu, "Surfaces as &wire frame", style, Qt::Key_W);
+  QAction* forces = addSwitch(window, menu, "&Forces on the hand", [&screens](bool on) { screens.setForcesShown(on); });
+  forces->setObjectName("forcesShown");
   forces->setChecked(true);
   addLookMenu(window, menu);
   menu.addSeparator();
   actions.subjectsScreen = addEntry(
-      window, menu, QStringLiteral("&Subject's screen"), [&screens] { screens.toggleSubject(); }, Qt::Key_F11);
-  addEntry(window, menu, QStringLiteral("Save pi&cture…"), &MainWindow::savePicture, QStringLiteral("Ctrl+Shift+P"));
+      window, menu, "&Subject's screen", [&screens] { screens.toggleSubject(); }, Qt::Key_F11);
+  addEntry(window, menu, "Save pi&cture…", &MainWindow::savePicture, QKeySequence("Ctrl+Shift+P"));
   menu.addSeparator();
   addSubjectMenu(window, menu);
-  addSwitch(window, menu, QStringLiteral("Without s&ound"), [&window](bool on) { window.sounds().setMuted(on); });
+  addSwitch(window, menu, "Without s&ound", [&window](bool on) { window.sounds().setMuted(on); });
   menu.addSeparator();
-  addDocksMenu(window, *menu.addMenu(QStringLiteral("&Docks")));  // ten of them would make the menu longer than a small screen
+  addDocksMenu(window, *menu.addMenu("&Docks"));  // ten of them would make the menu longer than a small screen
 }
 
 void addHelpMenu(MainWindow& window) {
-  QMenu& menu = *window.menuBar()->addMenu(QStringLiteral("&Help"));
-  addEntry(window, menu, QStringLiteral("&Manual"), &MainWindow::openManual);
+  QMenu& menu = *window.menuBar()->addMenu("&Help");
+  addEntry(window, menu, "&Manual", &MainWindow::openManual);
   addEntry(
-      window, menu, QStringLiteral("&Keys and mouse"), [&window] { sayKeys(window); }, Qt::Key_F1);
-  addEntry(window, menu, QStringLiteral("&About"), [&window] { sayAbout(window); });
+      window, menu, "&Keys and mouse", [&window] { sayKeys(window); }, Qt::Key_F1);
+  addEntry(window, menu, "&About", [&window] { sayAbout(window); });
 }
 
 }  // namespace

@@ -53,8 +53,8 @@ bool coincide(const constraints::Constraint& constraint, const ConstraintChoice&
 }  // namespace
 
 ConstraintChooser::ConstraintChooser(QWidget* parent) : QDialog(parent), probe_(scene::reachOn({})) {
-  setWindowTitle(QStringLiteral("Constraint"));
-  setObjectName(QStringLiteral("constraintChooser"));
+  setWindowTitle("Constraint");
+  setObjectName("constraintChooser");
   resize(1240, 780);
   auto* columns = new QHBoxLayout(this);
   columns->addLayout(makeList());
@@ -70,7 +70,7 @@ ConstraintChooser::~ConstraintChooser() = default;
 QVBoxLayout* ConstraintChooser::makeList() {
   auto* left = new QVBoxLayout;
   search_ = widgets::named<QLineEdit>("search");
-  search_->setPlaceholderText(QStringLiteral("search: name, kind or words"));
+  search_->setPlaceholderText("search: name, kind or words");
   search_->setClearButtonEnabled(true);
   list_ = widgets::named<QListWidget>("definitions");
   list_->setIconSize({104, 72});
@@ -158,8 +158,8 @@ void ConstraintChooser::fillList() {
     saved_->setText(QString::fromUtf8(e.what()));
   }
   for (const constraints::Definition& d : definitions_) {
-    auto* item = new QListWidgetItem(QStringLiteral("%1\n%2").arg(
-        text(d.name), d.kind == constraints::ConstraintKind::Surface ? QStringLiteral("surface") : QStringLiteral("curve")));
+    auto* item = new QListWidgetItem(
+        QStringLiteral("%1\n%2").arg(text(d.name), d.kind == constraints::ConstraintKind::Surface ? "surface" : "curve"));
     item->setToolTip(text(d.sentence));
     item->setData(Qt::UserRole, (text(d.name) + QLatin1Char(' ') + item->text() + QLatin1Char(' ') + text(d.sentence)).toLower());
     try {
@@ -247,8 +247,8 @@ void ConstraintChooser::formulaChanged() {
     typed.domain = {};  // another formula's ends are not this one's
     typed.sentence = "typed; after " + before;
     typed.source.clear();
-    title_->setText(QStringLiteral("typed formula"));
-    sentence_->setText(QStringLiteral("as typed at the right; the picture follows"));
+    title_->setText("typed formula");
+    sentence_->setText("as typed at the right; the picture follows");
     const QSignalBlocker quiet(list_);
     list_->setCurrentRow(-1);
   }

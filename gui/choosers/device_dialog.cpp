@@ -30,7 +30,7 @@ bool isInWindowOnly(const QString& device) {
 DeviceDialog::DeviceDialog(const experiment::CompiledExperiment& experiment, const QString& chosen,
                            std::function<void(const QString& name)> take, QWidget* parent)
     : QDialog(parent), experiment_(experiment), taken_(std::move(take)) {
-  setObjectName(QStringLiteral("device"));
+  setObjectName("device");
   setWindowTitle(tr("Device"));
   resize(860, 390);
   auto* layout = new QVBoxLayout(this);
@@ -121,7 +121,7 @@ void DeviceDialog::look() {
                         .arg(view.force.y, 5, 'f', 2)
                         .arg(view.force.z, 5, 'f', 2)
                         .arg(view.rate, 6, 'f', 1)
-                        .arg(buttons.isEmpty() ? QStringLiteral(" –") : buttons));
+                        .arg(buttons.isEmpty() ? " –" : buttons));
   if (!view.fault.empty()) tell(QString::fromStdString(view.fault), true);
 }
 

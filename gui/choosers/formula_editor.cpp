@@ -30,7 +30,7 @@ bool oneLetterApart(std::string_view a, std::string_view b) {
 std::vector<std::string> parameterNames(constraints::ConstraintKind kind, const std::array<std::string, 3>& coordinates) {
   static const std::set<std::string> known{"pi",   "e",    "sin",  "cos", "tan", "asin", "acos", "atan", "atan2",
                                            "sinh", "cosh", "tanh", "exp", "log", "sqrt", "abs",  "sign"};
-  static const QRegularExpression name(QStringLiteral("(?<![0-9A-Za-z_.])[A-Za-z_][A-Za-z0-9_]*+(?!\\s*\\()"));
+  static const QRegularExpression name("(?<![0-9A-Za-z_.])[A-Za-z_][A-Za-z0-9_]*+(?!\\s*\\()");
   const std::vector<std::string> variables = constraints::variablesOf(kind);
   std::vector<std::string> names;
   for (const std::string& line : coordinates) {
@@ -58,7 +58,7 @@ FormulaEditor::FormulaEditor(QWidget* parent) : QWidget(parent) {
   grid->setContentsMargins(0, 0, 0, 0);
   grid->setVerticalSpacing(2);
   kind_ = widgets::named<QComboBox>("formulaKind");
-  kind_->addItems({QStringLiteral("curve in phi"), QStringLiteral("surface in u, v")});
+  kind_->addItems({"curve in phi", "surface in u, v"});
   grid->addWidget(kind_, 0, 0, 1, 2);
   for (std::size_t i = 0; i < 3; ++i) {
     const int row = 1 + 2 * static_cast<int>(i);
@@ -115,10 +115,10 @@ void FormulaEditor::check() {
     QString& message = messages[static_cast<std::size_t>(std::clamp(fault.coordinate, 0, 2))];
     if (!message.isEmpty()) continue;  // the first says most
     message = QStringLiteral("character %1: %2").arg(fault.character).arg(QString::fromStdString(fault.what));
-    if (!fault.allowed.empty()) message += QStringLiteral("; allowed: ") + QString::fromStdString(fault.allowed);
+    if (!fault.allowed.empty()) message += "; allowed: " + QString::fromStdString(fault.allowed);
   }
   for (std::size_t i = 0; i < 3; ++i) {
-    lines_[i]->setStyleSheet(messages[i].isEmpty() ? QString() : QStringLiteral("border: 1px solid #c0564a;"));
+    lines_[i]->setStyleSheet(messages[i].isEmpty() ? QString() : "border: 1px solid #c0564a;");
     if (messages[i].isEmpty())  // fine as it stands; still a slip of the finger is asked about
       for (const std::string& name : parameterNames(kind(), {text[i], {}, {}}))
         if (const std::string meant = variableMeant(kind(), name); !meant.empty() && messages[i].isEmpty())

@@ -55,7 +55,7 @@ bool sameFormula(const constraints::ConstraintSpec& a, const constraints::Constr
 
 }  // namespace
 
-ConstraintDock::ConstraintDock(QWidget* parent) : Dock(QStringLiteral("Constraint"), QStringLiteral("constraintDock"), parent) {
+ConstraintDock::ConstraintDock(QWidget* parent) : Dock("Constraint", "constraintDock", parent) {
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);
   name_ = new QLabel;
@@ -70,7 +70,7 @@ ConstraintDock::ConstraintDock(QWidget* parent) : Dock(QStringLiteral("Constrain
   connect(sliders_, &widgets::ShapeSliders::moved, this, [this] {
     experiment::Experiment changed = shown();
     changed.constraint.shape = inSliders_.shape = sliders_->values();
-    Q_EMIT edited(changed, QStringLiteral("shape"));
+    Q_EMIT edited(changed, "shape");
   });
   connect(another, &QPushButton::clicked, this, &ConstraintDock::choose);
 }
@@ -109,7 +109,7 @@ ConstraintChooser& ConstraintDock::chooser() {
     changed.task->start = choice.start;
     changed.task->target = choice.target;
     if (choice.withPoint) becomePoint(changed);
-    Q_EMIT edited(changed, QStringLiteral("constraint"));
+    Q_EMIT edited(changed, "constraint");
   });
   return *chooser_;
 }

@@ -33,8 +33,7 @@ QTreeWidgetItem* addGroup(QTreeWidget& rows, const QString& title) {
 
 }  // namespace
 
-DeviceDock::DeviceDock(const Finding& finding, QWidget* parent)
-    : Dock(tr("Devices"), QStringLiteral("deviceDock"), parent), finding_(finding) {
+DeviceDock::DeviceDock(const Finding& finding, QWidget* parent) : Dock(tr("Devices"), "deviceDock", parent), finding_(finding) {
   using widgets::named, widgets::tipped;
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);

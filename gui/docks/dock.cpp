@@ -4,7 +4,6 @@
 #include <QScrollArea>
 #include <QScrollBar>
 
-
 namespace reachlab::gui::docks {
 namespace {
 

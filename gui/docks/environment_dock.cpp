@@ -63,9 +63,7 @@ template <std::size_t N>
 widgets::KeyForm formOf(const Key&, const experiment::SquareMatrix<N>&) {
   return {.rows = N, .columns = N};
 }
-widgets::KeyForm formOf(const Key&, const experiment::PulseInstant&) {
-  return {.choices = {QStringLiteral("s after onset"), QStringLiteral("m from the start")}};
-}
+widgets::KeyForm formOf(const Key&, const experiment::PulseInstant&) { return {.choices = {"s after onset", "m from the start"}}; }
 template <class T>
 requires std::is_enum_v<T> widgets::KeyForm formOf(const Key& key, T) {
   widgets::KeyForm form{.rows = 0, .columns = 0};
@@ -195,7 +193,7 @@ EnvironmentDock::Page EnvironmentDock::makePage(const QString& name, const T& of
   return page;
 }
 
-EnvironmentDock::EnvironmentDock(QWidget* parent) : Dock(QStringLiteral("Environment"), QStringLiteral("environmentDock"), parent) {
+EnvironmentDock::EnvironmentDock(QWidget* parent) : Dock("Environment", "environmentDock", parent) {
   auto* body = new QWidget;
   auto* column = new QVBoxLayout(body);
   column->addWidget(makeForces());
@@ -250,7 +248,7 @@ QWidget* EnvironmentDock::makeCursor() {
   cursorBox_ = widgets::named<QGroupBox>("cursor", tr("Cursor in place of the hand"));
   cursorBox_->setCheckable(true);
   auto* column = new QVBoxLayout(cursorBox_);
-  cursor_ = makePage(QStringLiteral("cursor"), experiment::Cursor{});
+  cursor_ = makePage("cursor", experiment::Cursor{});
   column->addWidget(cursor_.widget);
   for (widgets::KeyField* field : cursor_.fields) connect(field, &widgets::KeyField::edited, this, &EnvironmentDock::tellCursor);
   connect(cursorBox_, &QGroupBox::toggled, this, [this](bool on) {
@@ -318,7 +316,7 @@ void EnvironmentDock::tell(experiment::Environment forces, std::optional<experim
   experiment::Experiment changed = shown();
   changed.environment = std::move(forces);
   changed.cursor = cursor;
-  Q_EMIT edited(changed, QStringLiteral("environment"));
+  Q_EMIT edited(changed, "environment");
 }
 
 }  // namespace

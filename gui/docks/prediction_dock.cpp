@@ -23,22 +23,20 @@ QString text(std::string_view s) { return QString::fromUtf8(s.data(), static_cas
 }  // namespace
 
 PredictionDock::PredictionDock(QWidget* parent)
-    : Dock(QStringLiteral("Predictions"), QStringLiteral("predictionDock"), parent), latest_(predict::kCriterionCount),
-      succeeded_(predict::kCriterionCount), failed_(predict::kCriterionCount) {
+    : Dock("Predictions", "predictionDock", parent), latest_(predict::kCriterionCount), succeeded_(predict::kCriterionCount),
+      failed_(predict::kCriterionCount) {
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);
-  table_ = plot::makeCriteriaTable(
-      {QStringLiteral("criterion"), QStringLiteral("peak"), QStringLiteral("ε last"), QStringLiteral("ε run"), QStringLiteral("ε fit")},
-      {predict::Criterion::MinHandJerk}, kRowHeight);
-  table_->setObjectName(QStringLiteral("criteria"));
-  table_->horizontalHeaderItem(kPeak)->setToolTip(QStringLiteral("predicted peak velocity of the hand [m/s]"));
+  table_ = plot::makeCriteriaTable({"criterion", "peak", "ε last", "ε run", "ε fit"}, {predict::Criterion::MinHandJerk}, kRowHeight);
+  table_->setObjectName("criteria");
+  table_->horizontalHeaderItem(kPeak)->setToolTip("predicted peak velocity of the hand [m/s]");
   table_->horizontalHeaderItem(kLast)->setToolTip(
-      QStringLiteral("the paper's epsilon of the last trial: RMS difference of the hand's velocity, time-scaled [m/s]"));
-  table_->horizontalHeaderItem(kAll)->setToolTip(QStringLiteral(
-      "the paper's epsilon over the trials of this run that succeeded, as in reach analyze; grey: over failed trials, until a trial has succeeded [m/s]"));
-  table_->horizontalHeaderItem(kFitted)->setToolTip(QStringLiteral(
+      "the paper's epsilon of the last trial: RMS difference of the hand's velocity, time-scaled [m/s]");
+  table_->horizontalHeaderItem(kAll)->setToolTip(
+      "the paper's epsilon over the trials of this run that succeeded, as in reach analyze; grey: over failed trials, until a trial has succeeded [m/s]");
+  table_->horizontalHeaderItem(kFitted)->setToolTip(
       "the fitted epsilon over the trials of this run that succeeded, from ten on, as in reach analyze: onset, duration and amplitude "
-      "fitted to each trial [m/s]"));
+      "fitted to each trial [m/s]");
   table_->setVerticalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   for (int i = 0; i < predict::kCriterionCount; ++i)
     table_->item(i, kName)->setToolTip(text(predict::describe(static_cast<predict::Criterion>(i))));
@@ -55,7 +53,7 @@ void PredictionDock::setForecasts(const std::vector<plot::CriterionForecast>& fo
   const QSignalBlocker quiet(table_);
   for (int i = 0; i < predict::kCriterionCount; ++i) {
     QTableWidgetItem* peak = table_->item(i, kPeak);
-    peak->setText(forecasts.empty() ? QStringLiteral("…") : QStringLiteral("–"));
+    peak->setText(forecasts.empty() ? "…" : "–");
     for (const plot::CriterionForecast& forecast : forecasts) {
       if (static_cast<int>(forecast.criterion) != i) continue;
       if (forecast.prediction) peak->setText(speed(forecast.prediction->handPeak));
@@ -63,7 +61,7 @@ void PredictionDock::setForecasts(const std::vector<plot::CriterionForecast>& fo
       if (forecast.prediction)
         for (const std::string& warning : forecast.prediction->warnings) why += QString::fromStdString(warning) + QLatin1Char('\n');
       table_->item(i, kName)->setToolTip(text(predict::describe(forecast.criterion)) +
-                                         (why.isEmpty() ? QString() : QStringLiteral("\n\n") + why.trimmed()));
+                                         (why.isEmpty() ? QString() : "\n\n" + why.trimmed()));
       table_->item(i, kName)->setForeground(forecast.prediction ? plot::colourOf(forecast.criterion)
                                                                 : widgets::toQColor(widgets::colours::kNeutral));
     }

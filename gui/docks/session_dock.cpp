@@ -23,7 +23,7 @@
 
 namespace reachlab::gui::docks {
 
-SessionDock::SessionDock(QWidget* parent) : Dock(QStringLiteral("Session"), QStringLiteral("sessionDock"), parent) {
+SessionDock::SessionDock(QWidget* parent) : Dock("Session", "sessionDock", parent) {
   using widgets::named, widgets::tipped, widgets::rowOf;
   subject_ = tipped(named<QLineEdit>("subject"), "Label of the subject in the dataset: letters and digits");
   session_ = tipped(named<QLineEdit>("session"), "Label of this visit in the dataset: letters and digits");
@@ -124,7 +124,7 @@ void SessionDock::check() {
       mark(subject_, labelFault(subject_, "subject")), mark(session_, labelFault(session_, "session")),
       mark(age_,
            fineAge ? QString() : QStringLiteral("age: \"%1\" is no age; allowed: 0 to %2 years, or nothing").arg(age).arg(record::kMaxAge)),
-      mark(data_, data_->text().trimmed().isEmpty() ? QStringLiteral("data in: is empty; allowed: a folder") : QString())};
+      mark(data_, data_->text().trimmed().isEmpty() ? "data in: is empty; allowed: a folder" : QString())};
   faults.removeAll({});
   this->faults()->setFaults(faults);
 }
@@ -182,7 +182,7 @@ QString labelAfter(const QString& label) {
   int first = label.size();
   while (first > 0 && label[first - 1].isDigit()) --first;
   const QString digits = label.mid(first);
-  if (digits.isEmpty()) return label + QStringLiteral("2");
+  if (digits.isEmpty()) return label + "2";
   return label.left(first) + QString::number(digits.toULongLong() + 1).rightJustified(digits.size(), QLatin1Char('0'));
 }
 

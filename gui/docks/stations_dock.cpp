@@ -21,12 +21,12 @@ constexpr int kMostLines = 3;
 // Told apart by shape and word; the colour only helps.
 QString lightText(Light light) {
   switch (light) {
-    case Light::Good: return QStringLiteral("● good");
-    case Light::Fair: return QStringLiteral("▲ fair");
-    case Light::Stop: return QStringLiteral("■ stop");
+    case Light::Good: return "● good";
+    case Light::Fair: return "▲ fair";
+    case Light::Stop: return "■ stop";
     case Light::Absent: break;
   }
-  return QStringLiteral("○ absent");
+  return "○ absent";
 }
 
 QColor lightInk(Light light) {
@@ -44,7 +44,7 @@ QString milliseconds(double seconds, int digits) { return QString::number(1e3 * 
 
 }  // namespace
 
-StationsDock::StationsDock(QWidget* parent) : Dock(tr("Stations"), QStringLiteral("stationsDock"), parent) {
+StationsDock::StationsDock(QWidget* parent) : Dock(tr("Stations"), "stationsDock", parent) {
   table_ = widgets::named<QTableWidget>("stations", 0, kColumns);
   table_->setHorizontalHeaderLabels({tr("link"), tr("no."), tr("name"), tr("round trip\n[ms]"), tr("jitter\n[ms]"), tr("lost\n[%]"),
                                      tr("overtaken\n[%]"), tr("clock\n[ms]"), tr("age\n[ms]"), tr("device"), tr("software")});
@@ -102,7 +102,7 @@ void StationsDock::showStations(const network::StationSetup& here, Stage stage, 
     for (const std::string& what : other.obstacles) obstacles << tr("station %1: %2").arg(other.station).arg(QString::fromStdString(what));
   }
   if (!placed) fill(row, own, true);
-  const QString why = obstacles.join(QStringLiteral("; "));
+  const QString why = obstacles.join("; ");
   const QString next =
       stage == Stage::Observing ? tr("This window only observes. It records nothing, and the stations do not wait for it.") +
                                       (why.isEmpty() ? QString() : QLatin1Char(' ') + why + QLatin1Char('.'))
@@ -127,7 +127,7 @@ void StationsDock::fill(int row, const network::StationStatus& station, bool isH
   QStringList roles;
   if (isHere) roles << tr("here");
   if (station.conductor) roles << tr("conductor");
-  set(kName, roles.isEmpty() ? text(station.name) : QStringLiteral("%1 (%2)").arg(text(station.name), roles.join(QStringLiteral(", "))));
+  set(kName, roles.isEmpty() ? text(station.name) : QStringLiteral("%1 (%2)").arg(text(station.name), roles.join(", ")));
   const bool answers = station.roundTrip >= 0;  // nobody answers an observer
   set(kRoundTrip, answers ? number(milliseconds(station.roundTrip, 1)) : QString());
   set(kJitter, answers ? number(milliseconds(station.jitter, 1)) : QString());

@@ -33,9 +33,9 @@ QString lengthOfReach(const constraints::Constraint& constraint, const experimen
   };
   if (constraint.kind == constraints::ConstraintKind::Surface) return {};
   if (constraint.kind == constraints::ConstraintKind::Free)
-    return words(norm(placeOn(constraint, task.target) - placeOn(constraint, task.start)), QStringLiteral("from start to target"));
+    return words(norm(placeOn(constraint, task.target) - placeOn(constraint, task.start)), "from start to target");
   try {
-    return words(constraints::ArcLength(constraint, task.start.at(0), task.target.at(0)).length(), QStringLiteral("along the curve"));
+    return words(constraints::ArcLength(constraint, task.start.at(0), task.target.at(0)).length(), "along the curve");
   } catch (const Error&) {  // no value between them: said where the scene is compiled
     return {};
   }

@@ -25,16 +25,15 @@ QColor inkOf(trial::Outcome outcome) {
 }
 
 QString outcomeWords(const trial::TrialResult& result) {
-  return result.outcome == trial::Outcome::Success ? QStringLiteral("✓") : QStringLiteral("✗ %1").arg(scene::reasonText(result.reason));
+  return result.outcome == trial::Outcome::Success ? "✓" : QStringLiteral("✗ %1").arg(scene::reasonText(result.reason));
 }
 
 }  // namespace
 
-TrialsDock::TrialsDock(QWidget* parent) : Dock(QStringLiteral("Trials"), QStringLiteral("trialsDock"), parent) {
+TrialsDock::TrialsDock(QWidget* parent) : Dock("Trials", "trialsDock", parent) {
   table_ = widgets::named<QTableWidget>("trials", 0, kColumns);
-  table_->setHorizontalHeaderLabels(
-      {QStringLiteral("trial"), QStringLiteral("outcome"), QStringLiteral("t [s]"), QStringLiteral("ε"), QString()});
-  table_->horizontalHeaderItem(kTime)->setToolTip(QStringLiteral("from the hand's onset to the end [s]"));
+  table_->setHorizontalHeaderLabels({"trial", "outcome", "t [s]", "ε", QString()});
+  table_->horizontalHeaderItem(kTime)->setToolTip("from the hand's onset to the end [s]");
   table_->verticalHeader()->hide();
   table_->verticalHeader()->setDefaultSectionSize(23);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
@@ -42,7 +41,7 @@ TrialsDock::TrialsDock(QWidget* parent) : Dock(QStringLiteral("Trials"), QString
   table_->setShowGrid(false);
   table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setSectionResizeMode(kOutcome, QHeaderView::Stretch);
-  table_->setToolTip(QStringLiteral("double click: a note on this trial"));
+  table_->setToolTip("double click: a note on this trial");
   table_->setMinimumSize(180, 90);
   table_->setSelectionMode(QAbstractItemView::SingleSelection);
   auto* body = new QWidget;
@@ -137,7 +136,7 @@ void TrialsDock::fill(int tableRow) {
   table_->item(tableRow, kOutcome)->setForeground(inkOf(row.result.outcome));
   table_->item(tableRow, kOutcome)->setToolTip(scene::outcomeText(row.result));
   QStringList marks;
-  if (row.mark.flagged) marks << QStringLiteral("⚑");
+  if (row.mark.flagged) marks << "⚑";
   if (!row.mark.excluded.empty()) marks << tr("excluded");
   table_->item(tableRow, kMark)->setText(marks.join(QLatin1Char(' ')));
   table_->item(tableRow, kMark)->setToolTip(QString::fromStdString(row.mark.excluded));

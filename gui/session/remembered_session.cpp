@@ -64,7 +64,7 @@ void rememberOpenRun(const record::RunConfiguration& run, const session::Session
   keep("openRun/run", std::to_string(run.run));
 }
 
-void forgetOpenRun() { QSettings().remove(QStringLiteral("openRun")); }
+void forgetOpenRun() { QSettings().remove("openRun"); }
 
 std::optional<InterruptedRun> findInterruptedRun() {
   const QSettings settings;

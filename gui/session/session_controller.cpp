@@ -135,7 +135,7 @@ void SessionController::planRuns(const session::SessionRequest& request) {
   learnt_.reset();
   resume_ = false;
   if (recorded_->notice().unfinished)
-    onOpening_ << QStringLiteral("An earlier run of this session is not finished. Trial, Resume continues it. This is a new run.");
+    onOpening_ << "An earlier run of this session is not finished. Trial, Resume continues it. This is a new run.";
   for (const std::string& sentence : recorded_->notice().unreadable) onOpening_ << QString::fromStdString(sentence);
 }
 

@@ -31,7 +31,7 @@ QString sceneWords(const SessionController& session) {
   QStringList words;
   if (!shown->kind.empty()) words << QString::fromStdString(shown->kind);
   if (!shown->target.empty()) words << QStringLiteral("target %1").arg(QString::fromStdString(shown->target));
-  return QStringLiteral(": ") + words.join(QStringLiteral(", "));
+  return ": " + words.join(", ");
 }
 
 // "Station 2 is missing. The window waits for it."; empty if every station sends.
@@ -41,9 +41,8 @@ QString missingStations(SessionController& session) {
     if (status.station != session.station()->link.station && status.light == network::StationStatus::Light::Absent)
       numbers << QString::number(status.station);
   if (numbers.isEmpty()) return {};
-  return numbers.size() == 1
-             ? QStringLiteral("Station %1 is missing. The window waits for it.").arg(numbers.front())
-             : QStringLiteral("Stations %1 are missing. The window waits for them.").arg(numbers.join(QStringLiteral(", ")));
+  return numbers.size() == 1 ? QStringLiteral("Station %1 is missing. The window waits for it.").arg(numbers.front())
+                             : QStringLiteral("Stations %1 are missing. The window waits for them.").arg(numbers.join(", "));
 }
 
 // Between trials it is the conductor who does something, and perhaps a line that is waited for.
@@ -56,11 +55,11 @@ void tellStations(SessionController& session, scene::OverlayState& overlay) {
     return;
   }
   if (session.run()->underWay()) return;
-  const QString next = session.isArming()  ? QStringLiteral("Waiting for the other stations")
-                       : session.follows() ? QStringLiteral("The conductor begins the next trial")
-                                           : QStringLiteral("Space: next trial");
+  const QString next = session.isArming()  ? "Waiting for the other stations"
+                       : session.follows() ? "The conductor begins the next trial"
+                                           : "Space: next trial";
   (state.trial == 0 ? overlay.instruction : overlay.detail) =
-      state.trial == 0 && !session.isArming() && !session.follows() ? QStringLiteral("Press Space to begin") : next;
+      state.trial == 0 && !session.isArming() && !session.follows() ? "Press Space to begin" : next;
 }
 
 // What the stations do, as far as a picture does not say it.
@@ -70,11 +69,11 @@ scene::OverlayState observersOverlay(SessionController& session) {
   const haptics::TickState* state = session.seen();
   overlay.counter = state != nullptr && state->trial > 0 ? QStringLiteral("Trial %1").arg(state->trial)
                                                          : QString::fromStdString(session.experiment().name);
-  overlay.instruction = state == nullptr                 ? QStringLiteral("Observing: nothing has come yet")
-                        : state->phase == Phase::Waiting ? QStringLiteral("Observing: the hands go to the start")
-                        : state->phase == Phase::Armed   ? QStringLiteral("Observing: every hand is at the start")
-                        : state->phase == Phase::Moving  ? QStringLiteral("Observing: they move")
-                                                         : QStringLiteral("Observing: between trials");
+  overlay.instruction = state == nullptr                 ? "Observing: nothing has come yet"
+                        : state->phase == Phase::Waiting ? "Observing: the hands go to the start"
+                        : state->phase == Phase::Armed   ? "Observing: every hand is at the start"
+                        : state->phase == Phase::Moving  ? "Observing: they move"
+                                                         : "Observing: between trials";
   return overlay;
 }
 
@@ -87,10 +86,10 @@ scene::OverlayState overlayOf(SessionController& session, bool mouse, bool masse
   scene::OverlayState overlay;
   if (run == nullptr) {
     overlay = scene::restingOverlay(QString::fromStdString(experiment.name), mouse);
-    if (session.resumes()) overlay.instruction = QStringLiteral("Press Space to resume the session");
+    if (session.resumes()) overlay.instruction = "Press Space to resume the session";
   } else {
     overlay = scene::overlayOf(run->latest(), experiment.task.value_or(experiment::Task{}), static_cast<int>(run->trialCount()), mouse);
-    if (!run->underWay() && run->latest().trial == 0) overlay.instruction = QStringLiteral("Press Space to begin");
+    if (!run->underWay() && run->latest().trial == 0) overlay.instruction = "Press Space to begin";
     if (session.isPlan())
       overlay.counter = QStringLiteral("Block %1 of %2, ").arg(run->configuration().block).arg(session.blockCount()) +
                         overlay.counter.toLower() + sceneWords(session);
@@ -98,11 +97,9 @@ scene::OverlayState overlayOf(SessionController& session, bool mouse, bool masse
     if (isOver(session)) {
       const bool more = session.blocksLeft() > 0;
       if (more)
-        overlay.rest = restOf(session, session.restLeft() > 0 ? QStringLiteral("Rest before the next block")
-                                                              : QStringLiteral("The block is done. Space begins the next block."));
-      overlay.detail = more               ? QString()
-                       : session.isPlan() ? QStringLiteral("The session is complete")
-                                          : QStringLiteral("The run is complete");
+        overlay.rest =
+            restOf(session, session.restLeft() > 0 ? "Rest before the next block" : "The block is done. Space begins the next block.");
+      overlay.detail = more ? QString() : session.isPlan() ? "The session is complete" : "The run is complete";
     }
   }
   const bool startPage = run == nullptr && session.isPlan();  // it says what is asked, and stands there

@@ -29,14 +29,14 @@ QPushButton* buttonOf(QAction* action, const char* name) {
 SessionStrip::SessionStrip(QAction* next, QAction* abort, QAction* repeat, QAction* end)
     : QToolBar(tr("Session")), run_(new widgets::ElidedLabel), tally_(widgets::named<widgets::ElidedLabel>("tally")),
       note_(widgets::named<QLineEdit>("note")) {
-  setObjectName(QStringLiteral("sessionStrip"));
+  setObjectName("sessionStrip");
   setMovable(false);
   setFloatable(false);
   toggleViewAction()->setEnabled(false);
   toggleViewAction()->setVisible(false);
   QPushButton* start = buttonOf(next, "next");
-  start->setProperty("role", QStringLiteral("go"));
-  start->setMinimumWidth(start->fontMetrics().horizontalAdvance(QStringLiteral("Next block  (Space)")) + 40);  // of the longest words
+  start->setProperty("role", "go");
+  start->setMinimumWidth(start->fontMetrics().horizontalAdvance("Next block  (Space)") + 40);  // of the longest words
   auto* body = new QWidget;
   auto* row = new QHBoxLayout(body);
   row->setContentsMargins(8, 4, 8, 4);
@@ -95,7 +95,7 @@ void SessionStrip::count(const trial::TrialResult& result) {
   if (others_ > 0) text += tr(", %1 did not count").arg(others_);
   QStringList why;
   for (const auto& [reason, count] : reasons_) why << QStringLiteral("%1 × %2").arg(count).arg(scene::reasonText(reason));
-  if (!why.isEmpty()) text += QStringLiteral(": ") + why.join(QStringLiteral(", "));
+  if (!why.isEmpty()) text += ": " + why.join(", ");
   tally_->tell(text);
 }
 

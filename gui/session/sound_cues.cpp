@@ -15,14 +15,14 @@ namespace {
 
 constexpr const char* kFiles[] = {"go.wav", "success.wav", "failure.wav"};
 
-QString volumeKey() { return QStringLiteral("sound/volume"); }
+QString volumeKey() { return "sound/volume"; }
 
 }  // namespace
 
 SoundCues::SoundCues() {
   if (QAudioDeviceInfo::defaultOutputDevice().isNull()) return;
   try {
-    const QString folder = QString::fromStdString(experiment::resourceFolder()) + QStringLiteral("/sounds/");
+    const QString folder = QString::fromStdString(experiment::resourceFolder()) + "/sounds/";
     for (std::size_t i = 0; i < effects_.size(); ++i) {
       const QString file = folder + QLatin1String(kFiles[i]);
       if (!QFileInfo::exists(file)) continue;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kPatchSide = 90;  // pixels: a light sensor covers it
 
-QString screenKey() { return QStringLiteral("subject/screen"); }
+QString screenKey() { return "subject/screen"; }
 
 QScreen* screenNamed(const QString& name) {
   for (QScreen* screen : QGuiApplication::screens())
@@ -34,14 +34,14 @@ QString rememberedScreen() {
 }
 
 SubjectWindow::SubjectWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
-  setWindowTitle(QStringLiteral("Reachlab – subject"));
+  setWindowTitle("Reachlab – subject");
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   view_ = new scene::SceneView;
   view_->setTextScale(1.8);
   layout->addWidget(view_);
   square_ = new QWidget(this);
-  square_->setObjectName(QStringLiteral("photodiode"));
+  square_->setObjectName("photodiode");
   square_->setAutoFillBackground(true);
   square_->setAttribute(Qt::WA_TransparentForMouseEvents);
   square_->hide();

@@ -33,10 +33,7 @@ const std::vector<const char*>& subjectSentences() {
 }
 
 const std::vector<Language>& languages() {
-  static const std::vector<Language> all{{QStringLiteral("en"), QStringLiteral("English")},
-                                         {QStringLiteral("de"), QStringLiteral("Deutsch")},
-                                         {QStringLiteral("ja"), QStringLiteral("日本語")},
-                                         {QStringLiteral("ru"), QStringLiteral("Русский")}};
+  static const std::vector<Language> all{{"en", "English"}, {"de", "Deutsch"}, {"ja", "日本語"}, {"ru", "Русский"}};
   return all;
 }
 
@@ -46,7 +43,7 @@ SubjectWords::~SubjectWords() = default;
 void SubjectWords::setLanguage(const QString& code) {
   loadTranslations();
   translator_.reset();
-  language_ = QStringLiteral("en");
+  language_ = "en";
   if (code == QLatin1String("en")) return;
   auto translator = std::make_unique<QTranslator>();
   if (!translator->load(QStringLiteral(":/subject/subject_%1.qm").arg(code))) return;

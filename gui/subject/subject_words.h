@@ -34,7 +34,7 @@ class SubjectWords {
   QString say(const char* english) const;
 
  private:
-  QString language_ = QStringLiteral("en");
+  QString language_ = "en";
   std::unique_ptr<QTranslator> translator_;
 };
 

@@ -12,7 +12,7 @@
 namespace reachlab::gui::widgets {
 
 Card::Card(QWidget& over) : QFrame(&over), over_(over), title_(new QLabel), text_(new QLabel), buttons_(new QHBoxLayout) {
-  setProperty("role", QStringLiteral("card"));
+  setProperty("role", "card");
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(24, 18, 24, 18);
   layout->setSpacing(12);
@@ -20,8 +20,8 @@ Card::Card(QWidget& over) : QFrame(&over), over_(over), title_(new QLabel), text
   large.setPointSizeF(1.5 * large.pointSizeF());
   large.setBold(true);
   title_->setFont(large);
-  title_->setObjectName(QStringLiteral("cardTitle"));
-  text_->setObjectName(QStringLiteral("cardText"));
+  title_->setObjectName("cardTitle");
+  text_->setObjectName("cardText");
   for (QLabel* label : {title_, text_}) {
     label->setWordWrap(true);
     label->setTextFormat(Qt::PlainText);
@@ -56,7 +56,7 @@ void Card::offer(const QString& title, const QString& text, const std::vector<Ch
   show();
   place();
   if (usual == nullptr) return;
-  usual->setProperty("role", QStringLiteral("go"));
+  usual->setProperty("role", "go");
   if (takesKeys) usual->setFocus(Qt::OtherFocusReason);
 }
 

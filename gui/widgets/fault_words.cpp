@@ -12,17 +12,17 @@ namespace {
 // What a key's last part is called at its field. Others keep their name, without the unit.
 const std::map<QString, QString>& fieldNames() {
   static const std::map<QString, QString> names{
-      {QStringLiteral("masses_kg"), QStringLiteral("masses")},
-      {QStringLiteral("stiffness_n_per_m"), QStringLiteral("stiffness")},
-      {QStringLiteral("damping_n_s_per_m"), QStringLiteral("damping")},
-      {QStringLiteral("viscosity_n_s_per_m"), QStringLiteral("viscosity")},
-      {QStringLiteral("gravity_m_per_s2"), QStringLiteral("gravity")},
-      {QStringLiteral("inertia_kg_m2"), QStringLiteral("inertia")},
-      {QStringLiteral("fp_offset_m"), QStringLiteral("fixed point")},
-      {QStringLiteral("duration_s"), QStringLiteral("time T")},
-      {QStringLiteral("position_m"), QStringLiteral("tolerance in position")},
-      {QStringLiteral("velocity_m_per_s"), QStringLiteral("tolerance in velocity")},
-      {QStringLiteral("time_s"), QStringLiteral("tolerance in time")},
+      {"masses_kg", "masses"},
+      {"stiffness_n_per_m", "stiffness"},
+      {"damping_n_s_per_m", "damping"},
+      {"viscosity_n_s_per_m", "viscosity"},
+      {"gravity_m_per_s2", "gravity"},
+      {"inertia_kg_m2", "inertia"},
+      {"fp_offset_m", "fixed point"},
+      {"duration_s", "time T"},
+      {"position_m", "tolerance in position"},
+      {"velocity_m_per_s", "tolerance in velocity"},
+      {"time_s", "tolerance in time"},
   };
   return names;
 }
@@ -30,7 +30,7 @@ const std::map<QString, QString>& fieldNames() {
 }  // namespace
 
 QString inWords(const Fault& fault) {
-  static const QRegularExpression index(QStringLiteral("\\[(\\d+)\\]$")), force(QStringLiteral("^environment\\[(\\d+)\\]\\.(\\w+)"));
+  static const QRegularExpression index("\\[(\\d+)\\]$"), force("^environment\\[(\\d+)\\]\\.(\\w+)");
   QString key = QString::fromStdString(fault.key);
   QString number;
   if (const auto found = force.match(key); found.hasMatch()) {  // keys of a force are those of other parts too: "duration_s"
@@ -45,11 +45,11 @@ QString inWords(const Fault& fault) {
   }
   key = key.section(QLatin1Char('.'), -1);
   if (const auto name = fieldNames().find(key); name != fieldNames().end()) key = name->second;
-  if (!key.isEmpty()) key += number + QStringLiteral(": ");
+  if (!key.isEmpty()) key += number + ": ";
   QString words = key + QString::fromStdString(fault.what);
   if (fault.place && fault.place->file.empty())  // within the text that was typed
     words = key + QStringLiteral("character %1: ").arg(fault.place->column) + QString::fromStdString(fault.what);
-  if (!fault.allowed.empty()) words += QStringLiteral("; allowed: ") + QString::fromStdString(fault.allowed);
+  if (!fault.allowed.empty()) words += "; allowed: " + QString::fromStdString(fault.allowed);
   return words;
 }
 

@@ -6,7 +6,6 @@
 #include <QHBoxLayout>
 #include <QSignalBlocker>
 
-
 namespace reachlab::gui::widgets {
 
 KeyField::KeyField(const QString& name, const QString& unit, const NumberRange& range, const KeyForm& form) {

@@ -31,7 +31,7 @@ Look lookOf(Grade grade) {
 }  // namespace
 
 Messages::Messages(QWidget& over) : QWidget(&over), over_(over), rows_(new QVBoxLayout(this)) {
-  setObjectName(QStringLiteral("messages"));
+  setObjectName("messages");
   rows_->setContentsMargins(0, 0, 0, 0);
   rows_->setSpacing(6);
   over.installEventFilter(this);
@@ -54,15 +54,15 @@ void Messages::say(Grade grade, const QString& sentence) {
   auto* line = new QHBoxLayout(row);
   line->setContentsMargins(12, 8, 6, 8);
   auto* mark = new QLabel(QString::fromUtf8(look.mark));
-  mark->setStyleSheet(QStringLiteral("font-weight: 700;"));
+  mark->setStyleSheet("font-weight: 700;");
   auto* text = new QLabel(sentence);
   text->setWordWrap(true);
   text->setTextFormat(Qt::PlainText);
   text->setTextInteractionFlags(Qt::TextSelectableByMouse);
   text->setFocusPolicy(Qt::NoFocus);
   auto* close = new QToolButton;
-  close->setText(QStringLiteral("×"));
-  close->setToolTip(QStringLiteral("Close this message"));
+  close->setText("×");
+  close->setToolTip("Close this message");
   close->setFocusPolicy(Qt::TabFocus);
   line->addWidget(mark, 0, Qt::AlignTop);
   line->addWidget(text, 1);

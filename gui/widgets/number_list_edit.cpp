@@ -16,16 +16,15 @@ namespace {
 
 // Nothing behind it but the number: "5 x 0.6" gives five parts "0.6". "3*pi/4" is one number.
 QStringList partsOf(QString text, const NumberListRule& rule) {
-  static const QRegularExpression repeated(QStringLiteral("^\\s*(\\d{1,3})\\s*([x×*])\\s*(\\S+)\\s*$")), blanks(QStringLiteral("[\\s;]+")),
-      around(QStringLiteral("\\s*([*/])\\s*")), unit(QStringLiteral("(?<=[\\d.)i])\\s+m(?=[\\s;]|$)")),
-      before(QStringLiteral("(?<=\\d)pi"));
+  static const QRegularExpression repeated("^\\s*(\\d{1,3})\\s*([x×*])\\s*(\\S+)\\s*$"), blanks("[\\s;]+"), around("\\s*([*/])\\s*"),
+      unit("(?<=[\\d.)i])\\s+m(?=[\\s;]|$)"), before("(?<=\\d)pi");
   if (rule.formulas) {
-    text.replace(QStringLiteral("π"), QStringLiteral("pi"));
-    text.replace(before, QStringLiteral("*pi"));
+    text.replace("π", "pi");
+    text.replace(before, "*pi");
   }
   const bool ofPi = rule.formulas && text.contains(QLatin1String("pi"));
-  if (ofPi) text.replace(around, QStringLiteral("\\1"));
-  if (rule.atLength) text.replace(unit, QStringLiteral("m"));
+  if (ofPi) text.replace(around, "\\1");
+  if (rule.atLength) text.replace(unit, "m");
   if (const auto match = repeated.match(text); match.hasMatch() && !(ofPi && match.captured(2) == QLatin1String("*"))) {
     QStringList parts;
     for (int i = match.captured(1).toInt(); i > 0; --i) parts << match.captured(3);
@@ -66,8 +65,8 @@ QString fractionOfPi(double value) {
   for (const int parts : {1, 2, 3, 4, 5, 6, 8, 12}) {
     const double many = std::round(value * parts / std::numbers::pi);
     if (many == 0 || std::abs(many) > 24 || many * std::numbers::pi / parts != value) continue;
-    const QString times = std::abs(many) == 1 ? QStringLiteral("pi") : QStringLiteral("%1*pi").arg(std::abs(many));
-    return (many < 0 ? QStringLiteral("-") : QString()) + times + (parts == 1 ? QString() : QStringLiteral("/%1").arg(parts));
+    const QString times = std::abs(many) == 1 ? "pi" : QStringLiteral("%1*pi").arg(std::abs(many));
+    return (many < 0 ? "-" : QString()) + times + (parts == 1 ? QString() : QStringLiteral("/%1").arg(parts));
   }
   return {};
 }
@@ -102,10 +101,10 @@ QString faultOf(const QString& text, const NumberListRule& rule) {
   for (const QString& part : parts) {
     if (numberOf(part, rule)) continue;
     if (lengthOf(part, rule)) return QStringLiteral("%1: the curve ends before %2; allowed: a shorter length").arg(rule.list, part);
-    QString allowed = rule.formulas ? QStringLiteral("numbers such as 0.6, pi/2 or 3*pi/4") : QStringLiteral("numbers such as 0.6");
-    if (rule.atLength) allowed += QStringLiteral(", or a length such as 0.2 m");
-    if (rule.most > 1) allowed += QStringLiteral(", with blanks between");
-    if (rule.most > 2) allowed += QStringLiteral(", or 5 x 0.6");
+    QString allowed = rule.formulas ? "numbers such as 0.6, pi/2 or 3*pi/4" : "numbers such as 0.6";
+    if (rule.atLength) allowed += ", or a length such as 0.2 m";
+    if (rule.most > 1) allowed += ", with blanks between";
+    if (rule.most > 2) allowed += ", or 5 x 0.6";
     return QStringLiteral("%1: \"%2\" is no number; allowed: %3").arg(rule.list, part, allowed);
   }
   for (int i = 0; i < parts.size(); ++i) {
@@ -114,17 +113,15 @@ QString faultOf(const QString& text, const NumberListRule& rule) {
     const QString name = i < rule.names.size() ? rule.names[i] : QString::number(i + 1);
     return QStringLiteral("%1 %2: %3; allowed: %4")
         .arg(rule.item, name, withUnit(shortest(value), rule.unit),
-             rule.lowAllowed ? shortest(rule.low) + QStringLiteral(" or more") : QStringLiteral("more than ") + shortest(rule.low));
+             rule.lowAllowed ? shortest(rule.low) + " or more" : "more than " + shortest(rule.low));
   }
   const auto count = static_cast<std::size_t>(parts.size());
   if (count >= rule.fewest && count <= rule.most && count % rule.multipleOf == 0) return {};
   QString allowed = rule.fewest == rule.most ? QString::number(rule.most) : QStringLiteral("%1 to %2").arg(rule.fewest).arg(rule.most);
   if (rule.multipleOf > 1) allowed += QStringLiteral(", in groups of %1").arg(rule.multipleOf);
-  if (!rule.names.isEmpty()) allowed += QStringLiteral(" (%1)").arg(rule.names.join(QStringLiteral(", ")));
+  if (!rule.names.isEmpty()) allowed += QStringLiteral(" (%1)").arg(rule.names.join(", "));
   return QStringLiteral("%1: %2; allowed: %3")
-      .arg(rule.list,
-           count == 0 ? QStringLiteral("none") : QStringLiteral("%1 number%2").arg(count).arg(count == 1 ? QString() : QStringLiteral("s")),
-           allowed);
+      .arg(rule.list, count == 0 ? "none" : QStringLiteral("%1 number%2").arg(count).arg(count == 1 ? QString() : "s"), allowed);
 }
 
 NumberListEdit::NumberListEdit(QWidget* parent) : QLineEdit(parent) {

@@ -10,9 +10,9 @@ namespace reachlab::gui::widgets {
 
 /// The allowed content of a list of numbers, and its name in messages.
 struct NumberListRule {
-  QString list = QStringLiteral("numbers");  // "masses"
-  QString item = {};                         // "mass": the second is "mass 2"
-  QStringList names = {};                    // of the single numbers where they have any: "u", "v"
+  QString list = "numbers";  // "masses"
+  QString item = {};         // "mass": the second is "mass 2"
+  QStringList names = {};    // of the single numbers where they have any: "u", "v"
   QString unit = {};
   double low = -std::numeric_limits<double>::infinity();
   bool lowAllowed = true;

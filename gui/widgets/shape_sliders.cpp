@@ -52,10 +52,10 @@ void ShapeSliders::setParameters(const std::vector<constraints::ShapeParameter>&
 void ShapeSliders::addRow(const constraints::ShapeParameter& p, double value) {
   const bool typed = p.meaning == "typed";
   auto* slider = new QSlider(Qt::Horizontal);
-  slider->setObjectName(QStringLiteral("slider_") + QString::fromStdString(p.name));
+  slider->setObjectName("slider_" + QString::fromStdString(p.name));
   const double low = typed ? -kMostTyped : p.min, high = typed ? kMostTyped : p.max;
   auto* box = new UnitSpinBox(low, high, p.unit == "1" ? QString() : QString::fromStdString(p.unit));
-  box->setObjectName(QStringLiteral("value_") + QString::fromStdString(p.name));
+  box->setObjectName("value_" + QString::fromStdString(p.name));
   box->show(value);
   auto* line = new QHBoxLayout;
   line->addWidget(slider, 1);
@@ -90,7 +90,7 @@ void ShapeSliders::addEnds(std::size_t at, QHBoxLayout& line) {
     box->setButtonSymbols(QAbstractSpinBox::NoButtons);
     box->setMinimumWidth(44);
     box->setMaximumWidth(56);
-    box->setToolTip(QStringLiteral("end of the slider"));
+    box->setToolTip("end of the slider");
     box->show(rows_[at].parameter.*bound);
     connect(box, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this, at, bound](double v) {
       rows_[at].parameter.*bound = v;

@@ -57,7 +57,7 @@ void applyTheme(QApplication& application) {
   numbers.setNumberOptions(QLocale::OmitGroupSeparator | QLocale::RejectGroupSeparator);
   QLocale::setDefault(numbers);
 
-  QApplication::setStyle(QStyleFactory::create(QStringLiteral("Fusion")));
+  QApplication::setStyle(QStyleFactory::create("Fusion"));
   QPalette palette;
   using namespace colours;
   const std::pair<QPalette::ColorRole, Colour> roles[] = {

@@ -68,7 +68,7 @@ void UnitSpinBox::check() {
     fault_ = QStringLiteral("%1: %2; allowed: %3 to %4")
                  .arg(accessibleName(),
                       isNumber         ? withUnit(number)
-                      : bare.isEmpty() ? QStringLiteral("nothing")
+                      : bare.isEmpty() ? "nothing"
                                        : QStringLiteral("\"%1\" is no number").arg(bare),
                       textFromValue(minimum()), withUnit(maximum()));
   }
