@@ -18,7 +18,6 @@
 
 #include "base/system/error_report.h"
 #include "gui/app/key_focus.h"
-#include "gui/app/questions.h"
 #include "gui/session/remembered_session.h"
 #include "gui/plan/start_page.h"
 #include "gui/plot/criterion_style.h"
@@ -182,10 +181,7 @@ void MainWindow::wireSession() {
   connect(&runFits_, &inspector::Inspector::idle, this, [this] {
     if (std::exchange(fitAgain_, false)) runFits_.fit({{fitted_, succeeded_}});
   });
-  session_.setOwnPause([this] {
-    const docks::SessionDock& dock = *docks_.session;
-    return dock.repeatsByItself() ? std::optional(dock.pauseSeconds()) : std::nullopt;
-  });
+  session_.setOwnPause([this] { return docks_.session->ownPause(); });
   connect(&session_, &SessionController::experimentChanged, this, &MainWindow::showExperiment);
   connect(&session_, &SessionController::runOpened, this, &MainWindow::runOpened);
   connect(&session_, &SessionController::runClosed, this, &MainWindow::runClosed);
@@ -424,15 +420,6 @@ void MainWindow::beginNext() {
     say(QString::fromStdString(errorReportOf(e).sentence));
   }
   showStage();
-}
-
-// A session that is resumed with another device asks, because its trials would not be comparable.
-bool MainWindow::mayUseDevice() {
-  if (!session_.resumes()) return true;
-  const QString before = QString::fromStdString(deviceSoFar(docks_.session->request().place));
-  const QString now = QString::fromStdString(docks_.session->device());
-  return before.isEmpty() || before == now || before.startsWith(now + QLatin1Char(':')) || before.startsWith(now + QLatin1Char(',')) ||
-         askAboutDevice(*this, before, now);
 }
 
 void MainWindow::abortTrial() {

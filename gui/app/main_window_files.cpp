@@ -3,7 +3,9 @@
 #include <QDragEnterEvent>
 #include <QFileDialog>
 #include <QFileInfo>
+#include <QMessageBox>
 #include <QMimeData>
+#include <QPushButton>
 #include <QTimer>
 #include <QUrl>
 #include <QVBoxLayout>
@@ -11,12 +13,25 @@
 #include "base/error.h"
 #include "base/system/error_report.h"
 #include "gui/app/main_window.h"
-#include "gui/app/questions.h"
+#include "gui/session/remembered_session.h"
 #include "sim/dynamics/scene.h"
 #include "sim/experiment/experiment.h"
 
 // What the window opens, saves, edits and marks.
 namespace reachlab::gui::app {
+namespace {
+
+// A question before data would be lost. Closing the box means no. The choice that loses nothing is the usual one.
+bool ask(QWidget& window, const char* name, const QString& title, const QString& text, const QString& yes, const QString& no) {
+  QMessageBox box(QMessageBox::Question, title, text, QMessageBox::NoButton, &window);
+  box.setObjectName(QLatin1String(name));
+  const auto* agreed = box.addButton(yes, QMessageBox::AcceptRole);
+  box.setDefaultButton(box.addButton(no, QMessageBox::RejectRole));
+  box.exec();
+  return box.clickedButton() == agreed;
+}
+
+}  // namespace
 
 void MainWindow::openExperiment(const QString& what) {
   if (isRecorded(what)) return inspect(what);
@@ -118,17 +133,40 @@ void MainWindow::movePlace(scene::TaskPlace place, const std::vector<double>& q)
 bool MainWindow::mayEndRun(const QString& doing) {
   session::RecordedRun* run = session_.run();
   if (run == nullptr || (!run->underWay() && (run->trialsLeft() == 0 || run->latest().trial == 0))) return true;
-  return askToEndRun(*this, doing, run->trialCount() - run->trialsLeft() - (run->underWay() ? 1 : 0), run->trialCount(), dataFolder());
+  return ask(*this, "askToEndRun", "A run is open",
+             QStringLiteral("%1 of %2 trials are done. %3 ends the run. The finished trials stay in %4, and Trial, Resume the session "
+                            "continues with the others.")
+                 .arg(run->trialCount() - run->trialsLeft() - (run->underWay() ? 1 : 0))
+                 .arg(run->trialCount())
+                 .arg(doing, dataFolder()),
+             "End the run", "Continue it");
+}
+
+// A session that is resumed with another device asks, because its trials would not be comparable.
+bool MainWindow::mayUseDevice() {
+  if (!session_.resumes()) return true;
+  const QString before = QString::fromStdString(deviceSoFar(docks_.session->request().place));
+  const QString now = QString::fromStdString(docks_.session->device());
+  return before.isEmpty() || before == now || before.startsWith(now + QLatin1Char(':')) || before.startsWith(now + QLatin1Char(',')) ||
+         ask(*this, "askAboutDevice", "Another device",
+             QStringLiteral("This session was recorded with the device %1. You resume it with %2, and its trials may not be comparable.")
+                 .arg(before, now),
+             QStringLiteral("Use %1").arg(now), "Cancel");
 }
 
 bool MainWindow::mayBeLeft() {
   if (edits_.stack().isClean()) return true;
-  switch (askAboutUnsaved(*this, QString::fromStdString(session_.experiment().name))) {
-    case Unsaved::Save: return saveExperiment();
-    case Unsaved::Discard: return true;
-    case Unsaved::Cancel: break;
+  QMessageBox box(QMessageBox::Question, "Unsaved changes",
+                  QStringLiteral("%1 was changed, and the file is not saved. Recordings keep the experiment with which they were made.")
+                      .arg(QString::fromStdString(session_.experiment().name)),
+                  QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this);
+  box.setObjectName("askAboutUnsaved");
+  box.setDefaultButton(QMessageBox::Save);
+  switch (box.exec()) {
+    case QMessageBox::Save: return saveExperiment();
+    case QMessageBox::Discard: return true;
+    default: return false;
   }
-  return false;
 }
 
 void MainWindow::markTrial(int number, const std::function<void(record::TrialMark&)>& change) {

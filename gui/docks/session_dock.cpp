@@ -166,8 +166,7 @@ session::SessionRequest SessionDock::request() const {
 std::string SessionDock::device() const { return device_->currentText().trimmed().toStdString(); }
 void SessionDock::setDevice(const QString& name) { device_->setCurrentText(name); }
 void SessionDock::setTrials(int trials) { trials_->setValue(trials); }
-bool SessionDock::repeatsByItself() const { return automatic_->isChecked(); }
-double SessionDock::pauseSeconds() const { return pause_->value(); }
+std::optional<double> SessionDock::ownPause() const { return automatic_->isChecked() ? std::optional(pause_->value()) : std::nullopt; }
 
 void SessionDock::setOpen(bool open) { who_->setEnabled(!open); }
 

@@ -27,8 +27,8 @@ class SessionDock : public Dock {
   std::string device() const;
   void setDevice(const QString& name);
   void setTrials(int trials);
-  bool repeatsByItself() const;  // next trial without a key
-  double pauseSeconds() const;   // [s] before it
+  /// The pause [s] before the next trial begins by itself. nullopt: it waits for a key.
+  std::optional<double> ownPause() const;
 
   /// While a run is open, the fields of subject and session are fixed.
   void setOpen(bool open);

@@ -5,8 +5,8 @@
 #include <QElapsedTimer>
 #include <QFileInfo>
 #include <QProcess>
-#include <charconv>
 #include <cmath>
+#include <sstream>
 
 #include "base/fault.h"
 #include "base/json/json_reader.h"
@@ -53,16 +53,6 @@ Model readGltf(const std::string& file, const Watch& watch) {
   return readStream(process.readAllStandardOutput().toStdString(), file);
 }
 
-// Takes a number's text up to the blank or the line's end.
-template <typename T>
-bool takeNumber(std::string_view& line, T& value) {
-  const auto [end, error] = std::from_chars(line.data(), line.data() + line.size(), value);
-  if (error != std::errc()) return false;
-  line.remove_prefix(static_cast<std::size_t>(end - line.data()));
-  if (!line.empty() && line.front() == ' ') line.remove_prefix(1);
-  return true;
-}
-
 }  // namespace
 
 std::size_t Model::triangleCount() const {
@@ -94,18 +84,14 @@ Model readStream(std::string_view bytes, const std::string& file) {
   while (!bytes.empty()) {
     const std::size_t end = bytes.find('\n');
     if (end == std::string_view::npos || !bytes.starts_with("part ")) throw broken();
-    std::string_view line = bytes.substr(5, end - 5);
+    std::istringstream line{std::string(bytes.substr(5, end - 5))};
     bytes.remove_prefix(end + 1);
     ModelPart part;
-    const std::size_t blank = line.find(' ');
-    if (blank == std::string_view::npos) throw broken();
-    if (line.substr(0, blank) != "-") part.name = std::string(line.substr(0, blank));
-    if (!part.name.empty() && !isMoving(part.name)) throw broken();
-    line.remove_prefix(blank + 1);
     std::size_t points = 0, triangles = 0;
-    if (!takeNumber(line, part.colour[0]) || !takeNumber(line, part.colour[1]) || !takeNumber(line, part.colour[2]) ||
-        !takeNumber(line, part.opacity) || !takeNumber(line, points) || !takeNumber(line, triangles) || !line.empty())
-      throw broken();
+    line >> part.name >> part.colour[0] >> part.colour[1] >> part.colour[2] >> part.opacity >> points >> triangles;
+    if (!line || line.peek() != std::istringstream::traits_type::eof()) throw broken();
+    if (part.name == "-") part.name.clear();
+    else if (!isMoving(part.name)) throw broken();
     if (points > bytes.size() / sizeof(Vec3) || triangles > (bytes.size() - points * sizeof(Vec3)) / sizeof part.triangles[0])
       throw broken();
     part.points.resize(points);
