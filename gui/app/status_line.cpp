@@ -1,26 +1,26 @@
 #include "gui/app/status_line.h"
 
-#include <QLabel>
 #include <QStatusBar>
 #include <cmath>
+
+#include "gui/widgets/named.h"
 
 namespace reachlab::gui::app {
 
 StatusLine::StatusLine(QStatusBar& bar)
-    : rate_(new QLabel), ticks_(new QLabel), trial_(new QLabel), method_(new QLabel), recording_(new QLabel) {
-  ticks_->setObjectName("ticks");
-  ticks_->setToolTip(
-      "Servo cycles of 1 ms in this run.\nlate: cycles that began later than their time, but were computed.\n"
-      "missed: cycles that were left out, because the computer was busy.\n"
-      "clamped: cycles in which the force was limited to the maximum of the device.\n"
-      "not recorded: cycles that the disk was too slow for.");
-  recording_->setObjectName("recording");
-  recording_->setToolTip("The log of the run that is open or was open last");
+    : rate_(new QLabel),
+      ticks_(widgets::tipped(widgets::named<QLabel>("ticks"),
+                             "Servo cycles of 1 ms in this run.\nlate: cycles that began later than their time, but were computed.\n"
+                             "missed: cycles that were left out, because the computer was busy.\n"
+                             "clamped: cycles in which the force was limited to the maximum of the device.\n"
+                             "not recorded: cycles that the disk was too slow for.")),
+      trial_(widgets::tipped(
+          widgets::named<QLabel>("trialTime"),
+          "The last trial from its go signal to its end, by the computer's clock; ticks of 1 ms that it missed, and that were not "
+          "recorded")),
+      method_(new QLabel),
+      recording_(widgets::tipped(widgets::named<QLabel>("recording"), "The log of the run that is open or was open last")) {
   recording_->setTextInteractionFlags(Qt::TextSelectableByMouse);
-  trial_->setObjectName("trialTime");
-  trial_->setToolTip(
-      "The last trial from its go signal to its end, by the computer's clock; ticks of 1 ms that it missed, and that were not "
-      "recorded");
   for (QLabel* label : {rate_, ticks_, trial_, method_}) bar.addWidget(label);
   bar.addPermanentWidget(recording_);
   runClosed();

@@ -17,19 +17,16 @@ constexpr int kLayoutVersion = 7;                    // another set of docks is 
 
 QString key(const char* name) { return QLatin1String("window/") + QLatin1String(name); }
 
-QString docksKey(WindowLayout layout) {
-  const char* names[] = {"docksSetUp", "docksRun", "docksInspect"};
-  return key(names[static_cast<int>(layout)]);
-}
-
-// What a layout shows when it is chosen for the first time; empty: every dock.
-QStringList docksOf(WindowLayout layout) {
-  switch (layout) {
-    case WindowLayout::SetUp: break;
-    case WindowLayout::Run: return {"sessionDock", "plotDock", "trialsDock", "stationsDock"};
-    case WindowLayout::Inspect: return {"none"};
-  }
-  return {};
+// In the order of WindowLayout: where the docks are remembered, and those that are shown at first. Empty: every dock.
+struct Docks {
+  QString key;
+  QStringList shown;
+};
+Docks docksOf(WindowLayout layout) {
+  const Docks docks[] = {{key("docksSetUp"), {}},
+                         {key("docksRun"), {"sessionDock", "plotDock", "trialsDock", "stationsDock"}},
+                         {key("docksInspect"), {"none"}}};
+  return docks[static_cast<int>(layout)];
 }
 
 }  // namespace
@@ -48,12 +45,12 @@ void stackOnNarrowScreen(QMainWindow& window) {
 }
 
 void rememberDocks(const QMainWindow& window, WindowLayout layout) {
-  QSettings().setValue(docksKey(layout), window.saveState(kLayoutVersion));
+  QSettings().setValue(docksOf(layout).key, window.saveState(kLayoutVersion));
 }
 
 void restoreDocks(QMainWindow& window, WindowLayout layout) {
-  if (window.restoreState(QSettings().value(docksKey(layout)).toByteArray(), kLayoutVersion)) return;
-  const QStringList shown = docksOf(layout);
+  if (window.restoreState(QSettings().value(docksOf(layout).key).toByteArray(), kLayoutVersion)) return;
+  const QStringList shown = docksOf(layout).shown;
   for (QDockWidget* dock : window.findChildren<QDockWidget*>()) dock->setVisible(shown.isEmpty() || shown.contains(dock->objectName()));
 }
 

@@ -136,15 +136,13 @@ void ConstraintChooser::wire() {
   connect(formula_, &FormulaEditor::changed, this, &ConstraintChooser::formulaChanged);
   connect(sliders_, &widgets::ShapeSliders::moved, this, [this] { rebuild(false); });
   connect(save_, &QPushButton::clicked, this, &ConstraintChooser::save);
-  connect(use_, &QPushButton::clicked, this, [this] {
-    if (choice_) Q_EMIT used(*choice_);
-  });
-  connect(usePoint_, &QPushButton::clicked, this, [this] {
-    if (!choice_) return;
-    ConstraintChoice onePoint = *choice_;
-    onePoint.withPoint = true;
-    Q_EMIT used(onePoint);
-  });
+  for (QPushButton* button : {use_, usePoint_})
+    connect(button, &QPushButton::clicked, this, [this, withPoint = button == usePoint_] {
+      if (!choice_) return;
+      ConstraintChoice choice = *choice_;
+      choice.withPoint = withPoint;
+      Q_EMIT used(choice);
+    });
 }
 
 void ConstraintChooser::fillList() {

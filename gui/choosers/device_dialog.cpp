@@ -135,6 +135,4 @@ void DeviceDialog::calibrate() {
   }
 }
 
-QString DeviceDialog::words() const { return numbers_->text(); }
-
 }  // namespace reachlab::gui::docks

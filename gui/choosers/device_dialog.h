@@ -26,7 +26,6 @@ class DeviceDialog : public QDialog {
 
   /// Opens the named device, or releases it.
   void openOrLetGo();
-  QString words() const;  // the line under the pictures
 
  private:
   void look();

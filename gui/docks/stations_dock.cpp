@@ -145,6 +145,4 @@ void StationsDock::tell(const QString& line) {
   told_->setText(lines_.join(QLatin1Char('\n')));
 }
 
-QString StationsDock::sentence() const { return sentence_->text(); }
-
 }  // namespace reachlab::gui::docks

@@ -19,8 +19,6 @@ class StationsDock : public Dock {
   void showStations(const network::StationSetup& here, Stage stage, const std::vector<network::StationStatus>& others);
   /// Adds a message of the stations, the newest at the end.
   void tell(const QString& line);
-  /// The sentence under the table.
-  QString sentence() const;
 
  protected:
   void display(const experiment::CompiledExperiment& experiment, bool editable) override;

@@ -168,22 +168,16 @@ void SessionController::tellOpened() {
   Q_EMIT runOpened();
 }
 
-void SessionController::resume() {
+void SessionController::planAnew(bool resume) {
   const std::scoped_lock lock(changing_);
-  if (run() == nullptr) recorded_.reset();  // planned anew, from what is on the disk
-  resume_ = true;
+  if (run() == nullptr) recorded_.reset();  // planned from what is on the disk
+  resume_ = resume;
 }
 
 void SessionController::resume(const session::SessionRequest& request) {
-  resume();
+  planAnew(true);
   asked_ = request;
   asked_.resume = true;
-}
-
-void SessionController::beginAnew() {
-  const std::scoped_lock lock(changing_);
-  if (run() == nullptr) recorded_.reset();
-  resume_ = false;
 }
 
 double SessionController::restLeft() const { return recorded_ ? recorded_->pacing().restLeft(std::chrono::steady_clock::now()) : 0; }

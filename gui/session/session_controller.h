@@ -53,12 +53,12 @@ class SessionController : public QObject {
   /// Every fault of an edited experiment. It is taken over if there is no fault. Throws RefusedError if the scene cannot be computed.
   std::vector<Fault> tryEdit(const experiment::Experiment& experiment);
   /// The next session that is opened resumes the unfinished work of this subject's session.
-  void resume();
+  void resume() { planAnew(true); }
   /// The same for another session, before its programme is taken over.
   void resume(const session::SessionRequest& request);
   bool resumes() const { return resume_; }
   /// The next session that is opened begins from the first block.
-  void beginAnew();
+  void beginAnew() { planAnew(false); }
 
   /// At a station: opens its run, so that the others hear of it. Throws children of Error.
   void join(const session::SessionRequest& request);
@@ -128,6 +128,7 @@ class SessionController : public QObject {
   void stationTold(const QString& line);
 
  private:
+  void planAnew(bool resume);
   void openRun(const session::SessionRequest& request);
   void planRuns(const session::SessionRequest& request);
   void tellStation(const network::StationNews& news);
