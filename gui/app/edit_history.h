@@ -4,7 +4,6 @@
 #include <QUndoStack>
 
 #include "gui/session/session_controller.h"
-#include "sim/session/session.h"
 
 namespace reachlab::gui::app {
 

@@ -5,13 +5,11 @@
 #include <QSettings>
 #include <QSlider>
 #include <QStatusBar>
-#include <functional>
 #include <tuple>
 
 #include "gui/app/frame_recorder.h"
 #include "gui/app/menu_entries.h"
 #include "gui/scene_plan/part_names.h"
-#include "gui/widgets/theme.h"
 #include "gui/widgets/work_strip.h"
 #include "sim/experiment/scene_look.h"
 

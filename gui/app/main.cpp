@@ -3,7 +3,6 @@
 #include <QMessageBox>
 #include <QSettings>
 #include <QIcon>
-#include <QSurfaceFormat>
 #include <QTimer>
 #include <cstdio>
 #include <cstdlib>

@@ -2,9 +2,7 @@
 #include <QList>
 #include <QObject>
 #include <QPointer>
-#include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "gui/model/model_reader.h"

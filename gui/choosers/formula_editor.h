@@ -1,8 +1,6 @@
 #pragma once
 #include <QWidget>
 #include <array>
-#include <map>
-#include <optional>
 #include <string>
 #include <vector>
 

@@ -13,7 +13,6 @@
 #include <QTimer>
 #include <QVBoxLayout>
 
-#include "base/error.h"
 #include "devices/driver/registry.h"
 #include "devices/hot_plug.h"
 #include "gui/widgets/fault_words.h"

@@ -10,7 +10,6 @@
 #include "gui/plan/start_page.h"
 #include "gui/scene/scene_view.h"
 #include "gui/session/session_controller.h"
-#include "sim/session/session.h"
 
 namespace reachlab::gui::app {
 

@@ -2,7 +2,6 @@
 
 #include <QFileInfo>
 #include <QSettings>
-#include <QString>
 
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/record/log/append_file.h"

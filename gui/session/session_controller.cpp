@@ -1,13 +1,11 @@
 #include "gui/session/session_controller.h"
 #include "sim/dynamics/scene.h"
 
-#include <QStringList>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <utility>
 
-#include "base/fault.h"
 #include "constraints/geometry/task_path.h"
 #include "base/system/error_report.h"
 #include "base/terminal/message.h"
