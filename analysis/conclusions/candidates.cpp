@@ -122,6 +122,14 @@ std::vector<std::vector<predict::Criterion>> namesOf(const CandidateSet& set) {
   return names;
 }
 
+std::optional<std::size_t> placeOf(const CandidateSet& set, predict::Criterion criterion) {
+  for (std::size_t k = 0; k < set.candidates.size(); ++k) {
+    const std::vector<predict::Criterion>& criteria = set.candidates[k].criteria;
+    if (std::find(criteria.begin(), criteria.end(), criterion) != criteria.end()) return k;
+  }
+  return std::nullopt;
+}
+
 CandidateSet makeCandidates(const experiment::CompiledExperiment& compiled, const CandidateOptions& options) {
   const experiment::Experiment& experiment = compiled.experiment();
   CandidateSet out;

@@ -51,6 +51,8 @@ struct CandidateSet {
   bool massGiven = false;
 };
 std::vector<std::vector<predict::Criterion>> namesOf(const CandidateSet& set);
+/// The index of the candidate that has the criterion.
+std::optional<std::size_t> placeOf(const CandidateSet& set, predict::Criterion criterion);
 CandidateSet makeCandidates(const experiment::CompiledExperiment& experiment, const CandidateOptions& options);
 
 }  // namespace reachlab::analysis

@@ -30,12 +30,6 @@ cairo_status_t append(void* bytes, const unsigned char* data, unsigned int lengt
   return CAIRO_STATUS_SUCCESS;
 }
 
-/// Paper: a figure without it is unreadable where the page around it is dark.
-void paintWhite(cairo_t* context) {
-  cairo_set_source_rgb(context, 1, 1, 1);
-  cairo_paint(context);
-}
-
 /// Nothing to show, not even a title: a place in the row that stays white.
 bool isEmpty(const Panel& panel) {
   return panel.title.empty() && panel.bands.empty() && panel.series.empty() && panel.rules.empty() && panel.words.empty();
@@ -91,10 +85,21 @@ Size measure(const Figure& figure) {
   return paint(figure, context.get(), false);
 }
 
-void finish(cairo_surface_t* surface) {
-  cairo_surface_finish(surface);
-  if (cairo_surface_status(surface) != CAIRO_STATUS_SUCCESS)
-    throw ResourceError(std::string("figure: cairo says: ") + cairo_status_to_string(cairo_surface_status(surface)));
+enum class Paper { None, White };  // a figure without it is unreadable where the page around it is dark
+
+/// `scale`: of the surface's units in a point.
+void paintOn(const Surface& surface, const Figure& figure, Paper paper, double scale = 1) {
+  const Context context(cairo_create(surface.get()), &cairo_destroy);
+  cairo_set_source_rgb(context.get(), 1, 1, 1);
+  if (paper == Paper::White) cairo_paint(context.get());
+  cairo_scale(context.get(), scale, scale);
+  paint(figure, context.get(), true);
+}
+
+void finish(const Surface& surface) {
+  cairo_surface_finish(surface.get());
+  if (const cairo_status_t status = cairo_surface_status(surface.get()); status != CAIRO_STATUS_SUCCESS)
+    throw ResourceError(std::string("figure: cairo says: ") + cairo_status_to_string(status));
 }
 
 /// Cairo numbers its surfaces through the whole process; here they are numbered through the figure.
@@ -128,12 +133,8 @@ std::string renderSvg(const Figure& figure, const std::string& idPrefix) {
   std::string bytes;
   const Size size = measure(figure);
   const Surface surface(cairo_svg_surface_create_for_stream(append, &bytes, size.width, size.height), &cairo_surface_destroy);
-  {
-    const Context context(cairo_create(surface.get()), &cairo_destroy);
-    paintWhite(context.get());
-    paint(figure, context.get(), true);
-  }
-  finish(surface.get());
+  paintOn(surface, figure, Paper::White);
+  finish(surface);
   bytes = withOwnNumbers(bytes);
   if (idPrefix.empty()) return bytes;
   bytes = replaced(bytes, " id=\"", " id=\"" + idPrefix);
@@ -147,29 +148,20 @@ std::string renderPdf(const Figure& figure) {
   const Surface surface(cairo_pdf_surface_create_for_stream(append, &bytes, size.width, size.height), &cairo_surface_destroy);
   // Cairo would write the present time: a file that differs at each run cannot be compared.
   cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "");
-  {
-    const Context context(cairo_create(surface.get()), &cairo_destroy);
-    paint(figure, context.get(), true);
-  }
-  finish(surface.get());
+  paintOn(surface, figure, Paper::None);
+  finish(surface);
   return bytes;
 }
 
-std::string renderPng(const Figure& figure, double dpi) {
+std::string renderPng(const Figure& figure) {
+  constexpr double kPixelsPerPoint = 150.0 / 72;
   std::string bytes;
   const Size size = measure(figure);
-  const double scale = dpi / 72;
-  const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(size.width * scale + 0.999),
-                                                   static_cast<int>(size.height * scale + 0.999)),
-                        &cairo_surface_destroy);
-  {
-    const Context context(cairo_create(surface.get()), &cairo_destroy);
-    paintWhite(context.get());
-    cairo_scale(context.get(), scale, scale);
-    paint(figure, context.get(), true);
-  }
+  const auto pixels = [](double points) { return static_cast<int>(points * kPixelsPerPoint + 0.999); };
+  const Surface surface(cairo_image_surface_create(CAIRO_FORMAT_RGB24, pixels(size.width), pixels(size.height)), &cairo_surface_destroy);
+  paintOn(surface, figure, Paper::White, kPixelsPerPoint);
   cairo_surface_write_to_png_stream(surface.get(), append, &bytes);
-  finish(surface.get());
+  finish(surface);
   return bytes;
 }
 

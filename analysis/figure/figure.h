@@ -32,21 +32,21 @@ inline constexpr double kThin = 0.45, kNormal = 1.0, kThick = 2.0;  // [pt]
 
 /// A line, points, or both. Gaps are where x or y is not finite (or not positive on a logarithmic axis).
 struct Series {
-  std::string label;         // empty: not in the legend
-  std::vector<double> x, y;  // same length, in the axes' units
+  std::string label = {};              // empty: not in the legend
+  std::vector<double> x = {}, y = {};  // same length, in the axes' units
   Color color = palette::kBlack;
   double width = kNormal;  // [pt]; 0: no line
   Dash dash = Dash::Solid;
   MarkerShape marker = MarkerShape::None;
-  double markerSize = 4;                      // [pt] diameter
-  std::vector<double> errorLow, errorHigh;    // vertical error bars from … to, in y's units; empty: none
-  std::vector<double> errorLeft, errorRight;  // the same along x
+  double markerSize = 4;                                // [pt] diameter
+  std::vector<double> errorLow = {}, errorHigh = {};    // vertical error bars from … to, in y's units; empty: none
+  std::vector<double> errorLeft = {}, errorRight = {};  // the same along x
 };
 
 /// An area between two curves: mean ± SD, an interval. Drawn below all lines.
 struct Band {
-  std::string label;
-  std::vector<double> x, low, high;
+  std::string label = {};
+  std::vector<double> x = {}, low = {}, high = {};
   Color color{0.45, 0.45, 0.45, 0.25};
 };
 
@@ -54,7 +54,7 @@ struct Band {
 struct Rule {
   double at = 0;
   bool vertical = true;  // at x = at; else at y = at
-  std::string label;
+  std::string label = {};
   Color color = palette::kGrey;
   Dash dash = Dash::Dotted;
 };
@@ -69,29 +69,29 @@ struct Word {
 enum class Scale { Linear, Log };
 
 struct Axis {
-  std::string label;  // with its unit: "Hand velocity (m/s)"
+  std::string label = {};  // with its unit: "Hand velocity (m/s)"
   Scale scale = Scale::Linear;
-  std::optional<double> from, to;                     // nullopt: from the data, rounded to ticks
-  std::vector<std::pair<double, std::string>> ticks;  // named places, e.g. categories; empty: chosen
+  std::optional<double> from = {}, to = {};                // nullopt: from the data, rounded to ticks
+  std::vector<std::pair<double, std::string>> ticks = {};  // named places, e.g. categories; empty: chosen
 };
 
 enum class LegendPlace { Auto, TopLeft, TopRight, BottomLeft, BottomRight, Below, Right, None };
 
 /// One pair of axes.
 struct Panel {
-  std::string title;
-  Axis x, y;
-  std::vector<Band> bands;
-  std::vector<Series> series;  // drawn in order: later ones on top
-  std::vector<Rule> rules;
-  std::vector<Word> words;                 // on top of everything
+  std::string title = {};
+  Axis x = {}, y = {};
+  std::vector<Band> bands = {};
+  std::vector<Series> series = {};  // drawn in order: later ones on top
+  std::vector<Rule> rules = {};
+  std::vector<Word> words = {};            // on top of everything
   LegendPlace legend = LegendPlace::Auto;  // Auto: the corner with the fewest data
 };
 
 /// Panels in rows of `columns` (an empty one leaves its place white), each `panelWidth` by `panelHeight` of plotting area.
 struct Figure {
-  std::string title;  // above everything; usually empty: a caption says it
-  std::vector<Panel> panels;
+  std::string title = {};  // above everything; usually empty: a caption says it
+  std::vector<Panel> panels = {};
   int columns = 1;
   double panelWidth = 75, panelHeight = 50;  // [mm] between the axes
 };
@@ -99,8 +99,8 @@ struct Figure {
 /// `idPrefix` keeps the ids of several SVGs apart when they are put into one HTML page.
 std::string renderSvg(const Figure& figure, const std::string& idPrefix = "");
 std::string renderPdf(const Figure& figure);
-/// [dots per inch] of a white page.
-std::string renderPng(const Figure& figure, double dpi = 150);
+/// A white page at 150 dots per inch.
+std::string renderPng(const Figure& figure);
 
 /// The content of FILE.svg, FILE.pdf or FILE.png, as the ending says. Throws FaultError for another ending.
 std::string renderFor(const std::string& file, const Figure& figure);

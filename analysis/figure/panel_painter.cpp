@@ -29,6 +29,9 @@ struct Extent {
   }
 };
 
+bool isRight(LegendPlace place) { return place == LegendPlace::TopRight || place == LegendPlace::BottomRight; }
+bool isBottom(LegendPlace place) { return place == LegendPlace::BottomLeft || place == LegendPlace::BottomRight; }
+
 double share(const Axis& axis, const AxisTicks& ticks, double value) {
   return axis.scale == Scale::Log ? std::log(value / ticks.from) / std::log(ticks.to / ticks.from)
                                   : (value - ticks.from) / (ticks.to - ticks.from);
@@ -87,9 +90,8 @@ void PanelPainter::chooseLegend() {
   if (place_ == LegendPlace::Auto) {
     int fewest = std::numeric_limits<int>::max();
     for (const LegendPlace corner : {LegendPlace::TopRight, LegendPlace::TopLeft, LegendPlace::BottomRight, LegendPlace::BottomLeft}) {
-      const bool right = corner == LegendPlace::TopRight || corner == LegendPlace::BottomRight;
-      const bool bottom = corner == LegendPlace::BottomRight || corner == LegendPlace::BottomLeft;
-      const int under = pointsUnder(right ? width_ - legendWidth_ : 0, bottom ? height_ - legendHeight_ : 0, legendWidth_, legendHeight_);
+      const int under = pointsUnder(isRight(corner) ? width_ - legendWidth_ : 0, isBottom(corner) ? height_ - legendHeight_ : 0,
+                                    legendWidth_, legendHeight_);
       if (under < fewest) fewest = under, place_ = corner;
     }
     if (fewest > 0 || legendWidth_ > 0.6 * width_) place_ = LegendPlace::Below;  // a legend over data hides what it explains
@@ -309,23 +311,13 @@ void PanelPainter::drawEntry(const Entry& entry, double x, double baseline) {
 
 void PanelPainter::drawLegend() {
   if (place_ == LegendPlace::None) return;
-  double x = left_ + 4, y = top_ + 2;
-  switch (place_) {
-    case LegendPlace::TopRight: x = left_ + width_ - legendWidth_; break;
-    case LegendPlace::BottomLeft: y = top_ + height_ - legendHeight_ - 2; break;
-    case LegendPlace::BottomRight:
-      x = left_ + width_ - legendWidth_;
-      y = top_ + height_ - legendHeight_ - 2;
-      break;
-    case LegendPlace::Right: x = left_ + width_ + 6; break;
-    case LegendPlace::Below: {
-      x = left_ + (width_ - legendWidth_) / 2;
-      y = top_ + height_ + kTickLength + kGap + kTickFont + (panel_.x.label.empty() ? 0 : kLabelFont + 4) + 2;
-      break;
-    }
-    default: break;
-  }
-  if (place_ != LegendPlace::Below && place_ != LegendPlace::Right) {
+  double x = left_ + (isRight(place_) ? width_ - legendWidth_ : 4), y = top_ + (isBottom(place_) ? height_ - legendHeight_ - 2 : 2);
+  if (place_ == LegendPlace::Right) {
+    x = left_ + width_ + 6;
+  } else if (place_ == LegendPlace::Below) {
+    x = left_ + (width_ - legendWidth_) / 2;
+    y = top_ + height_ + kTickLength + kGap + kTickFont + (panel_.x.label.empty() ? 0 : kLabelFont + 4) + 2;
+  } else {
     canvas_.setColor({1, 1, 1, 0.85});
     canvas_.fillBox(x, y, legendWidth_, legendHeight_);
   }

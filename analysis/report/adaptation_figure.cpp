@@ -34,11 +34,11 @@ NamedFigure adaptationFigure(const Analysis& analysis) {
       "field the hand cancels, and deviations show what is left of it.";
   const auto people = taughtTrials(analysis);
   for (const Course& course : courses()) {
-    figure::Panel panel;
-    panel.title = course.title;
-    panel.x.label = "Trial";
-    panel.y.label = course.axis;
-    panel.rules = {{0, false, ""}};
+    figure::Panel panel{.title = course.title,
+                        .x = {.label = "Trial"},
+                        .y = {.label = course.axis},
+                        .rules = {{0, false, ""}},
+                        .legend = out.figure.panels.empty() ? figure::LegendPlace::Below : figure::LegendPlace::None};
     for (const auto& [subject, person] : people) {
       figure::Series series = subjectSeries(analysis, subject);
       series.width = people.size() > 3 ? figure::kThin : figure::kNormal;
@@ -48,17 +48,13 @@ NamedFigure adaptationFigure(const Analysis& analysis) {
         const double value = course.value(*person.trials[i]);
         if (!(value == value)) continue;  // the line joins the trials of its kind within a block
         const TrialKey& key = person.trials[i]->key;
-        if (last != nullptr && (last->run != key.run || last->block != key.block)) {
-          series.x.push_back(static_cast<double>(i + 1));
-          series.y.push_back(kNotMeasured);
-        }
+        const auto add = [&](double y) { series.x.push_back(static_cast<double>(i + 1)), series.y.push_back(y); };
+        if (last != nullptr && (last->run != key.run || last->block != key.block)) add(kNotMeasured);
         last = &key;
-        series.x.push_back(static_cast<double>(i + 1));
-        series.y.push_back(value);
+        add(value);
       }
       if (!series.x.empty()) panel.series.push_back(std::move(series));
     }
-    panel.legend = out.figure.panels.empty() ? figure::LegendPlace::Below : figure::LegendPlace::None;
     if (!panel.series.empty()) out.figure.panels.push_back(std::move(panel));
   }
   out.figure.columns = out.figure.panels.size() > 1 ? 2 : 1;

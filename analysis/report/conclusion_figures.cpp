@@ -11,7 +11,6 @@ namespace {
 
 namespace palette = figure::palette;
 using figure::LegendPlace;
-using figure::MarkerShape;
 using figure::Panel;
 using figure::Series;
 
@@ -20,18 +19,15 @@ using Names = std::vector<std::vector<predict::Criterion>>;
 /// One person's score of every candidate.
 struct PersonRow {
   std::string subject;
-  std::vector<double> score;     // less that of the reference
-  std::vector<Bounds> interval;  // 95 %, over the person's trials
-  std::vector<bool> atEdge;      // the hand's mass is at the edge of the range
+  std::vector<double> score = {};     // less that of the reference
+  std::vector<Bounds> interval = {};  // 95 %, over the person's trials
+  std::vector<bool> atEdge = {};      // the hand's mass is at the edge of the range
   double ceiling = 0;
 };
 
 Panel scorePanel(const Analysis& analysis, const std::string& title, const Names& names, const std::vector<PersonRow>& rows,
                  const std::optional<std::size_t>& follows, bool legend) {
-  Panel panel;
-  panel.title = shortened(title);
-  panel.y.label = "Score against the reference (ln S)";
-  panel.x.label = "Criterion";
+  Panel panel{.title = shortened(title), .x = {.label = "Criterion"}, .y = {.label = "Score against the reference (ln S)"}};
   const std::size_t shown = names.size() - 1;  // the reference is the line at 0
   addCandidates(panel.x, std::span(names).first(shown));
   double ceiling = 0;
@@ -44,9 +40,8 @@ Panel scorePanel(const Analysis& analysis, const std::string& title, const Names
     for (std::size_t k = 0; k < shown; ++k) {
       s.x.push_back(static_cast<double>(k + 1) + aside), s.y.push_back(row.score[k]);
       s.errorLow.push_back(row.interval[k].low), s.errorHigh.push_back(row.interval[k].high);
-    }
-    for (std::size_t k = 0; k < shown; ++k)
       if (row.atEdge[k]) panel.words.push_back({s.x[k], s.y[k], "mass at edge", palette::kVermilion});
+    }
     s.width = 0;  // criteria have no order that a line could follow
     panel.series.push_back(std::move(s));
     ceiling += row.ceiling / static_cast<double>(rows.size());
@@ -66,20 +61,14 @@ NamedFigure scoreFigure(const Analysis& analysis) {
   out.caption =
       "How far each criterion is from the movements: a subject's score (mean of ln S, lower is nearer) less that of a minimum jerk that "
       "ignores the object, with its 95 % interval over the subject's trials. Dashed: that reference. Dotted: what the mean of a subject's own other trials "
-      "reaches, "
-      "below which nothing can be expected. Mass at edge: the hand's mass that fits best is an end of its range.";
-  Names all = analysis.common;
-  std::vector<PersonRow> overall;
-  bool legend = true;
+      "reaches, below which nothing can be expected. Mass at edge: the hand's mass that fits best is an end of its range.";
   for (std::size_t c = 0; c < analysis.results.size(); ++c) {
     const Names names = candidatesOf(analysis.results[c]);
     std::vector<PersonRow> rows;
     for (const PersonResult& person : analysis.people) {
       if (person.condition != c || !person.fitted) continue;
       const CandidateFit& reference = person.fit.candidates.back();
-      PersonRow row;
-      row.subject = person.subject;
-      row.ceiling = person.fit.own.ceilingScore - reference.meanScore;
+      PersonRow row{.subject = person.subject, .ceiling = person.fit.own.ceilingScore - reference.meanScore};
       for (const CandidateFit& fit : person.fit.candidates) {
         std::vector<double> difference(fit.score);
         for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= reference.score[i];
@@ -92,8 +81,7 @@ NamedFigure scoreFigure(const Analysis& analysis) {
     }
     if (rows.empty()) continue;
     out.figure.panels.push_back(
-        scorePanel(analysis, analysis.conditions[c].name, names, rows, analysis.results[c].conclusion.follows, legend));
-    legend = false;
+        scorePanel(analysis, analysis.conditions[c].name, names, rows, analysis.results[c].conclusion.follows, out.figure.panels.empty()));
   }
   out.figure.columns = out.figure.panels.size() > 1 ? 2 : 1;
   out.figure.panelWidth = out.figure.columns == 1 ? 100 : 62;
@@ -110,20 +98,11 @@ NamedFigure posteriorFigure(const Analysis& analysis) {
       kMinExceedance);
   const auto add = [&](const std::string& title, const Conclusion& conclusion, const Names& names) {
     if (conclusion.posterior.empty()) return;
-    Panel panel;
-    panel.title = shortened(title);
-    panel.y.label = "Probability";
-    panel.y.from = 0.0;
-    panel.y.to = 1.0;
+    Panel panel{.title = shortened(title), .y = {.label = "Probability", .from = 0.0, .to = 1.0}, .legend = LegendPlace::None};
     addCandidates(panel.x, names);
-    panel.legend = LegendPlace::None;
     for (std::size_t k = 0; k < names.size(); ++k) {
-      const double x = static_cast<double>(k + 1);
-      panel.bands.push_back({"",
-                             {x - 0.35, x + 0.35},
-                             {0, 0},
-                             {conclusion.posterior[k], conclusion.posterior[k]},
-                             palette::faded(lookOf(names[k]).color, 0.8)});
+      const double x = static_cast<double>(k + 1), p = conclusion.posterior[k];
+      panel.bands.push_back({"", {x - 0.35, x + 0.35}, {0, 0}, {p, p}, palette::faded(lookOf(names[k]).color, 0.8)});
     }
     panel.rules.push_back({kMinExceedance, false, "", palette::kGrey, figure::Dash::Dashed});
     out.figure.panels.push_back(std::move(panel));
@@ -142,18 +121,12 @@ NamedFigure recoveryFigure(const TruthRecovery& recovery) {
   out.name = "recovery";
   out.caption = fmt::format(
       "What this design can tell: {} studies were simulated for each truth, with these subjects' numbers of trials, durations and scatter, "
-      "and "
-      "judged by the same rule. Rows: the truth; columns: what was named.",
+      "and judged by the same rule. Rows: the truth; columns: what was named.",
       recovery.studies);
-  Panel panel;
   const std::size_t n = recovery.candidates.size();
-  panel.x.label = "Named";
-  panel.y.label = "Truth";
-  panel.x.from = 0.5;
-  panel.x.to = static_cast<double>(n) + 1.5;
-  panel.y.from = 0.5;
-  panel.y.to = static_cast<double>(n) + 0.5;
-  panel.legend = LegendPlace::None;
+  Panel panel{.x = {.label = "Named", .from = 0.5, .to = static_cast<double>(n) + 1.5},
+              .y = {.label = "Truth", .from = 0.5, .to = static_cast<double>(n) + 0.5},
+              .legend = LegendPlace::None};
   for (std::size_t t = 0; t < n; ++t) {
     const double y = static_cast<double>(n - t);
     panel.y.ticks.emplace_back(y, shortNameOf(recovery.candidates[t]));

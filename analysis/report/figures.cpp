@@ -39,13 +39,22 @@ int subjectIndex(const Analysis& analysis, const std::string& subject) {
   return static_cast<int>(std::find(analysis.subjects.begin(), analysis.subjects.end(), subject) - analysis.subjects.begin());
 }
 
+figure::Panel velocityPanel(const std::string& title, bool object) {
+  return {.title = title,
+          .x = {.label = "Time from onset (s)"},
+          .y = {.label = object ? "Object velocity (m/s)" : "Hand velocity (m/s)"},
+          .legend = figure::LegendPlace::Below};
+}
+
+std::vector<double> profileTimes(double duration) {
+  std::vector<double> t(kProfilePoints);
+  for (std::size_t i = 0; i < kProfilePoints; ++i) t[i] = duration * static_cast<double>(i) / static_cast<double>(kProfilePoints - 1);
+  return t;
+}
+
 figure::Series subjectSeries(const Analysis& analysis, const std::string& subject) {
   const int i = subjectIndex(analysis, subject);
-  figure::Series series;
-  series.label = "subject " + subject;
-  series.color = palette::series(i);
-  series.marker = figure::markerOf(i);
-  return series;
+  return {.label = "subject " + subject, .color = palette::series(i), .marker = figure::markerOf(i)};
 }
 
 void addCandidates(figure::Axis& axis, std::span<const std::vector<Criterion>> candidates) {
@@ -58,17 +67,20 @@ std::string shortened(const std::string& text, std::size_t most) { return text.s
 
 std::vector<NamedFigure> makeFigures(const Analysis& analysis, const std::optional<TruthRecovery>& recovery) {
   std::vector<NamedFigure> out;
-  for (NamedFigure figure : {scoreFigure(analysis), posteriorFigure(analysis)})
+  const auto add = [&](NamedFigure figure) {
     if (!figure.figure.panels.empty()) out.push_back(std::move(figure));
-  if (recovery && !recovery->counts.empty()) out.push_back(recoveryFigure(*recovery));
+  };
+  add(scoreFigure(analysis));
+  add(posteriorFigure(analysis));
+  if (recovery && !recovery->counts.empty()) add(recoveryFigure(*recovery));
   for (std::size_t c = 0; c < analysis.conditions.size(); ++c) {
     if (analysis.results[c].used == 0 && analysis.results[c].signals.empty()) continue;
-    out.push_back(paperFigure(analysis, c));
-    for (NamedFigure figure : {lastFiveFigure(analysis, c), peopleFigure(analysis, c)})
-      if (!figure.figure.panels.empty()) out.push_back(std::move(figure));
+    add(paperFigure(analysis, c));
+    add(lastFiveFigure(analysis, c));
+    add(peopleFigure(analysis, c));
   }
-  if (NamedFigure figure = learningFigure(analysis); !figure.figure.panels.empty()) out.push_back(std::move(figure));
-  if (NamedFigure figure = adaptationFigure(analysis); !figure.figure.panels.empty()) out.push_back(std::move(figure));
+  add(learningFigure(analysis));
+  add(adaptationFigure(analysis));
   return out;
 }
 

@@ -59,6 +59,10 @@ struct CriterionLook {
 CriterionLook lookOf(const std::vector<predict::Criterion>& criteria);
 /// "(1)", "(4, 6)", "reference": for axes.
 std::string shortNameOf(const std::vector<predict::Criterion>& criteria);
+/// "Hand velocity (m/s)" or that of the object, against the time from the onset.
+figure::Panel velocityPanel(const std::string& title, bool object);
+/// [s] of the points of a profile that lasts `duration`.
+std::vector<double> profileTimes(double duration);
 /// A subject's position among all subjects.
 int subjectIndex(const Analysis& analysis, const std::string& subject);
 /// A subject's line, with the colour and marker that it has in every figure.

@@ -21,37 +21,13 @@ using predict::Criterion;
 
 constexpr std::size_t kMaxTrialsDrawn = 60;  // more thin lines than this are a blot, not data
 
-std::vector<double> timeAxis(double duration) {
-  std::vector<double> t(kProfilePoints);
-  for (std::size_t i = 0; i < kProfilePoints; ++i) t[i] = duration * static_cast<double>(i) / static_cast<double>(kProfilePoints - 1);
-  return t;
-}
-
-Panel velocityPanel(const char* title, const char* label) {
-  Panel panel;
-  panel.title = title;
-  panel.x.label = "Time from onset (s)";
-  panel.y.label = label;
-  panel.legend = LegendPlace::Below;
-  return panel;
-}
-
-std::optional<std::size_t> placeOf(const ConditionResult& r, Criterion criterion) {
-  for (std::size_t k = 0; k < r.signals.size(); ++k)
-    if (r.signals[k].criterion == criterion) return k;
-  return std::nullopt;
-}
-
 void addThin(Panel& panel, const Analysis& analysis, const std::vector<const AnalyzedTrial*>& trials, double duration, bool object,
              const std::string& label) {
   for (std::size_t i = 0; i < trials.size(); ++i) {
     const TrialProfile profile = analysis.profileOf(*trials[i]);
-    Series s;
-    if (i == 0) s.label = label;
-    s.x = timeAxis(duration);
+    Series s{
+        .label = i == 0 ? label : "", .x = profileTimes(duration), .color = palette::faded(palette::kGrey, 0.5), .width = figure::kThin};
     for (const double v : object ? profile.object : profile.hand) s.y.push_back(v * profile.duration / duration);
-    s.color = palette::faded(palette::kGrey, 0.5);
-    s.width = figure::kThin;
     panel.series.push_back(std::move(s));
   }
 }
@@ -64,19 +40,18 @@ void addPrediction(Panel& panel, const predict::Prediction& prediction, const Pr
   PredictedCurve curve = curveOf(prediction, signal);
   if (zero == Zero::Start)
     for (double& t : curve.time) t += signal.onset - signal.begin;
-  Series s;
-  s.label = fmt::format("{}, T = {} s", numberedName(signal.criterion), shortNumber(signal.plannedDuration));
-  s.x = std::move(curve.time);
-  s.y = object ? std::move(curve.object) : std::move(curve.hand);
-  s.color = color;
-  s.dash = dash;
-  s.width = width;
-  panel.series.push_back(std::move(s));
+  panel.series.push_back({.label = fmt::format("{}, T = {} s", numberedName(signal.criterion), shortNumber(signal.plannedDuration)),
+                          .x = std::move(curve.time),
+                          .y = object ? std::move(curve.object) : std::move(curve.hand),
+                          .color = color,
+                          .width = width,
+                          .dash = dash});
 }
 
 void addPrediction(Panel& panel, const ConditionResult& r, Criterion criterion, bool object, const figure::Color& color, Dash dash,
                    double width, Zero zero = Zero::Onset) {
-  if (const auto k = placeOf(r, criterion)) addPrediction(panel, *r.predictions[*k], r.signals[*k], object, color, dash, width, zero);
+  for (std::size_t k = 0; k < r.signals.size(); ++k)
+    if (r.signals[k].criterion == criterion) addPrediction(panel, *r.predictions[k], r.signals[k], object, color, dash, width, zero);
 }
 
 std::vector<const AnalyzedTrial*> usedTrials(const Analysis& analysis, std::size_t condition) {
@@ -105,11 +80,15 @@ bool isHandAlone(const Analysis& analysis, std::size_t condition) {
   return analysis.conditions[condition].experiment().object.kind == experiment::ObjectKind::None;
 }
 
-/// A row of panels.
-void showPanels(NamedFigure& out, const Analysis& analysis, std::size_t condition, const Panel& hand, const Panel& object) {
-  out.figure.panels.push_back(hand);
-  if (!isHandAlone(analysis, condition)) out.figure.panels.push_back(object);
-  out.figure.columns = isHandAlone(analysis, condition) ? 1 : 2;
+/// Puts a row of panels into the figure: the hand's velocity and, where there is one, the object's. `fill` draws into each.
+template <typename Fill>
+void addVelocities(NamedFigure& out, bool handAlone, const std::string& hand, const std::string& object, Fill fill) {
+  out.figure.columns = handAlone ? 1 : 2;
+  for (int column = 0; column < out.figure.columns; ++column) {
+    const bool isObject = column == 1;
+    const char letter = static_cast<char>('a' + out.figure.panels.size());
+    fill(out.figure.panels.emplace_back(velocityPanel(fmt::format("({}) {}", letter, isObject ? object : hand), isObject)), isObject);
+  }
 }
 
 }  // namespace
@@ -124,22 +103,17 @@ NamedFigure paperFigure(const Analysis& analysis, std::size_t condition) {
   for (std::size_t i = 0; i < shown; ++i) some.push_back(used[i * used.size() / shown]);
   const std::string what = fmt::format("{}trial{}", r.onlyFailures ? "failed " : "", used.size() == 1 ? "" : "s");
   const std::string label = shown == used.size() ? fmt::format("{} {}", shown, what) : fmt::format("{} of {} {}", shown, used.size(), what);
+  const bool handAlone = isHandAlone(analysis, condition);
   for (const Zero zero : {Zero::Onset, Zero::Start}) {
-    const bool start = zero == Zero::Start;
-    Panel hand = velocityPanel(!start                             ? "(a) Hand"
-                               : isHandAlone(analysis, condition) ? "(b) Hand, predictions from t = 0"
-                                                                  : "(c) Hand, predictions from t = 0",
-                               "Hand velocity (m/s)");
-    Panel object = velocityPanel(start ? "(d) Object, predictions from t = 0" : "(b) Object (last mass)", "Object velocity (m/s)");
-    for (Panel* panel : {&hand, &object}) {
-      const bool isObject = panel == &object;
-      addThin(*panel, analysis, some, r.duration.mean, isObject, label);
-      addPrediction(*panel, r, Criterion::MinHandJerk, isObject, palette::kBlack, Dash::Solid, figure::kThick, zero);
-      addPrediction(*panel, r, Criterion::MinCrackle, isObject, palette::kVermilion, Dash::Dashed, figure::kThick, zero);
-    }
-    showPanels(out, analysis, condition, hand, object);
+    const std::string from = zero == Zero::Start ? ", predictions from t = 0" : "";
+    const auto fill = [&](Panel& panel, bool object) {
+      addThin(panel, analysis, some, r.duration.mean, object, label);
+      addPrediction(panel, r, Criterion::MinHandJerk, object, palette::kBlack, Dash::Solid, figure::kThick, zero);
+      addPrediction(panel, r, Criterion::MinCrackle, object, palette::kVermilion, Dash::Dashed, figure::kThick, zero);
+    };
+    addVelocities(out, handAlone, "Hand" + from, zero == Zero::Start ? "Object" + from : "Object (last mass)", fill);
   }
-  const std::string shownVelocity = isHandAlone(analysis, condition) ? "velocity of the hand" : "velocity of hand and object";
+  const std::string shownVelocity = handAlone ? "velocity of the hand" : "velocity of hand and object";
   out.caption =
       r.used > 0
           ? fmt::format(
@@ -170,26 +144,20 @@ NamedFigure lastFiveFigure(const Analysis& analysis, std::size_t condition) {
   double duration = 0;
   for (const AnalyzedTrial* t : used) duration += t->measures.duration / static_cast<double>(used.size());
   const std::vector<const AnalyzedTrial*> last(used.end() - static_cast<std::ptrdiff_t>(std::min(kLast, used.size())), used.end());
-  Panel hand = velocityPanel("(a) Hand", "Hand velocity (m/s)"), object = velocityPanel("(b) Object (last mass)", "Object velocity (m/s)");
-  for (Panel* panel : {&hand, &object}) {
-    const bool isObject = panel == &object;
-    addThin(*panel, analysis, last, duration, isObject, fmt::format("last {} successful", last.size()));
-    for (Series& s : panel->series) s.color = palette::kGrey, s.width = 0.7;
-    addPrediction(*panel, r, Criterion::MinHandJerk, isObject, {0.62, 0.62, 0.62}, Dash::Solid, 2.8);
-    if (r.moved) addPrediction(*panel, *r.moved, r.movedSignal, isObject, palette::kBlue, Dash::Dashed, 1.4, Zero::Onset);
-    Series mean;
-    mean.label = fmt::format("average of {}", used.size());
-    mean.x = timeAxis(duration);
+  addVelocities(out, isHandAlone(analysis, condition), "Hand", "Object (last mass)", [&](Panel& panel, bool object) {
+    addThin(panel, analysis, last, duration, object, fmt::format("last {} successful", last.size()));
+    for (Series& s : panel.series) s.color = palette::kGrey, s.width = 0.7;
+    addPrediction(panel, r, Criterion::MinHandJerk, object, {0.62, 0.62, 0.62}, Dash::Solid, 2.8);
+    if (r.moved) addPrediction(panel, *r.moved, r.movedSignal, object, palette::kBlue, Dash::Dashed, 1.4, Zero::Onset);
+    Series mean{.label = fmt::format("average of {}", used.size()), .x = profileTimes(duration), .width = 1.8};
     mean.y.assign(kProfilePoints, 0.0);
     for (const AnalyzedTrial* t : used) {
       const TrialProfile profile = analysis.profileOf(*t);
       for (std::size_t i = 0; i < kProfilePoints; ++i)
-        mean.y[i] += (isObject ? profile.object : profile.hand)[i] * profile.duration / duration / static_cast<double>(used.size());
+        mean.y[i] += (object ? profile.object : profile.hand)[i] * profile.duration / duration / static_cast<double>(used.size());
     }
-    mean.width = 1.8;
-    panel->series.push_back(std::move(mean));
-  }
-  showPanels(out, analysis, condition, hand, object);
+    panel.series.push_back(std::move(mean));
+  });
   out.caption = fmt::format(
       "{}, subject {}, as in Figs. 9 and 10: the last {} successful trials (thin), criterion (1) for {} (thick grey){} and the "
       "average of all {} successful trials (thick black), time-scaled to their average.",
@@ -210,18 +178,12 @@ std::pair<Panel, Panel> panelsOf(const PersonResult& person, const ConditionResu
                    [&](std::size_t a, std::size_t b) { return person.fit.candidates[a].meanScore < person.fit.candidates[b].meanScore; });
   order.resize(std::min<std::size_t>(2, order.size()));
   order.push_back(person.fit.candidates.size() - 1);
-  Panel panel, rest;
-  panel.title = fmt::format("Subject {}, {} trials", person.subject, person.trials);
-  panel.y.label = "Hand velocity (m/s)";
-  rest.x.label = "Part of the movement";
-  rest.y.label = "Residual (m/s)";
-  Band band;
-  band.label = "± SD";
-  Series mean;
-  mean.label = "mean";
-  mean.width = 2.6;
-  Band zero = band;
-  zero.label = "";
+  Panel panel{.title = fmt::format("Subject {}, {} trials", person.subject, person.trials),
+              .y = {.label = "Hand velocity (m/s)"},
+              .legend = LegendPlace::Below};
+  Panel rest{.x = {.label = "Part of the movement"}, .y = {.label = "Residual (m/s)"}, .legend = LegendPlace::None};
+  Band band{.label = "± SD"}, zero;
+  Series mean{.label = "mean", .width = 2.6};
   std::vector<std::size_t> shown;
   for (std::size_t i = 0; i < own.mean.value.size(); i += 3) {
     const double s = own.mean.first + own.mean.step * static_cast<double>(i);
@@ -240,20 +202,17 @@ std::pair<Panel, Panel> panelsOf(const PersonResult& person, const ConditionResu
   panel.series.push_back(mean);
   for (const std::size_t k : order) {
     const auto& criteria = r.candidates.candidates[k].criteria;
-    Series s;
-    s.label = criteria.empty() ? "reference" : shortNameOf(criteria);
-    s.x = mean.x;
+    Series s{.label = criteria.empty() ? "reference" : shortNameOf(criteria),
+             .x = mean.x,
+             .color = lookOf(criteria).color,
+             .width = 1.2,
+             .dash = lookOf(criteria).dash};
     for (const std::size_t i : shown) s.y.push_back(person.fit.candidates[k].mean[i]);
-    s.color = lookOf(criteria).color;
-    s.dash = lookOf(criteria).dash;
-    s.width = 1.2;
     Series apart = s;
     for (std::size_t i = 0; i < apart.y.size(); ++i) apart.y[i] = mean.y[i] - s.y[i];
     panel.series.push_back(std::move(s));
     rest.series.push_back(std::move(apart));
   }
-  panel.legend = LegendPlace::Below;
-  rest.legend = LegendPlace::None;
   return {std::move(panel), std::move(rest)};
 }
 

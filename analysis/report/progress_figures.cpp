@@ -16,10 +16,7 @@ figure::Series typicalCourse(const Analysis& analysis, std::size_t condition) {
   std::map<std::pair<int, int>, std::vector<SuccessCell>> groups;
   for (const LearningPoint& p : analysis.learning)
     if (p.condition == condition) groups[{p.firstTrial, p.lastTrial}].push_back({p.subject, 0, condition, p.successes, p.trials, {}});
-  figure::Series s;
-  s.label = "a typical subject";
-  s.width = figure::kThick;
-  s.marker = figure::MarkerShape::Circle;
+  figure::Series s{.label = "a typical subject", .width = figure::kThick, .marker = figure::MarkerShape::Circle};
   for (const auto& [trials, cells] : groups) {
     const auto typical = typicalShare(cells, condition);
     if (!typical) continue;
@@ -43,13 +40,10 @@ NamedFigure learningFigure(const Analysis& analysis) {
                       : ": thin, each subject (its exact intervals are in learning.csv); thick, a typical subject (mean of the "
                         "subjects' logits) with its 95 % interval over subjects.");
   for (std::size_t c = 0; c < analysis.conditions.size(); ++c) {
-    figure::Panel panel;
-    panel.title = shortened(analysis.conditions[c].name);
-    panel.x.label = "Trial";
-    panel.y.label = "Success (%)";
-    panel.y.from = 0.0;
-    panel.y.to = 100.0;
-    panel.x.from = 0.0;
+    figure::Panel panel{.title = shortened(analysis.conditions[c].name),
+                        .x = {.label = "Trial", .from = 0.0},
+                        .y = {.label = "Success (%)", .from = 0.0, .to = 100.0},
+                        .legend = c == 0 ? figure::LegendPlace::Below : figure::LegendPlace::None};
     std::map<std::string, figure::Series> bySubject;
     std::map<std::string, std::string> session;
     for (const LearningPoint& p : analysis.learning) {
@@ -71,7 +65,6 @@ NamedFigure learningFigure(const Analysis& analysis) {
     }
     for (auto& [subject, series] : bySubject) panel.series.push_back(std::move(series));
     if (!few && !panel.series.empty()) panel.series.push_back(typicalCourse(analysis, c));
-    panel.legend = c == 0 ? figure::LegendPlace::Below : figure::LegendPlace::None;
     if (!panel.series.empty()) out.figure.panels.push_back(std::move(panel));
   }
   out.figure.columns = static_cast<int>(std::min<std::size_t>(3, std::max<std::size_t>(1, out.figure.panels.size())));
