@@ -36,7 +36,29 @@ struct Html {
     add(kind.empty() ? "<p>" + escaped(words) + "</p>" : "<p class=\"" + kind + "\">" + escaped(words) + "</p>");
   }
   void heading(int level, const std::string& words) { add(fmt::format("<h{}>{}</h{}>", level, escaped(words), level)); }
+
+  /// Begins a table. `words`: the columns that hold words, not numbers. Headings and cells are HTML.
+  void table(const std::vector<std::string>& headings, const std::set<std::size_t>& words = {}) {
+    words_ = words;
+    add("<table><thead>");
+    row(headings, "<tr>", "th");
+    add("</thead><tbody>");
+  }
+  void row(const std::vector<std::string>& cells, const char* begin = "<tr>", const char* tag = "td") {
+    text += begin;
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      text += fmt::format("<{}{}>{}</{}>", tag, words_.contains(i) ? " class=\"text\"" : "", cells[i], tag);
+    add("</tr>");
+  }
+  void endTable() {
+    add("</tbody></table>");
+    words_.clear();
+  }
+
+ private:
+  std::set<std::size_t> words_;
 };
+constexpr const char* kFirstRow = "<tr class=\"first\">";
 
 /// Inline: without the XML declaration, with a name for who cannot see it, ids apart from other figures'.
 std::string inlineSvg(const NamedFigure& figure, std::size_t number) {
@@ -91,53 +113,46 @@ void addSuccessTable(Html& html, const Analysis& analysis) {
   }
   html.add("</tr></thead><tbody>");
   const auto cellOf = [&](const std::string& subject, std::size_t c, int day) {
-    return std::find_if(analysis.success.begin(), analysis.success.end(),
-                        [&](const SuccessCell& s) { return s.subject == subject && s.condition == c && s.day == day; });
+    const auto cell = std::find_if(analysis.success.begin(), analysis.success.end(),
+                                   [&](const SuccessCell& s) { return s.subject == subject && s.condition == c && s.day == day; });
+    return cell == analysis.success.end() ? nullptr : &*cell;
   };
   for (const std::string& subject : analysis.subjects) {
-    html.add("<tr><td>" + escaped(subject) + "</td>");
+    std::vector<std::string> cells{escaped(subject)};
     for (std::size_t c = 0; c < analysis.conditions.size(); ++c) {
       for (const int day : days) {
-        const auto cell = cellOf(subject, c, day);
-        if (cell == analysis.success.end()) {
-          html.add("<td>–</td>");
-          continue;
-        }
-        html.add(fmt::format("<td title=\"{} of {}; 95 % interval {:.0f} to {:.0f} %\">{:.0f} <span class=\"quiet\">/{}</span></td>",
-                             cell->successes, cell->trials, 100 * cell->interval.low, 100 * cell->interval.high, 100 * cell->share(),
-                             cell->trials));
+        const SuccessCell* cell = cellOf(subject, c, day);
+        cells.push_back(!cell ? "–"
+                              : fmt::format("<span title=\"{} of {}; 95 % interval {:.0f} to {:.0f} %\">{:.0f} <span "
+                                            "class=\"quiet\">/{}</span></span>",
+                                            cell->successes, cell->trials, 100 * cell->interval.low, 100 * cell->interval.high,
+                                            100 * cell->share(), cell->trials));
       }
       if (!progress) continue;
-      const auto first = cellOf(subject, c, *days.begin()), last = cellOf(subject, c, *days.rbegin());
-      html.add(first == analysis.success.end() || last == analysis.success.end()
-                   ? "<td>–</td>"
-                   : fmt::format("<td>{}</td>", signedPercent(100 * (last->share() - first->share()))));
+      const SuccessCell *first = cellOf(subject, c, *days.begin()), *last = cellOf(subject, c, *days.rbegin());
+      cells.push_back(first && last ? signedPercent(100 * (last->share() - first->share())) : "–");
     }
-    html.add("</tr>");
+    html.row(cells);
   }
   if (analysis.subjects.size() > 1) {
-    html.add("<tr class=\"first\"><td>typical</td>");
+    std::vector<std::string> cells{"typical"};
     for (std::size_t c = 0; c < analysis.conditions.size(); ++c) {
       for (const int day : days) {
         const auto typical = typicalShare(analysis.success, c, day);
-        html.add(!typical ? "<td>–</td>"
-                          : "<td>" + percentInterval(100 * typical->mean, {100 * typical->interval.low, 100 * typical->interval.high}) +
-                                "</td>");
+        cells.push_back(typical ? percentInterval(100 * typical->mean, {100 * typical->interval.low, 100 * typical->interval.high}) : "–");
       }
       if (!progress) continue;
       const auto effect =
           std::find_if(analysis.effects.begin(), analysis.effects.end(), [&](const Effect& e) { return e.ofDay && e.condition == c; });
-      html.add(effect == analysis.effects.end() ? "<td>–</td>"
-                                                : "<td>" + percentInterval(effect->points.mean, effect->pointsInterval) + "</td>");
+      cells.push_back(effect == analysis.effects.end() ? "–" : percentInterval(effect->points.mean, effect->pointsInterval));
     }
-    html.add("</tr>");
+    html.row(cells, kFirstRow);
   }
-  html.add("</tbody></table>");
+  html.endTable();
   html.paragraph(
       "Percent of the trials that ended as success or failure (their number behind the stroke); aborted and interrupted trials are no "
       "attempts. The last row is a typical subject's share (mean of the subjects' logits) and the subjects' mean difference, in brackets "
-      "95 % "
-      "intervals over subjects; each subject's own exact interval is in success_table.csv.",
+      "95 % intervals over subjects; each subject's own exact interval is in success_table.csv.",
       "quiet");
 }
 
@@ -156,31 +171,30 @@ void addProgress(Html& html, const Analysis& analysis, const std::vector<NamedFi
 /// Every candidate of one conclusion.
 void addScores(Html& html, const Conclusion& c, const std::vector<std::vector<predict::Criterion>>& names) {
   if (!c.best) return;
-  html.add("<table><thead><tr><th>Candidate</th><th>score above the closest (ln S)</th><th>p</th>");
-  if (!c.posterior.empty()) html.add("<th>most frequent with probability</th>");
-  html.add("<th class=\"text\">told from the closest</th></tr></thead><tbody>");
+  std::vector<std::string> headings{"Candidate", "score above the closest (ln S)", "p", "told from the closest"};
+  const bool shares = !c.posterior.empty();
+  if (shares) headings.insert(headings.begin() + 3, "most frequent with probability");
+  html.table(headings, {headings.size() - 1});
   std::vector<std::size_t> order;
   for (std::size_t k = 0; k < names.size(); ++k) order.push_back(k);
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return c.score[a] < c.score[b]; });
   for (const std::size_t k : order) {
     const bool best = k == *c.best;
-    html.add(fmt::format("<tr{}><td>{}</td><td>{}</td><td>{}</td>", best ? " class=\"first\"" : "", escaped(describeCandidate(names[k])),
-                         best ? "0" : fmt::format("{:.3f}", c.against[k].mean),
-                         best ? "" : escaped(c.against[k].p < 1e-4 ? "< 0.0001" : fmt::format("{:.2g}", c.against[k].p))));
-    if (!c.posterior.empty()) html.add(fmt::format("<td>{:.3f}</td>", c.posterior[k]));
-    html.add(fmt::format("<td class=\"text\">{}</td></tr>", best ? "" : c.told(k) ? "yes" : "no"));
+    std::vector<std::string> cells{escaped(describeCandidate(names[k])), best ? "0" : fmt::format("{:.3f}", c.against[k].mean),
+                                   best ? "" : escaped(c.against[k].p < 1e-4 ? "< 0.0001" : fmt::format("{:.2g}", c.against[k].p))};
+    if (shares) cells.push_back(fmt::format("{:.3f}", c.posterior[k]));
+    cells.push_back(best ? "" : c.told(k) ? "yes" : "no");
+    html.row(cells, best ? kFirstRow : "<tr>");
   }
-  html.add("</tbody></table>");
+  html.endTable();
 }
 
 /// A condition's fits, averaged over its subjects, and the paper's epsilon beside them.
 void addFits(Html& html, const Analysis& analysis, std::size_t condition) {
   const ConditionResult& r = analysis.results[condition];
   if (r.handEpsilon.empty()) return;
-  html.add(
-      "<table><thead><tr><th>Criterion</th><th>paper’s ε (m/s)</th><th>95 % over subjects</th><th>object’s ε (m/s)</th><th>fitted ε "
-      "(m/s)</th><th>fitted T (s)</th><th>R²</th><th>hand mass (kg)</th></tr></thead><tbody>");
-  const auto& candidates = r.candidates.candidates;
+  html.table(
+      {"Criterion", "paper’s ε (m/s)", "95 % over subjects", "object’s ε (m/s)", "fitted ε (m/s)", "fitted T (s)", "R²", "hand mass (kg)"});
   const auto row = [&](const std::string& name, const EpsilonPlace* hand, const EpsilonPlace* object, std::optional<std::size_t> k) {
     double epsilon = 0, duration = 0, r2 = 0, people = 0;
     std::vector<double> masses;
@@ -191,26 +205,21 @@ void addFits(Html& html, const Analysis& analysis, std::size_t condition) {
       epsilon += fit.epsilonOfAll, duration += fit.duration, r2 += fit.r2, people += 1;
       if (fit.mass) masses.push_back(fit.mass->mass), atEdge += fit.mass->atEdge;
     }
-    html.add(fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td>", escaped(name),
-                         hand ? fmt::format("{:.4f}", hand->epsilon) : "–",
-                         hand && hand->interval ? real(fmt::format("{:.4f} … {:.4f}", hand->interval->low, hand->interval->high)) : "–",
-                         object ? fmt::format("{:.4f}", object->epsilon) : "–"));
-    html.add(people > 0 ? fmt::format("<td>{:.4f}</td><td>{:.3f}</td><td>{:.4f}</td>", epsilon / people, duration / people, r2 / people)
-                        : "<td>–</td><td>–</td><td>–</td>");
-    html.add(fmt::format("<td>{}{}</td></tr>", masses.empty() ? "–" : shortNumber(computeMeanSd(masses).mean),
-                         atEdge > 0 ? fmt::format(", {} at the edge of the range", plural(atEdge, "subject")) : ""));
+    const auto mean = [&](double sum, int digits) { return people > 0 ? fmt::format("{:.{}f}", sum / people, digits) : "–"; };
+    html.row({escaped(name), hand ? fmt::format("{:.4f}", hand->epsilon) : "–",
+              hand && hand->interval ? real(fmt::format("{:.4f} … {:.4f}", hand->interval->low, hand->interval->high)) : "–",
+              object ? fmt::format("{:.4f}", object->epsilon) : "–", mean(epsilon, 4), mean(duration, 3), mean(r2, 4),
+              (masses.empty() ? "–" : shortNumber(computeMeanSd(masses).mean)) +
+                  (atEdge > 0 ? fmt::format(", {} at the edge of the range", plural(atEdge, "subject")) : "")});
   };
   for (const EpsilonPlace& place : r.handEpsilon) {
     const predict::Criterion criterion = r.signals[place.criterion].criterion;
     const auto object =
         std::find_if(r.objectEpsilon.begin(), r.objectEpsilon.end(), [&](const EpsilonPlace& p) { return p.criterion == place.criterion; });
-    std::optional<std::size_t> k;
-    for (std::size_t i = 0; i < candidates.size(); ++i)
-      if (std::find(candidates[i].criteria.begin(), candidates[i].criteria.end(), criterion) != candidates[i].criteria.end()) k = i;
-    row(numberedName(criterion), &place, object == r.objectEpsilon.end() ? nullptr : &*object, k);
+    row(numberedName(criterion), &place, object == r.objectEpsilon.end() ? nullptr : &*object, placeOf(r.candidates, criterion));
   }
-  if (!candidates.empty()) row("reference", nullptr, nullptr, candidates.size() - 1);
-  html.add("</tbody></table>");
+  if (const std::size_t n = r.candidates.candidates.size(); n > 0) row("reference", nullptr, nullptr, n - 1);
+  html.endTable();
   html.paragraph(
       "In the order of the paper's ε, which describes but decides nothing. Fitted values are means over subjects with enough trials; every "
       "subject's are in fits.csv.",
@@ -232,12 +241,11 @@ void addRecovery(Html& html, const TruthRecovery& recovery, const std::vector<Na
       fmt::format("Of {} studies that were simulated with a criterion for truth, {} named it, {} named another, {} stayed undecided.", all,
                   right, wrong, all - right - wrong));
   if (recovery.others.empty()) return;
-  html.add(
-      "<table><thead><tr><th>People who move otherwise</th><th>named right</th><th>named wrong</th><th>share of wrong names</th><th>undecided</th></tr></thead><tbody>");
+  html.table({"People who move otherwise", "named right", "named wrong", "share of wrong names", "undecided"});
   for (const OtherTruth& o : recovery.others)
-    html.add(fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>", o.name, o.right, o.wrong,
-                         shareText(o.wrong, o.studies()), o.undecided));
-  html.add("</tbody></table>");
+    html.row({std::string(o.name), std::to_string(o.right), std::to_string(o.wrong), shareText(o.wrong, o.studies()),
+              std::to_string(o.undecided)});
+  html.endTable();
 }
 
 void addAlternatives(Html& html, const Analysis& analysis) {
@@ -245,14 +253,14 @@ void addAlternatives(Html& html, const Analysis& analysis) {
   if (sentence.empty()) return;
   html.heading(3, "Other choices of the analysis");
   html.paragraph(sentence);
-  html.add("<table><thead><tr><th>Choice</th><th>Condition</th><th>Criterion</th><th>Closest</th><th>p</th></tr></thead><tbody>");
+  html.table({"Choice", "Condition", "Criterion", "Closest", "p"});
   for (const AlternativeConclusion& row : analysis.alternatives)
-    html.add(fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td></tr>", row.choice, escaped(row.condition),
-                         row.criterion.empty() ? "undecided: " + row.reason
-                         : row.changed         ? "<b>" + row.criterion + "</b>"
-                                               : row.criterion,
-                         row.best, row.p ? shortNumber(*row.p) : ""));
-  html.add("</tbody></table>");
+    html.row({row.choice, escaped(row.condition),
+              row.criterion.empty() ? "undecided: " + row.reason
+              : row.changed         ? "<b>" + row.criterion + "</b>"
+                                    : row.criterion,
+              row.best, row.p ? shortNumber(*row.p) : ""});
+  html.endTable();
 }
 
 void addMeasures(Html& html, const Analysis& analysis, std::size_t condition) {
@@ -266,10 +274,9 @@ void addMeasures(Html& html, const Analysis& analysis, std::size_t condition) {
     return real(std::isfinite(s.sd) ? fmt::format("{:.{}f} ± {:.{}f}", s.mean, measure.digits, s.sd, measure.digits)
                                     : fmt::format("{:.4g}", s.mean));
   };
-  html.add("<table><thead><tr><th>Measure (mean ± SD over trials)</th><th>successes</th><th>failures</th></tr></thead><tbody>");
-  for (const Measure& measure : measures())
-    html.add(fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td></tr>", measure.label, summary(measure, true), summary(measure, false)));
-  html.add("</tbody></table>");
+  html.table({"Measure (mean ± SD over trials)", "successes", "failures"});
+  for (const Measure& measure : measures()) html.row({std::string(measure.label), summary(measure, true), summary(measure, false)});
+  html.endTable();
 }
 
 void addCondition(Html& html, const Analysis& analysis, std::size_t c, const std::vector<NamedFigure>& figures) {
@@ -308,20 +315,16 @@ void addCondition(Html& html, const Analysis& analysis, std::size_t c, const std
 
 void addProvenance(Html& html, const std::vector<AnalysedRun>& runs, const std::vector<std::string>& notes) {
   html.heading(2, "Recordings");
-  html.add(
-      "<table><thead><tr><th>Subject</th><th>session</th><th>run</th><th class=\"text\">condition</th><th>trials</th><th "
-      "class=\"text\">device</th>"
-      "<th class=\"text\">method</th><th>seed</th><th>samples (Hz)</th><th class=\"text\">started (UTC)</th><th "
-      "class=\"text\">software</th></tr></thead><tbody>");
+  html.table({"Subject", "session", "run", "condition", "trials", "device", "method", "seed", "samples (Hz)", "started (UTC)", "software"},
+             {3, 5, 6, 9, 10});
   for (const AnalysedRun& run : runs) {
     const record::RunConfiguration& c = run.configuration;
-    html.add(fmt::format(
-        "<tr><td>{}</td><td>{}</td><td>{}</td><td class=\"text\">{}{}</td><td>{}</td><td class=\"text\">{}</td><td class=\"text\">{}</td>"
-        "<td>{}</td><td>{:g}</td><td class=\"text\">{}</td><td class=\"text\">{}</td></tr>",
-        escaped(c.subject), escaped(c.session), c.run, escaped(record::conditionOf(c)), c.practice ? " (practice)" : "", run.trials,
-        escaped(c.device), escaped(c.method), c.seed, c.samplingHz, escaped(c.startedUtc), escaped(c.softwareVersion)));
+    html.row({escaped(c.subject), escaped(c.session), std::to_string(c.run),
+              escaped(record::conditionOf(c)) + (c.practice ? " (practice)" : ""), std::to_string(run.trials), escaped(c.device),
+              escaped(c.method), std::to_string(c.seed), fmt::format("{:g}", c.samplingHz), escaped(c.startedUtc),
+              escaped(c.softwareVersion)});
   }
-  html.add("</tbody></table>");
+  html.endTable();
   for (const std::string& note : notes) html.paragraph(note, "warning");
 }
 
