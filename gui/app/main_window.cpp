@@ -354,7 +354,6 @@ void MainWindow::fitRun() {
 void MainWindow::oneFrame() {
   session_.poll();
   drainTrace();
-  forecast_.poll();
   if (session_.takeNextTrial()) nextTrial();
   if (const haptics::TickState* seen = session_.seen()) {
     screens_->showState(*seen, session_.otherHands());

@@ -3,12 +3,11 @@
 #include <QString>
 #include <memory>
 #include <optional>
-#include <stop_token>
-#include <thread>
 #include <vector>
 
 #include "analysis/chosen_trials.h"
 #include "analysis/dataset.h"
+#include "gui/widgets/newest_work.h"
 
 namespace reachlab::gui::inspector {
 
@@ -23,9 +22,8 @@ struct Inspection {
 class Inspector : public QObject {
   Q_OBJECT
  public:
-  explicit Inspector(QObject* parent = nullptr);
-  ~Inspector() override;
-
+  /// Lists the trials of a dataset, a session or a log. `indexed` follows, with what was listed if it is cancelled.
+  void open(const QString& path);
   /// `read` follows, then `judged`. The numbers are `reach analyze`'s for a dataset of just these trials.
   void begin(std::vector<analysis::ChosenTrials> chosen);
   /// `fitted` follows, if the trials can be fitted. No sample of them stays in memory.
@@ -33,10 +31,11 @@ class Inspector : public QObject {
   /// Analyses the dataset at `path` as `reach analyze` does and writes report, tables and figures into its folder. `reported` follows.
   void report(const QString& path);
   /// Stops the work under way. `idle` follows.
-  void cancel();
-  bool busy() const { return busy_; }
+  void cancel() { work_.stop(); }
+  bool busy() const { return work_.busy(); }
 
  Q_SIGNALS:
+  void indexed(const reachlab::record::TrialIndex& index);
   void read(const std::shared_ptr<const reachlab::gui::inspector::Inspection>& inspection);
   void judged(const std::shared_ptr<const reachlab::gui::inspector::Inspection>& inspection);
   /// The fitted epsilon of each criterion over the chosen trials. [m/s]
@@ -47,20 +46,12 @@ class Inspector : public QObject {
   void idle();
 
  private:
+  using Turn = widgets::NewestWork::Turn;
   template <typename Work>
   void start(Work work);
-  template <typename Tell>
-  void tell(int turn, Tell tell);
+  void tellProgress(const Turn& turn, const QString& what, std::size_t done, std::size_t of);
 
-  int turn_ = 0;  // of the newest request
-  bool busy_ = false;
-  std::jthread thread_;
+  widgets::NewestWork work_{*this};
 };
-
-/// Where the report of a dataset goes, as `reach analyze` chooses it, or that of a single log: a folder beside it.
-std::string reportFolderOf(const std::string& path);
-
-/// Onset, end and velocities of trials, by the rules of the analysis.
-std::shared_ptr<Inspection> measure(analysis::AnalysisInput input);
 
 }  // namespace reachlab::gui::inspector

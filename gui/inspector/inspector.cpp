@@ -1,8 +1,9 @@
 #include "gui/inspector/inspector.h"
 
-#include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QFileDialog>
+#include <QFileInfo>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
@@ -10,80 +11,26 @@
 #include <QPushButton>
 #include <QScrollBar>
 #include <QShortcut>
-#include <QSignalBlocker>
 #include <QSplitter>
 #include <QTableView>
 #include <QTimer>
-#include <QVBoxLayout>
 #include <cmath>
 
+#include "base/fault.h"
+#include "base/system/error_report.h"
 #include "gui/inspector/epsilon_panel.h"
 #include "gui/inspector/marks_panel.h"
 #include "gui/inspector/profile_plot.h"
 #include "gui/inspector/replay_view.h"
-#include "gui/inspector/analysis_lines.h"
+#include "sim/record/log/atomic_file.h"
 
 namespace reachlab::gui::inspector {
 namespace {
 
-constexpr int kSoonMs = 150;          // a choice that is still being dragged is not read yet
 constexpr int kMostInspected = 1000;  // more lines are a blot, and the report is for all of them
+constexpr int kMostGhosts = 8;
 
 }  // namespace
-
-InspectorPage::InspectorPage(QWidget* parent) : QWidget(parent) {
-  setObjectName(QStringLiteral("inspector"));
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(6, 6, 6, 4);
-  layout->setSpacing(5);
-  addTop(*layout);
-  table_ = new TrialTable(this);
-  filter_ = new TrialFilter(table_);
-  view_ = new QTableView;
-  view_->setObjectName(QStringLiteral("inspectedTrials"));
-  view_->setModel(filter_);
-  view_->setSortingEnabled(true);
-  view_->sortByColumn(-1, Qt::AscendingOrder);
-  view_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  view_->setSelectionMode(QAbstractItemView::ExtendedSelection);
-  view_->setShowGrid(false);
-  view_->setAlternatingRowColors(true);
-  view_->verticalHeader()->hide();
-  view_->verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
-  view_->verticalHeader()->setDefaultSectionSize(22);
-  view_->horizontalHeader()->setHighlightSections(false);
-  view_->horizontalHeader()->setMinimumSectionSize(24);  // Qt's own is the width of the widest letter, whatever is in the column
-  view_->horizontalHeader()->setStretchLastSection(true);
-  view_->setWordWrap(false);
-  auto* left = new QWidget;
-  auto* column = new QVBoxLayout(left);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
-  column->addWidget(view_, 1);
-  marks_ = new MarksPanel;
-  column->addWidget(marks_);
-  halves_ = new QSplitter(Qt::Horizontal);
-  halves_->setObjectName(QStringLiteral("inspectorHalves"));
-  halves_->addWidget(left);
-  halves_->addWidget(makeRight());
-  halves_->setStretchFactor(0, 4);
-  halves_->setStretchFactor(1, 6);
-  halves_->setSizes({700, 860});
-  halves_->setChildrenCollapsible(false);
-  connect(halves_, &QSplitter::splitterMoved, this, [this] { halvesMoved_ = true; });
-  layout->addWidget(halves_, 1);
-  soon_ = new QTimer(this);
-  soon_->setSingleShot(true);
-  soon_->setInterval(kSoonMs);
-  opener_ = new QTimer(this);
-  opener_->setInterval(20);
-  wire();
-  addKeys();
-}
-
-InspectorPage::~InspectorPage() {
-  if (openingStop_) *openingStop_ = true;
-}
 
 void InspectorPage::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
@@ -122,13 +69,12 @@ void InspectorPage::fitHalves() {
 }
 
 void InspectorPage::wire() {
-  connect(opener_, &QTimer::timeout, this, &InspectorPage::pollOpening);
   connect(soon_, &QTimer::timeout, this, &InspectorPage::inspect);
   connect(words_, &QLineEdit::textChanged, this, [this](const QString& words) {
     filter_->setWords(words);
     count_->setText(tr("%1 of %2").arg(filter_->rowCount()).arg(table_->rowCount()));
   });
-  connect(view_->selectionModel(), &QItemSelectionModel::selectionChanged, this, &InspectorPage::chosenChanged);
+  connect(view_->selectionModel(), &QItemSelectionModel::selectionChanged, soon_, qOverload<>(&QTimer::start));
   connect(view_->selectionModel(), &QItemSelectionModel::currentRowChanged, this, [this](const QModelIndex& now) {
     if (now.isValid()) pick(filter_->mapToSource(now).row());
   });
@@ -143,12 +89,12 @@ void InspectorPage::wire() {
     pick(row);
   });
   connect(plot_, &ProfilePlot::cursorMoved, this, [this](double time) {
-    if (axis_->currentIndex() == 0) replay_->goTo(time);
+    if (timeAxis() == TimeAxis::AsMoved) replay_->goTo(time);
   });
   connect(plot_, &ProfilePlot::marksMoved, this, &InspectorPage::marksDragged);
   connect(replay_, &ReplayView::said, this, &InspectorPage::said);
   connect(replay_, &ReplayView::timeChanged, this,
-          [this](double time) { plot_->setCursor(axis_->currentIndex() == 0 ? std::optional(time) : std::nullopt); });
+          [this](double time) { plot_->setCursor(timeAxis() == TimeAxis::AsMoved ? std::optional(time) : std::nullopt); });
   connect(marks_, &MarksPanel::edited, this, &InspectorPage::setMark);
   for (QComboBox* box : {signal_, axis_}) connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &InspectorPage::draw);
   for (QCheckBox* box : {predicted_, fitted_}) connect(box, &QCheckBox::toggled, this, &InspectorPage::draw);
@@ -156,11 +102,27 @@ void InspectorPage::wire() {
     table_->showCriterion(epsilons_->first());
     draw();
   });
-  connect(cancel_, &QPushButton::clicked, this, [this] {
-    if (openingStop_) *openingStop_ = true;
-    inspector_.cancel();
+  connect(report_, &QPushButton::clicked, this, [this] {
+    report_->setEnabled(false);
+    inspector_.report(path_);
   });
-  connect(report_, &QPushButton::clicked, this, &InspectorPage::openReport);
+  for (Inspector* work : {&opener_, &inspector_}) {
+    connect(cancel_, &QPushButton::clicked, work, &Inspector::cancel);
+    connect(work, &Inspector::failed, this, &InspectorPage::said);
+    connect(work, &Inspector::progressed, this, [this](const QString& what, int done, int of) {
+      progress_->setRange(0, of);
+      progress_->setValue(done);
+      progress_->setFormat(what + QStringLiteral(" %v / %m"));
+      progress_->show();
+      cancel_->show();
+    });
+    connect(work, &Inspector::idle, this, [this] {
+      progress_->hide();
+      cancel_->hide();
+      report_->setEnabled(table_->rowCount() > 0);
+    });
+  }
+  connect(&opener_, &Inspector::indexed, this, &InspectorPage::opened);
   connect(&inspector_, &Inspector::read, this, [this](const std::shared_ptr<const Inspection>& found) {
     inspection_ = found;
     showRead();
@@ -169,19 +131,6 @@ void InspectorPage::wire() {
     inspection_ = found;
     showJudged();
   });
-  connect(&inspector_, &Inspector::progressed, this, [this](const QString& what, int done, int of) {
-    progress_->setRange(0, of);
-    progress_->setValue(done);
-    progress_->setFormat(what + QStringLiteral(" %v / %m"));
-    progress_->show();
-    cancel_->show();
-  });
-  connect(&inspector_, &Inspector::idle, this, [this] {
-    progress_->hide();
-    cancel_->hide();
-    report_->setEnabled(table_->rowCount() > 0);
-  });
-  connect(&inspector_, &Inspector::failed, this, &InspectorPage::said);
   connect(&inspector_, &Inspector::reported, this, [this](const QString& file) {
     Q_EMIT told(tr("The report is in %1.").arg(file));
     Q_EMIT reported(file);
@@ -206,8 +155,6 @@ std::vector<int> InspectorPage::chosenRows() const {
   std::sort(rows.begin(), rows.end());
   return rows;
 }
-
-void InspectorPage::chosenChanged() { soon_->start(); }
 
 void InspectorPage::inspect() {
   std::vector<int> rows = chosenRows();
@@ -243,17 +190,15 @@ std::optional<std::size_t> InspectorPage::lineOf(int row) const {
   return std::nullopt;
 }
 
+int InspectorPage::rowOf(const analysis::TrialKey& key) const {
+  for (const record::IndexedRun& run : table_->recordings().runs)
+    if (run.run == key.run && run.subject == key.subject && run.session == key.session) return table_->rowOf(run.path, key.trial);
+  return -1;
+}
+
 void InspectorPage::showRead() {
   inspectedRows_.clear();
-  for (const analysis::TrialData& trial : inspection_->input.trials) {
-    int row = -1;
-    for (std::size_t r = 0; r < table_->recordings().runs.size() && row < 0; ++r) {
-      const record::IndexedRun& run = table_->recordings().runs[r];
-      if (run.run == trial.key.run && run.subject == trial.key.subject && run.session == trial.key.session)
-        row = table_->rowOf(run.path, trial.key.trial);
-    }
-    inspectedRows_.push_back(row);
-  }
+  for (const analysis::TrialData& trial : inspection_->input.trials) inspectedRows_.push_back(rowOf(trial.key));
   const std::vector<int> chosen = chosenRows();
   if (std::find(chosen.begin(), chosen.end(), picked_) == chosen.end()) picked_ = chosen.empty() ? -1 : chosen.front();
   if (inspection_->input.trials.empty())
@@ -279,47 +224,179 @@ void InspectorPage::showJudged() {
             errors.fitted[static_cast<std::size_t>(c)] = person.fit.candidates[k].epsilon[i];
       }
     }
-    for (std::size_t i = 0; i < inspection_->input.trials.size(); ++i) {
-      const analysis::TrialKey& key = inspection_->input.trials[i].key;
-      if (key.trial == trial.key.trial && key.run == trial.key.run && key.subject == trial.key.subject &&
-          key.session == trial.key.session && inspectedRows_[i] >= 0)
-        table_->setErrors(inspectedRows_[i], errors);
-    }
+    if (const int row = rowOf(trial.key); row >= 0) table_->setErrors(row, errors);
   }
   draw();
 }
 
+TimeAxis InspectorPage::timeAxis() const { return axis_->currentIndex() == 0 ? TimeAxis::AsMoved : TimeAxis::Scaled; }
+
 void InspectorPage::draw() {
-  const bool hand = signal_->currentIndex() == 0;
-  const Signal signal = hand ? Signal::Hand : Signal::Object;
-  const TimeAxis axis = axis_->currentIndex() == 0 ? TimeAxis::AsMoved : TimeAxis::Scaled;
-  plot_->setTitles(tr("time since onset [s]"), tr("velocity [m/s]"));
-  if (!inspection_) {
-    plot_->setLines({});
-    plot_->setMean({}, {}, {});
-    plot_->setPredictions({});
-    plot_->setMarks({}, {});
-    plot_->setCursor({});
-    return;
-  }
-  plot_->setLines(linesOf(*inspection_, signal, axis));
+  const Signal signal = signal_->currentIndex() == 0 ? Signal::Hand : Signal::Object;
   std::vector<ProfilePlot::Prediction> predictions;
   MeanLine mean;
-  if (inspection_->analysis && !inspection_->analysis->conditions.empty()) {
+  if (inspection_ && inspection_->analysis && !inspection_->analysis->conditions.empty()) {
     const analysis::Analysis& analysis = *inspection_->analysis;
     const std::size_t c = condition();
     if (inspection_->input.trials.size() > 1) mean = meanOf(analysis, c, signal);
-    const std::vector<predict::Criterion> chosen = epsilons_->chosen();
-    for (const bool fitted : {false, true}) {
-      if (!(fitted ? fitted_ : predicted_)->isChecked()) continue;
-      const auto some = predictionsOf(analysis, c, signal, chosen, fitted);
-      predictions.insert(predictions.end(), some.begin(), some.end());
-    }
+    for (const bool fitted : {false, true})
+      if ((fitted ? fitted_ : predicted_)->isChecked())
+        for (ProfilePlot::Prediction& some : predictionsOf(analysis, c, signal, epsilons_->chosen(), fitted))
+          predictions.push_back(std::move(some));
     epsilons_->show(analysis, c);
   }
+  plot_->setLines(inspection_ ? linesOf(*inspection_, signal, timeAxis()) : std::vector<ProfilePlot::Line>());
   plot_->setMean(mean.x, mean.mean, mean.sd);
   plot_->setPredictions(predictions);
+  if (!inspection_) plot_->setCursor({});
   showPicked();
+}
+
+void InspectorPage::open(const QString& path) {
+  path_ = path;
+  Q_EMIT said({});
+  inspector_.cancel();
+  opener_.open(path);
+}
+
+void InspectorPage::opened(const record::TrialIndex& index) {
+  recordings_.clear();
+  scenes_ = {};
+  inspection_.reset();
+  inspectedRows_.clear();
+  picked_ = -1;
+  QStringList sentences, losses;
+  for (const std::string& sentence : index.unreadable) sentences << QString::fromStdString(sentence);
+  for (const record::IndexedRun& run : index.runs)
+    if (!run.loss.empty()) losses << QString::fromStdString(run.loss);
+  sentences << losses;
+  const bool exported = !index.runs.empty() && analysis::isMotionFile(index.runs.front().path);
+  if (exported) Q_EMIT told(tr("This dataset has no logs. Its Motion-BIDS files are shown, without marks and notes."));
+  table_->setIndex(index);
+  if (!sentences.isEmpty()) Q_EMIT said(sentences.join(QLatin1Char('\n')));
+  title_->setText(QFileInfo(path_).fileName().isEmpty() ? path_ : QFileInfo(path_).fileName());
+  title_->setToolTip(path_);
+  QString count = tr("%1 trials, %2 runs").arg(table_->rowCount()).arg(table_->recordings().runs.size());
+  if (!losses.isEmpty()) count += tr(", %1 with losses").arg(losses.size());
+  count_->setText(count);
+  count_->setToolTip(losses.join(QLatin1Char('\n')));
+  fitColumns();
+  report_->setEnabled(table_->rowCount() > 0);
+  replay_->clear();
+  draw();
+  if (filter_->rowCount() > 0) view_->selectRow(0);
+}
+
+void InspectorPage::pick(int row) {
+  if (row == picked_) return;
+  picked_ = row;
+  showPicked();
+}
+
+const analysis::Recording& InspectorPage::recordingOf(const std::string& path) {
+  const auto known = recordings_.find(path);
+  if (known != recordings_.end()) return known->second;
+  if (recordings_.size() > 8) recordings_.clear();
+  return recordings_.emplace(path, analysis::openRecording(path, scenes_)).first->second;
+}
+
+void InspectorPage::showPicked() {
+  const auto line = lineOf(picked_);
+  plot_->setPicked(line ? static_cast<int>(*line) : -1);
+  if (!line) {
+    plot_->setMarks({}, {});
+    marks_->clear();
+    return;
+  }
+  const bool shown = attempt([&] {
+    const auto conditionAt = [this](int at) { return table_->run(at).conditionOf(table_->trial(at)); };
+    const auto trackOf = [&](std::size_t i) {
+      const int row = inspectedRows_[i];
+      return ReplayView::Track{TrialReplay(recordingOf(table_->run(row).path).run, table_->trial(row)), zeroOf(*inspection_, i)};
+    };
+    std::vector<ReplayView::Track> ghosts;
+    for (std::size_t i = 0; i < inspectedRows_.size() && static_cast<int>(ghosts.size()) < kMostGhosts; ++i)
+      if (i != *line && inspectedRows_[i] >= 0 && conditionAt(inspectedRows_[i]) == conditionAt(picked_)) ghosts.push_back(trackOf(i));
+    const record::IndexedRun& run = table_->run(picked_);
+    ReplayView::Track track = trackOf(*line);
+    replay_->show(recordingOf(run.path).scenes.at(static_cast<std::size_t>(table_->trial(picked_).planned.scene)),
+                  QFileInfo(QString::fromStdString(run.path)).path(), std::move(track), std::move(ghosts));
+    const analysis::Movement& move = inspection_->signals[*line].movement;
+    const double first = inspection_->input.trials[*line].first;
+    if (move.found && timeAxis() == TimeAxis::AsMoved) plot_->setMarks(0, move.duration());
+    else plot_->setMarks({}, {});
+    marks_->show(tr("subject %1, session %2, run %3, trial %4")
+                     .arg(QString::fromStdString(run.subject), QString::fromStdString(run.session))
+                     .arg(run.run)
+                     .arg(table_->trial(picked_).trial),
+                 table_->mark(picked_), move.found ? first + move.onset : std::nan(""), move.found ? first + move.offset : std::nan(""));
+  });
+  if (!shown) replay_->clear();
+}
+
+void InspectorPage::marksDragged(double onset, double end) {
+  const auto line = lineOf(picked_);
+  if (!line) return;
+  const double zero = zeroOf(*inspection_, *line);
+  const analysis::Movement& move = inspection_->signals[*line].movement;
+  if (!(onset < end)) return showPicked();  // an onset behind the end is none
+  attempt([&] {
+    record::TrialMark mark = table_->mark(picked_);
+    if (std::abs(onset) > 1e-4) mark.onset = std::max(0.0, zero + onset);
+    if (std::abs(end - move.duration()) > 1e-4) mark.offset = zero + end;
+    setMark(mark);
+  });
+}
+
+void InspectorPage::setMark(const record::TrialMark& mark) {
+  if (picked_ < 0) return;
+  if (analysis::isMotionFile(table_->run(picked_).path)) {  // a mark in the dataset would be no part of BIDS
+    showPicked();
+    Q_EMIT said(tr("Marks are kept beside a recording's log, and this dataset has no logs. Add the dataset's sourcedata to mark trials."));
+    return;
+  }
+  attempt([&] {
+    const record::TrialMark before = table_->mark(picked_);
+    table_->setMark(picked_, mark);
+    if (mark.excluded != before.excluded || mark.onset != before.onset || mark.offset != before.offset) inspect();  // other numbers
+    else showPicked();
+  });
+}
+
+bool InspectorPage::attempt(const std::function<void()>& work) {
+  try {
+    work();
+    return true;
+  } catch (const std::exception& e) {
+    Q_EMIT said(QString::fromStdString(errorReportOf(e).sentence));
+    return false;
+  }
+}
+
+void InspectorPage::exportTo(const QString& file) {
+  if (!inspection_ || inspection_->input.trials.empty()) throw FaultError(Fault{"trials", "none is chosen", "rows of the table"});
+  const std::string name = file.toStdString();
+  const bool lines = QFileInfo(file).suffix().toLower() == QLatin1String("csv");
+  record::writeFileAtomically(
+      name, lines ? linesCsv(*inspection_) : figure::renderFor(name, figureOf(*inspection_, condition(), timeAxis(), epsilons_->chosen())));
+}
+
+void InspectorPage::exportTable(const QString& file) {
+  std::vector<int> rows;
+  for (int row = 0; row < filter_->rowCount(); ++row) rows.push_back(filter_->mapToSource(filter_->index(row, 0)).row());
+  record::writeFileAtomically(file.toStdString(), toCsv(*table_, rows));
+}
+
+void InspectorPage::save(const QString& title, const QString& proposed, const QString& kinds,
+                         const std::function<void(const QString&)>& write) {
+  QString file = QFileDialog::getSaveFileName(this, title, proposed, kinds);
+  if (file.isEmpty()) return;
+  const bool oneKind = !kinds.contains(QStringLiteral(";;"));
+  if (oneKind && QFileInfo(file).suffix().isEmpty()) file += QLatin1Char('.') + QFileInfo(proposed).suffix();
+  attempt([&] {
+    write(file);
+    Q_EMIT told(tr("Written: %1").arg(file));
+  });
 }
 
 }  // namespace reachlab::gui::inspector

@@ -1,12 +1,11 @@
 #pragma once
 #include <QWidget>
-#include <atomic>
-#include <future>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 
-#include "gui/inspector/inspection.h"
+#include "gui/inspector/analysis_lines.h"
 #include "gui/inspector/trial_table.h"
 
 class QCheckBox;
@@ -33,8 +32,6 @@ class InspectorPage : public QWidget {
   Q_OBJECT
  public:
   explicit InspectorPage(QWidget* parent = nullptr);
-  ~InspectorPage() override;
-
   /// Opens a dataset, a session or a log on another thread, with progress. Faults are shown.
   void open(const QString& path);
   QString path() const { return path_; }
@@ -44,7 +41,7 @@ class InspectorPage : public QWidget {
   ReplayView& replay() { return *replay_; }
   /// The inspection of the chosen trials. Null while it is read.
   const Inspection* inspection() const { return inspection_.get(); }
-  bool busy() const { return opening_.valid() || inspector_.busy(); }
+  bool busy() const { return opener_.busy() || inspector_.busy(); }
   /// Everything that is chosen as a figure (by the file's ending: svg, pdf, png) or as lines (csv). Throws ResourceError.
   void exportTo(const QString& file);
   /// The table's rows as they are shown. Throws ResourceError.
@@ -63,25 +60,26 @@ class InspectorPage : public QWidget {
 
  private:
   void addTop(QVBoxLayout& layout);
+  QWidget* makeLeft();
   QWidget* makeRight();
   void wire();
   void addKeys();
-  void pollOpening();
-  void opened(record::TrialIndex index);
+  void opened(const record::TrialIndex& index);
   void fitColumns();
   void fitHalves();
-  void chosenChanged();
   void inspect();
   void showRead();
   void showJudged();
   void draw();
   void pick(int row);
   void showPicked();
-  void marksDragged(double onset, double end, bool done);
+  void marksDragged(double onset, double end);
   void setMark(const record::TrialMark& mark);
-  void saveFigure();
-  void saveTable();
-  void openReport();
+  void save(const QString& title, const QString& proposed, const QString& kinds, const std::function<void(const QString&)>& write);
+  /// Runs it. If it fails, says why and returns false.
+  bool attempt(const std::function<void()>& work);
+  TimeAxis timeAxis() const;
+  int rowOf(const analysis::TrialKey& key) const;
   std::vector<int> chosenRows() const;
   std::size_t condition() const;
   std::optional<std::size_t> lineOf(int row) const;
@@ -91,11 +89,7 @@ class InspectorPage : public QWidget {
   std::shared_ptr<const Inspection> inspection_;
   std::vector<int> inspectedRows_;  // of the table, one a trial of the inspection
   int picked_ = -1;
-  Inspector inspector_;
-  std::future<record::TrialIndex> opening_;
-  std::shared_ptr<std::atomic<int>> openingDone_;  // logs of openingOf_
-  std::shared_ptr<std::atomic<int>> openingOf_;
-  std::shared_ptr<std::atomic<bool>> openingStop_;
+  Inspector opener_, inspector_;                           // a choice of the old table's trials does not end the opening of the new one
   std::map<std::string, analysis::Recording> recordings_;  // that are being looked at
   analysis::ScenesOfRuns scenes_;
   TrialTable* table_;
@@ -114,7 +108,7 @@ class InspectorPage : public QWidget {
   MarksPanel* marks_;
   QProgressBar* progress_;
   QPushButton *cancel_, *report_;
-  QTimer *soon_, *opener_;
+  QTimer* soon_;
 };
 
 }  // namespace reachlab::gui::inspector

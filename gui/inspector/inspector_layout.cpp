@@ -1,32 +1,106 @@
-// InspectorPage: the row at the top, and the right half.
+// InspectorPage: its widgets.
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFileDialog>
 #include <QHBoxLayout>
+#include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
 #include <QMenu>
 #include <QProgressBar>
 #include <QPushButton>
 #include <QSplitter>
+#include <QTableView>
+#include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
+#include <array>
 
 #include "gui/inspector/epsilon_panel.h"
 #include "gui/inspector/inspector.h"
+#include "gui/inspector/marks_panel.h"
 #include "gui/inspector/profile_plot.h"
 #include "gui/inspector/replay_view.h"
 #include "gui/widgets/elided_label.h"
 #include "gui/widgets/named.h"
 
 namespace reachlab::gui::inspector {
+namespace {
+
+constexpr int kSoonMs = 150;  // a choice that is still being dragged is not read yet
+
+// Two widgets with a border that the user can move, but not away.
+QSplitter* split(Qt::Orientation along, QWidget* first, QWidget* second, std::array<int, 2> stretch, const QList<int>& sizes) {
+  auto* made = new QSplitter(along);
+  made->addWidget(first);
+  made->addWidget(second);
+  made->setStretchFactor(0, stretch[0]);
+  made->setStretchFactor(1, stretch[1]);
+  made->setSizes(sizes);
+  made->setChildrenCollapsible(false);
+  return made;
+}
+
+QToolButton* makeMenuButton(const QString& words, QMenu*& menu) {
+  auto* button = new QToolButton;
+  button->setText(words);
+  button->setPopupMode(QToolButton::InstantPopup);
+  button->setMenu(menu = new QMenu(button));
+  return button;
+}
+
+}  // namespace
+
+InspectorPage::InspectorPage(QWidget* parent) : QWidget(parent) {
+  setObjectName(QStringLiteral("inspector"));
+  auto* layout = new QVBoxLayout(this);
+  layout->setContentsMargins(6, 6, 6, 4);
+  layout->setSpacing(5);
+  addTop(*layout);
+  table_ = new TrialTable(this);
+  filter_ = new TrialFilter(table_);
+  halves_ = split(Qt::Horizontal, makeLeft(), makeRight(), {4, 6}, {700, 860});
+  halves_->setObjectName(QStringLiteral("inspectorHalves"));
+  connect(halves_, &QSplitter::splitterMoved, this, [this] { halvesMoved_ = true; });
+  layout->addWidget(halves_, 1);
+  soon_ = new QTimer(this);
+  soon_->setSingleShot(true);
+  soon_->setInterval(kSoonMs);
+  wire();
+  addKeys();
+}
+
+QWidget* InspectorPage::makeLeft() {
+  view_ = widgets::named<QTableView>("inspectedTrials");
+  view_->setModel(filter_);
+  view_->setSortingEnabled(true);
+  view_->sortByColumn(-1, Qt::AscendingOrder);
+  view_->setSelectionBehavior(QAbstractItemView::SelectRows);
+  view_->setSelectionMode(QAbstractItemView::ExtendedSelection);
+  view_->setShowGrid(false);
+  view_->setAlternatingRowColors(true);
+  view_->verticalHeader()->hide();
+  view_->verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);
+  view_->verticalHeader()->setDefaultSectionSize(22);
+  view_->horizontalHeader()->setHighlightSections(false);
+  view_->horizontalHeader()->setMinimumSectionSize(24);  // Qt's own is the width of the widest letter, whatever is in the column
+  view_->horizontalHeader()->setStretchLastSection(true);
+  view_->setWordWrap(false);
+  auto* left = new QWidget;
+  auto* column = new QVBoxLayout(left);
+  column->setContentsMargins(0, 0, 0, 0);
+  column->setSpacing(4);
+  column->addWidget(view_, 1);
+  marks_ = new MarksPanel;
+  column->addWidget(marks_);
+  return left;
+}
 
 void InspectorPage::addTop(QVBoxLayout& layout) {
   auto* top = new QHBoxLayout;
-  auto* openButton = widgets::named<QToolButton>("inspectorOpen");
-  openButton->setText(tr("Open"));
-  openButton->setPopupMode(QToolButton::InstantPopup);
-  auto* menu = new QMenu(openButton);
+  QMenu *menu = nullptr, *exports = nullptr;
+  auto *openButton = makeMenuButton(tr("Open"), menu), *exportButton = makeMenuButton(tr("Export"), exports);
+  openButton->setObjectName(QStringLiteral("inspectorOpen"));
   menu->addAction(tr("Dataset…"), this, [this] {
     const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a dataset or a session"), path_);
     if (!folder.isEmpty()) open(folder);
@@ -38,7 +112,6 @@ void InspectorPage::addTop(QVBoxLayout& layout) {
   menu->addAction(tr("Look again"), this, [this] {
     if (!path_.isEmpty()) open(path_);
   });
-  openButton->setMenu(menu);
   title_ = new widgets::ElidedLabel;
   title_->setText(tr("No recording is open. Use File, Inspect to open a dataset or a session."));
   title_->setStyleSheet(QStringLiteral("font-weight: 600;"));
@@ -53,24 +126,19 @@ void InspectorPage::addTop(QVBoxLayout& layout) {
   progress_->hide();
   cancel_ = widgets::named<QPushButton>("inspectorCancel", tr("Cancel"));
   cancel_->hide();
-  auto* exportButton = new QToolButton;
-  exportButton->setText(tr("Export"));
-  exportButton->setPopupMode(QToolButton::InstantPopup);
-  auto* exports = new QMenu(exportButton);
-  exports->addAction(tr("Figure or lines of the chosen trials…"), this, &InspectorPage::saveFigure);
-  exports->addAction(tr("Table as it is shown…"), this, &InspectorPage::saveTable);
-  exportButton->setMenu(exports);
+  exports->addAction(tr("Figure or lines of the chosen trials…"), this, [this] {
+    save(tr("Export figure or lines"), QStringLiteral("trials.svg"),
+         tr("Figure as SVG (*.svg);;Figure as PDF (*.pdf);;Figure as PNG (*.png);;Lines as CSV (*.csv)"),
+         [this](const QString& file) { exportTo(file); });
+  });
+  exports->addAction(tr("Table as it is shown…"), this, [this] {
+    save(tr("Export table"), QStringLiteral("trials.csv"), tr("CSV (*.csv)"), [this](const QString& file) { exportTable(file); });
+  });
   report_ = widgets::named<QPushButton>("inspectorReport", tr("Report"));
   report_->setToolTip(tr("analyses all open recordings, as `reach analyze` does, and shows the report"));
   report_->setEnabled(false);
-  top->addWidget(openButton);
-  top->addWidget(title_);
-  top->addWidget(words_, 1);
-  top->addWidget(count_);
-  top->addWidget(progress_);
-  top->addWidget(cancel_);
-  top->addWidget(exportButton);
-  top->addWidget(report_);
+  for (QWidget* widget : std::initializer_list<QWidget*>{openButton, title_, words_, count_, progress_, cancel_, exportButton, report_})
+    top->addWidget(widget, widget == words_ ? 1 : 0);
   layout.addLayout(top);
 }
 
@@ -95,21 +163,8 @@ QWidget* InspectorPage::makeRight() {
   plot_ = widgets::named<ProfilePlot>("inspectorPlot");
   replay_ = new ReplayView;
   epsilons_ = new EpsilonPanel;
-  auto* below = new QSplitter(Qt::Horizontal);
-  below->addWidget(replay_);
-  below->addWidget(epsilons_);
-  below->setStretchFactor(0, 3);
-  below->setStretchFactor(1, 2);
-  below->setSizes({520, 340});
-  below->setChildrenCollapsible(false);
-  auto* halves = new QSplitter(Qt::Vertical);
-  halves->addWidget(plot_);
-  halves->addWidget(below);
-  halves->setStretchFactor(0, 1);
-  halves->setStretchFactor(1, 1);
-  halves->setSizes({420, 400});
-  halves->setChildrenCollapsible(false);
-  column->addWidget(halves, 1);
+  QSplitter* below = split(Qt::Horizontal, replay_, epsilons_, {3, 2}, {520, 340});
+  column->addWidget(split(Qt::Vertical, plot_, below, {1, 1}, {420, 400}), 1);
   return right;
 }
 

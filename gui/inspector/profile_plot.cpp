@@ -84,6 +84,8 @@ ProfilePlot::ProfilePlot(QWidget* parent) : QWidget(parent), impl_(std::make_uni
   auto* canvas = gui::plot::dress(*plot);
   canvas->installEventFilter(this);
   gui::plot::setAxisFonts(*plot);
+  plot->setAxisTitle(QwtPlot::xBottom, gui::plot::axisTitle(tr("time since onset [s]")));
+  plot->setAxisTitle(QwtPlot::yLeft, gui::plot::axisTitle(tr("velocity [m/s]")));
   impl_->band = std::make_unique<QwtPlotIntervalCurve>(tr("± SD"));
   impl_->band->setBrush(widgets::ink(34));
   impl_->band->setPen(QPen(Qt::NoPen));
@@ -105,11 +107,6 @@ ProfilePlot::ProfilePlot(QWidget* parent) : QWidget(parent), impl_(std::make_uni
 }
 
 ProfilePlot::~ProfilePlot() = default;
-
-void ProfilePlot::setTitles(const QString& x, const QString& y) {
-  impl_->plot->setAxisTitle(QwtPlot::xBottom, plot::axisTitle(x));
-  impl_->plot->setAxisTitle(QwtPlot::yLeft, plot::axisTitle(y));
-}
 
 void ProfilePlot::setLines(const std::vector<Line>& lines) {
   impl_->lines.clear();
@@ -207,14 +204,13 @@ bool ProfilePlot::eventFilter(QObject* watched, QEvent* event) {
       } else {
         (d.drag == Drag::Onset ? *d.onset : *d.end).setXValue(d.markAtPress + d.xAt(mouse->x()) - d.xAt(d.pressedAt.x()));
         d.plot->replot();
-        Q_EMIT marksMoved(d.onset->xValue(), d.end->xValue(), false);
       }
       return true;
     case QEvent::MouseButtonRelease: {
       if (d.drag == Drag::None || mouse->button() != Qt::LeftButton) break;
       const Drag dragged = std::exchange(d.drag, Drag::None);
       if (d.moved && dragged != Drag::Cursor) {
-        Q_EMIT marksMoved(d.onset->xValue(), d.end->xValue(), true);
+        Q_EMIT marksMoved(d.onset->xValue(), d.end->xValue());
       } else if (!d.moved) {
         if (const int line = d.lineAt(mouse->pos()); line >= 0) Q_EMIT picked(line);
         else Q_EMIT cursorMoved(d.xAt(mouse->x()));

@@ -37,7 +37,6 @@ class ProfilePlot : public QWidget {
   void setPredictions(const std::vector<Prediction>& predictions);
   void setCursor(std::optional<double> time);
   void setMarks(std::optional<double> onset, std::optional<double> end);
-  void setTitles(const QString& x, const QString& y);
   void showEverything();
 
   int lineCount() const;
@@ -48,8 +47,8 @@ class ProfilePlot : public QWidget {
  Q_SIGNALS:
   void picked(int line);
   void cursorMoved(double time);
-  /// While a mark is dragged (`done` false) and when it is let go.
-  void marksMoved(double onset, double end, bool done);
+  /// A mark was dragged and let go.
+  void marksMoved(double onset, double end);
 
  protected:
   bool eventFilter(QObject* watched, QEvent* event) override;

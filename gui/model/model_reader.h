@@ -3,9 +3,9 @@
 #include <QString>
 #include <memory>
 #include <string>
-#include <thread>
 
 #include "gui/model/model.h"
+#include "gui/widgets/newest_work.h"
 
 namespace reachlab::gui::model {
 
@@ -17,13 +17,10 @@ std::string findSceneFile(const std::string& named, const QString& folder);
 class ModelReader : public QObject {
   Q_OBJECT
  public:
-  explicit ModelReader(QObject* parent = nullptr);
-  ~ModelReader() override;
-
   /// `ready` or `failed` follows, but not if the request is cancelled or replaced. An empty name means no scene, which is ready at once. A
   /// file that is read or being read is not read again.
   void begin(const std::string& file);
-  void cancel();
+  void cancel() { work_.stop(); }
   const std::shared_ptr<const Model>& model() const { return model_; }
 
  Q_SIGNALS:
@@ -34,13 +31,9 @@ class ModelReader : public QObject {
   void idle();
 
  private:
-  template <typename Tell>
-  void tell(int turn, Tell tell);
-
   std::string file_;  // that is read, or being read
   std::shared_ptr<const Model> model_;
-  int turn_ = 0;  // what an earlier reading still tells is passed over
-  std::jthread thread_;
+  widgets::NewestWork work_{*this};
 };
 
 }  // namespace reachlab::gui::model

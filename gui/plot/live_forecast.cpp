@@ -1,44 +1,31 @@
 #include "gui/plot/live_forecast.h"
 
 #include <algorithm>
-#include <chrono>
 
 #include "gui/plot/criterion_style.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::plot {
 
-LiveForecast::~LiveForecast() { stop_.request_stop(); }
-
 void LiveForecast::setExperiment(const experiment::CompiledExperiment& experiment) {
   experiment_ = experiment;
   forecasts_.clear();
   ended_.reset();
-  stale_ = true;
-  stop_.request_stop();
-  stop_ = {};
   Q_EMIT changed();
+  const auto computed = std::make_shared<std::vector<CriterionForecast>>();
+  work_.begin([experiment, computed](const widgets::NewestWork::Turn& turn) { *computed = forecastAll(experiment, turn.stop); },
+              [this, computed](const QString&) {
+                forecasts_ = std::move(*computed);
+                Q_EMIT changed();
+                tellCompared();
+              });
 }
 
-void LiveForecast::poll() {
-  using namespace std::chrono_literals;
-  if (computing_.valid() && computing_.wait_for(0s) == std::future_status::ready) {
-    std::vector<CriterionForecast> computed = computing_.get();
-    if (!stale_) {
-      forecasts_ = std::move(computed);
-      Q_EMIT changed();
-    }
-  }
-  if (stale_ && !computing_.valid()) {
-    stale_ = false;
-    computing_ =
-        std::async(std::launch::async, [experiment = *experiment_, stop = stop_.get_token()] { return forecastAll(experiment, stop); });
-  }
-  if (ended_ && isReady()) {
-    const Trial trial = *std::exchange(ended_, {});
-    const experiment::Task task = experiment_->experiment().task.value_or(experiment::Task{});
-    Q_EMIT compared(computeHandErrors(trial.points, trial.path, forecasts_, task, trial.span), trial.succeeded);
-  }
+void LiveForecast::tellCompared() {
+  if (!ended_ || !isReady()) return;
+  const Trial trial = *std::exchange(ended_, {});
+  const experiment::Task task = experiment_->experiment().task.value_or(experiment::Task{});
+  Q_EMIT compared(computeHandErrors(trial.points, trial.path, forecasts_, task, trial.span), trial.succeeded);
 }
 
 std::vector<VelocityPlot::Line> LiveForecast::lines(const std::vector<predict::Criterion>& criteria) const {
@@ -60,6 +47,7 @@ std::vector<VelocityPlot::Line> LiveForecast::lines(const std::vector<predict::C
 void LiveForecast::compare(const std::vector<TracePoint>& points, const constraints::TaskPath& path, const TrialSpan& span,
                            bool succeeded) {
   ended_ = Trial{points, path, span, succeeded};
+  tellCompared();
 }
 
 }  // namespace reachlab::gui::plot

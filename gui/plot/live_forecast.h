@@ -1,12 +1,11 @@
 #pragma once
 #include <QObject>
-#include <future>
 #include <optional>
-#include <stop_token>
 #include <vector>
 
 #include "gui/plot/trial_errors.h"
 #include "gui/plot/velocity_plot.h"
+#include "gui/widgets/newest_work.h"
 
 namespace reachlab::gui::plot {
 
@@ -14,14 +13,10 @@ namespace reachlab::gui::plot {
 class LiveForecast : public QObject {
   Q_OBJECT
  public:
-  ~LiveForecast() override;
-
   /// Begins anew for this experiment. Work under way is dropped.
   void setExperiment(const experiment::CompiledExperiment& experiment);
-  /// Takes over finished computations. Called by the frame timer. Never waits.
-  void poll();
   /// True once all predictions of the present experiment are computed.
-  bool isReady() const { return !stale_ && !computing_.valid(); }
+  bool isReady() const { return !work_.busy(); }
   /// Empty while they are being computed.
   const std::vector<CriterionForecast>& forecasts() const { return forecasts_; }
   /// The lines of these criteria, for the plot.
@@ -36,6 +31,7 @@ class LiveForecast : public QObject {
   void compared(const std::vector<std::optional<double>>& errors, bool succeeded);
 
  private:
+  void tellCompared();
   struct Trial {
     std::vector<TracePoint> points;
     constraints::TaskPath path;
@@ -45,10 +41,8 @@ class LiveForecast : public QObject {
 
   std::optional<experiment::CompiledExperiment> experiment_;
   std::vector<CriterionForecast> forecasts_;
-  std::stop_source stop_;
-  std::future<std::vector<CriterionForecast>> computing_;
-  bool stale_ = false;
   std::optional<Trial> ended_;
+  widgets::NewestWork work_{*this};
 };
 
 }  // namespace reachlab::gui::plot
