@@ -3,20 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "analysis/report/figures.h"
+#include "analysis/report/wording.h"
 #include "analysis/tables.h"
 #include "base/table_text.h"
 #include "gui/plot/criterion_style.h"
 
 namespace reachlab::gui::inspector {
 namespace {
-
-QVector<double> toVector(const std::vector<double>& values) { return QVector<double>(values.begin(), values.end()); }
-
-std::vector<double> evenly(double end, std::size_t points) {
-  std::vector<double> x(points);
-  for (std::size_t i = 0; i < points; ++i) x[i] = end * static_cast<double>(i) / static_cast<double>(points - 1);
-  return x;
-}
 
 double meanDuration(const Inspection& inspection) {
   double sum = 0;
@@ -33,8 +27,7 @@ ProfilePlot::Line lineOf(const analysis::TrialData& trial, const analysis::Trial
   const std::vector<double>& velocity = which == Signal::Hand ? signals.handVelocity : signals.objectVelocity;
   const analysis::Movement& move = signals.movement;
   if (scaledTo > 0 && move.found)
-    return {toVector(evenly(scaledTo, analysis::kProfilePoints)),
-            toVector(analysis::scaleVelocity(velocity, trial.rate, move.onset, move.offset, scaledTo))};
+    return {analysis::profileTimes(scaledTo), analysis::scaleVelocity(velocity, trial.rate, move.onset, move.offset, scaledTo)};
   ProfilePlot::Line line;
   for (std::size_t i = 0; i < velocity.size(); ++i) {
     line.x.push_back(static_cast<double>(i) / trial.rate - (move.found ? move.onset : 0));
@@ -58,38 +51,37 @@ double zeroOf(const Inspection& inspection, std::size_t trial) {
   return inspection.input.trials[trial].first + (move.found ? move.onset : 0);
 }
 
-MeanLine meanOf(const analysis::Analysis& analysis, std::size_t condition, Signal signal) {
+ProfilePlot::Mean meanOf(const analysis::Analysis& analysis, std::size_t condition, Signal signal) {
   const analysis::ConditionResult& r = analysis.results[condition];
   const analysis::MeanProfile& profile = signal == Signal::Hand ? r.hand : r.object;
   if (r.used == 0) return {};
-  return {toVector(evenly(r.duration.mean, analysis::kProfilePoints)), toVector(profile.mean), toVector(profile.sd)};
+  return {analysis::profileTimes(r.duration.mean), profile.mean, profile.sd};
 }
 
-std::vector<ProfilePlot::Prediction> predictionsOf(const analysis::Analysis& analysis, std::size_t condition, Signal signal,
-                                                   const std::vector<predict::Criterion>& criteria, bool fitted) {
-  std::vector<ProfilePlot::Prediction> out;
+std::vector<plot::PredictedLine> predictionsOf(const analysis::Analysis& analysis, std::size_t condition, Signal signal,
+                                               const std::vector<predict::Criterion>& criteria, bool fitted) {
+  std::vector<plot::PredictedLine> out;
   const analysis::ConditionResult& r = analysis.results[condition];
   for (const predict::Criterion criterion : criteria) {
+    plot::PredictedLine line{plot::titleOf(criterion), plot::styleOf(criterion)};
     for (std::size_t k = 0; !fitted && k < r.signals.size(); ++k) {
       if (r.signals[k].criterion != criterion) continue;
       const analysis::PredictedCurve curve = analysis::curveOf(r, k);
-      out.push_back({plot::titleOf(criterion), plot::styleOf(criterion), false, toVector(curve.time),
-                     toVector(signal == Signal::Hand ? curve.hand : curve.object)});
+      line.x = curve.time;
+      line.y = signal == Signal::Hand ? curve.hand : curve.object;
+      out.push_back(line);
     }
-    if (!fitted || signal != Signal::Hand) continue;
+    const auto k = placeOf(r.candidates, criterion);
+    if (!fitted || !k || signal != Signal::Hand) continue;
+    line.title += ProfilePlot::tr(", fitted");
+    line.fitted = true;
     for (const analysis::PersonResult& person : analysis.people) {
       if (person.condition != condition || !person.fitted) continue;
-      for (std::size_t k = 0; k < person.fit.candidates.size(); ++k) {
-        const auto& named = r.candidates.candidates[k].criteria;
-        if (std::find(named.begin(), named.end(), criterion) == named.end()) continue;
-        const analysis::Profile& grid = person.fit.own.mean;
-        ProfilePlot::Prediction line{plot::titleOf(criterion) + ProfilePlot::tr(", fitted"), plot::styleOf(criterion), true, {}, {}};
-        for (std::size_t i = 0; i < person.fit.candidates[k].mean.size(); ++i) {
-          line.x.push_back(person.duration * (grid.first + grid.step * static_cast<double>(i)));
-          line.y.push_back(person.fit.candidates[k].mean[i]);
-        }
-        out.push_back(std::move(line));
-      }
+      const analysis::Profile& grid = person.fit.own.mean;
+      line.x.clear();
+      line.y = person.fit.candidates[*k].mean;
+      for (std::size_t i = 0; i < line.y.size(); ++i) line.x.push_back(person.duration * (grid.first + grid.step * static_cast<double>(i)));
+      out.push_back(line);
     }
   }
   return out;
@@ -97,53 +89,35 @@ std::vector<ProfilePlot::Prediction> predictionsOf(const analysis::Analysis& ana
 
 figure::Figure figureOf(const Inspection& inspection, std::size_t condition, TimeAxis axis,
                         const std::vector<predict::Criterion>& criteria) {
-  figure::Figure out;
-  out.columns = 2;
+  figure::Figure out{.columns = 2};
   for (const Signal signal : {Signal::Hand, Signal::Object}) {
-    figure::Panel panel;
-    panel.title = signal == Signal::Hand ? "(a) Hand" : "(b) Object (last mass)";
-    panel.x.label = "Time from onset (s)";
-    panel.y.label = signal == Signal::Hand ? "Hand velocity (m/s)" : "Object velocity (m/s)";
-    panel.legend = figure::LegendPlace::Below;
+    const bool object = signal == Signal::Object;
+    figure::Panel panel = analysis::velocityPanel(object ? "(b) Object (last mass)" : "(a) Hand", object);
     if (axis == TimeAxis::AsMoved) panel.x.from = -kShownBeforeOnset;  // a hand may have waited for seconds
-    const auto take = [](const QVector<double>& values) { return std::vector<double>(values.begin(), values.end()); };
     const std::vector<ProfilePlot::Line> lines = linesOf(inspection, signal, axis);
-    for (const ProfilePlot::Line& line : lines) {
-      figure::Series s;
-      if (&line == &lines.front()) s.label = std::to_string(lines.size()) + (lines.size() == 1 ? " trial" : " trials");
-      s.x = take(line.x);
-      s.y = take(line.y);
-      s.color = figure::palette::faded(figure::palette::kGrey, 0.5);
-      s.width = lines.size() == 1 ? figure::kNormal : figure::kThin;
-      panel.series.push_back(std::move(s));
-    }
+    for (const ProfilePlot::Line& line : lines)
+      panel.series.push_back({.label = panel.series.empty() ? analysis::plural(lines.size(), "trial") : "",
+                              .x = line.x,
+                              .y = line.y,
+                              .color = figure::palette::faded(figure::palette::kGrey, 0.5),
+                              .width = lines.size() == 1 ? figure::kNormal : figure::kThin});
     if (inspection.analysis) {
-      if (const MeanLine mean = meanOf(*inspection.analysis, condition, signal); lines.size() > 1 && !mean.x.isEmpty()) {
-        figure::Band band;
-        band.label = "± SD";
-        figure::Series s;
-        s.label = "mean";
-        s.x = band.x = take(mean.x);
-        s.y = take(mean.mean);
-        s.width = figure::kThick;
-        for (int i = 0; i < mean.x.size(); ++i)
+      if (const ProfilePlot::Mean mean = meanOf(*inspection.analysis, condition, signal); lines.size() > 1 && !mean.x.empty()) {
+        figure::Band band{.label = "± SD", .x = mean.x};
+        for (std::size_t i = 0; i < mean.x.size(); ++i)
           band.low.push_back(mean.mean[i] - mean.sd[i]), band.high.push_back(mean.mean[i] + mean.sd[i]);
-        panel.bands.push_back(band);
-        panel.series.push_back(std::move(s));
+        panel.bands.push_back(std::move(band));
+        panel.series.push_back({.label = "mean", .x = mean.x, .y = mean.mean, .width = figure::kThick});
       }
-      int colour = 0;
       for (const bool fitted : {false, true}) {
-        colour = 0;
-        for (const ProfilePlot::Prediction& p : predictionsOf(*inspection.analysis, condition, signal, criteria, fitted)) {
-          figure::Series s;
-          s.label = p.title.toStdString();
-          s.x = take(p.x);
-          s.y = take(p.y);
-          s.color = figure::palette::series(colour++);
-          s.dash = fitted ? figure::Dash::Dotted : figure::Dash::Dashed;
-          s.width = 1.4;
-          panel.series.push_back(std::move(s));
-        }
+        int colour = 0;
+        for (const plot::PredictedLine& line : predictionsOf(*inspection.analysis, condition, signal, criteria, fitted))
+          panel.series.push_back({.label = line.title.toStdString(),
+                                  .x = line.x,
+                                  .y = line.y,
+                                  .color = figure::palette::series(colour++),
+                                  .width = 1.4,
+                                  .dash = fitted ? figure::Dash::Dotted : figure::Dash::Dashed});
       }
     }
     out.panels.push_back(std::move(panel));
@@ -158,7 +132,7 @@ std::string linesCsv(const Inspection& inspection) {
                                        object = linesOf(inspection, Signal::Object, TimeAxis::AsMoved);
   for (std::size_t i = 0; i < hand.size(); ++i) {
     const analysis::TrialKey& key = inspection.input.trials[i].key;
-    for (int k = 0; k < hand[i].x.size(); ++k) {
+    for (std::size_t k = 0; k < hand[i].x.size(); ++k) {
       table.cell(key.subject).cell(key.session).cell(key.condition).whole(key.run).whole(key.trial);
       table.number(hand[i].x[k]).number(hand[i].y[k]).number(k < object[i].y.size() ? object[i].y[k] : std::nan("")).endRow();
     }

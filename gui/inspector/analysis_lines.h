@@ -18,16 +18,13 @@ std::vector<ProfilePlot::Line> linesOf(const Inspection& inspection, Signal sign
 /// Onset of a trial on the clock of its samples: 0 on the plot. [s] since arming
 double zeroOf(const Inspection& inspection, std::size_t trial);
 
-struct MeanLine {
-  QVector<double> x, mean, sd;
-};
 /// Over the counted trials of the condition. Empty if no trial counts.
-MeanLine meanOf(const analysis::Analysis& analysis, std::size_t condition, Signal signal);
+ProfilePlot::Mean meanOf(const analysis::Analysis& analysis, std::size_t condition, Signal signal);
 
 /// The predictions of these criteria. They are dashed and for the task's T, unless `fitted`: then they are the mean of the fitted
 /// movements, dotted.
-std::vector<ProfilePlot::Prediction> predictionsOf(const analysis::Analysis& analysis, std::size_t condition, Signal signal,
-                                                   const std::vector<predict::Criterion>& criteria, bool fitted);
+std::vector<plot::PredictedLine> predictionsOf(const analysis::Analysis& analysis, std::size_t condition, Signal signal,
+                                               const std::vector<predict::Criterion>& criteria, bool fitted);
 
 /// All of it for print.
 figure::Figure figureOf(const Inspection& inspection, std::size_t condition, TimeAxis axis,

@@ -18,17 +18,13 @@ enum Column { kName, kPaper, kFitted, kColumns };
 }  // namespace
 
 std::optional<double> fittedEpsilon(const analysis::Analysis& analysis, std::size_t condition, predict::Criterion criterion) {
-  const auto& candidates = analysis.results[condition].candidates.candidates;
-  const auto place = std::find_if(candidates.begin(), candidates.end(), [&](const analysis::Candidate& c) {
-    return std::find(c.criteria.begin(), c.criteria.end(), criterion) != c.criteria.end();
-  });
-  if (place == candidates.end()) return std::nullopt;
-  const auto k = static_cast<std::size_t>(place - candidates.begin());
+  const auto k = placeOf(analysis.results[condition].candidates, criterion);
+  if (!k) return std::nullopt;
   double sum = 0;
   int people = 0;
   for (const analysis::PersonResult& person : analysis.people) {
     if (person.condition != condition || !person.fitted) continue;
-    sum += person.fit.candidates[k].epsilonOfAll;
+    sum += person.fit.candidates[*k].epsilonOfAll;
     ++people;
   }
   return people == 0 ? std::nullopt : std::optional(sum / people);

@@ -233,20 +233,20 @@ TimeAxis InspectorPage::timeAxis() const { return axis_->currentIndex() == 0 ? T
 
 void InspectorPage::draw() {
   const Signal signal = signal_->currentIndex() == 0 ? Signal::Hand : Signal::Object;
-  std::vector<ProfilePlot::Prediction> predictions;
-  MeanLine mean;
+  std::vector<plot::PredictedLine> predictions;
+  ProfilePlot::Mean mean;
   if (inspection_ && inspection_->analysis && !inspection_->analysis->conditions.empty()) {
     const analysis::Analysis& analysis = *inspection_->analysis;
     const std::size_t c = condition();
     if (inspection_->input.trials.size() > 1) mean = meanOf(analysis, c, signal);
     for (const bool fitted : {false, true})
       if ((fitted ? fitted_ : predicted_)->isChecked())
-        for (ProfilePlot::Prediction& some : predictionsOf(analysis, c, signal, epsilons_->chosen(), fitted))
+        for (plot::PredictedLine& some : predictionsOf(analysis, c, signal, epsilons_->chosen(), fitted))
           predictions.push_back(std::move(some));
     epsilons_->show(analysis, c);
   }
   plot_->setLines(inspection_ ? linesOf(*inspection_, signal, timeAxis()) : std::vector<ProfilePlot::Line>());
-  plot_->setMean(mean.x, mean.mean, mean.sd);
+  plot_->setMean(mean);
   plot_->setPredictions(predictions);
   if (!inspection_) plot_->setCursor({});
   showPicked();

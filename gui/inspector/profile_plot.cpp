@@ -64,7 +64,7 @@ struct ProfilePlot::Impl {
     int best = -1;
     double least = kNear;
     for (std::size_t i = 0; i < data.size(); ++i)
-      for (int k = 0; k + 1 < data[i].x.size(); ++k) {
+      for (std::size_t k = 0; k + 1 < data[i].x.size(); ++k) {
         const double ax = x.transform(data[i].x[k]), ay = y.transform(data[i].y[k]);
         const double bx = x.transform(data[i].x[k + 1]) - ax, by = y.transform(data[i].y[k + 1]) - ay;
         const double length = bx * bx + by * by, px = at.x() - ax, py = at.y() - ay;
@@ -103,7 +103,7 @@ ProfilePlot::ProfilePlot(QWidget* parent) : QWidget(parent), impl_(std::make_uni
   auto* shift = new QwtPlotPanner(canvas);
   shift->setMouseButton(Qt::MiddleButton);
   setMinimumSize(320, 180);
-  setMean({}, {}, {});
+  setMean({});
 }
 
 ProfilePlot::~ProfilePlot() = default;
@@ -115,7 +115,7 @@ void ProfilePlot::setLines(const std::vector<Line>& lines) {
   thin.setAlpha(lines.size() > 40 ? 70 : lines.size() > 8 ? 120 : 190);
   for (const Line& line : lines) {
     auto curve = gui::plot::makeCurve(*impl_->plot, {}, QPen(thin, 1), 20);
-    curve->setSamples(line.x, line.y);
+    gui::plot::setSamples(*curve, line.x, line.y);
     impl_->lines.push_back(std::move(curve));
   }
   impl_->pickedLine = -1;
@@ -127,30 +127,27 @@ void ProfilePlot::setPicked(int line) {
   impl_->pickedLine = line >= 0 && line < lineCount() ? line : -1;
   const bool any = impl_->pickedLine >= 0;
   const Line none, &shown = any ? impl_->data[static_cast<std::size_t>(impl_->pickedLine)] : none;
-  impl_->picked->setSamples(shown.x, shown.y);
+  gui::plot::setSamples(*impl_->picked, shown.x, shown.y);
   impl_->picked->setItemAttribute(QwtPlotItem::Legend, any && lineCount() > 1);
   impl_->plot->replot();
 }
 
-void ProfilePlot::setMean(const QVector<double>& x, const QVector<double>& mean, const QVector<double>& sd) {
+void ProfilePlot::setMean(const Mean& of) {
+  const auto& [x, mean, sd] = of;
   QVector<QwtIntervalSample> band;
-  for (int i = 0; i < x.size() && i < mean.size() && i < sd.size(); ++i)
+  for (std::size_t i = 0; i < x.size() && i < mean.size() && i < sd.size(); ++i)
     if (std::isfinite(sd[i])) band.push_back({x[i], mean[i] - sd[i], mean[i] + sd[i]});
   impl_->band->setItemAttribute(QwtPlotItem::Legend, !band.isEmpty());
-  impl_->mean->setItemAttribute(QwtPlotItem::Legend, !mean.isEmpty());
+  impl_->mean->setItemAttribute(QwtPlotItem::Legend, !mean.empty());
   impl_->band->setSamples(band);
-  impl_->mean->setSamples(x, mean);
+  gui::plot::setSamples(*impl_->mean, x, mean);
   impl_->plot->updateLegend();
   impl_->plot->replot();
 }
 
-void ProfilePlot::setPredictions(const std::vector<Prediction>& predictions) {
+void ProfilePlot::setPredictions(const std::vector<gui::plot::PredictedLine>& predictions) {
   impl_->predictions.clear();
-  for (const Prediction& p : predictions) {
-    auto curve = gui::plot::makePrediction(*impl_->plot, p.title, p.style, p.fitted, 50);
-    curve->setSamples(p.x, p.y);
-    impl_->predictions.push_back(std::move(curve));
-  }
+  for (const gui::plot::PredictedLine& line : predictions) impl_->predictions.push_back(gui::plot::makePrediction(*impl_->plot, line, 50));
   impl_->plot->replot();
 }
 

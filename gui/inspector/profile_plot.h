@@ -1,7 +1,4 @@
 #pragma once
-#include <QColor>
-#include <QString>
-#include <QVector>
 #include <QWidget>
 #include <memory>
 #include <optional>
@@ -21,20 +18,17 @@ class ProfilePlot : public QWidget {
   ~ProfilePlot() override;
 
   struct Line {
-    QVector<double> x, y;
+    std::vector<double> x, y;
   };
-  struct Prediction {
-    QString title;
-    gui::plot::LineStyle style;
-    bool fitted = false;  // thicker, with filled marks
-    QVector<double> x, y;
+  /// Of several lines, with their scatter. Empty: none.
+  struct Mean {
+    std::vector<double> x, mean, sd;
   };
   void setLines(const std::vector<Line>& lines);
   /// Picks a line by its index, or -1 for no line.
   void setPicked(int line);
-  /// Empty vectors remove the mean.
-  void setMean(const QVector<double>& x, const QVector<double>& mean, const QVector<double>& sd);
-  void setPredictions(const std::vector<Prediction>& predictions);
+  void setMean(const Mean& mean);
+  void setPredictions(const std::vector<gui::plot::PredictedLine>& predictions);
   void setCursor(std::optional<double> time);
   void setMarks(std::optional<double> onset, std::optional<double> end);
   void showEverything();

@@ -28,16 +28,16 @@ void LiveForecast::tellCompared() {
   Q_EMIT compared(computeHandErrors(trial.points, trial.path, forecasts_, task, trial.span), trial.succeeded);
 }
 
-std::vector<VelocityPlot::Line> LiveForecast::lines(const std::vector<predict::Criterion>& criteria) const {
-  std::vector<VelocityPlot::Line> lines;
+std::vector<PredictedLine> LiveForecast::lines(const std::vector<predict::Criterion>& criteria) const {
+  std::vector<PredictedLine> lines;
   for (const CriterionForecast& forecast : forecasts_) {
     if (!forecast.prediction || std::find(criteria.begin(), criteria.end(), forecast.criterion) == criteria.end()) continue;
-    VelocityPlot::Line line{titleOf(forecast.criterion), styleOf(forecast.criterion), {}, {}};
+    PredictedLine line{titleOf(forecast.criterion), styleOf(forecast.criterion)};
     constexpr int kParts = 240;
     for (int i = 0; i <= kParts; ++i) {
       const double t = forecast.prediction->duration * i / kParts;
-      line.time.push_back(t);
-      line.velocity.push_back(forecast.prediction->handAt(t).velocity);
+      line.x.push_back(t);
+      line.y.push_back(forecast.prediction->handAt(t).velocity);
     }
     lines.push_back(std::move(line));
   }

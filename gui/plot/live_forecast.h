@@ -3,8 +3,8 @@
 #include <optional>
 #include <vector>
 
+#include "gui/plot/line_style.h"
 #include "gui/plot/trial_errors.h"
-#include "gui/plot/velocity_plot.h"
 #include "gui/widgets/newest_work.h"
 
 namespace reachlab::gui::plot {
@@ -20,7 +20,7 @@ class LiveForecast : public QObject {
   /// Empty while they are being computed.
   const std::vector<CriterionForecast>& forecasts() const { return forecasts_; }
   /// The lines of these criteria, for the plot.
-  std::vector<VelocityPlot::Line> lines(const std::vector<predict::Criterion>& criteria) const;
+  std::vector<PredictedLine> lines(const std::vector<predict::Criterion>& criteria) const;
   /// A trial that has ended: `compared` follows, at once or when the predictions are there.
   void compare(const std::vector<TracePoint>& points, const constraints::TaskPath& path, const TrialSpan& span, bool succeeded);
 

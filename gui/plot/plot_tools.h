@@ -19,8 +19,12 @@
 #include <QSaveFile>
 #include <QTextStream>
 #include <QToolButton>
+#include <QVBoxLayout>
+#include <algorithm>
 #include <iterator>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "gui/plot/line_style.h"
 #include "gui/widgets/inks.h"
@@ -96,17 +100,23 @@ class MarkedCurve : public QwtPlotCurve {
   }
 };
 
-/// A criterion's line. One that was fitted is thicker and has filled marks.
-inline std::unique_ptr<QwtPlotCurve> makePrediction(QwtPlot& plot, const QString& title, const LineStyle& style, bool fitted, double z) {
+/// Fills the curve. It takes samples only as pointers.
+inline void setSamples(QwtPlotCurve& curve, const std::vector<double>& x, const std::vector<double>& y) {
+  curve.setSamples(x.data(), y.data(), static_cast<int>(std::min(x.size(), y.size())));
+}
+
+inline std::unique_ptr<QwtPlotCurve> makePrediction(QwtPlot& plot, const PredictedLine& line, double z) {
   constexpr QwtSymbol::Style kMarks[] = {QwtSymbol::Ellipse,   QwtSymbol::Rect,   QwtSymbol::Triangle, QwtSymbol::Diamond,
                                          QwtSymbol::DTriangle, QwtSymbol::XCross, QwtSymbol::Hexagon};
-  QPen pen(style.colour, fitted ? 2.4 : 1.6);
+  const LineStyle& style = line.style;
+  QPen pen(style.colour, line.fitted ? 2.4 : 1.6);
   pen.setDashPattern({style.dashes.begin(), style.dashes.end()});
   pen.setCapStyle(Qt::FlatCap);
-  auto curve = makeCurve(plot, title, pen, z, std::make_unique<MarkedCurve>());
-  const QBrush inside = fitted ? style.colour : widgets::toQColor(widgets::colours::kBase);
+  auto curve = makeCurve(plot, line.title, pen, z, std::make_unique<MarkedCurve>());
+  const QBrush inside = line.fitted ? style.colour : widgets::toQColor(widgets::colours::kBase);
   curve->setSymbol(
       new QwtSymbol(kMarks[static_cast<std::size_t>(style.mark) % std::size(kMarks)], inside, QPen(style.colour, 1.2), QSize(7, 7)));
+  setSamples(*curve, line.x, line.y);
   return curve;
 }
 
@@ -155,6 +165,24 @@ QToolButton* makeExportButton(Plot* plot, const QString& title, const QString& s
         plot, title, QObject::tr("%1 was not written: its name ends in .svg, .pdf or .csv, and its folder can be written to.").arg(file));
   });
   return button;
+}
+
+/// Lays out a plot with legend and zoom in `widget`, below a row of `fields` that ends with the button for its export.
+template <typename Widget>
+std::pair<QwtPlot*, Zoomer*> addPlot(Widget* widget, const std::vector<QWidget*>& fields, const QString& title, const QString& suggested) {
+  auto* layout = new QVBoxLayout(widget);
+  layout->setContentsMargins(6, 2, 6, 2);
+  layout->setSpacing(2);
+  auto* row = new QHBoxLayout;
+  for (QWidget* field : fields) row->addWidget(field);
+  row->addStretch(1);
+  row->addWidget(makeExportButton(widget, title, suggested));
+  layout->addLayout(row);
+  auto* plot = new QwtPlot;
+  layout->addWidget(plot, 1);
+  auto* zoomer = new Zoomer(dress(*plot));
+  addLegend(*plot);
+  return {plot, zoomer};
 }
 
 }  // namespace reachlab::gui::plot

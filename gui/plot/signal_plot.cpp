@@ -7,10 +7,9 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QHBoxLayout>
-#include <QVBoxLayout>
 #include <QVector>
 #include <algorithm>
+#include <tuple>
 #include <vector>
 
 #include "gui/plot/plot_tools.h"
@@ -44,10 +43,6 @@ struct SignalPlot::Impl {
 
 SignalPlot::SignalPlot(QWidget* parent) : QWidget(parent), impl_(std::make_unique<Impl>()) {
   Impl& d = *impl_;
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(6, 2, 6, 2);
-  layout->setSpacing(2);
-  auto* row = new QHBoxLayout;
   d.quantity = widgets::named<QComboBox>("signalQuantity");
   d.quantity->addItems({tr("velocity"), tr("position"), tr("force"), tr("phase plane, along x"), tr("timing")});
   d.watched = widgets::named<QComboBox>("signalWatched");
@@ -55,31 +50,20 @@ SignalPlot::SignalPlot(QWidget* parent) : QWidget(parent), impl_(std::make_uniqu
   d.quantity->setToolTip(tr("the signal that is drawn, of the last 10 s"));
   d.watched->setToolTip(tr("the hand or the mass that is drawn"));
   d.freeze->setToolTip(tr("freezes the plot. Press it again to show the current signal"));
-  row->addWidget(d.quantity);
-  row->addWidget(d.watched);
-  row->addWidget(d.freeze);
-  row->addStretch(1);
-  row->addWidget(makeExportButton(this, tr("Export signal"), QStringLiteral("signal.svg")));
-  layout->addLayout(row);
-  auto* plot = d.plot = new QwtPlot;
-  layout->addWidget(plot, 1);
-  auto* canvas = dress(*plot);
+  std::tie(d.plot, d.zoomer) = addPlot(this, {d.quantity, d.watched, d.freeze}, tr("Export signal"), QStringLiteral("signal.svg"));
   for (int i = 0; i < kLines; ++i) {
     auto& curve = d.curves[static_cast<std::size_t>(i)];
     curve = std::make_unique<QwtPlotCurve>();
     curve->setPen(QPen(inkOf(i), 1.6));
     curve->setRenderHint(QwtPlotItem::RenderAntialiased);
     curve->setPaintAttribute(QwtPlotCurve::ClipPolygons);
-    curve->attach(plot);
+    curve->attach(d.plot);
   }
-  addLegend(*plot);
-  d.zoomer = new Zoomer(canvas);
   setMasses(0);
-  const auto anew = [this] {
+  connect(d.quantity, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     fill();
     impl_->zoomer->setZoomBase(true);
-  };
-  connect(d.quantity, qOverload<int>(&QComboBox::currentIndexChanged), this, anew);
+  });
   connect(d.watched, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     clear();  // points of another body are none of this one
     Q_EMIT watchedChanged(watched());
@@ -116,8 +100,7 @@ void SignalPlot::add(const Point& point) {
 
 void SignalPlot::clear() {
   impl_->count = 0;
-  impl_->changed = true;
-  if (impl_->plot != nullptr && impl_->curves.front()) fill();
+  fill();
 }
 
 void SignalPlot::refresh() {

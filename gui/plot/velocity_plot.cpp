@@ -9,13 +9,14 @@
 #include <qwt_scale_widget.h>
 
 #include <QCheckBox>
-#include <QVBoxLayout>
 #include <QVector>
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "gui/plot/plot_tools.h"
+#include "gui/widgets/named.h"
 
 namespace reachlab::gui::plot {
 
@@ -34,7 +35,7 @@ struct VelocityPlot::Impl {
   };
   // What is to be drawn next; the curves hold what is drawn.
   Trial now, before;
-  std::vector<Line> lines;
+  std::vector<PredictedLine> lines;
   bool newLines = false, newTask = false;
   double duration = 1, tolerance = 0.5;
   bool changed = false;
@@ -46,7 +47,10 @@ struct VelocityPlot::Impl {
     lastBefore->setSamples(before.times, before.lasts);
     band->setInterval(std::max(0.0, duration - tolerance), duration + tolerance);
     goal->setXValue(duration);
-    if (std::exchange(newLines, false)) drawPredictions();
+    if (std::exchange(newLines, false)) {
+      predictions.clear();
+      for (const PredictedLine& line : lines) predictions.push_back(makePrediction(*plot, line, 24));
+    }
     if (std::exchange(newTask, false)) zoomer->zoom(0);
     if (zoomer->zoomRectIndex() == 0) {
       scale();
@@ -54,15 +58,6 @@ struct VelocityPlot::Impl {
       zoomer->setZoomBase(false);
     }
     plot->replot();
-  }
-
-  void drawPredictions() {
-    predictions.clear();
-    for (const Line& line : lines) {
-      auto curve = makePrediction(*plot, line.title, line.style, false, 24);
-      curve->setSamples(line.time.data(), line.velocity.data(), static_cast<int>(std::min(line.time.size(), line.velocity.size())));
-      predictions.push_back(std::move(curve));
-    }
   }
 
   void scale() {
@@ -87,20 +82,10 @@ struct VelocityPlot::Impl {
 };
 
 VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent), impl_(std::make_unique<Impl>()) {
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(6, 2, 6, 2);
-  layout->setSpacing(2);
-  auto* row = new QHBoxLayout;
-  impl_->freeze = new QCheckBox(tr("freeze"));
-  impl_->freeze->setObjectName(QStringLiteral("velocityFreeze"));
+  impl_->freeze = widgets::named<QCheckBox>("velocityFreeze", tr("freeze"));
   impl_->freeze->setToolTip(tr("freezes the plot. Press it again to show the current trial"));
-  row->addWidget(impl_->freeze);
-  row->addStretch(1);
-  row->addWidget(makeExportButton(this, tr("Export velocities"), QStringLiteral("velocity.svg")));
-  layout->addLayout(row);
-  auto* plot = impl_->plot = new QwtPlot(this);
-  layout->addWidget(plot, 1);
-  auto* canvas = dress(*plot);
+  std::tie(impl_->plot, impl_->zoomer) = addPlot(this, {impl_->freeze}, tr("Export velocities"), QStringLiteral("velocity.svg"));
+  QwtPlot* plot = impl_->plot;
   plot->setAxisTitle(QwtPlot::xBottom, axisTitle(QStringLiteral("time since onset [s]")));
   plot->setAxisTitle(QwtPlot::yLeft, axisTitle(QStringLiteral("velocity [m/s]")));
   setAxisFonts(*plot);
@@ -129,8 +114,6 @@ VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent), impl_(std::make_u
   impl_->lastBefore = makeCurve(*plot, {}, QPen(lastFaint, 1), 18);
   impl_->hand = makeCurve(*plot, QStringLiteral("hand"), QPen(handInk, 2.2), 22);
   impl_->last = makeCurve(*plot, QStringLiteral("last mass"), QPen(lastInk, 2.2), 21);
-  addLegend(*plot);
-  impl_->zoomer = new Zoomer(canvas);
   connect(impl_->freeze, &QCheckBox::toggled, this, &VelocityPlot::refresh);
   impl_->draw();
 }
@@ -177,7 +160,7 @@ void VelocityPlot::refresh() {
   d.draw();
 }
 
-void VelocityPlot::setPredictions(const std::vector<Line>& lines) {
+void VelocityPlot::setPredictions(const std::vector<PredictedLine>& lines) {
   impl_->lines = lines;
   impl_->newLines = impl_->changed = true;
   refresh();

@@ -1,5 +1,4 @@
 #pragma once
-#include <QColor>
 #include <QString>
 #include <QWidget>
 #include <memory>
@@ -32,12 +31,7 @@ class VelocityPlot : public QWidget {
   /// Draws the changes. Does nothing while the plot is frozen.
   void refresh();
 
-  struct Line {
-    QString title;
-    LineStyle style;
-    std::vector<double> time, velocity;  // [s], [m/s]
-  };
-  void setPredictions(const std::vector<Line>& lines);
+  void setPredictions(const std::vector<PredictedLine>& lines);
   /// By the file's ending: pdf, svg, csv. False when it cannot be written.
   bool exportTo(const QString& file);
   std::size_t pointCount() const;

@@ -44,10 +44,10 @@ TEST(VelocityPlot, APredictionIsDashedHoweverSmallThePlotIs) {
   Shown shown;
   ASSERT_NE(shown.canvas, nullptr);
   shown.plot.resize(560, 220);
-  VelocityPlot::Line line{QStringLiteral("prediction"), {QColor(255, 0, 0), {5, 3}, 0}, {}, {}};
+  PredictedLine line{QStringLiteral("prediction"), {QColor(255, 0, 0), {5, 3}, 0}};
   for (int i = 0; i <= 200; ++i) {
-    line.time.push_back(i / 200.0);
-    line.velocity.push_back(0.3 * std::sin(M_PI * i / 200));
+    line.x.push_back(i / 200.0);
+    line.y.push_back(0.3 * std::sin(M_PI * i / 200));
   }
   shown.plot.setPredictions({line});
   shown.plot.refresh();
@@ -104,7 +104,7 @@ TEST(VelocityPlot, FreezeHoldsThePictureAndLosesNothing) {
 TEST(VelocityPlot, IsExportedAsItIsDrawn) {
   Shown shown;
   shown.add(0, 30);
-  shown.plot.setPredictions({{QStringLiteral("jerk"), {Qt::red, {5, 3}, 0}, {0, 1}, {0, 0.5}}});
+  shown.plot.setPredictions({{QStringLiteral("jerk"), {Qt::red, {5, 3}, 0}, false, {0, 1}, {0, 0.5}}});
   const QList<QByteArray> lines = exported(shown.plot);
   EXPECT_EQ(lines[0], "line,time_s,velocity_m_per_s");
   EXPECT_EQ(lines[30], "\"hand\",0.28999999999999998,2.9000000000000004");
