@@ -18,19 +18,6 @@ const record::TickMeasure& kPeakSpeed = record::tickMeasure("peak_hand_speed_m_p
 
 QString from(const std::string& text) { return QString::fromStdString(text); }
 
-QString outcomeWords(const trial::TrialResult& result) {
-  return result.outcome == trial::Outcome::Success ? QStringLiteral("✓") : QStringLiteral("✗ ") + scene::reasonText(result.reason);
-}
-
-QString markWords(const record::TrialMark& mark) {
-  QStringList words;
-  if (mark.flagged) words << QStringLiteral("⚑");
-  if (!mark.excluded.empty()) words << TrialTable::tr("excluded: %1").arg(from(mark.excluded));
-  if (mark.onset || mark.offset) words << TrialTable::tr("moved");
-  if (!mark.note.empty()) words << from(mark.note);
-  return words.join(QStringLiteral("  "));
-}
-
 }  // namespace
 
 TrialTable::TrialTable(QObject* parent) : QAbstractTableModel(parent) {}
@@ -115,17 +102,29 @@ QString TrialTable::text(int row, int column) const {
     case kCondition: return from(r.conditionOf(t)) + (r.practice ? tr(" (practice)") : QString());
     case kRun: return QString::number(r.run);
     case kTrial: return QString::number(t.trial);
-    case kOutcome: return outcomeWords(t.result);
+    case kOutcome:
+      return t.result.outcome == trial::Outcome::Success ? QStringLiteral("✓") : QStringLiteral("✗ ") + scene::reasonText(t.result.reason);
     case kTime: return number(kMovementTime.of(t), 3);
     case kPeak: return t.result.onsetTick > 0 ? number(kPeakSpeed.of(t), 3) : QString();
     case kPaper: return optional(error(row, false));
     case kFitted: return optional(error(row, true));
-    case kMark: try { return markWords(mark(row));
-      } catch (const Error&) {
-        return tr("marks cannot be read");
-      }
+    case kMark: return markWords(row);
     default: return {};
   }
+}
+
+QString TrialTable::markWords(int row) const {
+  QStringList words;
+  try {
+    const record::TrialMark own = mark(row);
+    if (own.flagged) words << QStringLiteral("⚑");
+    if (!own.excluded.empty()) words << tr("excluded: %1").arg(from(own.excluded));
+    if (own.onset || own.offset) words << tr("moved");
+    if (!own.note.empty()) words << from(own.note);
+  } catch (const Error&) {
+    return tr("marks cannot be read");
+  }
+  return words.join(QStringLiteral("  "));
 }
 
 QVariant TrialTable::sortKey(int row, int column) const {
@@ -149,8 +148,7 @@ QVariant TrialTable::data(const QModelIndex& at, int role) const {
     case Qt::DisplayRole: return text(at.row(), at.column());
     case Qt::UserRole: return sortKey(at.row(), at.column());
     case Qt::TextAlignmentRole: {
-      const bool words = at.column() == kSubject || at.column() == kSession || at.column() == kCondition || at.column() == kOutcome ||
-                         at.column() == kMark;
+      const bool words = at.column() <= kCondition || at.column() == kOutcome || at.column() == kMark;
       return static_cast<int>((words ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
     }
     case Qt::ForegroundRole:
@@ -168,22 +166,9 @@ QVariant TrialTable::data(const QModelIndex& at, int role) const {
 QVariant TrialTable::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal) return {};
   const QString criterion = QString::fromUtf8(predict::nameOf(criterion_).data());
-  if (role == Qt::DisplayRole) {
-    switch (section) {
-      case kSubject: return tr("subject");
-      case kSession: return tr("session");
-      case kCondition: return tr("condition");
-      case kRun: return tr("run");
-      case kTrial: return tr("trial");
-      case kOutcome: return tr("outcome");
-      case kTime: return tr("t [s]");
-      case kPeak: return tr("peak [m/s]");
-      case kPaper: return tr("ε paper");
-      case kFitted: return tr("ε fitted");
-      case kMark: return tr("marks");
-      default: return {};
-    }
-  }
+  static const QString kTitles[kColumns] = {tr("subject"), tr("session"),    tr("condition"), tr("run"),      tr("trial"), tr("outcome"),
+                                            tr("t [s]"),   tr("peak [m/s]"), tr("ε paper"),   tr("ε fitted"), tr("marks")};
+  if (role == Qt::DisplayRole && section >= 0 && section < kColumns) return kTitles[section];
   if (role != Qt::ToolTipRole) return {};
   if (section == kTime) return from(std::string(kMovementTime.sentence) + " [s]");
   if (section == kPeak) return from(std::string(kPeakSpeed.sentence) + " [m/s]");

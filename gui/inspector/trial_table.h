@@ -53,6 +53,7 @@ class TrialTable : public QAbstractTableModel {
   };
   const record::RunMarks& marksOf(std::size_t run) const;
   QString text(int row, int column) const;
+  QString markWords(int row) const;
   QVariant sortKey(int row, int column) const;
   std::optional<double> error(int row, bool fitted) const;
 

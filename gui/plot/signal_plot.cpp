@@ -9,8 +9,8 @@
 #include <QComboBox>
 #include <QVector>
 #include <algorithm>
+#include <deque>
 #include <tuple>
-#include <vector>
 
 #include "gui/plot/plot_tools.h"
 #include "gui/widgets/named.h"
@@ -29,16 +29,13 @@ QColor inkOf(int line) {
 }  // namespace
 
 struct SignalPlot::Impl {
-  std::vector<Point> ring = std::vector<Point>(kCapacity);
-  int head = 0, count = 0;  // where the next point goes, how many there are
+  std::deque<Point> points;  // the newest last
   bool changed = false;
   QwtPlot* plot = nullptr;
   std::array<std::unique_ptr<QwtPlotCurve>, kLines> curves;
   Zoomer* zoomer = nullptr;
   QComboBox *quantity = nullptr, *watched = nullptr;
   QCheckBox* freeze = nullptr;
-
-  const Point& at(int i) const { return ring[static_cast<std::size_t>((head - count + i + kCapacity) % kCapacity)]; }
 };
 
 SignalPlot::SignalPlot(QWidget* parent) : QWidget(parent), impl_(std::make_unique<Impl>()) {
@@ -86,20 +83,18 @@ void SignalPlot::setMasses(int count) {
 
 int SignalPlot::watched() const { return impl_->watched->currentIndex() - 1; }
 SignalPlot::Quantity SignalPlot::quantity() const { return static_cast<Quantity>(impl_->quantity->currentIndex()); }
-int SignalPlot::pointCount() const { return impl_->count; }
+int SignalPlot::pointCount() const { return static_cast<int>(impl_->points.size()); }
 bool SignalPlot::frozen() const { return impl_->freeze->isChecked(); }
 
 void SignalPlot::add(const Point& point) {
-  Impl& d = *impl_;
   if (frozen()) return;  // what is looked at is what is exported
-  d.ring[static_cast<std::size_t>(d.head)] = point;
-  d.head = (d.head + 1) % kCapacity;
-  d.count = std::min(d.count + 1, kCapacity);
-  d.changed = true;
+  impl_->points.push_back(point);
+  if (pointCount() > kCapacity) impl_->points.pop_front();
+  impl_->changed = true;
 }
 
 void SignalPlot::clear() {
-  impl_->count = 0;
+  impl_->points.clear();
   fill();
 }
 
@@ -118,13 +113,11 @@ void SignalPlot::fill() {
                                                             : d.watched->currentText(),
                                  what == Quantity::Timing ? tr("missed") : QStringLiteral("y"), QStringLiteral("z")};
   const int lines = three ? 3 : what == Quantity::Timing ? 2 : 1;
-  const double latest = d.count > 0 ? d.at(d.count - 1).time : 0;
   for (int line = 0; line < kLines; ++line) {
+    const auto k = static_cast<std::size_t>(line);
     QVector<double> x, y;
-    for (int i = 0; i < d.count && line < lines; ++i) {
-      const Point& p = d.at(i);
-      if (latest - p.time > kSpan) continue;
-      const auto k = static_cast<std::size_t>(line);
+    for (const Point& p : d.points) {
+      if (line >= lines || d.points.back().time - p.time > kSpan) continue;
       x.push_back(what == Quantity::PhasePlane ? p.position[0] : p.time);
       switch (what) {
         case Quantity::Velocity: y.push_back(p.velocity[k]); break;
@@ -134,7 +127,7 @@ void SignalPlot::fill() {
         case Quantity::Timing: y.push_back(line == 0 ? p.period : p.missed); break;
       }
     }
-    auto& curve = d.curves[static_cast<std::size_t>(line)];
+    auto& curve = d.curves[k];
     curve->setSamples(x, y);
     curve->setTitle(names[line]);
     curve->setItemAttribute(QwtPlotItem::Legend, line < lines);
@@ -156,8 +149,7 @@ void SignalPlot::fill() {
 bool SignalPlot::exportTo(const QString& file) {
   return exportPlot(*impl_->plot, file, [this](QTextStream& text) {
     text << "time_s,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,coupling_force_n,tick_period_ms,missed_ticks\n";
-    for (int i = 0; i < impl_->count; ++i) {
-      const Point& p = impl_->at(i);
+    for (const Point& p : impl_->points) {
       text << p.time;
       for (const auto* three : {&p.position, &p.velocity})
         for (const double value : *three) text << ',' << value;

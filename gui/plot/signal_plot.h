@@ -8,7 +8,7 @@ namespace reachlab::gui::plot {
 
 /// The last seconds of one signal of the run. The signal is velocity, position or force of the hand or a mass, its phase plane, or the
 /// timing of the loop. A drag zooms in, a right click zooms back, and the pointer shows values. *freeze* holds the picture. The shown
-/// curves can be exported. Memory does not grow, because a ring holds kCapacity points. SI.
+/// curves can be exported. Memory does not grow, because only the last kCapacity points are kept. SI.
 class SignalPlot : public QWidget {
   Q_OBJECT
  public:
