@@ -8,8 +8,11 @@
 #include <tuple>
 
 #include "gui/app/frame_recorder.h"
+#include "gui/app/main_window.h"
 #include "gui/app/menu_entries.h"
+#include "gui/scene/scene_view.h"
 #include "gui/scene_plan/part_names.h"
+#include "gui/widgets/theme.h"
 #include "gui/widgets/work_strip.h"
 #include "sim/experiment/scene_look.h"
 
@@ -27,7 +30,7 @@ QString wordsOf(const std::string& part) {
 
 // As it is drawn now, by the theme or by the experiment.
 QColor drawnColour(MainWindow& window, const std::string& part) {
-  scene::PartColours drawn = window.view().plan().look.colours;
+  const scene::PartColours& drawn = window.view().plan().look.colours;
   const widgets::Colour* colour = scene::partNamed(drawn, part);
   return colour == nullptr ? QColor() : QColor::fromRgbF(colour->red, colour->green, colour->blue);
 }

@@ -1,9 +1,9 @@
 #pragma once
-#include <memory>
+#include <array>
+#include <vector>
 
+#include "gui/scene/scene_actors.h"
 #include "gui/scene_plan/scene_plan.h"
-
-class vtkRenderer;
 
 namespace reachlab::gui::scene {
 
@@ -15,17 +15,31 @@ class CueActors {
   static constexpr int kTracePoints = 4096;        // a longer way loses its beginning
 
   CueActors(vtkRenderer& renderer, const ScenePlan& plan);
-  ~CueActors();
-  CueActors(const CueActors&) = delete;
-  CueActors& operator=(const CueActors&) = delete;
-
   void show(const SceneFrame& frame);
   /// Points of the trace. For tests.
-  int tracePointCount() const;
+  int tracePointCount() const { return static_cast<int>(traced_.size()); }
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  struct Ring {
+    double distance, opacity;
+  };
+  void addGrid(const Box& box, double size);
+  Actor addSoft(vtkPolyData* data);
+  Actor addDisc(const widgets::Colour& colour, const std::array<Ring, 3>& rings);
+  void addShadow(double size);
+  void showTrace(const SceneFrame& frame);
+  void showArrow(const SceneFrame& frame);
+
+  ActorGroup actors_;
+  PlanLook look_;
+  std::vector<Vec3> shift_;
+  double unit_, floor_;
+  bool handShown_;              // false: the cues are those of the first mass
+  std::vector<Actor> shadows_;  // of the masses, and last the hand's
+  Actor arrow_;
+  std::vector<Vec3> traced_;
+  vtkSmartPointer<vtkPolyData> trace_ = linesOf({});
+  std::int32_t tracedTrial_ = 0;
 };
 
 }  // namespace reachlab::gui::scene

@@ -1,10 +1,8 @@
 #pragma once
-#include <memory>
 #include <vector>
 
+#include "gui/scene/scene_actors.h"
 #include "gui/scene_plan/scene_plan.h"
-
-class vtkRenderer;
 
 namespace reachlab::gui::scene {
 
@@ -13,15 +11,15 @@ namespace reachlab::gui::scene {
 class GhostActors {
  public:
   GhostActors(vtkRenderer& renderer, const ScenePlan& plan);
-  ~GhostActors();  // takes the actors out again
-  GhostActors(const GhostActors&) = delete;
-  GhostActors& operator=(const GhostActors&) = delete;
-
   void show(const std::vector<SceneFrame>& ghosts);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void addGhost();
+  ActorGroup actors_;
+  std::vector<double> radius_;  // of each mass, then of the hand
+  std::vector<Vec3> shift_;
+  PartColours colours_;
+  std::vector<std::vector<Actor>> ghosts_;  // balls of each: its masses, its hand
 };
 
 }  // namespace reachlab::gui::scene

@@ -8,17 +8,12 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
-#include <vtkRenderer.h>
-#include <vtkSmartPointer.h>
 
-#include <cmath>
-
-#include "gui/scene/scene_actors.h"
+#include <algorithm>
+#include <string>
 
 namespace reachlab::gui::scene {
 namespace {
-
-using Actor = vtkSmartPointer<vtkActor>;
 
 constexpr double kEdge = 35;  // [degrees] between two triangles that is an edge, not a bend
 
@@ -42,7 +37,6 @@ Actor actorOf(const model::ModelPart& part) {
   mapper->ScalarVisibilityOff();
   const Actor actor = Actor::New();
   actor->SetMapper(mapper);
-  actor->PickableOff();
   vtkProperty* p = actor->GetProperty();
   p->SetColor(part.colour[0], part.colour[1], part.colour[2]);
   p->SetOpacity(part.opacity);
@@ -55,50 +49,26 @@ Actor actorOf(const model::ModelPart& part) {
 
 }  // namespace
 
-struct ModelActors::Impl {
-  vtkRenderer& renderer;
-  std::vector<Vec3> shift;
-  bool handShown;
-  std::vector<Actor> all, hand;
-  std::vector<std::vector<Actor>> masses;
-};
-
 ModelActors::ModelActors(vtkRenderer& renderer, const ScenePlan& plan)
-    : impl_(new Impl{renderer, plan.massShift, plan.handShown, {}, {}, {}}) {
-  Impl& d = *impl_;
-  d.masses.resize(plan.massRadius.size());
+    : actors_(renderer), shift_(plan.massShift), masses_(plan.massRadius.size()) {
   if (!plan.model) return;
   for (const model::ModelPart& part : plan.model->parts) {
-    std::vector<Actor>* where = nullptr;
-    if (part.name == "hand") where = &d.hand;
-    for (std::size_t i = 0; i < d.masses.size(); ++i)
-      if (part.name == "mass" + std::to_string(i + 1)) where = &d.masses[i];
+    std::vector<Actor>* where = part.name == "hand" ? &hand_ : nullptr;
+    for (std::size_t i = 0; i < masses_.size(); ++i)
+      if (part.name == "mass" + std::to_string(i + 1)) where = &masses_[i];
     if (where == nullptr && !part.name.empty()) continue;  // a mass that there is not, or that is not shown
-    Actor actor = actorOf(part);
-    renderer.AddActor(actor);
-    d.all.push_back(actor);
+    const Actor actor = actors_.add(actorOf(part));
     if (where != nullptr) where->push_back(actor);
-    if (where == &d.hand) actor->SetVisibility(d.handShown);
+    if (where == &hand_) actor->SetVisibility(plan.handShown);
   }
 }
 
-ModelActors::~ModelActors() {
-  for (const Actor& actor : impl_->all) impl_->renderer.RemoveActor(actor);
-}
-
-bool ModelActors::hasHand() const { return !impl_->hand.empty(); }
-bool ModelActors::hasMass(std::size_t mass) const { return mass < impl_->masses.size() && !impl_->masses[mass].empty(); }
-
 void ModelActors::show(const SceneFrame& frame) {
-  const auto place = [](const std::vector<Actor>& actors, const Vec3& at) {
-    if (!isFinite(at)) return;
-    for (const Actor& actor : actors) actor->SetPosition(at.x, at.y, at.z);
-  };
-  place(impl_->hand, ownHand(frame));
-  if (!impl_->masses.empty())
-    for (const Actor& actor : impl_->masses.front()) actor->SetVisibility(frame.cursorShown);
-  for (std::size_t i = 0; i < std::min(frame.masses.size(), impl_->masses.size()); ++i)
-    place(impl_->masses[i], frame.masses[i] + impl_->shift[i]);
+  for (const Actor& actor : hand_) place(*actor, ownHand(frame));
+  if (!masses_.empty())
+    for (const Actor& actor : masses_.front()) actor->SetVisibility(frame.cursorShown);
+  for (std::size_t i = 0; i < std::min(frame.masses.size(), masses_.size()); ++i)
+    for (const Actor& actor : masses_[i]) place(*actor, frame.masses[i] + shift_[i]);
 }
 
 }  // namespace reachlab::gui::scene

@@ -1,9 +1,8 @@
 #pragma once
-#include <memory>
+#include <vector>
 
+#include "gui/scene/scene_actors.h"
 #include "gui/scene_plan/scene_plan.h"
-
-class vtkRenderer;
 
 namespace reachlab::gui::scene {
 
@@ -11,18 +10,17 @@ namespace reachlab::gui::scene {
 class ModelActors {
  public:
   ModelActors(vtkRenderer& renderer, const ScenePlan& plan);
-  ~ModelActors();
-  ModelActors(const ModelActors&) = delete;
-  ModelActors& operator=(const ModelActors&) = delete;
 
   /// Whether the model has a shape for the hand, or for that mass (from 0). The usual shape is then not drawn.
-  bool hasHand() const;
-  bool hasMass(std::size_t mass) const;
+  bool hasHand() const { return !hand_.empty(); }
+  bool hasMass(std::size_t mass) const { return mass < masses_.size() && !masses_[mass].empty(); }
   void show(const SceneFrame& frame);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  ActorGroup actors_;
+  std::vector<Vec3> shift_;
+  std::vector<Actor> hand_;
+  std::vector<std::vector<Actor>> masses_;
 };
 
 }  // namespace reachlab::gui::scene

@@ -1,9 +1,10 @@
 #pragma once
-#include <memory>
+#include <vector>
 
+#include "gui/scene/cue_actors.h"
+#include "gui/scene/model_actors.h"
+#include "gui/scene/scene_actors.h"
 #include "gui/scene_plan/scene_plan.h"
-
-class vtkRenderer;
 
 namespace reachlab::gui::scene {
 
@@ -13,17 +14,34 @@ enum class SurfaceStyle { Glass, Wire };
 class ObjectActors {
  public:
   ObjectActors(vtkRenderer& renderer, const ScenePlan& plan, SurfaceStyle style);
-  ~ObjectActors();  // takes the actors out again
-  ObjectActors(const ObjectActors&) = delete;
-  ObjectActors& operator=(const ObjectActors&) = delete;
 
   void show(const SceneFrame& frame);
   /// Moves the marks of start and target.
   void movePlaces(const Vec3& start, const Vec3& target);
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void addConstraint(SurfaceStyle style);
+  void addPlaces();
+  void addMarks();
+  void addMark(bool atTarget, const Vec3& shift, double radius, double opacity);
+  void addForces();
+  void addObject();
+  void showMasses(const SceneFrame& frame);
+  void showHands(const SceneFrame& frame);
+  void showSprings(const SceneFrame& frame);
+
+  struct Mark {
+    Actor actor;
+    bool atTarget;
+    Vec3 shift;  // [m] beside it
+  };
+  ScenePlan plan_;
+  ActorGroup actors_;
+  ModelActors model_;
+  CueActors cues_;
+  std::vector<Actor> masses_, springs_, hands_, via_;
+  std::vector<Mark> marks_;
+  bool handWasValid_ = true;
 };
 
 }  // namespace reachlab::gui::scene

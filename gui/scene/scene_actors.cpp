@@ -17,10 +17,10 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
+#include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
 #include <vtkShaderProperty.h>
 #include <vtkSphereSource.h>
-#include <vtkTransform.h>
 #include <vtkTubeFilter.h>
 
 #include <algorithm>
@@ -34,11 +34,9 @@ namespace {
 constexpr double kPenLength = 16;               // in radii of its tip
 constexpr double kPenTilt = 32, kPenTurn = 24;  // [deg] towards the viewer, to the right
 
-vtkSmartPointer<vtkActor> actorOf(vtkAlgorithmOutput* geometry, const Look& look) {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputConnection(geometry);
+Actor actorOf(vtkPolyDataMapper* mapper, const Look& look) {
   mapper->ScalarVisibilityOff();
-  const auto actor = vtkSmartPointer<vtkActor>::New();
+  const auto actor = Actor::New();
   actor->SetMapper(mapper);
   vtkProperty* p = actor->GetProperty();
   p->SetColor(look.colour.red, look.colour.green, look.colour.blue);
@@ -50,6 +48,35 @@ vtkSmartPointer<vtkActor> actorOf(vtkAlgorithmOutput* geometry, const Look& look
   if (look.metal) p->SetDiffuse(0.55), p->SetAmbient(0.18);
   p->SetInterpolationToPhong();
   return actor;
+}
+
+Actor actorOf(vtkAlgorithmOutput* geometry, const Look& look) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputConnection(geometry);
+  return actorOf(mapper, look);
+}
+
+Actor actorOf(vtkPolyData* geometry, const Look& look) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(geometry);
+  return actorOf(mapper, look);
+}
+
+}  // namespace
+
+ActorGroup::ActorGroup(vtkRenderer& renderer) : renderer_(&renderer) {}
+
+ActorGroup::~ActorGroup() {
+  for (const Actor& actor : actors_) renderer_->RemoveActor(actor);
+}
+
+Actor ActorGroup::add(const Actor& actor) {
+  renderer_->AddActor(actor);
+  return actors_.emplace_back(actor);
+}
+
+void place(vtkActor& actor, const Vec3& at) {
+  if (isFinite(at)) actor.SetPosition(at.x, at.y, at.z);
 }
 
 vtkSmartPointer<vtkPolyData> linesOf(const std::vector<std::vector<Vec3>>& pieces) {
@@ -65,8 +92,6 @@ vtkSmartPointer<vtkPolyData> linesOf(const std::vector<std::vector<Vec3>>& piece
   return data;
 }
 
-}  // namespace
-
 void makeShell(vtkActor& actor) {
   actor.GetShaderProperty()->AddFragmentShaderReplacement(
       "//VTK::Light::Impl", false,
@@ -76,7 +101,7 @@ void makeShell(vtkActor& actor) {
       false);
 }
 
-vtkSmartPointer<vtkActor> makeBall(const Look& look) {
+Actor makeBall(const Look& look) {
   vtkNew<vtkSphereSource> source;
   source->SetRadius(1);
   source->SetThetaResolution(40);
@@ -84,7 +109,7 @@ vtkSmartPointer<vtkActor> makeBall(const Look& look) {
   return actorOf(source->GetOutputPort(), look);
 }
 
-vtkSmartPointer<vtkActor> makeBox(const Look& look) {
+Actor makeBox(const Look& look) {
   vtkNew<vtkCubeSource> cube, mark;
   mark->SetXLength(0.12);
   mark->SetYLength(0.5);
@@ -101,17 +126,12 @@ vtkSmartPointer<vtkActor> makeBox(const Look& look) {
 namespace {
 
 // Four-sided faces with a normal at each point.
-vtkSmartPointer<vtkActor> quadActor(vtkPoints* points, vtkCellArray* quads, vtkFloatArray* normals, const Look& look) {
+Actor quadActor(vtkPoints* points, vtkCellArray* quads, vtkFloatArray* normals, const Look& look) {
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
   data->SetPolys(quads);
   data->GetPointData()->SetNormals(normals);
-  vtkNew<vtkPolyDataMapper> mapper;
-  auto actor = actorOf(nullptr, look);
-  mapper->SetInputData(data);
-  mapper->ScalarVisibilityOff();
-  actor->SetMapper(mapper);
-  return actor;
+  return actorOf(data, look);
 }
 
 // The wire's centre line runs from end to end in the frame of the axis: a hook, the coil, a hook. Lengths in coil radii.
@@ -137,7 +157,7 @@ Vec3 wirePoint(int i, int turns, double length) {
 
 }  // namespace
 
-vtkSmartPointer<vtkActor> makeCoil(const Look& look, int turns) {
+Actor makeCoil(const Look& look, int turns) {
   const int samples = samplesOf(turns);
   vtkNew<vtkPoints> points;
   points->SetNumberOfPoints(static_cast<vtkIdType>(samples) * kSides);
@@ -160,7 +180,7 @@ Vec3 penEnd(const Vec3& hand, double radius) {
   return hand + kPenLength * radius * Vec3{std::cos(tilt) * std::sin(turn), std::cos(tilt) * std::cos(turn), std::sin(tilt)};
 }
 
-vtkSmartPointer<vtkActor> makePen(const Look& look) {
+Actor makePen(const Look& look) {
   vtkNew<vtkSphereSource> tip;
   tip->SetRadius(1);
   tip->SetThetaResolution(24);
@@ -185,7 +205,7 @@ vtkSmartPointer<vtkActor> makePen(const Look& look) {
   return actor;
 }
 
-vtkSmartPointer<vtkActor> makeRail(const CurveMesh& mesh, double radius, const Look& look) {
+Actor makeRail(const CurveMesh& mesh, double radius, const Look& look) {
   vtkNew<vtkTubeFilter> tube;
   tube->SetInputData(linesOf(mesh.pieces));
   tube->SetRadius(radius);
@@ -194,7 +214,7 @@ vtkSmartPointer<vtkActor> makeRail(const CurveMesh& mesh, double radius, const L
   return actorOf(tube->GetOutputPort(), look);
 }
 
-vtkSmartPointer<vtkActor> makeSkin(const SurfaceMesh& mesh, const Look& look) {
+Actor makeSkin(const SurfaceMesh& mesh, const Look& look) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkFloatArray> normals;
   normals->SetNumberOfComponents(3);
@@ -211,17 +231,14 @@ vtkSmartPointer<vtkActor> makeSkin(const SurfaceMesh& mesh, const Look& look) {
   return quadActor(points, quads, normals, look);
 }
 
-vtkSmartPointer<vtkActor> makeParameterLines(const SurfaceMesh& mesh, const Look& look, double width) {
-  vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(linesOf(mesh.parameterLines));
-  auto actor = actorOf(nullptr, look);
-  actor->SetMapper(mapper);
+Actor makeLines(const std::vector<std::vector<Vec3>>& pieces, const Look& look, double width) {
+  auto actor = actorOf(linesOf(pieces), look);
   actor->GetProperty()->SetLighting(false);
   actor->GetProperty()->SetLineWidth(static_cast<float>(width));
   return actor;
 }
 
-vtkSmartPointer<vtkActor> makeDots(const std::vector<Vec3>& places, double radius, const Look& look) {
+Actor makeDots(const std::vector<Vec3>& places, double radius, const Look& look) {
   vtkNew<vtkPoints> points;
   for (const Vec3& p : places) points->InsertNextPoint(p.x, p.y, p.z);
   vtkNew<vtkPolyData> data;
@@ -237,7 +254,7 @@ vtkSmartPointer<vtkActor> makeDots(const std::vector<Vec3>& places, double radiu
   return actorOf(dots->GetOutputPort(), look);
 }
 
-vtkSmartPointer<vtkActor> makeArrows(const std::vector<ForceArrow>& arrows, double longest, const Look& look) {
+Actor makeArrows(const std::vector<ForceArrow>& arrows, double longest, const Look& look) {
   vtkNew<vtkPoints> points;
   vtkNew<vtkDoubleArray> forces;
   forces->SetNumberOfComponents(3);

@@ -1,7 +1,6 @@
 #include "gui/scene/scene_overlay.h"
 
 #include <QPainter>
-#include <QPainterPath>
 #include <algorithm>
 #include <cmath>
 
@@ -14,6 +13,16 @@ QString lengthText(double metres) {
   if (metres >= 1) return QStringLiteral("%1 m").arg(metres);
   if (metres >= 0.01) return QStringLiteral("%1 cm").arg(std::round(metres * 100));
   return QStringLiteral("%1 mm").arg(metres * 1000);
+}
+
+void write(QPainter& painter, const QRectF& where, int flags, const QString& words, double points, const QColor& ink,
+           int weight = QFont::Normal) {
+  QFont font = painter.font();
+  font.setPointSizeF(points);
+  font.setWeight(weight);
+  painter.setFont(font);
+  painter.setPen(ink);
+  painter.drawText(where, flags, words);
 }
 
 }  // namespace
@@ -105,26 +114,19 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
     paintLamp(painter, state_.semaphore, square, s);
     left = square.right() + 18 * s;
   }
-  QFont font = painter.font();
-  font.setPointSizeF(10.5 * s);
-  painter.setFont(font);
-  painter.setPen(widgets::toQColor(widgets::colours::kFaintText));
+  const QColor faint = widgets::toQColor(widgets::colours::kFaintText);
+  constexpr int kOneLine = Qt::AlignLeft | Qt::AlignVCenter;
   const double room = width() - left - 12;
-  painter.drawText(QRectF(left, 14 * s, room, 20 * s), Qt::AlignLeft | Qt::AlignVCenter, state_.counter);
+  write(painter, QRectF(left, 14 * s, room, 20 * s), kOneLine, state_.counter, 10.5 * s, faint);
+  QFont font = painter.font();
   font.setWeight(QFont::DemiBold);
   font.setPointSizeF(pointsToFit(state_.instruction, font, 19 * s, room));  // why a trial failed is to be read to its end
-  painter.setFont(font);
   const widgets::Colour tone = state_.tone == OverlayState::Tone::Good  ? widgets::colours::kGreen
                                : state_.tone == OverlayState::Tone::Bad ? widgets::colours::kBadText
                                                                         : widgets::colours::kText;
-  painter.setPen(widgets::toQColor(tone));
-  const QString line = painter.fontMetrics().elidedText(state_.instruction, Qt::ElideRight, static_cast<int>(room));
-  painter.drawText(QRectF(left, 33 * s, room, 32 * s), Qt::AlignLeft | Qt::AlignVCenter, line);
-  font.setPointSizeF(11 * s);
-  font.setWeight(QFont::Normal);
-  painter.setFont(font);
-  painter.setPen(widgets::toQColor(widgets::colours::kFaintText));
-  painter.drawText(QRectF(left, 65 * s, room, 22 * s), Qt::AlignLeft | Qt::AlignVCenter, state_.detail);
+  const QString line = QFontMetrics(font, this).elidedText(state_.instruction, Qt::ElideRight, static_cast<int>(room));
+  write(painter, QRectF(left, 33 * s, room, 32 * s), kOneLine, line, font.pointSizeF(), widgets::toQColor(tone), QFont::DemiBold);
+  write(painter, QRectF(left, 65 * s, room, 22 * s), kOneLine, state_.detail, 11 * s, faint);
   if (!state_.task.isEmpty()) {
     const QRectF place(left, 97 * s, std::min(room, 560 * s), 140 * s);
     constexpr int kWrapped = Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap;
@@ -146,21 +148,24 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
 void SceneOverlay::paintRest(QPainter& painter, const RestState& rest) const {
   constexpr int kWords = Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap;
   const double s = textScale_, wide = std::min(560 * s, width() - 40.0), pad = 22 * s, inside = wide - 2 * pad;
-  const auto fontOf = [&](double points, int weight) {
-    QFont font = painter.font();
-    font.setPointSizeF(points * s);
-    font.setWeight(weight);
-    return font;
-  };
-  const QFont title = fontOf(15, QFont::DemiBold), clock = fontOf(54, QFont::Light), words = fontOf(14, QFont::Normal);
-  const auto heightOf = [&](const QFont& font, const QString& text) {
-    return text.isEmpty() ? 0.0 : QFontMetricsF(font).boundingRect(QRectF(0, 0, inside, 1000 * s), kWords, text).height() + 12 * s;
-  };
   const QString time = rest.secondsLeft <= 0
                            ? QString()
                            : QStringLiteral("%1:%2").arg(rest.secondsLeft / 60).arg(rest.secondsLeft % 60, 2, 10, QLatin1Char('0'));
-  const double bar = 8 * s;
-  const double high = 2 * pad + heightOf(title, rest.title) + heightOf(clock, time) + bar + 16 * s + heightOf(words, rest.instructions);
+  struct Text {
+    QString words;
+    double points;
+    int weight;
+  };
+  const Text title{rest.title, 15 * s, QFont::DemiBold}, clock{time, 54 * s, QFont::Light},
+      instructions{rest.instructions, 14 * s, QFont::Normal};
+  const auto heightOf = [&](const Text& text) {
+    QFont font = painter.font();
+    font.setPointSizeF(text.points);
+    font.setWeight(text.weight);
+    const QRectF room(0, 0, inside, 1000 * s);
+    return text.words.isEmpty() ? 0.0 : QFontMetricsF(font).boundingRect(room, kWords, text.words).height() + 12 * s;
+  };
+  const double bar = 8 * s, high = 2 * pad + heightOf(title) + heightOf(clock) + bar + 16 * s + heightOf(instructions);
   const QRectF panel((width() - wide) / 2, std::max(headHeight(), (height() - high) / 2), wide, high);
   QColor shade = widgets::toQColor(widgets::colours::kBase);
   shade.setAlphaF(0.88);
@@ -168,14 +173,13 @@ void SceneOverlay::paintRest(QPainter& painter, const RestState& rest) const {
   painter.setBrush(shade);
   painter.drawRoundedRect(panel, 10 * s, 10 * s);
   double y = panel.top() + pad;
-  const auto write = [&](const QFont& font, const QString& text, const widgets::Colour& colour) {
-    painter.setFont(font);
-    painter.setPen(widgets::toQColor(colour));
-    painter.drawText(QRectF(panel.left() + pad, y, inside, panel.bottom() - y), kWords, text);
-    y += heightOf(font, text);
+  const auto put = [&](const Text& text) {
+    write(painter, QRectF(panel.left() + pad, y, inside, panel.bottom() - y), kWords, text.words, text.points,
+          widgets::toQColor(widgets::colours::kText), text.weight);
+    y += heightOf(text);
   };
-  write(title, rest.title, widgets::colours::kText);
-  write(clock, time, widgets::colours::kText);
+  put(title);
+  put(clock);
   const QRectF track(panel.left() + pad, y, inside, bar);
   painter.setPen(Qt::NoPen);
   painter.setBrush(widgets::toQColor(widgets::colours::kButton));
@@ -184,7 +188,7 @@ void SceneOverlay::paintRest(QPainter& painter, const RestState& rest) const {
   if (rest.blocks > 0 && rest.blocksDone > 0)
     painter.drawRoundedRect(QRectF(track.topLeft(), QSizeF(std::max(bar, inside * rest.blocksDone / rest.blocks), bar)), bar / 2, bar / 2);
   y += bar + 16 * s;
-  write(words, rest.instructions, widgets::colours::kText);
+  put(instructions);
 }
 
 // Below what it speaks of, at the end of a short line.
@@ -193,25 +197,19 @@ void SceneOverlay::paintLabel(QPainter& painter) const {
   const QPointF end = labelAt_ + QPointF(0, 26 * s);
   painter.setPen(QPen(widgets::toQColor(widgets::colours::kFaintText), 1.2 * s));
   painter.drawLine(labelAt_, end);
-  QFont font = painter.font();
-  font.setPointSizeF(11 * s);
-  painter.setFont(font);
-  painter.setPen(widgets::toQColor(widgets::colours::kText));
-  painter.drawText(QRectF(end.x() - 100 * s, end.y(), 200 * s, 22 * s), Qt::AlignHCenter | Qt::AlignTop, label_);
+  write(painter, QRectF(end.x() - 100 * s, end.y(), 200 * s, 22 * s), Qt::AlignHCenter | Qt::AlignTop, label_, 11 * s,
+        widgets::toQColor(widgets::colours::kText));
 }
 
 void SceneOverlay::paintScale(QPainter& painter) const {
   const double length = roundLength(0.22 * width() * metresPerPixel_);
   if (length <= 0) return;
   const double pixels = length / metresPerPixel_, right = width() - 22, y = height() - 22;
-  painter.setPen(QPen(widgets::toQColor(widgets::colours::kFaintText), 1.6));
+  const QColor faint = widgets::toQColor(widgets::colours::kFaintText);
+  painter.setPen(QPen(faint, 1.6));
   painter.drawLine(QPointF(right - pixels, y), QPointF(right, y));
-  painter.drawLine(QPointF(right - pixels, y - 5), QPointF(right - pixels, y + 5));
-  painter.drawLine(QPointF(right, y - 5), QPointF(right, y + 5));
-  QFont font = painter.font();
-  font.setPointSizeF(9.5);
-  painter.setFont(font);
-  painter.drawText(QRectF(right - pixels, y - 24, pixels, 18), Qt::AlignCenter, lengthText(length));
+  for (const double end : {right - pixels, right}) painter.drawLine(QPointF(end, y - 5), QPointF(end, y + 5));
+  write(painter, QRectF(right - pixels, y - 24, pixels, 18), Qt::AlignCenter, lengthText(length), 9.5, faint);
 }
 
 void SceneOverlay::paintAxes(QPainter& painter) const {
@@ -219,27 +217,17 @@ void SceneOverlay::paintAxes(QPainter& painter) const {
   const double arm = 26;
   const std::array<QColor, 3> ink{QColor(235, 110, 100), QColor(120, 210, 120), QColor(110, 165, 250)};
   const std::array<QString, 3> names{QStringLiteral("x"), QStringLiteral("y"), QStringLiteral("z")};
-  QFont font = painter.font();
-  font.setPointSizeF(9);
-  painter.setFont(font);
   for (std::size_t i = 0; i < 3; ++i) {
-    const QPointF tip = origin + arm * axes_[i];
     painter.setPen(QPen(ink[i], 2));
-    painter.drawLine(origin, tip);
-    painter.drawText(QRectF(origin.x() + 1.36 * arm * axes_[i].x() - 8, origin.y() + 1.36 * arm * axes_[i].y() - 8, 16, 16),
-                     Qt::AlignCenter, names[i]);
+    painter.drawLine(origin, origin + arm * axes_[i]);
+    write(painter, QRectF(origin + 1.36 * arm * axes_[i] - QPointF(8, 8), QSizeF(16, 16)), Qt::AlignCenter, names[i], 9, ink[i]);
   }
 }
 
 // Between axes and scale.
 void SceneOverlay::paintLegend(QPainter& painter) const {
-  if (state_.legend.isEmpty()) return;
-  QFont font = painter.font();
-  font.setPointSizeF(9.5);
-  painter.setFont(font);
-  painter.setPen(widgets::toQColor(widgets::colours::kFaintText));
-  painter.drawText(QRectF(100, height() - kFootHeight - 14, 0.76 * width() - 140, kFootHeight),
-                   Qt::AlignLeft | Qt::AlignBottom | Qt::TextWordWrap, state_.legend);
+  write(painter, QRectF(100, height() - kFootHeight - 14, 0.76 * width() - 140, kFootHeight),
+        Qt::AlignLeft | Qt::AlignBottom | Qt::TextWordWrap, state_.legend, 9.5, widgets::toQColor(widgets::colours::kFaintText));
 }
 
 }  // namespace reachlab::gui::scene

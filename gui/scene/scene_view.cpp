@@ -115,13 +115,22 @@ struct SceneView::Impl {
   double height() const { return std::max(widget->height(), 1); }
 
   // The whole scene, with the pen as it stands at the start.
-  void lookFrom(const Vec3& direction) {
+  void showWhole(const Vec3& direction) {
     std::vector<Vec3> points = plan.seen;
     for (const Vec3& hand : {plan.start, plan.target}) points.push_back(penEnd(hand, plan.handRadius));
     const double foot = plan.bareHand || !plan.forces.empty() ? std::min(SceneOverlay::kFootHeight, 0.12 * height()) : 0;
     camera = lookAtPointsBelow(overlay->headHeight() + foot, points, 0.06 * plan.size, direction, width(), height(), parallel);
     pan(camera, 0, -foot, height());
+    applyCamera();
+    render();
   }
+
+  QPointF pixelOf(const Vec3& r) const {
+    const auto [x, y] = scene::pixelOf(camera, r, width(), height());
+    return {x, y};
+  }
+
+  const Vec3& at(TaskPlace place) const { return place == TaskPlace::Start ? plan.start : plan.target; }
 
   void applyCamera() {
     vtkCamera* c = renderer->GetActiveCamera();
@@ -151,10 +160,9 @@ struct SceneView::Impl {
     std::optional<TaskPlace> nearest;
     double least = 0;
     for (const TaskPlace place : {TaskPlace::Target, TaskPlace::Start}) {
-      const Vec3& r = place == TaskPlace::Start ? plan.start : plan.target;
-      const auto [x, y] = reachlab::gui::scene::pixelOf(camera, r, width(), height());
-      const double apart = std::hypot(x - pixel.x(), y - pixel.y());
-      if (apart > std::max(kGrip, 1.5 * plan.markRadius / metresPerPixel(camera, r, height())) || (nearest && apart >= least)) continue;
+      const QPointF off = pixelOf(at(place)) - pixel;
+      const double apart = std::hypot(off.x(), off.y()), grip = 1.5 * plan.markRadius / metresPerPixel(camera, at(place), height());
+      if (apart > std::max(kGrip, grip) || (nearest && apart >= least)) continue;
       nearest = place;
       least = apart;
     }
@@ -163,16 +171,12 @@ struct SceneView::Impl {
 
   // Masses over one another look like one.
   void label() {
-    if (!placeWords.isEmpty() && dragged) {
-      const auto [x, y] = reachlab::gui::scene::pixelOf(camera, *dragged == TaskPlace::Start ? plan.start : plan.target, width(), height());
-      return overlay->setLabel(placeWords, {x, y + kGrip});
-    }
+    if (!placeWords.isEmpty() && dragged) return overlay->setLabel(placeWords, pixelOf(at(*dragged)) + QPointF(0, kGrip));
     const int count = massesAtOnePlace(plan, frame);
     if (count == 0) return overlay->setLabel({}, {});
     const Vec3 at = frame.masses.back() + plan.massShift.back();
-    const auto [x, y] = reachlab::gui::scene::pixelOf(camera, at, width(), height());
     const double radius = plan.massRadius.back() / metresPerPixel(camera, at, height());
-    overlay->setLabel(QStringLiteral("%1 masses").arg(count), {x, y + radius});
+    overlay->setLabel(QStringLiteral("%1 masses").arg(count), pixelOf(at) + QPointF(0, radius));
   }
 
   // A movement that the processor cannot follow is drawn coarser until it rests.
@@ -240,10 +244,7 @@ SceneView::SceneView(QWidget* parent) : QWidget(parent), impl_(std::make_unique<
   setMinimumSize(320, 198);
 }
 
-SceneView::~SceneView() {
-  impl_->ghosts.reset();  // before the renderer that holds them
-  impl_->actors.reset();
-}
+SceneView::~SceneView() = default;
 
 void SceneView::setPlan(const ScenePlan& plan, bool resetView) {
   impl_->plan = plan;
@@ -292,23 +293,12 @@ void SceneView::setSurfaceStyle(SurfaceStyle style) {
   showFrame(kept);
 }
 
-void SceneView::resetCamera() {
-  impl_->lookFrom(impl_->plan.viewFrom);
-  impl_->applyCamera();
-  renderNow();
-}
+void SceneView::resetCamera() { impl_->showWhole(impl_->plan.viewFrom); }
 
-void SceneView::fit() {
-  impl_->lookFrom(impl_->camera.position - impl_->camera.focus);
-  impl_->applyCamera();
-  renderNow();
-}
+void SceneView::fit() { impl_->showWhole(impl_->camera.position - impl_->camera.focus); }
 
 void SceneView::lookAlong(char axis) {
-  const Vec3 from = axis == 'x' ? Vec3{1, 0, 0} : axis == 'y' ? Vec3{0, 1, 0} : axis == 'z' ? Vec3{0, 0, 1} : impl_->plan.viewFrom;
-  impl_->lookFrom(from);
-  impl_->applyCamera();
-  renderNow();
+  impl_->showWhole(axis == 'x' ? Vec3{1, 0, 0} : axis == 'y' ? Vec3{0, 1, 0} : axis == 'z' ? Vec3{0, 0, 1} : impl_->plan.viewFrom);
 }
 
 void SceneView::renderNow() { impl_->render(); }
@@ -366,10 +356,7 @@ void SceneView::showPlace(TaskPlace place, const Vec3& r, const QString& words) 
 
 bool SceneView::drawsInSoftware() const { return impl_->software != nullptr; }
 
-QPointF SceneView::pixelOf(const Vec3& world) const {
-  const auto [x, y] = reachlab::gui::scene::pixelOf(impl_->camera, world, impl_->width(), impl_->height());
-  return {x, y};
-}
+QPointF SceneView::pixelOf(const Vec3& world) const { return impl_->pixelOf(world); }
 
 void SceneView::resizeEvent(QResizeEvent* event) {
   QWidget::resizeEvent(event);
@@ -386,17 +373,12 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
     case QEvent::MouseButtonPress: {
       const auto* mouse = static_cast<QMouseEvent*>(event);
       d.lastAt = d.pressedAt = mouse->pos();
-      if (const auto place = d.placeAt(mouse->pos());
-          place && mouse->button() == Qt::LeftButton && !mouse->modifiers().testFlag(Qt::ShiftModifier)) {
-        d.dragged = place;
-        d.moved = false;
-        d.widget->setCursor(Qt::ClosedHandCursor);
-        return true;
-      }
-      if (mouse->button() == Qt::LeftButton && !mouse->modifiers().testFlag(Qt::ShiftModifier)) {
-        d.reaching = true;
-        d.handAtPress = ownHand(d.frame);
-      }
+      if (mouse->button() != Qt::LeftButton || mouse->modifiers().testFlag(Qt::ShiftModifier)) return true;
+      d.dragged = d.placeAt(mouse->pos());
+      d.moved = false;
+      d.reaching = !d.dragged;
+      d.handAtPress = ownHand(d.frame);
+      if (d.dragged) d.widget->setCursor(Qt::ClosedHandCursor);
       return true;
     }
     case QEvent::MouseMove: {
@@ -433,13 +415,11 @@ bool SceneView::eventFilter(QObject* watched, QEvent* event) {
       Q_EMIT placeLeft(*std::exchange(d.dragged, {}));
       return true;
     case QEvent::MouseButtonRelease:
-      if (d.dragged && static_cast<QMouseEvent*>(event)->button() == Qt::LeftButton) {
-        d.widget->unsetCursor();
-        const TaskPlace place = *std::exchange(d.dragged, {});
-        Q_EMIT placeDropped(place);
-        return true;
-      }
-      if (static_cast<QMouseEvent*>(event)->button() == Qt::LeftButton) d.reaching = false;
+      if (static_cast<QMouseEvent*>(event)->button() != Qt::LeftButton) return true;
+      d.reaching = false;
+      if (!d.dragged) return true;
+      d.widget->unsetCursor();
+      Q_EMIT placeDropped(*std::exchange(d.dragged, {}));
       return true;
     case QEvent::MouseButtonDblClick: return true;
     case QEvent::Wheel:

@@ -12,53 +12,45 @@ QString massIs(int mass, const char* verb) {
   return mass > 0 ? QStringLiteral("mass %1 %2 ").arg(mass).arg(QLatin1String(verb)) : QString();
 }
 
-}  // namespace
+struct Words {
+  QString brief, sentence;  // for the tally, and for the subject
+};
 
-QString outcomeText(const trial::TrialResult& result) {
+Words wordsOf(const trial::TrialResult& result) {
+  const QString thousandths = number(1000 * result.by, 1);
   switch (result.reason) {
-    case trial::Reason::TimeShort: return QStringLiteral("Too fast by %1 s").arg(number(result.by, 2));
+    case trial::Reason::TimeShort: return {"too fast", QStringLiteral("Too fast by %1 s").arg(number(result.by, 2))};
     case trial::Reason::Position:
-      return QStringLiteral("Time is up: %1%2 mm too far from the target").arg(massIs(result.mass, "is"), number(1000 * result.by, 1));
+      return {"too far from the target",
+              QStringLiteral("Time is up: %1%2 mm too far from the target").arg(massIs(result.mass, "is"), thousandths)};
     case trial::Reason::Velocity:
-      return QStringLiteral("Time is up: %1%2 mm/s too fast").arg(massIs(result.mass, "still moves"), number(1000 * result.by, 1));
-    case trial::Reason::Via: return QStringLiteral("Time is up: a via point was missed by %1 mm").arg(number(1000 * result.by, 1));
-    case trial::Reason::ForceLimit: return QStringLiteral("The force exceeded its limit");
-    case trial::Reason::DeviceLost: return QStringLiteral("The device was lost");
-    case trial::Reason::NoOnset: return QStringLiteral("No movement began");
-    case trial::Reason::Experimenter: return QStringLiteral("Stopped by the experimenter");
-    case trial::Reason::EndOfConstraint: return QStringLiteral("The object ran off the end of its path");
-    case trial::Reason::Computation: return QStringLiteral("The simulation could not continue");
-    case trial::Reason::Program: return QStringLiteral("Interrupted");
-    case trial::Reason::Early: return QStringLiteral("Too early: wait for the signal");
-    case trial::Reason::Timing: return QStringLiteral("The computer was too busy: this trial does not count");
-    case trial::Reason::NoStart: return QStringLiteral("The hand was never at the start");
-    case trial::Reason::PeerLost: return QStringLiteral("Another station fell silent");
+      return {"still moving", QStringLiteral("Time is up: %1%2 mm/s too fast").arg(massIs(result.mass, "still moves"), thousandths)};
+    case trial::Reason::Via: return {"missed a via point", QStringLiteral("Time is up: a via point was missed by %1 mm").arg(thousandths)};
+    case trial::Reason::ForceLimit: return {"over the force limit", "The force exceeded its limit"};
+    case trial::Reason::DeviceLost: return {"device lost", "The device was lost"};
+    case trial::Reason::NoOnset: return {"no movement", "No movement began"};
+    case trial::Reason::Experimenter: return {"stopped by the experimenter", "Stopped by the experimenter"};
+    case trial::Reason::EndOfConstraint: return {"off the end of the path", "The object ran off the end of its path"};
+    case trial::Reason::Computation: return {"not computable", "The simulation could not continue"};
+    case trial::Reason::Program: return {"interrupted", "Interrupted"};
+    case trial::Reason::Early: return {"too early", "Too early: wait for the signal"};
+    case trial::Reason::Timing: return {"computer too busy", "The computer was too busy: this trial does not count"};
+    case trial::Reason::NoStart: return {"hand never at the start", "The hand was never at the start"};
+    case trial::Reason::PeerLost: return {"other station silent", "Another station fell silent"};
     case trial::Reason::None: break;
   }
-  if (result.outcome == trial::Outcome::Success) return QStringLiteral("Well done: %1 s").arg(number(result.movementTime, 2));
-  return {};
+  const bool success = result.outcome == trial::Outcome::Success;
+  return {"no reason", success ? QStringLiteral("Well done: %1 s").arg(number(result.movementTime, 2)) : QString()};
 }
 
+}  // namespace
+
+QString outcomeText(const trial::TrialResult& result) { return wordsOf(result).sentence; }
+
 QString reasonText(trial::Reason reason) {
-  switch (reason) {
-    case trial::Reason::TimeShort: return QStringLiteral("too fast");
-    case trial::Reason::Position: return QStringLiteral("too far from the target");
-    case trial::Reason::Velocity: return QStringLiteral("still moving");
-    case trial::Reason::Via: return QStringLiteral("missed a via point");
-    case trial::Reason::ForceLimit: return QStringLiteral("over the force limit");
-    case trial::Reason::DeviceLost: return QStringLiteral("device lost");
-    case trial::Reason::NoOnset: return QStringLiteral("no movement");
-    case trial::Reason::Experimenter: return QStringLiteral("stopped by the experimenter");
-    case trial::Reason::EndOfConstraint: return QStringLiteral("off the end of the path");
-    case trial::Reason::Computation: return QStringLiteral("not computable");
-    case trial::Reason::Program: return QStringLiteral("interrupted");
-    case trial::Reason::Early: return QStringLiteral("too early");
-    case trial::Reason::Timing: return QStringLiteral("computer too busy");
-    case trial::Reason::NoStart: return QStringLiteral("hand never at the start");
-    case trial::Reason::PeerLost: return QStringLiteral("other station silent");
-    case trial::Reason::None: break;
-  }
-  return QStringLiteral("no reason");
+  trial::TrialResult result;
+  result.reason = reason;
+  return wordsOf(result).brief;
 }
 
 OverlayState overlayOf(const haptics::TickState& state, const experiment::Task& task, int trialsPlanned, bool mouse) {

@@ -2,11 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "constraints/constraint.h"
 #include "constraints/geometry/task_path.h"
 #include "gui/scene_plan/hand_colours.h"
-#include "gui/scene_plan/part_names.h"
 #include "gui/widgets/themes.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/scene_look.h"
@@ -95,42 +95,38 @@ void planMasses(const experiment::Experiment& experiment, ViewOptions::SideBySid
     for (int i = 1; i < last; ++i) plan.springs.push_back({i - 1, i, 0, false});
 }
 
-}  // namespace
+struct Part {
+  const char* name;
+  widgets::Colour PartColours::*colour;
+  widgets::Colour usual;
+};
 
-widgets::Colour* partNamed(PartColours& c, const std::string& name) {
-  const std::pair<const char*, widgets::Colour*> parts[] = {{"background_top", &c.backgroundTop},
-                                                            {"background_bottom", &c.backgroundBottom},
-                                                            {"rail", &c.rail},
-                                                            {"surface", &c.surface},
-                                                            {"surface_line", &c.surfaceLine},
-                                                            {"start", &c.start},
-                                                            {"target", &c.target},
-                                                            {"driven", &c.driven},
-                                                            {"middle", &c.middle},
-                                                            {"last", &c.last},
-                                                            {"hand", &c.hand},
-                                                            {"spring", &c.spring},
-                                                            {"coupling", &c.coupling},
-                                                            {"force", &c.force},
-                                                            {"trace", &c.trace}};
-  for (const auto& [known, colour] : parts)
-    if (name == known) return colour;
-  return nullptr;
+std::span<const Part> parts() {
+  using namespace widgets::colours;
+  static constexpr Part kParts[] = {{"background_top", &PartColours::backgroundTop, kSkyTop},
+                                    {"background_bottom", &PartColours::backgroundBottom, kSkyBottom},
+                                    {"rail", &PartColours::rail, kRail},
+                                    {"surface", &PartColours::surface, kSurface},
+                                    {"surface_line", &PartColours::surfaceLine, kSurfaceLine},
+                                    {"start", &PartColours::start, kStart},
+                                    {"target", &PartColours::target, kTarget},
+                                    {"driven", &PartColours::driven, kDriven},
+                                    {"middle", &PartColours::middle, kMiddle},
+                                    {"last", &PartColours::last, kLast},
+                                    {"hand", &PartColours::hand, kHand},
+                                    {"spring", &PartColours::spring, kSpring},
+                                    {"coupling", &PartColours::coupling, kCoupling},
+                                    {"force", &PartColours::force, kRed},
+                                    {"trace", &PartColours::trace, kTrace}};
+  return kParts;
 }
 
-namespace {
-
 PlanLook plannedLook(const experiment::Experiment& experiment) {
-  using namespace widgets::colours;
   const experiment::SceneLook look = experiment::lookOf(experiment);
   PlanLook plan;
-  plan.colours = {kSkyTop, kSkyBottom, kRail, kSurface, kSurfaceLine, kStart, kTarget, kDriven,
-                  kMiddle, kLast,      kHand, kSpring,  kCoupling,    kRed,   kTrace};
-  for (const std::string& part : experiment::colouredParts()) {
-    widgets::Colour* colour = partNamed(plan.colours, part);
-    if (colour == nullptr) continue;
-    *colour = widgets::themed(*colour);
-    if (const auto own = look.colours.find(part); own != look.colours.end()) *colour = widgets::colourOf(own->second);
+  for (const Part& part : parts()) {
+    const auto own = look.colours.find(part.name);
+    plan.colours.*part.colour = own == look.colours.end() ? widgets::themed(part.usual) : widgets::colourOf(own->second);
   }
   plan.surfaceOpacity = look.surfaceOpacity;
   plan.shadow = look.depthCue == "shadow";
@@ -161,6 +157,12 @@ std::vector<Vec3> pointsSeen(const ScenePlan& plan) {
 }
 
 }  // namespace
+
+const widgets::Colour* partNamed(const PartColours& colours, const std::string& name) {
+  for (const Part& part : parts())
+    if (name == part.name) return &(colours.*part.colour);
+  return nullptr;
+}
 
 ScenePlan planScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const ViewOptions& options) {
   ScenePlan plan;

@@ -1,6 +1,7 @@
 #pragma once
 #include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "gui/model/model.h"
@@ -28,6 +29,8 @@ struct PartColours {
   widgets::Colour backgroundTop, backgroundBottom, rail, surface, surfaceLine, start, target, driven, middle, last, hand, spring, coupling,
       force, trace;
 };
+/// The colour of the part that an experiment's `look` calls by this name. Null for an unknown name.
+const widgets::Colour* partNamed(const PartColours& colours, const std::string& name);
 
 /// How it is drawn.
 struct PlanLook {
