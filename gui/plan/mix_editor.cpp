@@ -145,11 +145,8 @@ QWidget* MixEditor::makeTargets() {
   order_->addItems({tr("as written"), tr("shuffled in each cycle"), tr("shuffled over the block")});
   wayBack_ = widgets::named<QCheckBox>("planWayBack", tr("the way back is a trial"));
   auto* ring = new QHBoxLayout;
-  ring->addWidget(count_);
-  ring->addWidget(new QLabel(tr("at")));
-  ring->addWidget(radius_);
-  ring->addWidget(new QLabel(tr("from")));
-  ring->addWidget(first_);
+  for (QWidget* part : std::initializer_list<QWidget*>{count_, new QLabel(tr("at")), radius_, new QLabel(tr("from")), first_})
+    ring->addWidget(part);
   form->addRow(tr("targets"), targets_);
   form->addRow(tr("ring"), ring);
   form->addRow(tr("places"), list_);
@@ -199,10 +196,13 @@ void MixEditor::showTargets() {
   list_->setText(listText(mix_.targets));
   order_->setCurrentIndex(static_cast<int>(mix_.order));
   wayBack_->setChecked(mix_.wayBack);
-  for (QWidget* field : {static_cast<QWidget*>(count_), static_cast<QWidget*>(radius_), static_cast<QWidget*>(first_)})
-    field->setEnabled(targets_->currentIndex() == kRing);
-  list_->setEnabled(targets_->currentIndex() == kList);
+  enableTargets();
   showing_ = false;
+}
+
+void MixEditor::enableTargets() {
+  for (QWidget* field : std::initializer_list<QWidget*>{count_, radius_, first_}) field->setEnabled(targets_->currentIndex() == kRing);
+  list_->setEnabled(targets_->currentIndex() == kList);
 }
 
 void MixEditor::take() {
@@ -257,9 +257,7 @@ void MixEditor::takeTargets() {
   else if (places != listText(mix_.targets)) mix_.targets = readText("targets", QStringLiteral("[%1]").arg(places), faults_).targets;
   mix_.order = static_cast<session::TrialOrder>(order_->currentIndex());
   mix_.wayBack = wayBack_->isChecked();
-  for (QWidget* field : {static_cast<QWidget*>(count_), static_cast<QWidget*>(radius_), static_cast<QWidget*>(first_)})
-    field->setEnabled(kind == kRing);
-  list_->setEnabled(kind == kList);
+  enableTargets();
 }
 
 }  // namespace reachlab::gui::plan

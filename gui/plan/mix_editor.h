@@ -39,6 +39,7 @@ class MixEditor : public QGroupBox {
   QWidget* makeTargets();
   void showKinds();
   void showTargets();
+  void enableTargets();
   void take();
   void takeKinds();
   void takeTargets();

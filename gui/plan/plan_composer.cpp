@@ -25,6 +25,7 @@
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/fault_words.h"
 #include "gui/widgets/named.h"
+#include "gui/widgets/text_table.h"
 #include "gui/widgets/unit_spin_box.h"
 #include "sim/experiment/resources.h"
 #include "sim/record/log/atomic_file.h"
@@ -32,7 +33,7 @@
 namespace reachlab::gui::plan {
 namespace {
 
-enum Column { kPlace, kExperiment, kCondition, kTrials, kDay, kKind, kColumns };
+std::string written(const QString& text) { return text.trimmed().toStdString(); }
 
 QString kindOf(const session::PlanBlock& block) {
   QStringList kinds;
@@ -121,21 +122,15 @@ QWidget* PlanComposer::makeWhole() {
 QWidget* PlanComposer::makeList() {
   auto* box = new QGroupBox(tr("Blocks"));
   auto* column = new QVBoxLayout(box);
-  list_ = widgets::named<QTableWidget>("planBlocks", 0, kColumns);
-  list_->setHorizontalHeaderLabels({tr("#"), tr("experiment"), tr("condition"), tr("trials"), tr("day"), tr("also")});
-  list_->verticalHeader()->hide();
-  list_->verticalHeader()->setDefaultSectionSize(24);
+  list_ = widgets::makeTextTable({tr("#"), tr("experiment"), tr("condition"), tr("trials"), tr("day"), tr("also")}, 24);
+  list_->setObjectName(QStringLiteral("planBlocks"));
   list_->setSelectionBehavior(QAbstractItemView::SelectRows);
   list_->setSelectionMode(QAbstractItemView::SingleSelection);
-  list_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  list_->setShowGrid(false);
-  list_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   list_->horizontalHeader()->setStretchLastSection(true);
   column->addWidget(list_, 1);
   auto* line = new QHBoxLayout;
   const auto button = [&](const QString& text, const char* name) {
-    auto* made = new QPushButton(text);
-    made->setObjectName(QLatin1String(name));
+    auto* made = widgets::named<QPushButton>(name, text);
     line->addWidget(made);
     return made;
   };
@@ -173,70 +168,86 @@ QWidget* PlanComposer::makeList() {
   return box;
 }
 
+template <typename Widget, typename Signal, typename Value, typename Get, typename Set>
+void PlanComposer::bind(Widget* field, Signal signal, Value session::PlanBlock::*part, Get get, Set set) {
+  fields_.push_back({[=](const session::PlanBlock& block) { std::invoke(set, field, block.*part); },
+                     [=](session::PlanBlock& block) { block.*part = std::invoke(get, field); }});
+  connect(field, signal, this, &PlanComposer::take);
+}
+
 QWidget* PlanComposer::makeBlock() {
-  auto* box = new QGroupBox(tr("This block"));
-  block_ = box;
-  auto* form = new QFormLayout(box);
-  experiment_ = widgets::named<QComboBox>("planExperiment");
-  experiment_->setEditable(true);
-  experiment_->setToolTip(tr("a shipped experiment or a file. Files beside the plan are named without their folder"));
-  for (const std::string& name : experiment::shippedExperiments()) experiment_->addItem(QString::fromStdString(name));
-  condition_ = widgets::named<QLineEdit>("planCondition");
-  condition_->setPlaceholderText(tr("the experiment's name"));
+  block_ = new QGroupBox(tr("This block"));
+  auto* form = new QFormLayout(block_);
+  auto* experiment = widgets::named<QComboBox>("planExperiment");
+  experiment->setEditable(true);
+  experiment->setToolTip(tr("a shipped experiment or a file. Files beside the plan are named without their folder"));
+  for (const std::string& name : experiment::shippedExperiments()) experiment->addItem(QString::fromStdString(name));
+  auto* condition = widgets::named<QLineEdit>("planCondition");
+  condition->setPlaceholderText(tr("the experiment's name"));
   const auto whole = [](const char* name, int low, int high) {
-    auto* made = new QSpinBox;
-    made->setObjectName(QLatin1String(name));
+    auto* made = widgets::named<QSpinBox>(name);
     made->setRange(low, high);
     return made;
   };
-  trials_ = whole("planTrials", 1, 1'000'000);
-  day_ = whole("planDay", 0, 10'000);
-  day_->setSpecialValueText(tr("every day"));
-  practice_ = widgets::named<QCheckBox>("planPractice", tr("practice: recorded, but not used in statistics"));
-  repeatAborted_ = new QCheckBox(tr("repeat aborted trials at the end"));
-  const auto number = [&](const char* name, double high, const QString& unit) {
-    auto* made = new widgets::UnitSpinBox(0, high, unit);
-    made->setObjectName(QLatin1String(name));
-    return made;
+  auto *trials = whole("planTrials", 1, 1'000'000), *day = whole("planDay", 0, 10'000);
+  day->setSpecialValueText(tr("every day"));
+  auto* practice = widgets::named<QCheckBox>("planPractice", tr("practice: recorded, but not used in statistics"));
+  auto* repeatAborted = new QCheckBox(tr("repeat aborted trials at the end"));
+  const auto number = [](const char* name, double high, const QString& unit) {
+    return widgets::named<widgets::UnitSpinBox>(name, 0, high, unit);
   };
-  rest_ = number("planRest", 36'000, QStringLiteral("s"));
-  pause_ = number("planPause", 3'600, QStringLiteral("s"));
-  foreperiodMin_ = number("planForeperiodMin", 60, QStringLiteral("s"));
-  foreperiodMax_ = number("planForeperiodMax", 60, QStringLiteral("s"));
-  catchShare_ = number("planCatch", 0.5, {});
-  instructions_ = widgets::named<QPlainTextEdit>("planInstructions");
-  instructions_->setPlaceholderText(tr("what the subject reads before the block begins"));
-  instructions_->setTabChangesFocus(true);
-  instructions_->setMinimumHeight(70);
+  auto *rest = number("planRest", 36'000, QStringLiteral("s")), *pause = number("planPause", 3'600, QStringLiteral("s"));
+  auto *least = number("planForeperiodMin", 60, QStringLiteral("s")), *most = number("planForeperiodMax", 60, QStringLiteral("s"));
+  auto* catchShare = number("planCatch", 0.5, {});
+  auto* instructions = widgets::named<QPlainTextEdit>("planInstructions");
+  instructions->setPlaceholderText(tr("what the subject reads before the block begins"));
+  instructions->setTabChangesFocus(true);
+  instructions->setMinimumHeight(70);
   auto* fore = new QHBoxLayout;
-  fore->addWidget(foreperiodMin_);
+  fore->addWidget(least);
   fore->addWidget(new QLabel(tr("to")));
-  fore->addWidget(foreperiodMax_);
-  form->addRow(tr("experiment"), experiment_);
-  form->addRow(tr("condition"), condition_);
-  form->addRow(tr("trials"), trials_);
-  form->addRow(tr("day"), day_);
-  form->addRow(tr("rest before it"), rest_);
-  form->addRow(tr("pause between trials"), pause_);
+  fore->addWidget(most);
+  form->addRow(tr("experiment"), experiment);
+  form->addRow(tr("condition"), condition);
+  form->addRow(tr("trials"), trials);
+  form->addRow(tr("day"), day);
+  form->addRow(tr("rest before it"), rest);
+  form->addRow(tr("pause between trials"), pause);
   form->addRow(tr("go signal after"), fore);
-  form->addRow(tr("share without go signal"), catchShare_);
-  form->addRow(practice_);
-  form->addRow(repeatAborted_);
-  form->addRow(tr("instructions"), instructions_);
-  return box;
+  form->addRow(tr("share without go signal"), catchShare);
+  form->addRow(practice);
+  form->addRow(repeatAborted);
+  form->addRow(tr("instructions"), instructions);
+
+  using Block = session::PlanBlock;
+  for (const auto& [field, part] : {std::pair{trials, &Block::trials}, {day, &Block::day}})
+    bind(field, qOverload<int>(&QSpinBox::valueChanged), part, &QSpinBox::value, &QSpinBox::setValue);
+  for (const auto& [field, part] : {std::pair{practice, &Block::practice}, {repeatAborted, &Block::repeatAborted}})
+    bind(field, &QCheckBox::toggled, part, &QCheckBox::isChecked, &QCheckBox::setChecked);
+  for (const auto& [field, part] : {std::pair{rest, &Block::restSeconds},
+                                    {pause, &Block::pauseSeconds},
+                                    {least, &Block::foreperiodMin},
+                                    {most, &Block::foreperiodMax},
+                                    {catchShare, &Block::catchShare}})
+    bind(field, qOverload<double>(&QDoubleSpinBox::valueChanged), part, &QDoubleSpinBox::value,
+         [](widgets::UnitSpinBox* box, double value) { box->show(value); });
+  bind(
+      experiment, &QComboBox::editTextChanged, &Block::experiment, [](const QComboBox* box) { return written(box->currentText()); },
+      [](QComboBox* box, const std::string& text) { box->setEditText(QString::fromStdString(text)); });
+  bind(
+      condition, &QLineEdit::textEdited, &Block::condition, [](const QLineEdit* edit) { return written(edit->text()); },
+      [](QLineEdit* edit, const std::string& text) { edit->setText(QString::fromStdString(text)); });
+  bind(
+      instructions, &QPlainTextEdit::textChanged, &Block::instructions,
+      [](const QPlainTextEdit* edit) { return edit->toPlainText().toStdString(); },
+      [](QPlainTextEdit* edit, const std::string& text) { edit->setPlainText(QString::fromStdString(text)); });
+  return block_;
 }
 
 void PlanComposer::wire() {
   connect(list_, &QTableWidget::itemSelectionChanged, this, [this] {
     if (!showing_) showBlock();
   });
-  for (QSpinBox* box : {trials_, day_}) connect(box, qOverload<int>(&QSpinBox::valueChanged), this, &PlanComposer::take);
-  for (widgets::UnitSpinBox* box : {pause_, foreperiodMin_, foreperiodMax_, catchShare_, rest_})
-    connect(box, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &PlanComposer::take);
-  for (QCheckBox* box : {practice_, repeatAborted_}) connect(box, &QCheckBox::toggled, this, &PlanComposer::take);
-  connect(experiment_, &QComboBox::editTextChanged, this, &PlanComposer::take);
-  connect(condition_, &QLineEdit::textEdited, this, &PlanComposer::take);
-  connect(instructions_, &QPlainTextEdit::textChanged, this, &PlanComposer::take);
   connect(mix_, &MixEditor::changed, this, &PlanComposer::take);
   connect(name_, &QLineEdit::textEdited, this, &PlanComposer::takeWhole);
   connect(permute_, &QCheckBox::toggled, this, &PlanComposer::takeWhole);
@@ -262,23 +273,19 @@ int PlanComposer::row() const {
 void PlanComposer::showList(int select) {
   showing_ = true;
   list_->setRowCount(static_cast<int>(plan_.blocks.size()));
-  for (int i = 0; i < list_->rowCount(); ++i) {
-    const session::PlanBlock& block = plan_.blocks[static_cast<std::size_t>(i)];
-    const QString texts[] = {QString::number(i + 1),
-                             QFileInfo(QString::fromStdString(block.experiment)).completeBaseName(),
-                             QString::fromStdString(conditionOf(block)),
-                             QString::number(block.trials),
-                             block.day == 0 ? tr("every") : QString::number(block.day),
-                             kindOf(block)};
-    for (int column = 0; column < kColumns; ++column) {
-      if (list_->item(i, column) == nullptr) list_->setItem(i, column, new QTableWidgetItem);
-      list_->item(i, column)->setText(texts[column]);
-    }
-  }
+  for (int i = 0; i < list_->rowCount(); ++i) showRow(i);
   list_->setCurrentCell(select, 0);
   showing_ = false;
   showBlock();
   changed();
+}
+
+void PlanComposer::showRow(int row) {
+  const session::PlanBlock& block = plan_.blocks[static_cast<std::size_t>(row)];
+  widgets::setTexts(*list_, row,
+                    {QString::number(row + 1), QFileInfo(QString::fromStdString(block.experiment)).completeBaseName(),
+                     QString::fromStdString(conditionOf(block)), QString::number(block.trials),
+                     block.day == 0 ? tr("every") : QString::number(block.day), kindOf(block)});
 }
 
 void PlanComposer::showBlock() {
@@ -291,18 +298,7 @@ void PlanComposer::showBlock() {
   if (at < 0) return;
   showing_ = true;
   const session::PlanBlock& block = plan_.blocks[static_cast<std::size_t>(at)];
-  experiment_->setEditText(QString::fromStdString(block.experiment));
-  condition_->setText(QString::fromStdString(block.condition));
-  trials_->setValue(block.trials);
-  day_->setValue(block.day);
-  practice_->setChecked(block.practice);
-  repeatAborted_->setChecked(block.repeatAborted);
-  rest_->show(block.restSeconds);
-  pause_->show(block.pauseSeconds);
-  foreperiodMin_->show(block.foreperiodMin);
-  foreperiodMax_->show(block.foreperiodMax);
-  catchShare_->show(block.catchShare);
-  instructions_->setPlainText(QString::fromStdString(block.instructions));
+  for (const Field& field : fields_) field.show(block);
   mix_->show(block.mix);
   showing_ = false;
 }
@@ -311,29 +307,15 @@ void PlanComposer::take() {
   const int at = row();
   if (showing_ || at < 0) return;
   session::PlanBlock& block = plan_.blocks[static_cast<std::size_t>(at)];
-  block.experiment = experiment_->currentText().trimmed().toStdString();
-  block.condition = condition_->text().trimmed().toStdString();
-  block.trials = trials_->value();
-  block.day = day_->value();
-  block.practice = practice_->isChecked();
-  block.repeatAborted = repeatAborted_->isChecked();
-  block.restSeconds = rest_->value();
-  block.pauseSeconds = pause_->value();
-  block.foreperiodMin = foreperiodMin_->value();
-  block.foreperiodMax = foreperiodMax_->value();
-  block.catchShare = catchShare_->value();
-  block.instructions = instructions_->toPlainText().toStdString();
+  for (const Field& field : fields_) field.take(block);
   block.mix = mix_->mix();
-  const QString texts[] = {QFileInfo(QString::fromStdString(block.experiment)).completeBaseName(),
-                           QString::fromStdString(conditionOf(block)), QString::number(block.trials),
-                           block.day == 0 ? tr("every") : QString::number(block.day), kindOf(block)};
-  for (int column = 1; column < kColumns; ++column) list_->item(at, column)->setText(texts[column - 1]);
+  showRow(at);
   changed();
 }
 
 void PlanComposer::takeWhole() {
   if (showing_) return;
-  plan_.name = name_->text().trimmed().toStdString();
+  plan_.name = written(name_->text());
   plan_.counterbalance = permute_->isChecked() ? session::Counterbalance::Permute : session::Counterbalance::None;
   plan_.orderSeed = static_cast<std::uint64_t>(orderSeed_->value());
   changed();

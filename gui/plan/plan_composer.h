@@ -1,21 +1,20 @@
 #pragma once
 #include <QDialog>
+#include <functional>
+#include <vector>
 
 #include "sim/session/plan.h"
 
 class QCheckBox;
-class QComboBox;
 class QLabel;
 class QLineEdit;
-class QPlainTextEdit;
 class QPushButton;
 class QSpinBox;
 class QTableWidget;
 
 namespace reachlab::gui::widgets {
 class FaultLabel;
-class UnitSpinBox;
-}  // namespace reachlab::gui::widgets
+}
 
 namespace reachlab::gui::plan {
 
@@ -46,7 +45,11 @@ class PlanComposer : public QDialog {
   void wire();
   int row() const;
   void showList(int select);
+  void showRow(int row);
   void showBlock();
+  /// A field of the block is shown by `set` and taken by `get`.
+  template <typename Widget, typename Signal, typename Value, typename Get, typename Set>
+  void bind(Widget* field, Signal signal, Value session::PlanBlock::*part, Get get, Set set);
   void take();       // what the fields of the block say
   void takeWhole();  // what those of the plan say
   void changed();
@@ -58,12 +61,14 @@ class PlanComposer : public QDialog {
   QTableWidget* list_;
   QPushButton *up_, *down_, *remove_, *copy_, *use_;
   QWidget* block_;
-  QComboBox* experiment_;
-  QLineEdit *condition_, *name_;
-  QSpinBox *trials_, *day_, *orderSeed_;
-  QCheckBox *practice_, *repeatAborted_, *permute_;
-  widgets::UnitSpinBox *pause_, *foreperiodMin_, *foreperiodMax_, *catchShare_, *rest_;
-  QPlainTextEdit* instructions_;
+  struct Field {
+    std::function<void(const session::PlanBlock&)> show;
+    std::function<void(session::PlanBlock&)> take;
+  };
+  std::vector<Field> fields_;  // of the block
+  QLineEdit* name_;
+  QSpinBox* orderSeed_;
+  QCheckBox* permute_;
   MixEditor* mix_;
   QLabel* preview_;
   widgets::FaultLabel* faultLabel_;

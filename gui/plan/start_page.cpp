@@ -10,13 +10,13 @@
 #include <QVariant>
 
 #include "gui/widgets/named.h"
+#include "gui/widgets/text_table.h"
 #include "gui/widgets/theme.h"
 
 namespace reachlab::gui::plan {
 namespace {
 
-enum Column { kPlace, kCondition, kTrials, kState, kColumns };
-constexpr int kMostRows = 9;
+constexpr int kMostRows = 9, kRowHeight = 25;
 
 QString stateOf(const session::BlockProgress& block) {
   QString text = block.complete() ? StartPage::tr("✓ done") : block.begun() ? StartPage::tr("broken off") : StartPage::tr("to do");
@@ -40,8 +40,7 @@ StartPage::StartPage(QWidget* parent) : QFrame(parent) {
   title_->setFont(large);
   auto* who = new QHBoxLayout;
   const auto field = [&](const QString& words, const char* name) {
-    auto* made = new QLineEdit;
-    made->setObjectName(QLatin1String(name));
+    auto* made = widgets::named<QLineEdit>(name);
     made->setMaximumWidth(130);
     who->addWidget(new QLabel(words));
     who->addWidget(made);
@@ -52,16 +51,10 @@ StartPage::StartPage(QWidget* parent) : QFrame(parent) {
   summary_ = widgets::named<QLabel>("startSummary");
   who->addStretch(1);
   who->addWidget(summary_);
-  blocks_ = widgets::named<QTableWidget>("startBlocks", 0, kColumns);
-  blocks_->setHorizontalHeaderLabels({tr("block"), tr("condition"), tr("trials"), tr("state")});
-  blocks_->verticalHeader()->hide();
-  blocks_->verticalHeader()->setDefaultSectionSize(25);
-  blocks_->setSelectionMode(QAbstractItemView::NoSelection);
-  blocks_->setEditTriggers(QAbstractItemView::NoEditTriggers);
+  blocks_ = widgets::makeTextTable({tr("block"), tr("condition"), tr("trials"), tr("state")}, kRowHeight);
+  blocks_->setObjectName(QStringLiteral("startBlocks"));
   blocks_->setFocusPolicy(Qt::NoFocus);
-  blocks_->setShowGrid(false);
-  blocks_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
-  blocks_->horizontalHeader()->setSectionResizeMode(kCondition, QHeaderView::Stretch);
+  blocks_->horizontalHeader()->setSectionResizeMode(1, QHeaderView::Stretch);
   next_ = widgets::named<QLabel>("startNext");
   next_->setWordWrap(true);
   auto* buttons = new QHBoxLayout;
@@ -104,34 +97,29 @@ void StartPage::show(const Shown& shown) {
   for (int i = 0; i < blocks_->rowCount(); ++i) {
     const session::BlockProgress& block = progress.blocks[static_cast<std::size_t>(i)];
     if (next == nullptr && !block.complete()) next = &block;
-    const QString texts[] = {QString::number(block.block), QString::fromStdString(block.condition),
-                             QStringLiteral("%1 / %2").arg(block.done).arg(block.trials), stateOf(block)};
-    for (int column = 0; column < kColumns; ++column) {
-      if (blocks_->item(i, column) == nullptr) blocks_->setItem(i, column, new QTableWidgetItem);
-      QTableWidgetItem* item = blocks_->item(i, column);
-      item->setText(texts[column]);
-      QFont font = blocks_->font();
-      font.setBold(next == &block);
-      item->setFont(font);
-      item->setForeground(widgets::toQColor(block.complete() ? widgets::colours::kFaintText : widgets::colours::kText));
+    widgets::setTexts(*blocks_, i,
+                      {QString::number(block.block), QString::fromStdString(block.condition),
+                       QStringLiteral("%1 / %2").arg(block.done).arg(block.trials), stateOf(block)});
+    QFont font = blocks_->font();
+    font.setBold(next == &block);
+    for (int column = 0; column < blocks_->columnCount(); ++column) {
+      blocks_->item(i, column)->setFont(font);
+      blocks_->item(i, column)->setForeground(widgets::toQColor(block.complete() ? widgets::colours::kFaintText : widgets::colours::kText));
     }
   }
-  blocks_->setFixedHeight(blocks_->horizontalHeader()->sizeHint().height() + 4 + 25 * std::clamp(blocks_->rowCount(), 1, kMostRows));
-  if (!shown.fault.isEmpty()) next_->setText(shown.fault);
-  else if (next == nullptr) next_->setText(tr("All trials of this session are recorded. Choose another subject or another session."));
-  else if (resumes_)
-    next_->setText(tr("Continues in block %1, %2, with trial %3 of %4.")
-                       .arg(next->block)
-                       .arg(QString::fromStdString(next->condition))
-                       .arg(next->done + 1)
-                       .arg(next->trials));
-  else
-    next_->setText(tr("The first block is block %1, %2, with %3 trials.")
-                       .arg(next->block)
-                       .arg(QString::fromStdString(next->condition))
-                       .arg(next->trials));
-  if (next != nullptr && !next->instructions.empty())
-    next_->setText(next_->text() + QStringLiteral("\n") + QString::fromStdString(next->instructions));
+  blocks_->setFixedHeight(blocks_->horizontalHeader()->sizeHint().height() + 4 +
+                          kRowHeight * std::clamp(blocks_->rowCount(), 1, kMostRows));
+  QString words = shown.fault;
+  if (words.isEmpty() && next == nullptr) words = tr("All trials of this session are recorded. Choose another subject or another session.");
+  else if (words.isEmpty()) {
+    const QString condition = QString::fromStdString(next->condition);
+    words =
+        resumes_
+            ? tr("Continues in block %1, %2, with trial %3 of %4.").arg(next->block).arg(condition).arg(next->done + 1).arg(next->trials)
+            : tr("The first block is block %1, %2, with %3 trials.").arg(next->block).arg(condition).arg(next->trials);
+  }
+  if (next != nullptr && !next->instructions.empty()) words += QStringLiteral("\n") + QString::fromStdString(next->instructions);
+  next_->setText(words);
   const bool can = shown.fault.isEmpty() && next != nullptr;
   go_->setEnabled(can);
   go_->setText(resumes_ ? tr("Resume  (Space)") : tr("Begin  (Space)"));

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "analysis/report/figures.h"
+#include "gui/widgets/text_table.h"
 #include "gui/widgets/themes.h"
 
 namespace reachlab::gui::plot {
@@ -28,14 +29,8 @@ QString titleOf(predict::Criterion criterion) {
 }
 
 QTableWidget* makeCriteriaTable(const QStringList& columns, const std::vector<predict::Criterion>& chosen, int rowHeight) {
-  auto* table = new QTableWidget(predict::kCriterionCount, columns.size());
-  table->setHorizontalHeaderLabels(columns);
-  table->verticalHeader()->hide();
-  table->verticalHeader()->setDefaultSectionSize(rowHeight);
-  table->setSelectionMode(QAbstractItemView::NoSelection);
-  table->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table->setShowGrid(false);
-  table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
+  QTableWidget* table = widgets::makeTextTable(columns, rowHeight);
+  table->setRowCount(predict::kCriterionCount);
   table->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
   for (int i = 0; i < predict::kCriterionCount; ++i) {
     const auto criterion = static_cast<predict::Criterion>(i);
