@@ -1,6 +1,6 @@
 #include "analysis/figure/canvas.h"
 
-#include <cmath>
+#include <algorithm>
 #include <numbers>
 
 namespace reachlab::figure {

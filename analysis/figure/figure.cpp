@@ -5,7 +5,6 @@
 #include <cairo.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <memory>
 #include <string_view>
 

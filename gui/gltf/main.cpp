@@ -3,6 +3,7 @@
 #include <sys/resource.h>
 #include <tiny_gltf.h>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
@@ -36,8 +37,13 @@ const T& at(const std::vector<T>& all, int index, const std::string& what) {
 struct Numbers {
   const unsigned char* first = nullptr;
   std::size_t stride = 0, count = 0;
-  int kind = 0, many = 0;
-  const unsigned char* place(std::size_t i) const { return first + i * stride; }
+  int kind = 0;
+  template <typename T>
+  T at(std::size_t i) const {
+    T value{};
+    std::memcpy(&value, first + i * stride, sizeof value);
+    return value;
+  }
 };
 
 Numbers numbersOf(const tinygltf::Model& model, int accessorIndex, int many) {
@@ -59,22 +65,13 @@ Numbers numbersOf(const tinygltf::Model& model, int accessorIndex, int many) {
     if (accessor.byteOffset > view.byteLength || needed > view.byteLength - accessor.byteOffset)
       throw Refused("an accessor runs over its bufferView's end");
   }
-  return {buffer.data.data() + view.byteOffset + accessor.byteOffset, stride, accessor.count, accessor.componentType, many};
+  return {buffer.data.data() + view.byteOffset + accessor.byteOffset, stride, accessor.count, accessor.componentType};
 }
 
 std::uint32_t wholeAt(const Numbers& n, std::size_t i) {
-  const unsigned char* p = n.place(i);
-  if (n.kind == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return *p;
-  if (n.kind == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) {
-    std::uint16_t v = 0;
-    std::memcpy(&v, p, sizeof v);
-    return v;
-  }
-  if (n.kind == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) {
-    std::uint32_t v = 0;
-    std::memcpy(&v, p, sizeof v);
-    return v;
-  }
+  if (n.kind == TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE) return n.at<std::uint8_t>(i);
+  if (n.kind == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) return n.at<std::uint16_t>(i);
+  if (n.kind == TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT) return n.at<std::uint32_t>(i);
   throw Refused("indices are of componentType " + std::to_string(n.kind));
 }
 
@@ -132,9 +129,8 @@ class Scene {
     ModelPart part;
     part.name = name;
     for (std::size_t i = 0; i < places.count; ++i) {
-      float v[3];
-      std::memcpy(v, places.place(i), sizeof v);
-      part.points.push_back(frame({v[0], v[1], v[2]}));
+      const auto [x, y, z] = places.at<std::array<float, 3>>(i);
+      part.points.push_back(frame({x, y, z}));
     }
     std::vector<std::uint32_t> corners;
     if (primitive.indices >= 0) {

@@ -1,6 +1,5 @@
 #include "gui/inspector/analysis_lines.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "analysis/report/figures.h"

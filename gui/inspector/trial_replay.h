@@ -1,6 +1,4 @@
 #pragma once
-#include <memory>
-
 #include "analysis/dataset.h"
 #include "gui/scene_plan/scene_plan.h"
 #include "sim/record/log/run_log.h"

@@ -10,7 +10,7 @@ namespace reachlab::gui::plot {
 void LiveForecast::setExperiment(const experiment::CompiledExperiment& experiment) {
   experiment_ = experiment;
   forecasts_.clear();
-  ended_.reset();
+  ended_ = {};
   Q_EMIT changed();
   const auto computed = std::make_shared<std::vector<CriterionForecast>>();
   work_.begin([experiment, computed](const widgets::NewestWork::Turn& turn) { *computed = forecastAll(experiment, turn.stop); },
@@ -22,10 +22,7 @@ void LiveForecast::setExperiment(const experiment::CompiledExperiment& experimen
 }
 
 void LiveForecast::tellCompared() {
-  if (!ended_ || !isReady()) return;
-  const Trial trial = *std::exchange(ended_, {});
-  const experiment::Task task = experiment_->experiment().task.value_or(experiment::Task{});
-  Q_EMIT compared(computeHandErrors(trial.points, trial.path, forecasts_, task, trial.span), trial.succeeded);
+  if (ended_ && isReady()) std::exchange(ended_, {})();
 }
 
 std::vector<PredictedLine> LiveForecast::lines(const std::vector<predict::Criterion>& criteria) const {
@@ -46,7 +43,10 @@ std::vector<PredictedLine> LiveForecast::lines(const std::vector<predict::Criter
 
 void LiveForecast::compare(const std::vector<TracePoint>& points, const constraints::TaskPath& path, const TrialSpan& span,
                            bool succeeded) {
-  ended_ = Trial{points, path, span, succeeded};
+  ended_ = [this, points, path, span, succeeded] {
+    const experiment::Task task = experiment_->experiment().task.value_or(experiment::Task{});
+    Q_EMIT compared(computeHandErrors(points, path, forecasts_, task, span), succeeded);
+  };
   tellCompared();
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <QObject>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -32,16 +33,10 @@ class LiveForecast : public QObject {
 
  private:
   void tellCompared();
-  struct Trial {
-    std::vector<TracePoint> points;
-    constraints::TaskPath path;
-    TrialSpan span;
-    bool succeeded = false;
-  };
 
   std::optional<experiment::CompiledExperiment> experiment_;
   std::vector<CriterionForecast> forecasts_;
-  std::optional<Trial> ended_;
+  std::function<void()> ended_;  // compares the trial
   widgets::NewestWork work_{*this};
 };
 

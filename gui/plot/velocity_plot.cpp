@@ -132,10 +132,7 @@ void VelocityPlot::setTask(double duration, double tolerance) {
 void VelocityPlot::beginTrial() {
   Impl& d = *impl_;
   if (d.now.times.size() > 1) d.before = d.now;
-  for (QVector<double>* column : {&d.now.times, &d.now.hands, &d.now.lasts}) {
-    column->clear();
-    column->reserve(4096);
-  }
+  d.now = {};
   d.changed = true;
 }
 

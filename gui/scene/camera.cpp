@@ -32,21 +32,14 @@ CameraAxes axesOf(const Camera& camera) {
   return axes;
 }
 
-Camera lookAt(const Vec3& centre, double diameter, const Vec3& direction, double aspect) {
-  Camera camera;
-  camera.focus = centre;
-  const double narrow = std::min(1.0, aspect);
-  camera.position = centre + (0.5 * diameter / (tanHalf(camera) * narrow)) * unit(direction);
-  camera.up = axesOf(camera).up;
-  return camera;
-}
-
 Camera lookAtPoints(std::span<const Vec3> points, double margin, const Vec3& direction, double aspect, bool parallel) {
   Box box;
   for (const Vec3& p : points) box.add(p);
-  Camera camera = lookAt(box.valid() ? box.centre() : Vec3{}, std::max(box.diagonal() + 2 * margin, 1e-6), direction, aspect);
+  Camera camera;
   camera.parallel = parallel;
-  if (!box.valid()) return camera;
+  camera.focus = box.valid() ? box.centre() : Vec3{};
+  camera.position = camera.focus + unit(direction);
+  camera.up = axesOf(camera).up;
   // The middle of what is seen, across and up, is the middle of the picture; then as near as the worst point allows.
   const CameraAxes axes = axesOf(camera);
   double left = 0, right = 0, low = 0, high = 0;
@@ -56,7 +49,7 @@ Camera lookAtPoints(std::span<const Vec3> points, double margin, const Vec3& dir
     low = std::min(low, dot(arm, axes.up)), high = std::max(high, dot(arm, axes.up));
   }
   camera.focus += (0.5 * (left + right)) * axes.right + (0.5 * (low + high)) * axes.up;
-  double distance = 0;
+  double distance = 1e-6;
   for (const Vec3& p : points) {
     const Vec3 arm = p - camera.focus;
     const double across = (std::abs(dot(arm, axes.right)) + margin) / aspect, up = std::abs(dot(arm, axes.up)) + margin;

@@ -20,8 +20,6 @@ struct CameraAxes {
 };
 CameraAxes axesOf(const Camera& camera);
 
-/// Looks from `direction` so that a ball of that diameter fills the height (and, for an upright picture, the width).
-Camera lookAt(const Vec3& centre, double diameter, const Vec3& direction, double aspect);
 /// Looks from `direction` so that all the points, with `margin` [m] around each, are just seen.
 Camera lookAtPoints(std::span<const Vec3> points, double margin, const Vec3& direction, double aspect, bool parallel = false);
 

@@ -1,6 +1,7 @@
 #include "gui/scene/place_under.h"
 
 #include <algorithm>
+#include <boost/math/tools/minima.hpp>
 #include <cmath>
 #include <limits>
 
@@ -90,19 +91,8 @@ double apartFromLine(const Seen& a, const Seen& b) {
 }
 
 Seen nearestBetween(const Looker& look, double low, double high) {
-  constexpr double kGolden = 0.6180339887498949;
-  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-  Seen atA = look.at({a}), atB = look.at({b});
-  for (int pass = 0; pass < 60; ++pass) {
-    if (atA.apart() < atB.apart()) {
-      high = b, b = a, atB = atA;
-      a = high - kGolden * (high - low), atA = look.at({a});
-    } else {
-      low = a, a = b, atA = atB;
-      b = low + kGolden * (high - low), atB = look.at({b});
-    }
-  }
-  Seen best = atA.apart() < atB.apart() ? atA : atB;
+  const auto apart = [&](double q) { return look.at({q}).apart(); };
+  Seen best = look.at({boost::math::tools::brent_find_minima(apart, low, high, 40).first});
   for (const double end : {low, high})
     if (Seen seen = look.at({end}); seen.apart() < best.apart()) best = std::move(seen);
   return best;

@@ -22,10 +22,17 @@ double sizeOf(const std::vector<Vec3>& points) {
   return box.diagonal();
 }
 
+std::vector<double> evenly(double from, double to, std::size_t parts) {
+  std::vector<double> values;
+  for (std::size_t i = 0; i <= parts; ++i) values.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(parts));
+  return values;
+}
+
 // A parameter and what is found there.
 struct Knot {
   double at = 0;
   std::vector<Vec3> points;  // one a probe
+  bool settled = false;      // the interval that begins here needs no half
 };
 
 using Probe = std::function<std::vector<Vec3>(double)>;
@@ -47,35 +54,25 @@ bool bendsTooMuch(const Knot& a, const Knot& middle, const Knot& b, double error
 // Halves the interval that needs it, level by level, until none does or the bound is reached.
 std::vector<Knot> refine(const Probe& probe, double from, double to, std::size_t first, std::size_t most, double error, double turn) {
   std::vector<Knot> knots;
-  for (std::size_t i = 0; i <= first; ++i) {
-    const double at = from + (to - from) * static_cast<double>(i) / static_cast<double>(first);
-    knots.push_back({at, probe(at)});
-  }
-  std::vector<bool> settled(knots.size(), false);  // of the interval that begins at each knot
+  for (const double at : evenly(from, to, first)) knots.push_back({at, probe(at)});
   for (int level = 0; level < 7; ++level) {
     std::vector<Knot> next;
-    std::vector<bool> nextSettled;
-    bool changed = false;
     for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-      Knot middle;
-      bool split = !settled[i] && next.size() + (knots.size() - i) + 1 < most;
-      if (split) {
-        middle = {0.5 * (knots[i].at + knots[i + 1].at), {}};
+      Knot &knot = knots[i], middle;
+      if (!knot.settled && next.size() + (knots.size() - i) + 1 < most) {
+        middle.at = 0.5 * (knot.at + knots[i + 1].at);
         middle.points = probe(middle.at);
-        split = bendsTooMuch(knots[i], middle, knots[i + 1], error, turn);
+        knot.settled = !bendsTooMuch(knot, middle, knots[i + 1], error, turn);
+      } else {
+        knot.settled = true;
       }
-      next.push_back(std::move(knots[i]));
-      nextSettled.push_back(!split);
-      if (split) {
-        next.push_back(std::move(middle));
-        nextSettled.push_back(false);
-        changed = true;
-      }
+      const bool split = !knot.settled;
+      next.push_back(std::move(knot));
+      if (split) next.push_back(std::move(middle));
     }
     next.push_back(std::move(knots.back()));
-    nextSettled.push_back(true);
+    const bool changed = next.size() > knots.size();
     knots = std::move(next);
-    settled = std::move(nextSettled);
     if (!changed) break;
   }
   return knots;
@@ -94,12 +91,6 @@ std::vector<std::vector<Vec3>> finitePieces(const std::vector<Vec3>& points) {
   }
   close();
   return pieces;
-}
-
-std::vector<double> evenly(double from, double to, std::size_t parts) {
-  std::vector<double> values;
-  for (std::size_t i = 0; i <= parts; ++i) values.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(parts));
-  return values;
 }
 
 // Where r_u x r_v vanishes (a pole, an apex) the normal is taken from the quads around it.

@@ -1,7 +1,6 @@
 #include "gui/scene_plan/force_marks.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "base/math/minimum_jerk.h"
 #include "sim/environment/force_field.h"

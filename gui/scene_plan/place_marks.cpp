@@ -1,7 +1,5 @@
 #include "gui/scene_plan/place_marks.h"
 
-#include <cmath>
-
 #include "base/fault.h"
 #include "constraints/regularity/places.h"
 #include "constraints/regularity/surface_branches.h"

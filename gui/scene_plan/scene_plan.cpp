@@ -172,16 +172,13 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
   const auto& from = experiment.task ? experiment.task->start : none;
   const auto& to = experiment.task ? experiment.task->target : none;
   Box box;
-  if (constraint.kind == constraints::ConstraintKind::Curve) {
+  if (constraint.kind != constraints::ConstraintKind::Free) {
+    const bool curve = constraint.kind == constraints::ConstraintKind::Curve;
     const auto domain = drawnDomain(constraint, from, to);
-    plan.curve = sampleCurve(constraint.curve, domain[0].lo, domain[0].hi);
+    if (curve) plan.curve = sampleCurve(constraint.curve, domain[0].lo, domain[0].hi);
+    else plan.surface = sampleSurface(constraint.surface, domain);
     plan.places = markPlaces(constraint, domain, from);
-    box = boxOf(plan.curve);
-  } else if (constraint.kind == constraints::ConstraintKind::Surface) {
-    const auto domain = drawnDomain(constraint, from, to);
-    plan.surface = sampleSurface(constraint.surface, domain);
-    plan.places = markPlaces(constraint, domain, from);
-    box = boxOf(plan.surface);
+    box = curve ? boxOf(plan.curve) : boxOf(plan.surface);
   }
   if (experiment.task) {
     plan.hasTask = true;

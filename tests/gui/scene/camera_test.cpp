@@ -10,11 +10,13 @@ namespace {
 constexpr double kWidth = 900, kHeight = 600;
 constexpr double kRounding = 1e-9;  // a dozen operations on numbers of order 1 to 1000
 
+Camera lookAt(const Vec3& centre, const Vec3& direction) { return lookAtPoints(std::array{centre}, 0.2, direction, 1.5); }
+
 TEST(Camera, APixelsPointIsDrawnAtThatPixel) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1, 1);
   for (int i = 0; i < 200; ++i) {
-    const Camera camera = lookAt({any(random), any(random), any(random)}, 0.4, {any(random), any(random), 1.2}, kWidth / kHeight);
+    const Camera camera = lookAt({any(random), any(random), any(random)}, {any(random), any(random), 1.2});
     const double x = 450 + 400 * any(random), y = 300 + 250 * any(random);
     const Vec3 point = pointUnder(camera, camera.focus, x, y, kWidth, kHeight);
     const auto pixel = pixelOf(camera, point, kWidth, kHeight);
@@ -24,7 +26,7 @@ TEST(Camera, APixelsPointIsDrawnAtThatPixel) {
 }
 
 TEST(Camera, TurningKeepsTheDistanceAndTheFocus) {
-  Camera camera = lookAt({0.1, 0.2, 0.3}, 0.4, {0.3, 0.2, 1}, 1.5);
+  Camera camera = lookAt({0.1, 0.2, 0.3}, {0.3, 0.2, 1});
   const double before = norm(camera.position - camera.focus);
   const Vec3 focus = camera.focus;
   for (int i = 0; i < 50; ++i) turn(camera, 37, -21, kHeight);
@@ -33,7 +35,7 @@ TEST(Camera, TurningKeepsTheDistanceAndTheFocus) {
 }
 
 TEST(Camera, PanningMovesThePlaneWithThePointer) {
-  Camera camera = lookAt({}, 0.4, {0, 0, 1}, 1.5);
+  Camera camera = lookAt({}, {0, 0, 1});
   const auto before = pixelOf(camera, {}, kWidth, kHeight);
   pan(camera, 30, -12, kHeight);
   const auto after = pixelOf(camera, {}, kWidth, kHeight);
@@ -58,7 +60,7 @@ TEST(Camera, AViewOfPointsHoldsThemAllAndFillsThePicture) {
 }
 
 TEST(Camera, LookingStraightDownStillHasARightAndAnUp) {
-  const CameraAxes axes = axesOf(lookAt({}, 1, {0, 1, 0}, 1));
+  const CameraAxes axes = axesOf(lookAt({}, {0, 1, 0}));
   EXPECT_NEAR(norm(axes.right), 1, kRounding);
   EXPECT_NEAR(norm(axes.up), 1, kRounding);
 }
