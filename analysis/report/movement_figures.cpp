@@ -117,10 +117,9 @@ NamedFigure paperFigure(const Analysis& analysis, std::size_t condition) {
   out.caption =
       r.used > 0
           ? fmt::format(
-                "{}, as in Figs. 5 and 6: {}. Thin: {} {}trial{}, time-scaled to their average of {:.3f} "
-                "s. Thick: "
-                "criterion (1) solid, (3) dashed, for the task's T, neither cut nor stretched; above they begin before the onset by as "
-                "much as the onset rule would leave out of them, below their t = 0 is put on the trials' onset.",
+                "{}, as in Figs. 5 and 6: {}. Thin: {} {}trial{}, time-scaled to their average of {:.3f} s. Thick: criterion (1) solid, "
+                "(3) dashed, for the task's T, neither cut nor stretched; above they begin before the onset by as much as the onset rule "
+                "would leave out of them, below their t = 0 is put on the trials' onset.",
                 analysis.conditions[condition].name, shownVelocity, r.used, r.onlyFailures ? "failed " : "", r.used == 1 ? "" : "s",
                 r.duration.mean)
           : fmt::format("{}: no movement to show; predictions only.", analysis.conditions[condition].name);

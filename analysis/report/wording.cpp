@@ -327,42 +327,29 @@ std::string describeMethods(const Analysis& analysis) {
                  : fmt::format("Where the experiment gives no mass of the hand, it was fitted from {} to {} kg for criteria (4) to (6).",
                                shortNumber(*least), shortNumber(*largest));
   return fmt::format(
-      "{} Onset and offset are {}; a movement ends with its trial at the latest, that is when every mass was inside the tolerances. "
-      "Each criterion of Table 1, and a minimum jerk of the hand that ignores the object, was fitted to every successful trial by least "
-      "squares "
-      "over onset, duration and amplitude, in one window that is the same for all (from 0.3 s before the hand first exceeds 5 % of its "
-      "peak to "
-      "50 ms before the record ends), with predictions filtered as the recording is. Samples were weighted by the inverse of the person's "
-      "own "
-      "scatter at that phase of the movement (at least a tenth of the largest). A plan was either made anew for each trial's duration or "
-      "one "
-      "plan run faster or slower (within 7 % of the median duration). {}{} Time law and mass were chosen on four fifths of a person's "
-      "trials, and "
-      "each trial scored, ln S with S the weighted sum of squares, with the choice of the four fifths that it is not in. A person's score "
-      "is the "
-      "mean over trials, over conditions the mean of their means. One person is decided for a criterion if p < {} against every other and "
-      "the "
-      "reference (two-sided t over trials, the number of trials reduced by their serial correlation) and their scores are {} or more above "
-      "its own: squared errors that differ by less are not told apart, however many trials there are. Nobody is decided for a criterion "
-      "that fits worse than the person's other trials do, by their mean or by a line over the duration (score {} or more above theirs with p < {}, "
-      "or 1 - R² more than {} times what the ceiling leaves), whose residuals are the same in every trial or grow with the duration ({} of their mean square and {} of the speed or more, p < {} by the exchange of signs) "
-      "or go towards another candidate ({} of the way or more, one-sided p < {}, corrected for their number), or while a hand mass outside the range might be nearer. "
-      "People are decided for one from {} "
-      "on if p "
-      "< {} against every other and the reference (paired t over subjects), the same least difference, the protected exceedance probability of random-effects model "
+      "{} Onset and offset are {}; a movement ends with its trial at the latest, that is when every mass was inside the tolerances. Each "
+      "criterion of Table 1, and a minimum jerk of the hand that ignores the object, was fitted to every successful trial by least "
+      "squares over onset, duration and amplitude, in one window that is the same for all (from 0.3 s before the hand first exceeds 5 % "
+      "of its peak to 50 ms before the record ends), with predictions filtered as the recording is. Samples were weighted by the inverse "
+      "of the person's own scatter at that phase of the movement (at least a tenth of the largest). A plan was either made anew for each "
+      "trial's duration or one plan run faster or slower (within 7 % of the median duration). {}{} Time law and mass were chosen on four "
+      "fifths of a person's trials, and each trial scored, ln S with S the weighted sum of squares, with the choice of the four fifths "
+      "that it is not in. A person's score is the mean over trials, over conditions the mean of their means. One person is decided for a "
+      "criterion if p < {} against every other and the reference (two-sided t over trials, the number of trials reduced by their serial "
+      "correlation) and their scores are {} or more above its own: squared errors that differ by less are not told apart, however many "
+      "trials there are. Nobody is decided for a criterion that fits worse than the person's other trials do, by their mean or by a line "
+      "over the duration (score {} or more above theirs with p < {}, or 1 - R² more than {} times what the ceiling leaves), whose "
+      "residuals are the same in every trial or grow with the duration ({} of their mean square and {} of the speed or more, p < {} by "
+      "the exchange of signs) or go towards another candidate ({} of the way or more, one-sided p < {}, corrected for their number), or "
+      "while a hand mass outside the range might be nearer. People are decided for one from {} on if p < {} against every other and the "
+      "reference (paired t over subjects), the same least difference, the protected exceedance probability of random-effects model "
       "selection is at least {}, and no subject is decided for another. Fewer than {} successful trials of a subject and condition are "
-      "described only. The paper's ε is its root mean squared difference of velocity against the prediction for {}, each trial time-scaled "
-      "to "
-      "the prediction with the distance kept, over 101 samples of every trial; fitted ε is that of the fits, unweighted. Intervals are 95 "
-      "%: t over "
-      "subjects for means, differences and slopes (those of differences of ε Bonferroni-corrected; those of success never narrower than "
-      "the "
-      "binomial scatter of the subjects' own trials makes them), Clopper and Pearson's for one subject's share of successes. The share of "
-      "a "
-      "typical subject is the mean of the subjects' empirical logits, back as a share. Effects of day and pace are paired over subjects, "
-      "their odds ratios from the subjects' empirical logits, p "
-      "corrected by "
-      "Holm's method.",
+      "described only. The paper's ε is its root mean squared difference of velocity against the prediction for {}, each trial "
+      "time-scaled to the prediction with the distance kept, over 101 samples of every trial; fitted ε is that of the fits, unweighted. "
+      "Intervals are 95 %: t over subjects for means, differences and slopes (those of differences of ε Bonferroni-corrected; those of "
+      "success never narrower than the binomial scatter of the subjects' own trials makes them), Clopper and Pearson's for one subject's "
+      "share of successes. The share of a typical subject is the mean of the subjects' empirical logits, back as a share. Effects of day "
+      "and pace are paired over subjects, their odds ratios from the subjects' empirical logits, p corrected by Holm's method.",
       filter, rule, mass, o.handDamping > 0 ? fmt::format(" Damping of the hand: {} N s/m.", shortNumber(o.handDamping)) : "", kTrialsLevel,
       kLeastDifference, kLeastMisfit, kMisfitLevel, kMostUnexplained, kLeastSystematic, kLeastSystematicSpeed, kSystematicLevel,
       kLeastMixture, kMixtureLevel, kFewestSubjects, kSubjectsLevel, kMinExceedance, kFewestTrials,
@@ -371,14 +358,11 @@ std::string describeMethods(const Analysis& analysis) {
 
 std::string describeLimits(const Analysis&) {
   return "Limits: closest among the candidates is not proved; a criterion that was not compared may be nearer. Only hand velocity along "
-         "the "
-         "path decides, and only of successful trials: tolerances that let few trials through choose which movements are seen. Criteria "
-         "(4) and "
-         "(6) are one prediction unless the hand is damped, and with a hand mass other pairs come within 1 % of the peak of each other, "
-         "which "
-         "thirty trials do not tell apart. Measures of a peak (time to peak, symmetry) mean little where the speed has two. Replayed "
-         "reaches "
-         "are scaled so that their farthest point is the target, so their overshoot is near zero by construction.";
+         "the path decides, and only of successful trials: tolerances that let few trials through choose which movements are seen. "
+         "Criteria (4) and (6) are one prediction unless the hand is damped, and with a hand mass other pairs come within 1 % of the "
+         "peak of each other, which thirty trials do not tell apart. Measures of a peak (time to peak, symmetry) mean little where the "
+         "speed has two. Replayed reaches are scaled so that their farthest point is the target, so their overshoot is near zero by "
+         "construction.";
 }
 
 std::string describeCounts(const ConditionResult& r) {
