@@ -24,8 +24,6 @@
 namespace reachlab::record {
 namespace {
 
-std::span<const std::uint8_t> bytesOf(const std::string& text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
-
 const std::string kTooLarge =
     "its disk or a limit of this process (ulimit -f) allows no larger file: choose another disk or raise the limit";
 
@@ -58,9 +56,9 @@ TEST(AppendFile, GrowsByWhatIsAppendedInFoldersOfItsOwnMaking) {
   const std::string path = folder / "one/two/a_log.reach";
   AppendFile file = AppendFile::create(path);
   EXPECT_EQ(file.size(), 0u);
-  file.append(bytesOf("abc"));
-  file.append(bytesOf(""));
-  file.append(bytesOf("defgh"));
+  file.append(asBytes("abc"));
+  file.append(asBytes(""));
+  file.append(asBytes("defgh"));
   EXPECT_EQ(file.size(), 8u);
   EXPECT_EQ(file.path(), path);
   EXPECT_NO_THROW(file.sync());
@@ -85,7 +83,7 @@ TEST(AppendFile, WhatIsThereIsCutToItsGoodPartAndGrowsOn) {
   AppendFile file = AppendFile::openAt(path, 4);
   EXPECT_EQ(file.size(), 4u);
   EXPECT_EQ(readWholeFile(path), "good");
-  file.append(bytesOf("ness"));
+  file.append(asBytes("ness"));
   EXPECT_EQ(readWholeFile(path), "goodness");
 }
 
@@ -93,15 +91,15 @@ TEST(AppendFile, WhatTheDiskTakesOnlyInPartIsTakenBack) {
   const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   AppendFile file = AppendFile::create(path);
-  file.append(bytesOf(std::string(60, 'a')));
+  file.append(asBytes(std::string(60, 'a')));
   {
     const FileLimit limit(100);
-    EXPECT_EQ(refusalOf([&] { file.append(bytesOf(std::string(60, 'b'))); }), path + ": cannot be written: File too large; " + kTooLarge);
+    EXPECT_EQ(refusalOf([&] { file.append(asBytes(std::string(60, 'b'))); }), path + ": cannot be written: File too large; " + kTooLarge);
     EXPECT_EQ(file.size(), 60u);
     EXPECT_EQ(std::filesystem::file_size(path), 60u);
-    EXPECT_NO_THROW(file.append(bytesOf(std::string(40, 'c')))) << "what fits goes in";
+    EXPECT_NO_THROW(file.append(asBytes(std::string(40, 'c')))) << "what fits goes in";
   }
-  file.append(bytesOf("d"));
+  file.append(asBytes("d"));
   EXPECT_EQ(readWholeFile(path), std::string(60, 'a') + std::string(40, 'c') + "d");
 }
 
@@ -116,7 +114,7 @@ TEST(AppendFile, WhatCannotBeTakenBackIsKnownAndNothingIsWrittenBehindIt) {
     AppendFile file = AppendFile::openAt(path, 60);
     const FileLimit limit(100);
     for (const char* words : {"cannot be written: File too large", "cannot be cut to its good part: Operation not permitted"}) {
-      EXPECT_NE(refusalOf([&] { file.append(bytesOf(std::string(60, 'b'))); }).find(words), std::string::npos) << words;
+      EXPECT_NE(refusalOf([&] { file.append(asBytes(std::string(60, 'b'))); }).find(words), std::string::npos) << words;
       EXPECT_EQ(file.size(), 60u) << "the good part stays, whatever follows";
       EXPECT_EQ(readWholeFile(path), good + part);
     }
@@ -129,7 +127,7 @@ TEST(AppendFile, OneThatIsMovedKeepsItsLockAndItsPlace) {
   const std::string path = folder / "a_log.reach", other = folder / "b_log.reach";
   {
     AppendFile first = AppendFile::create(path);
-    first.append(bytesOf("abc"));
+    first.append(asBytes("abc"));
     AppendFile second(std::move(first));
     EXPECT_EQ(second.size(), 3u);
     EXPECT_TRUE(isBeingWritten(path));
@@ -137,7 +135,7 @@ TEST(AppendFile, OneThatIsMovedKeepsItsLockAndItsPlace) {
     third = std::move(second);
     EXPECT_EQ(third.path(), path);
     EXPECT_EQ(third.size(), 3u);
-    third.append(bytesOf("d"));
+    third.append(asBytes("d"));
     EXPECT_EQ(third.size(), 4u);
     EXPECT_NO_THROW(third.sync());
   }
@@ -156,6 +154,7 @@ TEST(AppendFile, IsBeingWrittenAsLongAsItIsThere) {
     EXPECT_TRUE(isBeingWritten(path));
     EXPECT_EQ(writerOf(path), " (process " + std::to_string(::getpid()) + ")");
     EXPECT_EQ(writerOf(folder / ""), "") << "of another file";
+    EXPECT_NE(refusalOf([&] { AppendFile::openAt(path, 0); }).find("is being written by another program"), std::string::npos);
   }
   EXPECT_FALSE(isBeingWritten(path));
   EXPECT_EQ(writerOf(path), "");

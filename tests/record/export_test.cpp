@@ -1,6 +1,4 @@
 #include <gtest/gtest.h>
-#include <signal.h>
-#include <sys/resource.h>
 
 #include <charconv>
 #include <nlohmann/json.hpp>
@@ -33,14 +31,6 @@ std::vector<std::vector<std::string>> cellsOf(const std::string& text, char sepa
     for (std::string cell; std::getline(cells, cell, separator);) rows.back().push_back(cell);
   }
   return rows;
-}
-
-// A text that is given piece by piece.
-template <typename Write, typename Of>
-std::string textOf(Write&& write, const Of& of) {
-  std::string text;
-  write(of, [&](std::string_view piece) { text += piece; });
-  return text;
 }
 
 const auto firstHandMotion = [](const RunLog& log, const TakePiece& take) { motionTsv(log, take); };
@@ -175,21 +165,6 @@ TEST_F(Exported, ARunOfNoTrialHasTablesWithoutRows) {
   std::vector<RunLog> runs;
   runs.push_back(RunLog::open(empty));
   for (const auto& write : {writeHdf5, writeMatlab}) EXPECT_EQ(write(runs, folder_ / "").size(), 1u);
-}
-
-// A disk that takes no more than so many bytes of a file: nothing is left that looks like an export.
-TEST_F(Exported, AMatlabFileThatDoesNotReadBackIsGivenUp) {
-  rlimit before{};
-  ASSERT_EQ(::getrlimit(RLIMIT_FSIZE, &before), 0);
-  const auto signal = ::signal(SIGXFSZ, SIG_IGN);
-  std::vector<RunLog> runs;
-  runs.push_back(RunLog::open(path_));
-  const rlimit small{8192, before.rlim_max};
-  ASSERT_EQ(::setrlimit(RLIMIT_FSIZE, &small), 0);
-  EXPECT_THROW((void)writeMatlab(runs, folder_ / ""), ResourceError);
-  ::setrlimit(RLIMIT_FSIZE, &before);
-  ::signal(SIGXFSZ, signal);
-  for (const auto& entry : std::filesystem::directory_iterator(folder_ / "")) EXPECT_NE(entry.path().extension(), ".mat") << entry.path();
 }
 
 }  // namespace

@@ -27,21 +27,10 @@ using nlohmann::json;
 template <typename Edit>
 std::string logWith(const TemporaryFolder& folder, Edit&& edit) {
   const std::string good = folder / "good_log.reach", path = folder / "edited_log.reach";
-  std::filesystem::remove(good);
-  std::filesystem::remove(path);
-  writeMadeRun(good, 2);
-  LogReader reader(good);
-  LogWriter writer = LogWriter::create(path);
-  for (RecordView record; reader.next(record);) {
-    if (record.type != RecordType::Configuration) {
-      writer.append(record.type, record.payload);
-      continue;
-    }
-    json j = json::parse(record.payload.begin(), record.payload.end());
-    edit(j);
-    const std::string text = j.dump();
-    writer.append(record.type, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-  }
+  if (!std::filesystem::exists(good)) writeMadeRun(good, 2);
+  json j = json::parse(toJson(madeConfiguration()));
+  edit(j);
+  copyLogAs(good, path, j.dump());
   return path;
 }
 
@@ -96,7 +85,7 @@ TEST(HostileLog, ATextThatIsNoJsonIsRefusedInWords) {
   for (const std::string text : {"", "[1]", "{\"run\": ", "\"run\"", "\xff\xfe"}) {
     const std::string path = folder / "text_log.reach";
     std::filesystem::remove(path);
-    LogWriter::create(path).append(RecordType::Configuration, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+    LogWriter::create(path).append(RecordType::Configuration, asBytes(text));
     expectRefusal(path, "configuration");
   }
 }
@@ -105,9 +94,8 @@ TEST(HostileLog, ATextThatIsNoJsonIsRefusedInWords) {
 std::string logWithRecord(const TemporaryFolder& folder, RecordType type, const ByteWriter& payload) {
   const std::string path = folder / "record_log.reach";
   std::filesystem::remove(path);
-  const std::string text = toJson(madeConfiguration());
   LogWriter writer = LogWriter::create(path);
-  writer.append(RecordType::Configuration, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
+  writer.append(RecordType::Configuration, asBytes(toJson(madeConfiguration())));
   writer.append(type, payload.bytes());
   return path;
 }
@@ -188,19 +176,6 @@ TEST(AtomicFile, IsNotWrittenThroughALinkThatSomebodyPlanted) {
   EXPECT_EQ(readWholeFile(outside), "precious");
   EXPECT_EQ(readWholeFile(target), "new");
   EXPECT_FALSE(std::filesystem::is_symlink(target));
-}
-
-TEST(AtomicFile, LeftoversOfAKilledProgramAreRemovedAndNothingElse) {
-  const TemporaryFolder folder;
-  const std::string old = folder / "sub/.0123456789abcdef.reachlab-tmp", young = folder / "sub/.1123456789abcdef.reachlab-tmp";
-  const std::string mine = folder / "sub/notes.reachlab-tmp";
-  for (const std::string& file : {old, young, mine}) writeFileAtomically(file, "part");
-  const auto anHourAgo = std::filesystem::file_time_type::clock::now() - std::chrono::hours(1);
-  for (const std::string& file : {old, mine}) std::filesystem::last_write_time(file, anHourAgo);
-  removeLeftovers(folder / "");
-  EXPECT_FALSE(std::filesystem::exists(old));
-  EXPECT_TRUE(std::filesystem::exists(young)) << "another program may be writing it this moment";
-  EXPECT_TRUE(std::filesystem::exists(mine));
 }
 
 TEST(Recorder, SaysHowMuchIsLeftOfTheDiskAndHowMuchOfItIsKeptFree) {

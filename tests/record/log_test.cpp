@@ -283,6 +283,14 @@ TEST(LogReader, RefusesWhatIsNoLogInWords) {
     writeFileAtomically(path, other);
     EXPECT_EQ(refusal(), damaged) << "byte " << at;
   }
+  for (const int version : {1, 3}) {
+    std::string other = header;
+    other[8] = static_cast<char>(version);
+    const std::uint32_t crc = crcOf(other, 0, 12);
+    std::memcpy(other.data() + 12, &crc, 4);
+    writeFileAtomically(path, other);
+    EXPECT_EQ(refusal(), ": log of schema version " + std::to_string(version) + "; allowed: 2, the version that this program reads");
+  }
   std::filesystem::remove(path);
   std::filesystem::create_directory(path);
   EXPECT_EQ(refusal(), ": no regular file, so no log of reachlab");

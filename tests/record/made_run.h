@@ -1,11 +1,15 @@
 #pragma once
 #include <cmath>
+#include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "sim/experiment/experiment.h"
 #include "sim/record/log/log.h"
 #include "sim/record/log/recorder.h"
+#include "sim/record/log/records.h"
 #include "sim/record/log/run_log.h"
 #include "test_paths.h"
 #include "tests/temporary_folder.h"
@@ -37,7 +41,7 @@ class MadeRun {
   static double valueAt(std::uint64_t tick) { return std::sin(0.01 * static_cast<double>(tick)) / 3; }
 
   /// The state at the next tick.
-  const haptics::TickState& next() {
+  haptics::TickState& next() {
     haptics::TickState& s = *state_;
     const std::uint64_t tick = tick_++;
     const std::uint64_t within = tick % kTicksPerTrial;
@@ -73,18 +77,85 @@ class MadeRun {
   std::uint64_t tick_ = 0;
 };
 
+/// A recording of a made run, as far as a test has taken it.
+class MadeRecording {
+ public:
+  explicit MadeRecording(const std::string& path, const RunConfiguration& configuration = madeConfiguration(),
+                         const RecorderOptions& options = {.threaded = false})
+      : recorder(path, configuration, options), path_(path), run_(configuration.table.massCount) {}
+  /// Goes on to the tick before `end`. `edit` may change a state before it is recorded, or leave it out by false.
+  template <typename Edit>
+  void until(std::uint64_t end, Edit&& edit) {
+    for (; tick_ < end; ++tick_) {
+      haptics::TickState& state = run_.next();
+      const bool first = tick_ % MadeRun::kTicksPerTrial == 0;
+      if (edit(state)) recorder.onTick(state, first ? trial::Command::NextTrial : trial::Command::None, 0);
+    }
+  }
+  void until(std::uint64_t end) {
+    until(end, [](const haptics::TickState&) { return true; });
+  }
+  RunLog closed() {
+    recorder.close();
+    return RunLog::open(path_);
+  }
+
+  Recorder recorder;
+
+ private:
+  std::string path_;
+  MadeRun run_;
+  std::uint64_t tick_ = 0;
+};
+
 /// Writes a log of so many whole trials.
 inline void writeMadeRun(const std::string& path, int trials, const RunConfiguration& configuration = madeConfiguration()) {
-  Recorder recorder(path, configuration, {.threaded = false});
-  MadeRun run(configuration.table.massCount);
-  for (std::uint64_t tick = 0; tick < static_cast<std::uint64_t>(trials) * MadeRun::kTicksPerTrial; ++tick) {
-    if (tick % MadeRun::kTicksPerTrial == 0) {
-      const int trial = static_cast<int>(tick / MadeRun::kTicksPerTrial) + 1;
-      recorder.announce(trial, {trial - 1, 5 * trial, trial % 5 == 0});
-    }
-    recorder.onTick(run.next(), tick % MadeRun::kTicksPerTrial == 0 ? trial::Command::NextTrial : trial::Command::None, 0);
+  MadeRecording recording(path, configuration);
+  for (int trial = 1; trial <= trials; ++trial) {
+    recording.recorder.announce(trial, {trial - 1, 5 * trial, trial % 5 == 0});
+    recording.until(static_cast<std::uint64_t>(trial) * MadeRun::kTicksPerTrial);
   }
-  recorder.close();
+  recording.recorder.close();
+}
+
+/// What `write` gives piece by piece of a run.
+template <typename Write>
+std::string textOf(const Write& write, const RunLog& run) {
+  std::string text;
+  write(run, [&](std::string_view piece) { text += piece; });
+  return text;
+}
+
+inline std::span<const std::uint8_t> asBytes(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+/// The record of a trial without its place in the log.
+inline std::string bytesOf(const RecordedTrial& trial) {
+  ByteWriter out;
+  RecordedTrial placeless = trial;
+  placeless.offset = 0, placeless.sequence = 0;
+  encode(placeless, {}, out);
+  return {out.bytes().begin(), out.bytes().end()};
+}
+
+/// Copies a log, whose records `edit` may change, or leave out by false. A file of that name is replaced.
+template <typename Edit>
+void copyLog(const std::string& from, const std::string& to, Edit&& edit) {
+  std::filesystem::remove(to);
+  LogReader reader(from);
+  LogWriter writer = LogWriter::create(to);
+  for (RecordView record; reader.next(record);) {
+    std::vector<std::uint8_t> payload(record.payload.begin(), record.payload.end());
+    if (edit(record.type, payload)) writer.append(record.type, payload);
+  }
+}
+/// Copies a log with another configuration.
+inline void copyLogAs(const std::string& from, const std::string& to, const std::string& configuration) {
+  copyLog(from, to, [&](RecordType type, std::vector<std::uint8_t>& payload) {
+    if (type == RecordType::Configuration) payload.assign(configuration.begin(), configuration.end());
+    return true;
+  });
 }
 
 /// As a disk leaves it that took half of the record by which the last trial ends.

@@ -79,12 +79,9 @@ TEST(Recorder, GoesOnCountingTrialsInAResumedBlock) {
 
 TEST(Recorder, ATrialThatNobodyAnnouncedHasThePlaceOfItsNumber) {
   const TemporaryFolder folder;
-  Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
-  MadeRun run;
-  for (std::uint64_t tick = 0; tick < 2 * MadeRun::kTicksPerTrial; ++tick)
-    recorder.onTick(run.next(), tick % MadeRun::kTicksPerTrial == 0 ? trial::Command::NextTrial : trial::Command::None, 0);
-  recorder.close();
-  const RunLog log = RunLog::open(folder / "a_log.reach");
+  MadeRecording recording(folder / "a_log.reach");
+  recording.until(2 * MadeRun::kTicksPerTrial);
+  const RunLog log = recording.closed();
   ASSERT_EQ(log.trials().size(), 2u);
   for (const RecordedTrial& trial : log.trials()) EXPECT_EQ(trial.planned.index, trial.trial - 1);
 }
@@ -103,22 +100,17 @@ TEST(Recorder, KeepsEveryHandsRawSamples) {
   const auto placeOf = [](std::uint64_t tick, std::size_t hand) {
     return Vec3{0.25 * static_cast<double>(tick / 3), 0, static_cast<double>(hand)};
   };
-  {
-    Recorder recorder(folder / "a_log.reach", configuration, {.threaded = false});
-    auto state = std::make_unique<haptics::TickState>();
-    state->massCount = 2;
-    state->handCount = 3;
-    for (state->tick = 0; state->tick < kTicks; ++state->tick) {
-      for (std::size_t hand = 0; hand < 2; ++hand) {
-        state->hands[hand + 1].device.position = placeOf(state->tick, hand);
-        state->hands[hand + 1].device.buttons = static_cast<std::uint32_t>(state->tick % 7 * hand);
-      }
-      recorder.onTick(*state, trial::Command::None, 0);
+  MadeRecording recording(folder / "a_log.reach", configuration);
+  recording.until(kTicks, [&](haptics::TickState& state) {
+    state.handCount = 3;
+    state.trial = 0, state.phase = trial::Phase::Idle;
+    for (std::size_t hand = 0; hand < 2; ++hand) {
+      state.hands[hand + 1].device.position = placeOf(state.tick, hand);
+      state.hands[hand + 1].device.buttons = static_cast<std::uint32_t>(state.tick % 7 * hand);
     }
-    recorder.close();
-  }
-  const RunLog log = RunLog::open(folder / "a_log.reach");
-  const auto hands = log.otherTicks();
+    return true;
+  });
+  const auto hands = recording.closed().otherTicks();
   ASSERT_EQ(hands.size(), 2u);
   for (std::size_t hand = 0; hand < 2; ++hand) {
     ASSERT_EQ(hands[hand].size(), kTicks);
@@ -137,16 +129,11 @@ TEST(Recorder, TimeIsCountedFromItsFirstTick) {
   const TemporaryFolder folder;
   RunConfiguration configuration = madeConfiguration();
   configuration.sampleEveryTicks = 4;
-  {
-    Recorder recorder(folder / "a_log.reach", configuration, {.threaded = false});
-    EXPECT_EQ(recorder.massesEvery(), 2u) << "for its rows and for a picture every hundredth of a second";
-    MadeRun run;
-    for (int tick = 0; tick < 5; ++tick) run.next();
-    for (int tick = 5; tick < 40; ++tick) recorder.onTick(run.next(), trial::Command::None, 0);
-    recorder.close();
-    EXPECT_EQ(recorder.processorSeconds(), 0) << "of a thread that is not there";
-  }
-  const SampleRows rows = RunLog::open(folder / "a_log.reach").allRows();
+  MadeRecording recording(folder / "a_log.reach", configuration);
+  EXPECT_EQ(recording.recorder.massesEvery(), 2u) << "for its rows and for a picture every hundredth of a second";
+  recording.until(40, [](const haptics::TickState& state) { return state.tick >= 5; });
+  const SampleRows rows = recording.closed().allRows();
+  EXPECT_EQ(recording.recorder.processorSeconds(), 0) << "of a thread that is not there";
   ASSERT_EQ(rows.ticks, (std::vector<std::uint64_t>{8, 12, 16, 20, 24, 28, 32, 36}));
   for (std::size_t row = 0; row < rows.size(); ++row)
     EXPECT_DOUBLE_EQ(rows.at(row, 1), static_cast<double>(rows.ticks[row] - 5) * 1.000003e-3);
@@ -177,21 +164,18 @@ TEST(Recorder, TellsTheDiskOnceAndForAll) {
 
 TEST(Recorder, NotesAndEventsOfOthersStandWhereTheyCame) {
   const TemporaryFolder folder;
-  {
-    Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
-    recorder.note("before");
-    MadeRun run;
-    for (int tick = 0; tick < 100; ++tick) recorder.onTick(run.next(), trial::Command::None, 0);
-    recorder.note("in the trial");
-    for (std::uint64_t tick = 100; tick < MadeRun::kTicksPerTrial; ++tick) recorder.onTick(run.next(), trial::Command::None, 0);
-    EXPECT_NO_THROW(recorder.awaitTrial(1));
-    EXPECT_EQ(recorder.lastTrial().trial, 1);
-    recorder.note("after");
-    recorder.add({{77, EventKind::Instrument, 1, 0.5, "lamp"}});
-    recorder.append(RecordType::PeerTicks, {});
-    recorder.close();
-  }
-  const RunLog log = RunLog::open(folder / "a_log.reach");
+  MadeRecording recording(folder / "a_log.reach");
+  Recorder& recorder = recording.recorder;
+  recorder.note("before");
+  recording.until(100);
+  recorder.note("in the trial");
+  recording.until(MadeRun::kTicksPerTrial);
+  EXPECT_NO_THROW(recorder.awaitTrial(1));
+  EXPECT_EQ(recorder.lastTrial().trial, 1);
+  recorder.note("after");
+  recorder.add({{77, EventKind::Instrument, 1, 0.5, "lamp"}});
+  recorder.append(RecordType::PeerTicks, {});
+  const RunLog log = recording.closed();
   EXPECT_TRUE(log.healthy());
   std::vector<std::tuple<std::uint64_t, std::int32_t, std::string>> notes;
   for (const RecordedEvent& event : log.events())
@@ -202,12 +186,9 @@ TEST(Recorder, NotesAndEventsOfOthersStandWhereTheyCame) {
 
 TEST(Recorder, ARunThatIsClosedInATrialInterruptsIt) {
   const TemporaryFolder folder;
-  {
-    Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
-    MadeRun run;
-    for (int tick = 0; tick < 120; ++tick) recorder.onTick(run.next(), trial::Command::None, 0);
-    recorder.close();
-  }
+  MadeRecording recording(folder / "a_log.reach");
+  recording.until(120);
+  recording.recorder.close();
   const RunLog log = RunLog::open(folder / "a_log.reach", LogCheck::Trials);
   EXPECT_TRUE(log.healthy());
   ASSERT_EQ(log.trials().size(), 1u);
@@ -218,16 +199,13 @@ TEST(Recorder, ARunThatIsClosedInATrialInterruptsIt) {
 // A thousand ticks are a block, whatever the clock says; a trial begins one of its own.
 TEST(Recorder, OnAVirtualClockBlocksAreCutByTicksAlone) {
   const TemporaryFolder folder;
-  {
-    Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
-    auto state = std::make_unique<haptics::TickState>();
-    state->massCount = 2;
-    for (state->tick = 0; state->tick < 3300; ++state->tick) {
-      if (state->tick == 2300) state->trial = 1, state->phase = trial::Phase::Waiting;
-      recorder.onTick(*state, trial::Command::None, 0);
-    }
-    recorder.close();
-  }
+  MadeRecording recording(folder / "a_log.reach");
+  recording.until(3300, [](haptics::TickState& state) {
+    state.trial = state.tick < 2300 ? 0 : 1;
+    state.phase = state.tick < 2300 ? trial::Phase::Idle : trial::Phase::Waiting;
+    return true;
+  });
+  recording.recorder.close();
   std::vector<std::size_t> sizes;
   LogReader reader(folder / "a_log.reach");
   for (RecordView record; reader.next(record);) {
@@ -252,29 +230,15 @@ TEST(Recorder, FurtherColumnsStandBehindTheScenes) {
     configuration.table.channels.push_back(configuration.table.channels.back());
     configuration.table.channels.back().name = name;
   }
-  {
-    Recorder recorder(folder / "a_log.reach", configuration, {.threaded = false, .further = &further});
-    MadeRun run;
-    for (int tick = 0; tick < 30; ++tick) recorder.onTick(run.next(), trial::Command::None, 0);
-    recorder.close();
-  }
-  const SampleRows rows = RunLog::open(folder / "a_log.reach").allRows();
+  MadeRecording recording(folder / "a_log.reach", configuration, {.threaded = false, .further = &further});
+  recording.until(30);
+  const SampleRows rows = recording.closed().allRows();
   ASSERT_EQ(rows.size(), 3u);
   for (std::size_t row = 0; row < 3; ++row) {
     EXPECT_EQ(rows.at(row, scene), 12.5);
     EXPECT_EQ(rows.at(row, scene + 1), -3);
     EXPECT_EQ(rows.at(row, configuration.table.indexOf("mass2_pos_x")), MadeRun::valueAt(10 * row) + 1);
   }
-}
-
-TEST(Recorder, NoticesThatItsFileWasTakenAway) {
-  const TemporaryFolder folder;
-  Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
-  std::filesystem::remove(folder / "a_log.reach");
-  MadeRun run;
-  for (std::uint64_t tick = 0; tick < MadeRun::kTicksPerTrial; ++tick) recorder.onTick(run.next(), trial::Command::None, 0);
-  EXPECT_THROW(recorder.awaitTrial(1), ResourceError);
-  EXPECT_NE(recorder.fault(), "");
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
-#include "tests/record/differing_keys.h"
 #include "tests/record/made_run.h"
 #include "tests/refusal.h"
 
@@ -121,14 +120,6 @@ TEST(RunConfiguration, HasADeviceForEveryFurtherHandOfItsTable) {
   EXPECT_EQ(verdictOn(j), "a log: configuration.other_hands: has 1 hands; allowed: 2, as the table has");
   j = madeJson();
   EXPECT_NE(verdictWith(j, "/other_hands", madeJson(2)["other_hands"]), "read");
-}
-
-TEST(RunConfiguration, ThatDiffersIsToldByItsKeysInTheOrderOfTheList) {
-  RunConfiguration a = madeConfiguration(), b = a;
-  EXPECT_TRUE(differingKeys(a, b).empty());
-  b.notes = "x", b.run = 2;
-  b.participant.age = 20;
-  EXPECT_EQ(differingKeys(a, b), (std::vector<std::string>{"notes", "participant", "run"}));
 }
 
 }  // namespace

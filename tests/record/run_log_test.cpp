@@ -25,25 +25,7 @@
 namespace reachlab::record {
 namespace {
 
-std::string bytesOf(const std::string& path) { return readWholeFile(path); }
-
 void writeBytes(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes; }
-
-void expectSameTrial(const RecordedTrial& a, const RecordedTrial& b) {
-  EXPECT_EQ(a.trial, b.trial);
-  EXPECT_EQ(a.planned.index, b.planned.index);
-  EXPECT_EQ(a.planned.foreperiodTicks, b.planned.foreperiodTicks);
-  EXPECT_EQ(a.planned.catchTrial, b.planned.catchTrial);
-  EXPECT_EQ(a.result.outcome, b.result.outcome);
-  EXPECT_EQ(a.result.reason, b.result.reason);
-  EXPECT_EQ(a.result.by, b.result.by);
-  EXPECT_EQ(a.startTick, b.startTick);
-  EXPECT_EQ(a.armedTick, b.armedTick);
-  EXPECT_EQ(a.goTick, b.goTick);
-  EXPECT_EQ(a.lastTick, b.lastTick);
-  EXPECT_EQ(a.peakHandSpeed, b.peakHandSpeed);
-  EXPECT_EQ(a.meanForce, b.meanForce);
-}
 
 TEST(RunLog, GivesBackWhatWasRecorded) {
   const TemporaryFolder folder;
@@ -93,57 +75,42 @@ TEST(RunLog, ListsTheSameTrialsByTheChainAsByReadingEverything) {
     const RunLog everything = RunLog::open(path, LogCheck::Everything);
     const RunLog quick = RunLog::open(path, LogCheck::Trials);
     ASSERT_EQ(everything.trials().size(), quick.trials().size());
-    for (std::size_t i = 0; i < quick.trials().size(); ++i) expectSameTrial(quick.trials()[i], everything.trials()[i]);
+    for (std::size_t i = 0; i < quick.trials().size(); ++i) EXPECT_EQ(bytesOf(quick.trials()[i]), bytesOf(everything.trials()[i]));
     EXPECT_EQ(quick.rows(quick.trials()[7]).values, everything.rows(everything.trials()[7]).values);
   }
-}
-
-TEST(RunLog, MarksTheUnfinishedTrialOfABrokenOffLogAsInterrupted) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  {
-    Recorder recorder(path, madeConfiguration(), {.threaded = false});
-    MadeRun run;
-    for (std::uint64_t i = 0; i < MadeRun::kTicksPerTrial + 150; ++i) recorder.onTick(run.next(), trial::Command::None, 0);
-    recorder.note("coffee spilt");  // hands everything to the kernel
-    std::filesystem::copy_file(path, folder / "cut_log.reach");
-  }
-  const RunLog log = RunLog::open(folder / "cut_log.reach");
-  EXPECT_FALSE(log.healthy());
-  ASSERT_EQ(log.trials().size(), 2u);
-  EXPECT_EQ(log.trials()[1].result.outcome, trial::Outcome::Interrupted);
-  EXPECT_EQ(log.trials()[1].result.reason, trial::Reason::Program);
-  EXPECT_EQ(log.trials()[1].lastTick, MadeRun::kTicksPerTrial + 149);
-  EXPECT_TRUE(std::isnan(log.trials()[1].peakForce)) << "what was not measured to the end is not given as a number";
-  EXPECT_EQ(log.events().back().text, "coffee spilt");
 }
 
 TEST(RecoverLog, LeavesAHealthyLogAlone) {
   const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   writeMadeRun(path, 2);
-  const std::string before = bytesOf(path);
+  const std::string before = readWholeFile(path);
   EXPECT_FALSE(recoverLog(path).mended);
-  EXPECT_EQ(bytesOf(path), before);
+  EXPECT_EQ(readWholeFile(path), before);
   EXPECT_FALSE(std::filesystem::exists(path + ".damaged"));
 }
 
-TEST(RecoverLog, KeepsEverythingBeforeTheDamageAndTheOriginalBesideIt) {
+TEST(RecoverLog, KeepsEverythingBeforeTheDamageAndEachOriginalUnderANameOfItsOwn) {
   const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
-  writeMadeRun(path, 4);
-  const RunLog whole = RunLog::open(path);
-  std::string bytes = bytesOf(path);
-  bytes[whole.trials()[2].offset + 500] ^= 1;
-  writeBytes(path, bytes);
-  const Recovery recovery = recoverLog(path);
-  EXPECT_TRUE(recovery.mended);
-  EXPECT_EQ(bytesOf(path + ".damaged"), bytes);
-  const RunLog mended = RunLog::open(path);
-  EXPECT_TRUE(mended.healthy());
-  ASSERT_GE(mended.trials().size(), 2u);
-  for (std::size_t i = 0; i < 2; ++i) expectSameTrial(mended.trials()[i], whole.trials()[i]);
-  EXPECT_FALSE(recoverLog(path).mended) << "a mended log is healthy";
+  for (const char* name : {".damaged", ".damaged-2", ".damaged-3"}) {
+    SCOPED_TRACE(name);
+    std::filesystem::remove(path);
+    writeMadeRun(path, 4);
+    const RunLog whole = RunLog::open(path);
+    std::string bytes = readWholeFile(path);
+    bytes[whole.trials()[2].offset + 500] ^= 1;
+    writeBytes(path, bytes);
+    const Recovery recovery = recoverLog(path);
+    EXPECT_TRUE(recovery.mended);
+    EXPECT_EQ(recovery.damagedOriginal, path + name);
+    EXPECT_EQ(readWholeFile(path + name), bytes);
+    const RunLog mended = RunLog::open(path);
+    EXPECT_TRUE(mended.healthy());
+    ASSERT_GE(mended.trials().size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(bytesOf(mended.trials()[i]), bytesOf(whole.trials()[i]));
+    EXPECT_FALSE(recoverLog(path).mended) << "a mended log is healthy";
+  }
 }
 
 TEST(RecoverLog, ClosesTheTrialThatWasUnderWayAndEndsTheLogInOrder) {
@@ -166,7 +133,7 @@ TEST(RecoverLog, ClosesTheTrialThatWasUnderWayAndEndsTheLogInOrder) {
     EXPECT_TRUE(mended.closed());
     EXPECT_TRUE(mended.healthy());
     ASSERT_EQ(mended.trials().size(), 3u);
-    expectSameTrial(mended.trials()[1], whole.trials()[1]);
+    EXPECT_EQ(bytesOf(mended.trials()[1]), bytesOf(whole.trials()[1]));
     EXPECT_EQ(mended.trials()[2].result.outcome, trial::Outcome::Interrupted);
     EXPECT_EQ(mended.trials()[2].startTick, whole.trials()[2].startTick);
     EXPECT_EQ(mended.rows(mended.trials()[2]).size(), rows);
@@ -187,25 +154,11 @@ TEST(RecoverLog, WhatIsCutBetweenTwoTrialsHasNoneThatIsInterrupted) {
   EXPECT_TRUE(RunLog::open(path, LogCheck::Trials).healthy());
 }
 
-TEST(RecoverLog, KeepsEachDamagedOriginalUnderANameOfItsOwn) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  for (const char* name : {".damaged", ".damaged-2", ".damaged-3"}) {
-    std::filesystem::remove(path);
-    writeMadeRun(path, 4);
-    std::string bytes = bytesOf(path);
-    bytes[RunLog::open(path).trials()[2].offset + 500] ^= 1;
-    writeBytes(path, bytes);
-    EXPECT_EQ(recoverLog(path).damagedOriginal, path + name);
-    EXPECT_EQ(bytesOf(path + name), bytes);
-  }
-}
-
 TEST(RecoverLog, RefusesALogWithoutItsConfiguration) {
   const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   writeMadeRun(path, 1);
-  std::string bytes = bytesOf(path);
+  std::string bytes = readWholeFile(path);
   bytes[100] ^= 1;
   writeBytes(path, bytes);
   EXPECT_THROW(recoverLog(path), FaultError);
@@ -219,22 +172,13 @@ TEST(RecoverLog, ShortensALabelThatFileNamesDoNotHold) {
   configuration.task = std::string(60, 'a');
   writeMadeRun(good, 3, configuration);
   configuration.task += "bcd";
-  {
-    LogReader reader(good);
-    LogWriter writer = LogWriter::create(path);
-    for (RecordView record; reader.next(record);) {
-      const std::string text = toJson(configuration);
-      if (record.type == RecordType::Configuration)
-        writer.append(record.type, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-      else writer.append(record.type, record.payload);
-    }
-  }
-  const std::string before = bytesOf(path);
+  copyLogAs(good, path, toJson(configuration));
+  const std::string before = readWholeFile(path);
   EXPECT_THROW(RunLog::open(path), FaultError);
   const Recovery recovery = recoverLog(path);
   EXPECT_TRUE(recovery.mended);
   EXPECT_EQ(recovery.trials, 3);
-  EXPECT_EQ(bytesOf(recovery.damagedOriginal), before);
+  EXPECT_EQ(readWholeFile(recovery.damagedOriginal), before);
   const RunLog log = RunLog::open(path);
   EXPECT_EQ(log.configuration().task, std::string(60, 'a'));
   EXPECT_EQ(log.allRows().size(), RunLog::open(good).allRows().size());
@@ -247,13 +191,6 @@ TEST(Recorder, CreatesNothingThatNobodyCouldRead) {
   configuration.run = kMaxRun + 1;
   EXPECT_THROW(Recorder(folder / "a_log.reach", configuration, {.threaded = false}), FaultError);
   EXPECT_FALSE(std::filesystem::exists(folder / "a_log.reach"));
-}
-
-TEST(AppendFile, ASecondWriterIsToldThatThereIsOne) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  const AppendFile first = AppendFile::create(path);
-  EXPECT_NE(refusalOf([&] { AppendFile::openAt(path, 0); }).find("is being written by another program"), std::string::npos);
 }
 
 TEST(RecoverLog, RefusesALogThatIsBeingWritten) {
@@ -289,7 +226,7 @@ TEST(RunLog, SurvivesTenThousandRandomDamagesWithoutOneWrongNumber) {
   const std::string whole = folder / "whole_log.reach", hurt = folder / "hurt_log.reach";
   writeMadeRun(whole, 5, configuration);
   const RunLog good = RunLog::open(whole);
-  const std::string bytes = bytesOf(whole);
+  const std::string bytes = readWholeFile(whole);
   const std::size_t x = configuration.table.indexOf("hand_pos_x");
   std::mt19937_64 random(20261121);
   int refused = 0, shortened = 0;
@@ -303,7 +240,7 @@ TEST(RunLog, SurvivesTenThousandRandomDamagesWithoutOneWrongNumber) {
         std::size_t finished = 0;
         for (const RecordedTrial& trial : log.trials()) {
           if (!trial.complete) continue;
-          expectSameTrial(trial, good.trials()[finished]);
+          EXPECT_EQ(bytesOf(trial), bytesOf(good.trials()[finished]));
           ++finished;
         }
         std::size_t before = 0;
@@ -370,16 +307,19 @@ TEST(RunLog, OfABrokenOffTrialKnowsWhatWasLoggedOfIt) {
   const TemporaryFolder folder;
   const std::string path = folder / "a_log.reach";
   {
-    Recorder recorder(folder / "whole_log.reach", madeConfiguration(), {.threaded = false});
-    MadeRun run;
-    recorder.announce(1, {4, 12, false});
-    for (std::uint64_t i = 0; i < 150; ++i) recorder.onTick(run.next(), trial::Command::None, 0);
-    recorder.note("");
+    MadeRecording recording(folder / "whole_log.reach");
+    recording.recorder.announce(1, {4, 12, false});
+    recording.until(150);
+    recording.recorder.note("coffee spilt");  // hands everything to the kernel
     std::filesystem::copy_file(folder / "whole_log.reach", path);
   }
   for (const LogCheck check : {LogCheck::Everything, LogCheck::Trials}) {
     const RunLog log = RunLog::open(path, check);
     EXPECT_FALSE(log.closed());
+    if (check == LogCheck::Everything) {
+      EXPECT_FALSE(log.healthy());
+    }
+    EXPECT_EQ(log.events().back().text, "coffee spilt");
     ASSERT_EQ(log.trials().size(), 1u);
     const RecordedTrial& t = log.trials()[0];
     EXPECT_EQ(t.trial, 1);
@@ -387,6 +327,9 @@ TEST(RunLog, OfABrokenOffTrialKnowsWhatWasLoggedOfIt) {
     EXPECT_EQ(t.planned.foreperiodTicks, 12);
     EXPECT_EQ(t.armedTick, 20u);
     EXPECT_EQ(t.goTick, 32u);
+    EXPECT_EQ(t.lastTick, 149u);
+    EXPECT_EQ(t.result.outcome, trial::Outcome::Interrupted);
+    EXPECT_EQ(t.result.reason, trial::Reason::Program);
     EXPECT_EQ(t.result.onsetTick, 50u);
     EXPECT_EQ(t.result.endTick, 149u);
     EXPECT_EQ(t.result.movementTime, 0.099);
@@ -425,35 +368,6 @@ TEST(FindLogs, OfADatasetASessionASubjectOrAFile) {
   };
   EXPECT_EQ(refusal("data/sub-01/ses-09"), ": no logs (…_log.reach) in this folder");
   EXPECT_EQ(refusal("nothing"), ": no such log or folder");
-}
-
-TEST(LogWriter, RefusesToOverwrite) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  writeMadeRun(path, 1);
-  const std::string before = bytesOf(path);
-  EXPECT_THROW(Recorder(path, madeConfiguration()), ResourceError);
-  EXPECT_EQ(bytesOf(path), before);
-}
-
-TEST(LogReader, RefusesAnotherSchemaAndNamesTheOneThatItReads) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  for (const int version : {1, 3}) {
-    // Another schema version with a CRC of its own that is right: "REACHLOG", the version, crc32 of the twelve bytes.
-    const unsigned char other[16] = {'R', 'E', 'A', 'C', 'H', 'L', 'O', 'G', static_cast<unsigned char>(version), 0, 0, 0, 0, 0, 0, 0};
-    std::string bytes(reinterpret_cast<const char*>(other), sizeof other);
-    std::uint32_t crc = 0xffffffffu;  // CRC-32 by its definition, so that the library is held against something
-    for (std::size_t i = 0; i < 12; ++i) {
-      crc ^= static_cast<unsigned char>(bytes[i]);
-      for (int k = 0; k < 8; ++k) crc = crc & 1 ? (crc >> 1) ^ 0xedb88320u : crc >> 1;
-    }
-    crc = ~crc;
-    std::memcpy(bytes.data() + 12, &crc, 4);
-    writeBytes(path, bytes);
-    EXPECT_EQ(refusalOf([&] { const LogReader reader(path); }),
-              path + ": log of schema version " + std::to_string(version) + "; allowed: 2, the version that this program reads");
-  }
 }
 
 }  // namespace

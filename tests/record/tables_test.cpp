@@ -35,9 +35,17 @@ class Tables : public testing::Test {
     writeMadeRun(path, trials, configuration_);
     return RunLog::open(path);
   }
+  template <typename Edit>
+  RunLog recordedTicks(std::uint64_t end, const Edit& edit) {
+    MadeRecording recording(folder_ / "ticks_log.reach", configuration_);
+    recording.until(end, edit);
+    return recording.closed();
+  }
   TemporaryFolder folder_;
   RunConfiguration configuration_ = madeConfiguration();
 };
+
+const auto firstHandMotion = [](const RunLog& run, const TakePiece& take) { motionTsv(run, take); };
 
 std::map<std::string, std::string> rowOf(const TsvTable& table, std::size_t row) {
   std::map<std::string, std::string> cells;
@@ -47,55 +55,36 @@ std::map<std::string, std::string> rowOf(const TsvTable& table, std::size_t row)
 
 TEST_F(Tables, TimesAreSinceTheFirstRowAndNotTheFirstTick) {
   configuration_.sampleEveryTicks = 10;
-  const std::string path = folder_ / "late_log.reach";
-  {
-    Recorder recorder(path, configuration_, {.threaded = false});
-    MadeRun run;
-    for (int tick = 0; tick < 7; ++tick) run.next();  // the first tick that is recorded is the 7th, the first row the 10th
-    for (std::uint64_t tick = 7; tick < MadeRun::kTicksPerTrial; ++tick) recorder.onTick(run.next(), trial::Command::None, 0);
-    recorder.close();
-  }
-  std::string text;
-  eventsTsv(RunLog::open(path), [&](std::string_view piece) { text += piece; });
-  std::map<std::string, std::string> row = rowOf(parseTsv(text), 0);
+  const auto present = [](const haptics::TickState& state) { return state.tick >= 7; };  // and the first row is of the 10th
+  std::vector<RunLog> runs;
+  runs.push_back(recordedTicks(MadeRun::kTicksPerTrial, present));
+  std::map<std::string, std::string> row = rowOf(parseTsv(textOf(eventsTsv, runs.front())), 0);
   EXPECT_EQ(row["onset"], "0.04") << "50 ticks less 10";
   EXPECT_EQ(row["go"], "0.01");
   EXPECT_EQ(row["armed"], "0.01");
   // Every export has this one clock.
-  std::vector<RunLog> runs;
-  runs.push_back(RunLog::open(path));
   const ColumnTable trials = trialTable(runs.front());
   const auto column = [&](const char* name) {
     return std::find_if(trials.columns().begin(), trials.columns().end(), [&](const auto& c) { return c.name == name; })->numbers.at(0);
   };
   EXPECT_EQ(column("task_onset_s"), 0.04);
   EXPECT_EQ(column("go_s"), 0.01);
-  std::string motion, samples;
-  motionTsv(runs.front(), [&](std::string_view piece) { motion += piece; });
-  samplesCsv(runs.front(), [&](std::string_view piece) { samples += piece; });
+  const std::string motion = textOf(firstHandMotion, runs.front()), samples = textOf(samplesCsv, runs.front());
   EXPECT_TRUE(motion.starts_with("0\t")) << motion.substr(0, 40);
   EXPECT_TRUE(samples.substr(samples.find('\n') + 1).starts_with("0,")) << samples.substr(samples.find('\n'), 40);
   EXPECT_NE(clockStatement(runs.front()).find("first sample, which is 0.01 s after it began"), std::string::npos);
 }
 
 TEST_F(Tables, ATrialWithoutAMovementIsPlacedWhereItStarted) {
-  const std::string path = folder_ / "still_log.reach";
-  {
-    Recorder recorder(path, configuration_, {.threaded = false});
-    auto state = std::make_unique<haptics::TickState>();
-    state->massCount = 2;
-    state->trial = 1;
-    recorder.announce(1, {0, 0, true});
-    for (state->tick = 0; state->tick <= 100; ++state->tick) {
-      state->phase = state->tick < 30 ? trial::Phase::Idle : state->tick < 100 ? trial::Phase::Waiting : trial::Phase::Done;
-      state->result.outcome = trial::Outcome::Aborted;
-      recorder.onTick(*state, trial::Command::None, 0);
-    }
-    recorder.close();
-  }
-  std::string text;
-  eventsTsv(RunLog::open(path), [&](std::string_view piece) { text += piece; });
-  std::map<std::string, std::string> row = rowOf(parseTsv(text), 0);
+  MadeRecording recording(folder_ / "still_log.reach", configuration_);
+  recording.recorder.announce(1, {0, 0, true});
+  recording.until(101, [](haptics::TickState& state) {
+    state.phase = state.tick < 30 ? trial::Phase::Idle : state.tick < 100 ? trial::Phase::Waiting : trial::Phase::Done;
+    state.result = {};
+    state.result.outcome = trial::Outcome::Aborted;
+    return true;
+  });
+  std::map<std::string, std::string> row = rowOf(parseTsv(textOf(eventsTsv, recording.closed())), 0);
   EXPECT_EQ(row["onset"], "0.03");
   EXPECT_EQ(row["duration"], "0.07");
   EXPECT_EQ(row["trial_type"], "catch");
@@ -107,17 +96,8 @@ TEST_F(Tables, TheMotionFileTellsItsLengthAndItsEffectiveRate) {
   EXPECT_EQ(all["SamplingFrequency"], 100);
   EXPECT_EQ(all["RecordingDuration"], 0.82);
   EXPECT_DOUBLE_EQ(all["SamplingFrequencyEffective"].get<double>(), 100);
-  const std::string path = folder_ / "gap_log.reach";
-  {
-    Recorder recorder(path, configuration_, {.threaded = false});
-    MadeRun run;
-    for (int tick = 0; tick < 275; ++tick) {
-      const haptics::TickState& state = run.next();
-      if (tick < 100 || tick >= 150) recorder.onTick(state, trial::Command::None, 0);
-    }
-    recorder.close();
-  }
-  const json gap = json::parse(motionJson(RunLog::open(path)));
+  const auto present = [](const haptics::TickState& state) { return state.tick < 100 || state.tick >= 150; };
+  const json gap = json::parse(motionJson(recordedTicks(275, present)));
   EXPECT_EQ(gap["RecordingDuration"], 0.27);
   EXPECT_DOUBLE_EQ(gap["SamplingFrequencyEffective"].get<double>(), 22 / 0.27) << "23 rows, of which 5 are lost";
   configuration_.samplingHz = 50;
@@ -162,19 +142,11 @@ TEST_F(Tables, AnExperimentThatNobodyUnderstandsIsKeptAsItIs) {
 
 TEST_F(Tables, WhereADeviceIsLostOrAPlaceIsNoNumberAPointIsNotSeen) {
   configuration_.sampleEveryTicks = 5;
-  const std::string path = folder_ / "lost_log.reach";
-  {
-    Recorder recorder(path, configuration_, {.threaded = false});
-    MadeRun run;
-    for (int tick = 0; tick < 275; ++tick) {
-      haptics::TickState state = run.next();
-      state.hands[0].device.valid = tick != 20;
-      if (tick == 30) state.masses[1].r.z = std::nan("");
-      if (tick < 40 || tick >= 50) recorder.onTick(state, trial::Command::None, 0);
-    }
-    recorder.close();
-  }
-  const RunLog run = RunLog::open(path);
+  const RunLog run = recordedTicks(275, [](haptics::TickState& state) {
+    state.hands[0].device.valid = state.tick != 20;
+    if (state.tick == 30) state.masses[1].r.z = std::nan("");
+    return state.tick < 40 || state.tick >= 50;
+  });
   const C3dFile file = c3dOf(run, run.trials()[0]);
   ASSERT_EQ(file.frames, 51u);
   const auto seen = [&](std::size_t frame) {
@@ -192,20 +164,12 @@ TEST_F(Tables, WhereADeviceIsLostOrAPlaceIsNoNumberAPointIsNotSeen) {
 }
 
 TEST_F(Tables, ATrialBetweenTwoRowsHasNoC3dFile) {
-  const std::string path = folder_ / "short_log.reach";
-  {
-    Recorder recorder(path, configuration_, {.threaded = false});
-    auto state = std::make_unique<haptics::TickState>();
-    state->massCount = 2;
-    for (state->tick = 0; state->tick < 40; ++state->tick) {
-      state->trial = state->tick < 11 ? 0 : state->tick < 18 ? 1 : 2;
-      state->phase = state->trial == 0 ? trial::Phase::Idle : state->tick % 10 == 7 ? trial::Phase::Done : trial::Phase::Waiting;
-      recorder.onTick(*state, trial::Command::None, 0);
-    }
-    recorder.close();
-  }
   std::vector<RunLog> runs;
-  runs.push_back(RunLog::open(path));
+  runs.push_back(recordedTicks(40, [](haptics::TickState& state) {
+    state.trial = state.tick < 11 ? 0 : state.tick < 18 ? 1 : 2;
+    state.phase = state.trial == 0 ? trial::Phase::Idle : state.tick % 10 == 7 ? trial::Phase::Done : trial::Phase::Waiting;
+    return true;
+  }));
   ASSERT_EQ(runs[0].trials().size(), 2u);
   EXPECT_EQ(c3dOf(runs[0], runs[0].trials()[0]).frames, 0u) << "ticks 11 to 17";
   EXPECT_EQ(writeC3d(runs, folder_ / "c3d").size(), 1u);

@@ -14,12 +14,6 @@
 namespace reachlab::record {
 namespace {
 
-std::string bytesOf(const RecordedTrial& trial) {
-  ByteWriter out;
-  encode(trial, {}, out);
-  return {out.bytes().begin(), out.bytes().end()};
-}
-
 // Two runs of which no two numbers or words are equal, the second broken off in its third trial.
 std::string writeTwoRuns(const TemporaryFolder& folder) {
   RunConfiguration c = madeConfiguration();
@@ -68,6 +62,8 @@ TEST(TrialIndex, KnowsOfARunWhatItsLogSaysWhetherReadOrKept) {
       ASSERT_EQ(run.trials.size(), log.trials().size());
       for (std::size_t i = 0; i < run.trials.size(); ++i) {
         EXPECT_EQ(bytesOf(run.trials[i]), bytesOf(log.trials()[i])) << i;
+        EXPECT_EQ(run.trials[i].offset, log.trials()[i].offset);
+        EXPECT_EQ(run.trials[i].sequence, log.trials()[i].sequence);
         EXPECT_EQ(run.trials[i].complete, log.trials()[i].complete);
       }
     }
