@@ -8,8 +8,9 @@ namespace {
 
 const std::string kFormula = "0 | a*cos(phi) | a*sin(phi)/2";
 
-std::string experimentFile(const TemporaryFolder& folder, const std::string& kind = R"("kind": "point", "masses_kg": [1])") {
-  return folder.write("typed.json", R"json({ "schema_version": 1,
+std::string experimentFile(const TemporaryFolder& folder, const std::string& name,
+                           const std::string& kind = R"("kind": "point", "masses_kg": [1])") {
+  return folder.write(name + ".json", R"json({ "schema_version": 1,
     "constraint": { "curve": ["0", "a*cos(phi)", "a*sin(phi)/2"], "shape": { "a": 0.1 } },
     "object": { )json" + kind + R"json( }, "coupling": { "stiffness_n_per_m": 600 },
     "task": { "start": [0.3], "target": [2.0], "duration_s": 1,
@@ -32,56 +33,22 @@ std::vector<std::string> compiledBy(const std::string& arguments) {
 
 }  // namespace
 
-TEST(Compilations, OfARunAreOne) {
+TEST(Compilations, OfAFormulaAreOneInACommandOfAnyKind) {
   const TemporaryFolder folder;
-  EXPECT_EQ(compiledBy("run " + experimentFile(folder) + " --device simulated --trials 3 --seed 1 --fast --data " + folder.path()),
-            std::vector<std::string>{kFormula});
-}
-
-TEST(Compilations, OfARunWhoseSubjectPlansOnTheCurveAreOne) {
-  const TemporaryFolder folder;
-  const std::string file = experimentFile(folder, R"("kind": "chain", "masses_kg": [0.5, 0.5], "stiffness_n_per_m": [600])");
-  EXPECT_EQ(compiledBy("run " + file + " --device simulated --trials 1 --seed 1 --fast --data " + folder.path()),
-            std::vector<std::string>{kFormula});
-}
-
-TEST(Compilations, OfAPredictionAreOne) {
-  const TemporaryFolder folder;
-  EXPECT_EQ(compiledBy("predict " + experimentFile(folder) + " --criterion min-hand-jerk"), std::vector<std::string>{kFormula});
-}
-
-TEST(Compilations, OfASweepAreOne) {
-  EXPECT_EQ(compiledBy("predict dingwell --criterion min-hand-jerk --sweep duration_s=0.5:2:0.25").size(), 1u);
-}
-
-TEST(Compilations, OfASimulationAndOfValidationAreOne) {
-  const TemporaryFolder folder;
-  EXPECT_EQ(compiledBy("simulate " + experimentFile(folder) + " --hand min-jerk --until 0.1"), std::vector<std::string>{kFormula});
-  EXPECT_EQ(compiledBy("validate " + experimentFile(folder)), std::vector<std::string>{kFormula});
-}
-
-TEST(Compilations, OfACheckBeforeABlockAreOneWhateverReachesItTries) {
-  const TemporaryFolder folder;
-  const std::string heavy = experimentFile(folder, R"("kind": "point", "masses_kg": [10])");
-  EXPECT_EQ(compiledBy("validate " + heavy + " --device virtual:omni"), std::vector<std::string>{kFormula});
-}
-
-TEST(Compilations, OfAPlanOnADeviceAreOneForAllItsBlocks) {
-  const TemporaryFolder folder;
-  experimentFile(folder);
+  const std::string typed = experimentFile(folder, "typed"), data = (folder / "data").string(),
+                    chain = experimentFile(folder, "chain", R"("kind": "chain", "masses_kg": [0.5, 0.5], "stiffness_n_per_m": [600])"),
+                    heavy = experimentFile(folder, "heavy", R"("kind": "point", "masses_kg": [10])");
   const std::string plan = folder.write("plan.json", R"({ "schema_version": 1, "trials": 2, "blocks": [
     { "experiment": "typed.json", "practice": true }, { "experiment": "typed.json" } ] })");
-  EXPECT_EQ(compiledBy("validate " + plan + " --device virtual:omni"), std::vector<std::string>{kFormula});
-}
-
-TEST(Compilations, OfAReplayAndOfAnAnalysisOfManyRunsAreOne) {
-  const TemporaryFolder folder;
-  const std::string file = experimentFile(folder), data = (folder / "data").string();
-  for (const char* run : {"1", "2"})
-    compiledBy("run " + file + " --device simulated --trials 3 --fast --seed " + std::string(run) + " --run " + run + " --data " + data);
-  EXPECT_EQ(compiledBy("replay " + data + "/sourcedata/sub-01_ses-01_task-typed_run-01_log.reach --check"),
-            std::vector<std::string>{kFormula});
-  EXPECT_EQ(compiledBy("analyze " + data + " --criterion min-hand-jerk --criterion min-hand-force"), std::vector<std::string>{kFormula});
+  const std::string run = " --device simulated --trials 3 --fast --data " + data;
+  for (const std::string& arguments :
+       {"run " + typed + run + " --seed 1", "run " + typed + run + " --seed 2", "run " + chain + run + "-chain --seed 1",
+        "predict " + typed + " --criterion min-hand-jerk", "simulate " + typed + " --hand min-jerk --until 0.1", "validate " + typed,
+        "validate " + heavy + " --device virtual:omni", "validate " + plan + " --device virtual:omni",
+        "replay " + data + "/sourcedata/sub-01_ses-01_task-typed_run-01_log.reach --check",
+        "analyze " + data + " --criterion min-hand-jerk --criterion min-hand-force"})
+    EXPECT_EQ(compiledBy(arguments), std::vector<std::string>{kFormula}) << arguments;
+  EXPECT_EQ(compiledBy("predict dingwell --criterion min-hand-jerk --sweep duration_s=0.5:2:0.25").size(), 1u);
 }
 
 }  // namespace reachlab::test

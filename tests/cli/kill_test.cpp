@@ -6,7 +6,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -18,8 +17,7 @@
 #include "sim/record/recover.h"
 #include "sim/record/replay.h"
 #include "sim/session/session_folder.h"
-#include "test_paths.h"
-#include "tests/record/made_run.h"
+#include "tests/cli/program.h"
 
 namespace reachlab::cli {
 namespace {
@@ -37,42 +35,26 @@ struct Ending {
 };
 
 // Runs `reach`, and kills it `seconds` after it has printed so many lines; a negative time lets it end by itself.
-Ending runAndKill(std::vector<std::string> arguments, double seconds, int afterLines = 0) {
-  int pipeEnds[2];
-  if (::pipe(pipeEnds) != 0) throw std::runtime_error("pipe");
-  arguments.insert(arguments.begin(), REACH_PROGRAM);
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    ::dup2(pipeEnds[1], 1);
-    ::dup2(::open("/dev/null", O_WRONLY), 2);
-    ::close(pipeEnds[0]);
-    ::close(pipeEnds[1]);
-    ::execv(argv[0], argv.data());
-    ::_exit(127);
-  }
-  ::close(pipeEnds[1]);
+Ending runAndKill(const std::vector<std::string>& arguments, double seconds, int afterLines = 0) {
+  const TemporaryFolder folder;
+  const std::string out = folder / "out";
+  const int descriptor = ::open(out.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
+  const pid_t child = test::start(arguments, descriptor);
+  ::close(descriptor);
   Ending ending;
-  std::atomic<int> lines{0};
-  std::atomic<bool> ended{false};
-  std::jthread reader([&] {
-    char buffer[4096];
-    for (ssize_t count = 0; (count = ::read(pipeEnds[0], buffer, sizeof buffer)) > 0;) {
-      ending.out.append(buffer, static_cast<std::size_t>(count));
-      lines += static_cast<int>(std::count(buffer, buffer + count, '\n'));
-    }
-    ended = true;
-  });
+  bool ended = false;
   if (seconds >= 0) {
-    while (lines < afterLines && !ended) std::this_thread::sleep_for(std::chrono::microseconds(200));
+    const auto lines = [&] {
+      const std::string text = test::contentOf(out);
+      return std::count(text.begin(), text.end(), '\n');
+    };
+    while (lines() < afterLines && !(ended = ::waitpid(child, &ending.status, WNOHANG) != 0))
+      std::this_thread::sleep_for(std::chrono::microseconds(200));
     std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-    ::kill(child, SIGKILL);
+    if (!ended) ::kill(child, SIGKILL);
   }
-  ::waitpid(child, &ending.status, 0);
-  reader.join();
-  ::close(pipeEnds[0]);
+  if (!ended) ::waitpid(child, &ending.status, 0);
+  ending.out = test::contentOf(out);
   return ending;
 }
 

@@ -1,4 +1,5 @@
 #pragma once
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -94,6 +95,20 @@ inline std::vector<std::string> split(const std::string& line, char separator) {
   for (std::string part; std::getline(in, part, separator);) parts.push_back(part);
   if (!line.empty() && line.back() == separator) parts.emplace_back();
   return parts;
+}
+
+/// Starts `reach` with nothing to read. Its standard output goes to this descriptor, or nowhere as its messages do.
+inline pid_t start(std::vector<std::string> arguments, int out = -1) {
+  arguments.insert(arguments.begin(), REACH_PROGRAM);
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  const pid_t child = ::fork();
+  if (child != 0) return child;
+  const int null = ::open("/dev/null", O_RDWR);
+  for (const int descriptor : {0, 1, 2}) ::dup2(descriptor == 1 && out >= 0 ? out : null, descriptor);
+  ::execv(argv[0], argv.data());
+  ::_exit(127);
 }
 
 /// A CSV with its header; cells as written.

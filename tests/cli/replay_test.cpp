@@ -1,4 +1,3 @@
-#include "sim/record/log/whole_file.h"
 #include "sim/record/replay.h"
 
 #include <gtest/gtest.h>
@@ -10,18 +9,14 @@
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
-#include "sim/record/log/log.h"
 #include "sim/session/session_folder.h"
-#include "test_paths.h"
+#include "tests/cli/program.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab::cli {
 namespace {
 
-int reach(const std::string& arguments) {
-  const int status = std::system(("\"" REACH_PROGRAM "\" " + arguments + " > /dev/null 2> /dev/null").c_str());
-  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-}
+int reach(const std::string& arguments) { return test::reach(arguments).exitCode; }
 
 TEST(Replay, OfEveryShippedExperimentIsBitIdentical) {
   const TemporaryFolder folder;
@@ -81,7 +76,7 @@ TEST(Replay, NeedsNoFileOfTheConstraintThatAnExperimentNames) {
 // What is gone cannot differ: without the note, a log that lost its end would count as a whole one.
 TEST(Replay, SaysOfALogThatWasCutShortThatItIsNotAllOfTheRun) {
   const TemporaryFolder folder;
-  const std::string data = folder / "data", said = folder / "said";
+  const std::string data = folder / "data";
   ASSERT_EQ(reach("run dingwell --device simulated --trials 3 --seed 4 --fast --data " + data), 0);
   const std::string log = session::recordedRuns({data}).at(0).path;
   std::uint64_t beginOfLast = 0;
@@ -92,8 +87,9 @@ TEST(Replay, SaysOfALogThatWasCutShortThatItIsNotAllOfTheRun) {
   }
   for (const bool cut : {false, true}) {
     if (cut) std::filesystem::resize_file(log, beginOfLast);  // between two records, as a kill leaves it
-    ASSERT_EQ(std::system(("\"" REACH_PROGRAM "\" replay " + log + " --check > /dev/null 2> " + said).c_str()), 0);
-    EXPECT_EQ(record::readWholeFile(said).find("not closed in order") != std::string::npos, cut) << record::readWholeFile(said);
+    const test::Ended ended = test::reach("replay " + log + " --check");
+    EXPECT_EQ(ended.exitCode, 0);
+    EXPECT_EQ(ended.err.find("not closed in order") != std::string::npos, cut) << ended.err;
   }
 }
 
@@ -102,18 +98,12 @@ TEST(Replay, NamesTheFirstStateThatDiffersAndExits1) {
   const TemporaryFolder folder;
   const std::string data = folder / "data", changed = folder / "changed_log.reach";
   ASSERT_EQ(reach("run dingwell --device simulated --trials 2 --seed 4 --fast --data " + data), 0);
-  {
-    record::LogReader reader(session::recordedRuns({data}).at(0).path);
-    record::LogWriter writer = record::LogWriter::create(changed);
-    record::RecordView record;
-    int samples = 0;
-    while (reader.next(record)) {
-      std::vector<std::uint8_t> payload(record.payload.begin(), record.payload.end());
-      if (record.type == record::RecordType::Samples && ++samples == 2) payload[payload.size() - 9] ^= 1;
-      writer.append(record.type, payload);
-    }
-    ASSERT_GE(samples, 2);
-  }
+  int samples = 0;
+  record::copyLog(session::recordedRuns({data}).at(0).path, changed, [&](record::RecordType type, std::vector<std::uint8_t>& payload) {
+    if (type == record::RecordType::Samples && ++samples == 2) payload[payload.size() - 9] ^= 1;
+    return true;
+  });
+  ASSERT_GE(samples, 2);
   const record::Replay replay = record::replayRun(record::RunLog::open(changed));
   EXPECT_EQ(replay.rowsThatDiffer, 1u);
   EXPECT_NE(replay.firstDifference.find("mass1"), std::string::npos) << replay.firstDifference;

@@ -69,19 +69,6 @@ TEST(Run, PlaysTheHumanReachesAndItsCsvReproducesThePrintedResults) {
   EXPECT_EQ(reach("replay --check " + logOf(folder)).exitCode, 0);
 }
 
-TEST(Run, TakesTheNextFreeRunAndRefusesOneThatExists) {
-  const TemporaryFolder folder;
-  const std::string arguments = "run dingwell --device simulated --trials 1 --seed 3 --fast --data " + folder.path();
-  ASSERT_EQ(reach(arguments).exitCode, 0);
-  ASSERT_EQ(reach(arguments).exitCode, 0);
-  int logs = 0;
-  for (const auto& entry : fs::recursive_directory_iterator(folder / "sourcedata")) logs += entry.path().extension() == ".reach";
-  EXPECT_EQ(logs, 2);
-  const Ended refused = reach(arguments + " --run 1");
-  EXPECT_NE(refused.exitCode, 0);
-  EXPECT_FALSE(refused.err.empty());
-}
-
 TEST(Run, RunsThatStartAtOnceTakeOneNumberEach) {
   const TemporaryFolder folder;
   std::vector<std::future<Ended>> started;
@@ -101,13 +88,6 @@ TEST(Run, RunsThatStartAtOnceTakeOneNumberEach) {
   EXPECT_EQ(numbers.size(), 4u);
   const std::string scans = contentOf(folder / "sub-01/ses-01/sub-01_ses-01_scans.tsv");
   EXPECT_EQ(std::count(scans.begin(), scans.end(), '\n'), 5) << "a header and a row a run\n" << scans;
-}
-
-TEST(Run, AMissingReplayFileIsAResourceThatCannotBeHad) {
-  const TemporaryFolder folder;
-  const Ended ended = reach("run chain-moderate --device replay:" + (folder / "no-such.csv").string() + " --fast --data " + folder.path());
-  EXPECT_EQ(ended.exitCode, 3) << ended.err;
-  EXPECT_EQ(errorsIn(ended.err), 1) << ended.err;
 }
 
 TEST(Run, TheFirstLineNamesTheMethodAndLeavesItsReasonToTheDataset) {

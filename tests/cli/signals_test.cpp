@@ -1,5 +1,4 @@
 // Ctrl-C, a terminal that goes and a polite kill: the program ends within a second, at any stage, and what was recorded is whole.
-#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -19,18 +18,8 @@ struct Stopped {
 };
 
 // Starts `reach`, waits until `file` is there and then so many milliseconds, and sends the signal.
-Stopped stop(std::vector<std::string> arguments, int signal, const fs::path& file, int milliseconds) {
-  arguments.insert(arguments.begin(), REACH_PROGRAM);
-  std::vector<char*> argv;
-  for (std::string& argument : arguments) argv.push_back(argument.data());
-  argv.push_back(nullptr);
-  const pid_t child = ::fork();
-  if (child == 0) {
-    const int null = ::open("/dev/null", O_RDWR);
-    for (int descriptor = 0; descriptor <= 2; ++descriptor) ::dup2(null, descriptor);
-    ::execv(argv[0], argv.data());
-    ::_exit(127);
-  }
+Stopped stop(const std::vector<std::string>& arguments, int signal, const fs::path& file, int milliseconds) {
+  const pid_t child = start(arguments);
   const auto isThere = [&] { return file.empty() || (fs::exists(file) && !fs::is_empty(file)); };
   for (int i = 0; i < 2000 && !isThere(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));

@@ -64,12 +64,7 @@ TEST_F(Study, GivesTheSameBytesAfterKillsAtAnyMoment) {
   std::mt19937 random(7);
   int killed = 0;
   for (int round = 0; round < 200; ++round) {
-    const pid_t child = fork();
-    if (child == 0) {
-      if (freopen("/dev/null", "w", stdout) == nullptr || freopen("/dev/null", "w", stderr) == nullptr) _exit(99);
-      execl(REACH_PROGRAM, "reach", "study", file.c_str(), "--out", at("killed").c_str(), "--jobs", "2", "--resume", nullptr);
-      _exit(99);
-    }
+    const pid_t child = start({"study", file, "--out", at("killed"), "--jobs", "2", "--resume"});
     std::this_thread::sleep_for(std::chrono::milliseconds(std::uniform_int_distribution<>(1, 60 + 20 * round)(random)));
     kill(child, SIGKILL);
     int status = 0;

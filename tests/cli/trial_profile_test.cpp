@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -19,26 +18,20 @@ record::RunLog recorded(const TemporaryFolder& folder, bool moves) {
   configuration.experimentText = chain.text;
   configuration.definitionText = experiment::definitionTextOf(chain);
   const std::string path = folder / "a_log.reach";
-  std::filesystem::remove(path);
-  {
-    record::Recorder recorder(path, configuration, {.threaded = false});
-    auto state = std::make_unique<haptics::TickState>();
-    state->massCount = 3;
-    state->trial = 1;
-    for (state->tick = 10; state->tick <= 100; ++state->tick) {
-      const auto t = static_cast<double>(state->tick);
-      state->phase = state->tick == 100 ? trial::Phase::Done : moves && state->tick >= 40 ? trial::Phase::Moving : trial::Phase::Waiting;
-      state->result.onsetTick = moves ? 40 : 0;
-      state->hands[0].hip.velocity = {2 * t, -3 * t, 6 * t};    // of size 7
-      state->masses[0].v = {t, 4 * t, -8 * t};                  // of size 9
-      state->masses[1].v = {1e3, 1e3, 1e3};                     // not looked at
-      state->masses[2].v = {-2 * t, 6 * t, 9 * t};              // of size 11
-      state->hands[0].couplingForce = {-1 * t, -2 * t, 2 * t};  // of size 3
-      recorder.onTick(*state, trial::Command::None, 0);
-    }
-    recorder.close();
-  }
-  return record::RunLog::open(path);
+  record::MadeRecording recording(path, configuration);
+  recording.until(101, [&](haptics::TickState& state) {
+    const auto t = static_cast<double>(state.tick);
+    state.trial = 1;
+    state.phase = state.tick == 100 ? trial::Phase::Done : moves && state.tick >= 40 ? trial::Phase::Moving : trial::Phase::Waiting;
+    state.result.onsetTick = moves ? 40 : 0;
+    state.hands[0].hip.velocity = {2 * t, -3 * t, 6 * t};    // of size 7
+    state.masses[0].v = {t, 4 * t, -8 * t};                  // of size 9
+    state.masses[1].v = {1e3, 1e3, 1e3};                     // not looked at
+    state.masses[2].v = {-2 * t, 6 * t, 9 * t};              // of size 11
+    state.hands[0].couplingForce = {-1 * t, -2 * t, 2 * t};  // of size 3
+    return state.tick >= 10;
+  });
+  return recording.closed();
 }
 
 TEST(ShownTrial, IsOfTheSamplesSinceTheOnset) {

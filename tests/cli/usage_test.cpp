@@ -96,6 +96,7 @@ TEST(Usage, MistakesAreAnsweredWithWhatWasMeant) {
         Mistake{"run dingwell --device virtual:omi",
                 "error: --device: is virtual:omi, which is no model\nhelp: allowed: virtual:MODEL with MODEL one of omni"},
         Mistake{"run dingwell --device polhem:/dev/none", "device polhem:/dev/none: /dev/none: No such file", 3},
+        Mistake{"run dingwell --device replay:/no-such.csv --fast --data " + (folder / "data").string(), "error: ", 3},
         Mistake{"predict chain-slow --criterion 1", "(1) min-hand-jerk, (2) min-torque-change"},
         Mistake{"constraint check " + experiment, "is an experiment file, no constraint definition\nhelp: `reach validate` checks it"},
         Mistake{"run dingwell --device simulated --fast --seed 1 --data " + table + "/data", "--data: ", 3}}) {
