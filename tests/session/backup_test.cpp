@@ -138,29 +138,22 @@ TEST_F(Backups, CopyOnlyWhatIsNew) {
       << "a table that the runs share is brought up to date";
 }
 
-TEST_F(Backups, LeaveARunThatIsBeingRecorded) {
-  record::RunConfiguration configuration = record::madeConfiguration();
-  configuration.run = configuration.firstRun = 2;
-  record::Recorder recorder(logOf(2), configuration, {.threaded = false});
-  const BackupReport report = backUp(dataset_, backup_);
-  EXPECT_EQ(report.runs, 1u);
-  EXPECT_EQ(report.pending, 1u);
-  EXPECT_FALSE(fs::exists(inBackup(logOf(2))));
-  recorder.close();
-}
-
-TEST_F(Backups, LeaveTheTablesOfARunUntilItsLogIsClosed) {
+TEST_F(Backups, LeaveARunAndItsTablesUntilItsLogIsClosed) {
   record::RunConfiguration configuration = record::madeConfiguration();
   configuration.run = configuration.firstRun = 2;
   auto recorder = std::make_unique<record::Recorder>(logOf(2), configuration, record::RecorderOptions{.threaded = false});
   const std::string table = dataset_ + "/sub-01/ses-01/motion/sub-01_ses-01_task-made_tracksys-haptic_run-02_motion.tsv";
   record::makeFolders(fs::path(table).parent_path().string());
   std::ofstream(table) << "half";
-  (void)backUp(dataset_, backup_);
+  const BackupReport report = backUp(dataset_, backup_);
+  EXPECT_EQ(report.runs, 1u);
+  EXPECT_EQ(report.pending, 1u);
+  EXPECT_FALSE(fs::exists(inBackup(logOf(2))));
   EXPECT_FALSE(fs::exists(inBackup(table)));
   recorder->close();
   recorder.reset();
   (void)backUp(dataset_, backup_);
+  EXPECT_TRUE(fs::exists(inBackup(logOf(2))));
   EXPECT_TRUE(fs::exists(inBackup(table)));
 }
 
@@ -248,15 +241,14 @@ TEST_F(Backups, LeaveNoCopyThatReadsBackOtherwise) {
 }
 
 TEST_F(Backups, LieElsewhere) {
-  backup_ = dataset_;
-  EXPECT_NE(refusal().find("lies in the dataset itself"), std::string::npos);
-  fs::create_directory_symlink(dataset_, folder_ / "link");
-  backup_ = folder_ / "link";
-  EXPECT_NE(refusal().find("lies in the dataset itself"), std::string::npos) << "by another name";
-  backup_ = dataset_ + "/copy";
-  EXPECT_NE(refusal().find("lies in the dataset itself"), std::string::npos);
-  dataset_ += "/";
-  EXPECT_NE(refusal().find("lies in the dataset itself"), std::string::npos) << "with a slash at its end too";
+  const std::string dataset = dataset_;
+  fs::create_directory_symlink(dataset, folder_ / "link");
+  for (const std::string& backup : {dataset, (folder_ / "link").string(), dataset + "/copy"})
+    for (const char* slash : {"", "/"}) {
+      dataset_ = dataset + slash;
+      backup_ = backup;
+      EXPECT_NE(refusal().find("lies in the dataset itself"), std::string::npos) << backup_ << " of " << dataset_;
+    }
   std::ofstream(folder_ / "file") << "no folder";
   backup_ = folder_ / "file";
   EXPECT_NE(refusal(), "made");

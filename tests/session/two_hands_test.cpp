@@ -1,18 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 #include "analysis/hands.h"
 #include "base/fault.h"
-#include "sim/record/log/atomic_file.h"
 #include "sim/record/replay.h"
-#include "sim/session/recorded_session.h"
 #include "tests/analysis/whole_dataset.h"
-#include "tests/haptics/scripted_device.h"
-#include "tests/record/made_run.h"
 #include "tests/refusal.h"
+#include "tests/session/recorded_runs.h"
 
 // Two hands on one object, recorded: from two devices to the tables.
 namespace reachlab::session {
@@ -65,33 +61,25 @@ class Rendering final : public haptics::HapticDevice {
   std::unique_ptr<HapticDevice> other_;
 };
 
-class TwoHands : public testing::Test {
+class TwoHands : public test::Recorded {
  protected:
   TwoHands() {
-    request_.place.data = folder_ / "data";
     request_.device = "scripted + scripted";
     request_.trials = 2;
-    request_.seed = 1;
-    request_.fast = true;
     request_.everyTick = true;
-    record::writeFileAtomically(folder_ / "both.json", kChain);
+    easy_ = programmeOf(experiment::openExperimentText(kChain, "both.json"));
   }
-  record::RunLog record(std::unique_ptr<haptics::HapticDevice> device) {
-    const Programme programme = readProgramme(folder_ / "both.json");
-    RecordedRunOptions options;
-    options.place = request_.place;
-    options.virtualClock = true;
-    RecordedRun run(planSession(request_, programme).blocks.at(0), std::move(device), options);
-    const std::atomic<bool> stop{false};
-    while (const auto trial = run.runTrial(stop)) {
+  record::RunLog record(std::unique_ptr<haptics::HapticDevice> device, int most = 2) {
+    RecordedRun run(block(), std::move(device), options());
+    for (int i = 0; i < most; ++i) {
+      const auto trial = run.runTrial(test::kNeverStop);
+      if (!trial) break;
       results_.push_back(trial->result);
       said_ = run.fault().value_or("");
     }
     run.finish();
     return record::RunLog::open(run.logPath());
   }
-  const TemporaryFolder folder_;
-  SessionRequest request_;
   std::vector<trial::TrialResult> results_;
   std::string said_;  // of the devices, after the last trial
 };
@@ -121,22 +109,9 @@ TEST_F(TwoHands, AreRecordedAndReplayedToTheBit) {
 }
 
 TEST_F(TwoHands, AResumedBlockHasTheSameHands) {
-  const Programme programme = readProgramme(folder_ / "both.json");
-  request_.trials = 2;
-  RecordedRunOptions options;
-  options.place = request_.place;
-  options.virtualClock = true;
-  {
-    RecordedRun run(planSession(request_, programme).blocks.at(0), std::make_unique<Pair>(), options);
-    const std::atomic<bool> stop{false};
-    (void)run.runTrial(stop);
-    run.finish();
-  }
+  record(std::make_unique<Pair>(), 1);
   request_.resume = true;
-  RecordedRun run(planSession(request_, programme).blocks.at(0), std::make_unique<Pair>(), options);
-  EXPECT_EQ(run.configuration().otherHands.size(), 1u);
-  run.finish();
-  EXPECT_EQ(record::RunLog::open(run.logPath()).configuration().otherHands.size(), 1u);
+  EXPECT_EQ(record(std::make_unique<Pair>()).configuration().otherHands.size(), 1u);
 }
 
 // Its device says that it is well: what the loop has found is of that hand all the same.
