@@ -30,6 +30,9 @@ class Watch : public ::testing::Test {
   DeviceSample look(const Vec3& position, bool isNew = true, std::uint32_t missed = 0) {
     DeviceSample sample;
     sample.position = position;
+    return see(sample, isNew, missed);
+  }
+  DeviceSample see(DeviceSample sample, bool isNew = true, std::uint32_t missed = 0) {
     if (isNew) ++reports;
     sample.reports = reports;
     now += kTickNs * (1 + missed);
@@ -138,26 +141,19 @@ TEST_F(Watch, ALatchedFaultStaysUntilReset) {
 TEST_F(Watch, AnOpenDeadManSwitchTakesTheForceAndLeavesNoLatch) {
   settle({});
   DeviceSample sample;
-  sample.reports = ++reports;
   sample.released = true;
-  context.nowNs = now += kTickNs;
-  EXPECT_FALSE(watch.look(sample, context).valid);
-  EXPECT_TRUE(watch.look(sample, context).released) << "known, so that the trial goes on";
+  EXPECT_FALSE(see(sample).valid);
+  EXPECT_TRUE(see(sample).released) << "known, so that the trial goes on";
   sample.valid = false;
-  EXPECT_FALSE(watch.look(sample, context).released) << "lost, and not let go of";
-  sample.valid = true;
-  sample.released = false;
-  sample.reports = ++reports;
-  context.nowNs = now += kTickNs;
-  EXPECT_TRUE(watch.look(sample, context).valid);
+  EXPECT_FALSE(see(sample).released) << "lost, and not let go of";
+  EXPECT_TRUE(look({}).valid);
 }
 
 TEST_F(Watch, AHandThatWasLostMayComeBackElsewhere) {
   settle({});
   DeviceSample lost;
   lost.valid = false;
-  context.nowNs = now += kTickNs;
-  EXPECT_FALSE(watch.look(lost, context).valid);
+  EXPECT_FALSE(see(lost, false).valid);
   EXPECT_TRUE(look({0.2, 0, 0}).valid);
 }
 
@@ -167,10 +163,8 @@ TEST_F(Watch, AReportIsAsOldAsTheDeviceSays) {
     watch = DeviceWatch(forceDevice());
     settle({});
     DeviceSample sample;
-    sample.reports = ++reports;
-    context.nowNs = now += kTickNs;
-    sample.takenNs = now - age;
-    EXPECT_EQ(watch.look(sample, context).valid, age < 20'000'000) << age;
+    sample.takenNs = now + kTickNs - age;
+    EXPECT_EQ(see(sample).valid, age < 20'000'000) << age;
     EXPECT_EQ(watch.fault(), age < 20'000'000 ? DeviceFault::None : DeviceFault::Silent);
     if (age > 0) continue;
     for (int i = 1; i < 20; ++i) ASSERT_TRUE(look({}, false).valid) << i;
@@ -186,9 +180,7 @@ TEST_F(Watch, TheVelocityThatADeviceMeasuresIsHeldToTheSameLimit) {
       DeviceSample sample;
       sample.hasVelocity = measures;
       sample.velocity = {0, 0.6 * speed, -0.8 * speed};
-      sample.reports = ++reports;
-      context.nowNs = now += kTickNs;
-      EXPECT_EQ(watch.look(sample, context).valid, !measures || speed < 3) << speed;
+      EXPECT_EQ(see(sample).valid, !measures || speed < 3) << speed;
     }
 }
 
@@ -226,11 +218,7 @@ TEST_F(Watch, TheSpeedIsTakenOverTenTicksOrTheirTimeOnTheClock) {
 
 TEST_F(Watch, APlaceThatIsNoNumberIsNotLookedAt) {
   settle({});
-  DeviceSample sample;
-  sample.position = {0, std::numeric_limits<double>::quiet_NaN(), 0};
-  sample.reports = ++reports;
-  context.nowNs = now += kTickNs;
-  watch.look(sample, context);
+  look({0, std::numeric_limits<double>::quiet_NaN(), 0});
   EXPECT_EQ(watch.fault(), DeviceFault::None);
   EXPECT_TRUE(look({0.2, 0, 0}).valid) << "as after a loss";
 }

@@ -26,6 +26,15 @@ using test::SetDevice;
 
 std::unique_ptr<ScriptedDevice> makeReach() { return std::make_unique<ScriptedDevice>(-0.1, 0.1, 300); }
 
+// A loop of a shipped experiment on a scripted hand.
+struct Looped {
+  explicit Looped(const std::string& name, const LoopOptions& options = {.virtualClock = true, .clock = {}}, std::size_t ticks = 1000)
+      : sink(ticks), loop(std::make_unique<TickEngine>(test::armedAtOnce(name), EngineOptions{}), device, &sink, options) {}
+  std::shared_ptr<ScriptedDevice> device = makeReach();
+  MemorySink sink;
+  HapticLoop loop;
+};
+
 // A short task, so that a trial ends within half a second of real time.
 experiment::Experiment shortTask() {
   experiment::Experiment experiment = test::armedAtOnce("dingwell");
@@ -71,13 +80,13 @@ TEST(HapticLoop, RealTimeGivesTheBitsOfTheVirtualClock) {
 }
 
 TEST(HapticLoop, LeavesTheDeviceWithoutForce) {
-  const experiment::Experiment experiment = test::armedAtOnce("chain-moderate");
-  const auto device = std::make_shared<ScriptedDevice>(-0.1, 0.1, 300);
+  std::shared_ptr<ScriptedDevice> device;
   {
-    HapticLoop loop(std::make_unique<TickEngine>(experiment, EngineOptions{}), device, nullptr);
-    loop.start();
-    loop.tryCommand(trial::Command::NextTrial);
-    while (loop.report().ticks < 200) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    Looped run("chain-moderate", {});
+    device = run.device;
+    run.loop.start();
+    run.loop.tryCommand(trial::Command::NextTrial);
+    while (run.loop.report().ticks < 200) std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
   ASSERT_FALSE(device->written.empty());
   EXPECT_EQ(device->written.back(), Vec3{});
@@ -117,14 +126,13 @@ class MadeClock final : public LoopClock {
 
 // Deadlines stay on the grid of 1 ms whatever is missed, each tick comes at its own, and what was missed is counted once.
 TEST(HapticLoop, KeepsToItsDeadlinesWhateverItMisses) {
-  const auto device = std::make_shared<ScriptedDevice>(-0.1, 0.1, 300);
-  MemorySink sink(1000);
   LoopOptions options;
   options.spinNs = 30'000;
   const auto clock =
       std::make_shared<MadeClock>(std::map<int, std::int64_t>{{10, 430'000}, {20, 3'430'000}, {30, 7'530'000}, {40, 1'080'000}});
   options.clock = clock;
-  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("chain-moderate"), EngineOptions{}), device, &sink, options);
+  Looped run("chain-moderate", options);
+  auto& [device, sink, loop] = run;
   loop.start();
   loop.start();  // once is enough
   while (loop.report().ticks < 60) std::this_thread::sleep_for(std::chrono::milliseconds(1));
@@ -157,11 +165,11 @@ TEST(HapticLoop, KeepsToItsDeadlinesWhateverItMisses) {
 }
 
 TEST(HapticLoop, SaysWhatPriorityAndMemoryItGot) {
-  const auto device = std::make_shared<ScriptedDevice>(-0.1, 0.1, 300);
   LoopOptions options;
   options.priority = 7;
   options.clock = std::make_shared<MadeClock>(std::map<int, std::int64_t>{});
-  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), device, nullptr, options);
+  Looped run("dingwell", options);
+  HapticLoop& loop = run.loop;
   loop.start();
   loop.stop();
   loop.stop();
@@ -174,11 +182,8 @@ TEST(HapticLoop, SaysWhatPriorityAndMemoryItGot) {
 }
 
 TEST(HapticLoop, TheVirtualClockStartsAtNoughtAndGoesByTicks) {
-  const auto device = std::make_shared<ScriptedDevice>(-0.1, 0.1, 300);
-  MemorySink sink(10);
-  LoopOptions options;
-  options.virtualClock = true;
-  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), device, &sink, options);
+  Looped run("dingwell");
+  auto& [device, sink, loop] = run;
   loop.start();  // nothing runs by itself
   EXPECT_EQ(loop.report().ticks, 0u);
   for (int i = 0; i < 3; ++i) loop.advance();
@@ -195,11 +200,8 @@ TEST(HapticLoop, TheVirtualClockStartsAtNoughtAndGoesByTicks) {
 }
 
 TEST(HapticLoop, TakesSixteenCommandsAtMostBeforeATick) {
-  const auto device = std::make_shared<ScriptedDevice>(-0.1, 0.1, 300);
-  MemorySink sink(100);
-  LoopOptions options;
-  options.virtualClock = true;
-  HapticLoop loop(std::make_unique<TickEngine>(test::armedAtOnce("dingwell"), EngineOptions{}), device, &sink, options);
+  Looped run("dingwell");
+  auto& [device, sink, loop] = run;
   for (int i = 0; i < 16; ++i) EXPECT_TRUE(loop.tryCommand(i % 2 == 0 ? trial::Command::NextTrial : trial::Command::Abort));
   EXPECT_FALSE(loop.tryCommand(trial::Command::Abort));
   for (int i = 0; i < 17; ++i) loop.advance();

@@ -80,18 +80,26 @@ TEST_F(TwoHandsCore, EachDeviceIsToldItsOwnForce) {
 }
 
 TEST_F(TwoHandsCore, AFaultIsOfTheHandItWasFoundAtAndTakesTheForceFromBoth) {
-  for (const int hand : {0, 1}) {
-    make();
-    engage();
-    (hand == 0 ? *first : second).sample.position.y += 0.1;
-    tick();
-    EXPECT_EQ(core->latched.load().fault, DeviceFault::Jump);
-    EXPECT_EQ(core->latched.load().hand, hand);
-    EXPECT_EQ(first->written.back(), Vec3{});
-    EXPECT_EQ(second.written.back(), Vec3{});
-    EXPECT_EQ(core->engine->state().hands[0].deviceState, DeviceState::Fault);
-    EXPECT_EQ(core->engine->state().hands[1].deviceState, DeviceState::Fault);
-  }
+  for (const int hand : {0, 1})
+    for (const bool jumps : {true, false}) {
+      SCOPED_TRACE(testing::Message() << "hand " << hand << (jumps ? " jumps" : " says that it failed"));
+      first->is = second.is = DeviceHealth::Ready;
+      make();
+      engage();
+      SetDevice& device = hand == 0 ? *first : second;
+      device.is = DeviceHealth::Warm;
+      tick();
+      EXPECT_EQ(core->latched.load().fault, DeviceFault::None) << "a warning is no failure";
+      if (jumps) device.sample.position.y += 0.1;
+      else device.is = DeviceHealth::Failed;
+      tick();
+      EXPECT_EQ(core->latched.load().fault, jumps ? DeviceFault::Jump : DeviceFault::Device);
+      EXPECT_EQ(core->latched.load().hand, hand);
+      EXPECT_EQ(first->written.back(), Vec3{});
+      EXPECT_EQ(second.written.back(), Vec3{});
+      EXPECT_EQ(core->engine->state().hands[0].deviceState, DeviceState::Fault);
+      EXPECT_EQ(core->engine->state().hands[1].deviceState, DeviceState::Fault);
+    }
 }
 
 TEST_F(TwoHandsCore, AResetLetsBothBeBelievedAgain) {
@@ -111,46 +119,24 @@ TEST_F(TwoHandsCore, AResetLetsBothBeBelievedAgain) {
   EXPECT_TRUE(core->engine->state().hands[1].device.valid);
 }
 
-TEST_F(TwoHandsCore, ADeviceThatSaysItFailedIsLatched) {
-  for (const int hand : {0, 1}) {
-    first->is = second.is = DeviceHealth::Ready;
+TEST_F(TwoHandsCore, ADeviceThatOnlyShowsAPlaceIsNotLookedAtAndTheOtherIs) {
+  for (const int shown : {0, 1}) {
+    SCOPED_TRACE(shown);
+    SetDevice &showing = shown == 0 ? *first : second, &rendering = shown == 0 ? second : *first;
+    showing.about.rendersForce = false;
+    rendering.about.rendersForce = true;
     make();
+    EXPECT_TRUE(core->anyRendersForce);
     engage();
-    (hand == 0 ? *first : second).is = DeviceHealth::Warm;
+    showing.sample.position.y += 0.1;
     tick();
-    EXPECT_EQ(core->latched.load().fault, DeviceFault::None) << "a warning is no failure";
-    (hand == 0 ? *first : second).is = DeviceHealth::Failed;
+    EXPECT_EQ(core->latched.load().fault, DeviceFault::None);
+    EXPECT_GT(core->completedNs, 0) << "the watchdog looks after the other";
+    rendering.sample.position.y += 0.1;
     tick();
-    EXPECT_EQ(core->latched.load().fault, DeviceFault::Device);
-    EXPECT_EQ(core->latched.load().hand, hand);
-    EXPECT_EQ(first->written.back(), Vec3{});
-    EXPECT_EQ(second.written.back(), Vec3{});
+    EXPECT_EQ(core->latched.load().fault, DeviceFault::Jump);
+    EXPECT_EQ(core->latched.load().hand, 1 - shown);
   }
-}
-
-TEST_F(TwoHandsCore, ADeviceThatOnlyShowsAPlaceIsNotLookedAt) {
-  second.about.rendersForce = false;
-  make();
-  engage();
-  EXPECT_TRUE(core->anyRendersForce);
-  second.sample.position.y += 0.1;
-  tick();
-  EXPECT_EQ(core->latched.load().fault, DeviceFault::None);
-  EXPECT_GT(core->completedNs, 0) << "the watchdog looks after the other";
-}
-
-TEST_F(TwoHandsCore, TheSecondHandIsLookedAtWhereTheFirstIsNot) {
-  first->about.rendersForce = false;
-  make();
-  EXPECT_TRUE(core->anyRendersForce);
-  engage();
-  first->sample.position.y += 0.1;
-  tick();
-  EXPECT_EQ(core->latched.load().fault, DeviceFault::None);
-  second.sample.position.y += 0.1;
-  tick();
-  EXPECT_EQ(core->latched.load().fault, DeviceFault::Jump);
-  EXPECT_EQ(core->latched.load().hand, 1);
 }
 
 TEST_F(TwoHandsCore, TheFirstFaultStaysWithItsHand) {
