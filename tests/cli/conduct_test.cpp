@@ -6,6 +6,7 @@
 #include "sim/record/log/run_log.h"
 #include "sim/session/session_folder.h"
 #include "tests/cli/program.h"
+#include "tests/record/configuration_keys.h"
 
 namespace reachlab::cli {
 namespace {
@@ -34,12 +35,8 @@ TEST(Conduct, ThePlansBlocksAreRunsOfTheirOwnEachWithItsLabelAndItsRowsInTheData
   const std::string scans = test::contentOf(folder / "sub-01/ses-01/sub-01_ses-01_scans.tsv");
   for (int k = 0; k < 3; ++k) {
     const record::RunLog& log = logs[static_cast<std::size_t>(k)];
-    const record::RunConfiguration& c = log.configuration();
-    EXPECT_EQ(c.run, k + 1);
-    EXPECT_EQ(c.block, k + 1);
-    EXPECT_EQ(c.task, tasks[k]);
-    EXPECT_EQ(c.condition, conditions[k]);
-    EXPECT_EQ(c.practice, k == 0);
+    record::expectRecorded(log.configuration(),
+                           {{"run", k + 1}, {"block", k + 1}, {"task", tasks[k]}, {"condition", conditions[k]}, {"practice", k == 0}});
     EXPECT_EQ(log.trials().size(), k == 2 ? 1u : 2u);
     EXPECT_TRUE(log.healthy());
     EXPECT_TRUE(log.closed());
@@ -60,17 +57,14 @@ TEST(Conduct, TheRecordSaysWithWhatAndWhenItWasMade) {
   const std::vector<record::RunLog> logs = logsOf(folder);
   ASSERT_EQ(logs.size(), 1u);
   const record::RunConfiguration& c = logs[0].configuration();
-  EXPECT_EQ(c.device, "simulated:noise=0");
+  record::expectRecorded(c, {{"device", "simulated:noise=0"}, {"virtual_hand", true}, {"method", "exact"}, {"clock", "virtual"}});
   EXPECT_NE(c.firstHand.name, "");
   EXPECT_NE(c.firstHand.version, "");
   EXPECT_GT(c.firstHand.maxForce, 0);
-  EXPECT_TRUE(c.firstHand.virtualHand);
-  EXPECT_EQ(c.method, "exact");
   EXPECT_NE(c.methodReason, "");
   EXPECT_TRUE(c.softwareVersion.starts_with("reachlab ")) << c.softwareVersion;
   EXPECT_NE(c.buildDescription, "");
   EXPECT_TRUE(c.computer.starts_with("Linux ")) << c.computer;
-  EXPECT_EQ(c.clock, "virtual");
   EXPECT_TRUE(std::regex_match(c.startedUtc, std::regex(R"(20\d\d-\d\d-\d\dT\d\d:\d\d:\d\d\.\d\d\dZ)"))) << c.startedUtc;
   EXPECT_EQ(c.table.massCount, 5);
   EXPECT_EQ(c.table.parameterCount, 1);

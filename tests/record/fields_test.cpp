@@ -4,7 +4,7 @@
 
 #include "base/fault.h"
 #include "sim/record/configuration/run_fields.h"
-#include "tests/record/differing_keys.h"
+#include "tests/record/configuration_keys.h"
 #include "tests/record/made_run.h"
 #include "tests/refusal.h"
 

@@ -6,6 +6,7 @@
 
 #include "base/fault.h"
 #include "tests/refusal.h"
+#include "tests/record/configuration_keys.h"
 #include "tests/session/recorded_runs.h"
 
 // One run from its log to the dataset.
@@ -13,6 +14,7 @@ namespace reachlab::session {
 namespace {
 
 using haptics::test::MemorySink;
+using record::expectRecorded;
 using test::goodHand;
 using test::Hand;
 using test::kNeverStop;
@@ -40,12 +42,8 @@ TEST_F(Recorded, EveryTrialIsInTheLogAndTheRunInTheDataset) {
   EXPECT_TRUE(std::filesystem::exists(folder_ / "data/sub-01/ses-01/motion"));
   EXPECT_TRUE(run.timing().empty()) << "the virtual clock keeps no time";
   const record::RunConfiguration c = logs().at(0).configuration();
-  EXPECT_EQ(c.firstHand.name, "scripted");
-  EXPECT_EQ(c.firstHand.version, "7");
-  EXPECT_EQ(c.firstHand.maxForce, 9);
-  EXPECT_TRUE(c.firstHand.virtualHand);
-  EXPECT_EQ(c.clock, "virtual");
-  EXPECT_EQ(c.experimentName, "easy");
+  expectRecorded(c, {{"device_name", "scripted"}, {"device_version", "7"}, {"device_max_force_n", 9.0}, {"virtual_hand", true}});
+  expectRecorded(c, {{"clock", "virtual"}, {"experiment_name", "easy"}});
   EXPECT_EQ(c.table.massCount, 1);
 }
 
@@ -69,10 +67,8 @@ TEST_F(Recorded, WhatTheDeviceSaysOfItselfIsInTheLog) {
   RecordedRun(block(), std::make_unique<FeltHand>(), options()).finish();
   RecordedRun(block(), goodHand(), options()).finish();
   const record::RunConfiguration felt = logs().at(0).configuration(), shown = logs().at(1).configuration();
-  EXPECT_TRUE(felt.firstHand.rendersForce);
   EXPECT_FALSE(shown.firstHand.rendersForce);
-  EXPECT_EQ(felt.firstHand.maxContinuousForce, 3);
-  EXPECT_EQ(felt.firstHand.thermalSeconds, 20);
+  expectRecorded(felt, {{"device_renders_force", true}, {"device_continuous_force_n", 3.0}, {"device_thermal_s", 20.0}});
   EXPECT_EQ(felt.firstHand.mapping, R"({"scale":2})");
   EXPECT_TRUE(felt.computer.starts_with("Linux ")) << felt.computer;
   EXPECT_TRUE(felt.softwareVersion.starts_with("reachlab "));

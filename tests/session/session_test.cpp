@@ -16,6 +16,7 @@
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 #include "sim/session/trial_order.h"
+#include "tests/record/configuration_keys.h"
 #include "tests/record/made_run.h"
 #include "tests/refusal.h"
 
@@ -348,43 +349,35 @@ TEST_F(PlannedSession, KeepsWhatThePlanAndTheRequestSayInTheRecord) {
   r.device = "simulated:noise=0";
   const SessionToRun session = planSession(r);
   ASSERT_EQ(session.blocks.size(), 2u);
-  const record::RunConfiguration &a = session.blocks[0].configuration, &b = session.blocks[1].configuration;
-  EXPECT_TRUE(a.practice);
-  EXPECT_FALSE(b.practice);
-  EXPECT_EQ(a.condition, "warm up");
-  EXPECT_EQ(b.condition, "epitrochoid");
-  EXPECT_EQ(a.day, 4);
-  EXPECT_EQ(b.day, 0);
-  EXPECT_EQ(a.pauseSeconds, 1.5);
-  EXPECT_EQ(b.pauseSeconds, 0);
-  EXPECT_EQ(a.task, "chainslow");
-  EXPECT_EQ(b.task, "epitrochoid");
+  using record::expectRecorded;
+  expectRecorded(session.blocks[0].configuration,
+                 {{"practice", true}, {"condition", "warm up"}, {"day", 4}, {"pause_s", 1.5}, {"task", "chainslow"}});
+  expectRecorded(session.blocks[1].configuration,
+                 {{"practice", false}, {"condition", "epitrochoid"}, {"day", 0}, {"pause_s", 0.0}, {"task", "epitrochoid"}});
   EXPECT_EQ(session.blocks[1].logPath, r.place.data + "/sourcedata/sub-s7_ses-b_task-epitrochoid_run-02_log.reach");
   for (const BlockToRun& block : session.blocks) {
-    const record::RunConfiguration& c = block.configuration;
-    EXPECT_EQ(c.subject, "s7");
-    EXPECT_EQ(c.session, "b");
-    EXPECT_EQ(c.planText, text);
-    EXPECT_EQ(c.planName, "mine");
-    EXPECT_EQ(c.orderSeed, 12u);
-    EXPECT_EQ(c.sessionSeed, session.seed);
-    EXPECT_EQ(c.experimentName, block.experiment.experiment().name);
-    EXPECT_EQ(c.experimentText, contentOf(experiment::resourceFolder() + "/experiments/" + c.experimentName + ".json"));
-    EXPECT_EQ(c.definitionText, experiment::definitionTextOf(block.experiment.experiment()));
-    EXPECT_NE(c.definitionText, "");
-    EXPECT_EQ(c.sampleEveryTicks, 1u);
-    EXPECT_EQ(c.samplingHz, 1000);
-    EXPECT_EQ(c.participant.age, 31);
-    EXPECT_EQ(c.participant.sex, "F");
-    EXPECT_EQ(c.participant.handedness, "L");
-    EXPECT_EQ(c.notes, "cold");
-    EXPECT_EQ(c.device, "simulated:noise=0");
-    EXPECT_EQ(c.trials.size(), block.trials.size());
-    EXPECT_EQ(c.firstTrial, 1);
+    const experiment::Experiment& planned = block.experiment.experiment();
+    EXPECT_NE(experiment::definitionTextOf(planned), "");
+    expectRecorded(block.configuration,
+                   {{"subject", "s7"},
+                    {"session", "b"},
+                    {"plan_text", text},
+                    {"plan_name", "mine"},
+                    {"order_seed", 12},
+                    {"session_seed", session.seed},
+                    {"experiment_name", planned.name},
+                    {"experiment_text", contentOf(experiment::resourceFolder() + "/experiments/" + planned.name + ".json")},
+                    {"definition_text", experiment::definitionTextOf(planned)},
+                    {"sample_every_ticks", 1},
+                    {"sampling_hz", 1000},
+                    {"participant", {{"age_years", 31.0}, {"sex", "F"}, {"handedness", "L"}}},
+                    {"notes", "cold"},
+                    {"device", "simulated:noise=0"},
+                    {"first_trial", 1}});
+    EXPECT_EQ(block.configuration.trials.size(), block.trials.size());
   }
   r.everyTick = false;
-  EXPECT_EQ(planSession(r).blocks[0].configuration.sampleEveryTicks, 10u);
-  EXPECT_EQ(planSession(r).blocks[0].configuration.samplingHz, 100);
+  expectRecorded(planSession(r).blocks[0].configuration, {{"sample_every_ticks", 10}, {"sampling_hz", 100}});
 }
 
 TEST_F(PlannedSession, RefusesTrialsForAPlanAndAsksForTheTrialsOnOfferOtherwise) {

@@ -28,6 +28,7 @@
 #include "tests/analysis/whole_dataset.h"
 #include "tests/gui/answer_box.h"
 #include "tests/gui/at_the_window.h"
+#include "tests/record/configuration_keys.h"
 
 namespace reachlab::gui::app {
 namespace {
@@ -81,11 +82,8 @@ TEST_F(RecordingWindow, AnotherExperimentIsRecordedUnderItsOwnLabelConditionAndL
   const char *names[] = {"chain-moderate", "dingwell", "chain-moderate"}, *labels[] = {"chainmoderate", "dingwell", "chainmoderate"};
   for (std::size_t k = 0; k < 3; ++k) {
     const record::RunConfiguration& c = found[k].configuration();
-    EXPECT_EQ(c.task, labels[k]);
-    EXPECT_EQ(c.condition, names[k]);
-    EXPECT_EQ(c.experimentName, names[k]);
+    record::expectRecorded(c, {{"task", labels[k]}, {"condition", names[k]}, {"experiment_name", names[k]}, {"run", k + 1}});
     EXPECT_EQ(c.experimentText, shippedText(names[k]));
-    EXPECT_EQ(c.run, static_cast<int>(k) + 1);
     EXPECT_EQ(c.trials.size(), 1u);
     EXPECT_NE(found[k].path().find(std::string("_task-") + labels[k] + "_run-0"), std::string::npos) << found[k].path();
     EXPECT_TRUE(found[k].closed());
@@ -158,12 +156,9 @@ TEST_F(RecordingWindow, APlanIsOpenedFromTheMenuAndLeftForAnExperiment) {
   session().endRun();
   const std::vector<record::RunLog> found = logs();
   ASSERT_EQ(found.size(), 4u);
-  EXPECT_EQ(found[1].configuration().condition, "a");
-  EXPECT_EQ(found[1].configuration().planName, "two");
-  EXPECT_EQ(found[2].configuration().condition, "b");
-  EXPECT_EQ(found[2].configuration().block, 2);
-  EXPECT_EQ(found[3].configuration().planName, "");
-  EXPECT_EQ(found[3].configuration().condition, "ellipse");
+  record::expectRecorded(found[1].configuration(), {{"condition", "a"}, {"plan_name", "two"}});
+  record::expectRecorded(found[2].configuration(), {{"condition", "b"}, {"block", 2}});
+  record::expectRecorded(found[3].configuration(), {{"condition", "ellipse"}, {"plan_name", ""}});
   EXPECT_EQ(found[3].configuration().trials.size(), 2u);
 }
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <gtest/gtest.h>
+
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
@@ -6,6 +8,12 @@
 #include "sim/record/configuration/run_configuration.h"
 
 namespace reachlab::record {
+
+/// Whether the configuration has these values under these keys; others are not looked at.
+inline void expectRecorded(const RunConfiguration& configuration, const nlohmann::json& expected) {
+  const nlohmann::json written = nlohmann::json::parse(toJson(configuration));
+  for (const auto& [key, value] : expected.items()) EXPECT_EQ(written.value(key, nlohmann::json()), value) << key;
+}
 
 /// Keys of two JSON objects that differ, in the order of the alphabet.
 inline std::vector<std::string> differingKeys(const nlohmann::json& a, const nlohmann::json& b) {
