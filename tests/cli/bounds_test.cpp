@@ -19,7 +19,9 @@ std::string experimentWith(const std::string& duration) {
 
 }  // namespace
 
-TEST(Bounds, OfTimesAndCountsOnTheCommandLine) {
+class Bounds : public InAFolder {};
+
+TEST_F(Bounds, OfTimesAndCountsOnTheCommandLine) {
   const std::string predict = "predict dingwell --criterion min-hand-jerk ";
   for (const char* duration : {"1e20", "1e8", "3601"}) EXPECT_TRUE(says(reach(predict + "--duration " + duration), 2, "0.001 to 3600 s"));
   EXPECT_TRUE(says(reach(predict + "--samples 2000000000"), 2, "2 to 1000000"));
@@ -27,32 +29,29 @@ TEST(Bounds, OfTimesAndCountsOnTheCommandLine) {
   EXPECT_TRUE(says(reach("simulate dingwell --hand hold --every 1e-300"), 2, "too many rows"));
 }
 
-TEST(Bounds, OfAnExperimentsTimes) {
-  const TemporaryFolder folder;
+TEST_F(Bounds, OfAnExperimentsTimes) {
   for (const char* duration : {"1e308", "3601", "0", "-1"}) {
-    const std::string file = folder.write("e.json", experimentWith(duration));
-    for (const std::string& command :
-         {"validate " + file, "run " + file + " --device simulated --fast --data " + (folder / "data").string(),
-          "predict " + file + " --criterion min-hand-jerk"})
+    const std::string file = folder_.write("e.json", experimentWith(duration));
+    for (const std::string& command : {"validate " + file, "run " + file + " --device simulated --fast --data " + data_,
+                                       "predict " + file + " --criterion min-hand-jerk"})
       EXPECT_TRUE(says(reach(command), 2, "task.duration_s: is"));
   }
-  EXPECT_EQ(reach("validate " + folder.write("e.json", experimentWith("3600"))).exitCode, 0);
+  EXPECT_EQ(reach("validate " + folder_.write("e.json", experimentWith("3600"))).exitCode, 0);
 }
 
 // A hundred and sixty times round a torus, and a mass that swings a thousand times on its way: each took many seconds, or gigabytes.
-TEST(Bounds, OfWhatAPredictionMayCost) {
-  const TemporaryFolder folder;
+TEST_F(Bounds, OfWhatAPredictionMayCost) {
   const auto file = [&](const std::string& constraint, const std::string& stiffness, const std::string& task) {
-    return folder.write("far.json", R"({"schema_version":1,"constraint":)" + constraint +
-                                        R"(,"object":{"kind":"chain","masses_kg":[1,0.01],"stiffness_n_per_m":[)" + stiffness +
-                                        R"(]},"coupling":{"stiffness_n_per_m":600},"task":{)" + task +
-                                        R"(,"duration_s":1.5,"tolerance":{"position_m":0.01,"velocity_m_per_s":0.01,"time_s":0.5}}})");
+    return folder_.write("far.json", R"({"schema_version":1,"constraint":)" + constraint +
+                                         R"(,"object":{"kind":"chain","masses_kg":[1,0.01],"stiffness_n_per_m":[)" + stiffness +
+                                         R"(]},"coupling":{"stiffness_n_per_m":600},"task":{)" + task +
+                                         R"(,"duration_s":1.5,"tolerance":{"position_m":0.01,"velocity_m_per_s":0.01,"time_s":0.5}}})");
   };
   std::string torus = contentOf(std::string(REACHLAB_SOURCE_DIR) + "/resources/experiments/torus.json");
   const std::size_t target = torus.find("\"target\": [") + 11;
   torus.replace(target, torus.find(',', target) - target, "1000");
   const std::string words[] = {"multiplications, which is what a prediction may cost", "numbers at once\nhelp: allowed"};
-  const std::string experiments[] = {folder.write("round.json", torus),
+  const std::string experiments[] = {folder_.write("round.json", torus),
                                      file(R"({"name":"ellipse"})", "1e5", R"("start":[0.2],"target":[3])")};
   for (int i = 0; i < 2; ++i) {
     EXPECT_TRUE(says(reach("predict " + experiments[i] + " --criterion min-hand-jerk"), 4, words[i]));
@@ -60,31 +59,28 @@ TEST(Bounds, OfWhatAPredictionMayCost) {
   EXPECT_TRUE(says(reach("predict dingwell --criterion min-torque-change --unknowns 2000000000"), 4, words[1]));
 }
 
-TEST(Bounds, OfAReplayedReach) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write("far.csv", kReach + "1000000,0.1,0,0\n");
-  EXPECT_TRUE(says(reach("run dingwell --fast --device replay:" + file + " --data " + (folder / "data").string()), 2, "at most 600 s"));
+TEST_F(Bounds, OfAReplayedReach) {
+  const std::string file = folder_.write("far.csv", kReach + "1000000,0.1,0,0\n");
+  EXPECT_TRUE(says(reach("run dingwell --fast --device replay:" + file + " --data " + data_), 2, "at most 600 s"));
 }
 
-TEST(Bounds, OfSeeds) {
-  const TemporaryFolder folder;
+TEST_F(Bounds, OfSeeds) {
   for (const char* seed : {"-1", "18446744073709551616", "1e3", "0x10", "1.5", "+1"}) {
     EXPECT_TRUE(
-        says(reach("run dingwell --device simulated --fast --data " + folder.path() + " --seed=" + seed), 2, "18446744073709551615"))
+        says(reach("run dingwell --device simulated --fast --data " + folder_.path() + " --seed=" + seed), 2, "18446744073709551615"))
         << seed;
   }
-  const Ended largest = reach("run dingwell --device simulated --fast --seed 18446744073709551615 --data " + folder.path());
+  const Ended largest = reach("run dingwell --device simulated --fast --seed 18446744073709551615 --data " + folder_.path());
   EXPECT_EQ(largest.exitCode, 0) << largest.err;
 }
 
-TEST(Bounds, AFileThatNeverEndsOrNeverBeginsIsRefused) {
-  const TemporaryFolder folder;
-  const std::string pipe = (folder / "pipe").string();
+TEST_F(Bounds, AFileThatNeverEndsOrNeverBeginsIsRefused) {
+  const std::string pipe = (folder_ / "pipe").string();
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   for (const std::string& file : {pipe, std::string("/dev/zero")}) {
     for (const std::string& command :
          std::vector<std::string>{"validate ", "simulate dingwell --hand ", "constraint check ", "export --format csv ", "replay ",
-                                  "recover ", "run dingwell --fast --data " + (folder / "data").string() + " --device replay:"}) {
+                                  "recover ", "run dingwell --fast --data " + data_ + " --device replay:"}) {
       const Ended ended = shell("timeout 60 \"$REACH\" " + command + file);
       EXPECT_TRUE(ended.exitCode == 2 || ended.exitCode == 3) << command << file << " " << ended.exitCode;
       EXPECT_NE(ended.err, "") << command << file;
@@ -93,16 +89,15 @@ TEST(Bounds, AFileThatNeverEndsOrNeverBeginsIsRefused) {
 }
 
 // Were the cost not in proportion to the size, two million numbers would take days, and the test its time-out.
-TEST(Bounds, ALargeFileIsReadInTimeInProportionToItsSize) {
-  const TemporaryFolder folder;
+TEST_F(Bounds, ALargeFileIsReadInTimeInProportionToItsSize) {
   std::string numbers = "{\"schema_version\": [", keys = "{";
   for (int i = 0; i < 2'000'000; ++i) numbers += i == 0 ? "1.25" : ",1.25";
   for (int i = 0; i < 500'000; ++i) keys += (i == 0 ? "\"k" : ",\n\"k") + std::to_string(i) + "\": 1";
-  EXPECT_TRUE(says(reach("validate " + folder.write("numbers.json", numbers + "]}")), 2, "schema_version: is an array"));
-  const Ended many = reach("validate " + folder.write("keys.json", keys + "}"));
+  EXPECT_TRUE(says(reach("validate " + folder_.write("numbers.json", numbers + "]}")), 2, "schema_version: is an array"));
+  const Ended many = reach("validate " + folder_.write("keys.json", keys + "}"));
   EXPECT_TRUE(says(many, 2, "more faults"));
   EXPECT_LT(many.err.size(), 200'000u) << "nobody reads half a million faults";
-  EXPECT_TRUE(says(reach("validate " + folder.write("large.json", "{\"a\": \"" + std::string(17'000'000, 'x') + "\"}")), 2,
+  EXPECT_TRUE(says(reach("validate " + folder_.write("large.json", "{\"a\": \"" + std::string(17'000'000, 'x') + "\"}")), 2,
                    "allowed: up to 16777216"));
 }
 

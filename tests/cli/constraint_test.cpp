@@ -7,7 +7,9 @@
 using namespace reachlab::test;
 using Json = nlohmann::json;
 
-TEST(ConstraintCommand, EvaluatesACurveWithItsDerivatives) {
+class ConstraintCommand : public InAFolder {};
+
+TEST_F(ConstraintCommand, EvaluatesACurveWithItsDerivatives) {
   const Ended ended = reach("constraint eval line --at 3.141592653589793 --json");
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   const Json json = Json::parse(ended.out);
@@ -16,7 +18,7 @@ TEST(ConstraintCommand, EvaluatesACurveWithItsDerivatives) {
   EXPECT_EQ(json.at("r_phiphi")[0].get<double>(), 0);
 }
 
-TEST(ConstraintCommand, ShowsEveryDefinition) {
+TEST_F(ConstraintCommand, ShowsEveryDefinition) {
   const Json rows = Json::parse(reach("list constraints --json").out);
   int curves = 0, surfaces = 0;
   for (const Json& row : rows) {
@@ -34,9 +36,8 @@ TEST(ConstraintCommand, ShowsEveryDefinition) {
   EXPECT_GE(surfaces, 20);
 }
 
-TEST(ConstraintCommand, PointsAtTheCharacterOfASyntaxFault) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write("bad.json", R"j({"schema_version": 1, "constraint": {"curve": ["cos(phi", "2", "3"]},
+TEST_F(ConstraintCommand, PointsAtTheCharacterOfASyntaxFault) {
+  const std::string file = folder_.write("bad.json", R"j({"schema_version": 1, "constraint": {"curve": ["cos(phi", "2", "3"]},
     "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600}})j");
   const Ended ended = reach("validate " + file);
   EXPECT_TRUE(says(ended, 2, "expected"));
@@ -44,13 +45,13 @@ TEST(ConstraintCommand, PointsAtTheCharacterOfASyntaxFault) {
 }
 
 // sin(10 u) sin(10 v) …: singular along 40 lines and between them at more points than are listed.
-TEST(ConstraintCommand, CheckTellsWhatItFoundAndWhereItStoppedLooking) {
-  const TemporaryFolder folder;
+TEST_F(ConstraintCommand, CheckTellsWhatItFoundAndWhereItStoppedLooking) {
   const auto check = [&](const std::string& name, const std::string& kind, const std::string& lines, const std::string& domain) {
     const std::string place = kind == "curve" ? "[0]" : "[0, 0]";
-    return reach("constraint check " + folder.write(name + ".json", R"({"schema_version": 1, "name": ")" + name + R"(", "kind": ")" + kind +
-                                                                        R"(", ")" + kind + "\": " + lines + R"(, "domain": )" + domain +
-                                                                        R"(, "start": )" + place + R"(, "target": )" + place + "}"));
+    return reach("constraint check " +
+                 folder_.write(name + ".json", R"({"schema_version": 1, "name": ")" + name + R"(", "kind": ")" + kind + R"(", ")" + kind +
+                                                   "\": " + lines + R"(, "domain": )" + domain + R"(, "start": )" + place +
+                                                   R"(, "target": )" + place + "}"));
   };
   const Ended many = check("many", "surface", R"j(["sin(10*u)*sin(10*v)/10", "sin(10*u)^2/10", "sin(10*v)^2/10"])j", "[[-3, 3], [-3, 3]]");
   EXPECT_EQ(many.exitCode, 0) << many.err;
@@ -68,20 +69,19 @@ TEST(ConstraintCommand, CheckTellsWhatItFoundAndWhereItStoppedLooking) {
   EXPECT_TRUE(says(check("hole", "curve", R"j(["1/(phi - 0.3)", "phi", "0"])j", "[0, 1]"), 2, "not finite at phi = 0.3"));
 }
 
-TEST(ConstraintCommand, RefusesTenThousandCharactersAndParentheses) {
-  const TemporaryFolder folder;
+TEST_F(ConstraintCommand, RefusesTenThousandCharactersAndParentheses) {
   const std::string open(10000, '('), close(10000, ')');
   std::string sum = "phi";
   while (sum.size() < 10000) sum += "+phi";
   for (const std::string& formula : {open + "phi" + close, open, sum, std::string(10000, '-') + "phi"}) {
     const Ended ended = reach("constraint check " +
-                              folder.write("long.json", R"({"schema_version": 1, "name": "long", "kind": "curve", "curve": [")" + formula +
-                                                            R"(", "phi", "0"], "domain": [0, 1], "start": [0], "target": [1]})"));
+                              folder_.write("long.json", R"({"schema_version": 1, "name": "long", "kind": "curve", "curve": [")" + formula +
+                                                             R"(", "phi", "0"], "domain": [0, 1], "start": [0], "target": [1]})"));
     EXPECT_TRUE(says(ended, 2, "allowed: 2000"));
   }
 }
 
-TEST(ConstraintCommand, CodeGivesEveryNumberThatItPromisesAValue) {
+TEST_F(ConstraintCommand, CodeGivesEveryNumberThatItPromisesAValue) {
   for (const char* name : {"ellipse", "torus"}) {
     const std::string code = reach(std::string("constraint code ") + name).out;
     const std::size_t first = code.find("  double "), last = code.find(';', first);
@@ -94,7 +94,7 @@ TEST(ConstraintCommand, CodeGivesEveryNumberThatItPromisesAValue) {
   }
 }
 
-TEST(ConstraintCommand, ShowsAPersonNoMoreDigitsThanAreMeant) {
+TEST_F(ConstraintCommand, ShowsAPersonNoMoreDigitsThanAreMeant) {
   const Ended shown = reach("constraint show ellipse");
   EXPECT_NE(shown.out.find("reach     from [0] to [3.14159]\n"), std::string::npos) << shown.out;
   EXPECT_NE(reach("constraint show ellipse --json").out.find("3.1415926535897931"), std::string::npos);

@@ -27,7 +27,9 @@ Json rowOf(const std::string& output, const std::string& name) {
   return nullptr;
 }
 
-TEST(Devices, ListSaysWhyAVendorsLibraryIsNotThereInTheLoadersWords) {
+class Devices : public InAFolder {};
+
+TEST_F(Devices, ListSaysWhyAVendorsLibraryIsNotThereInTheLoadersWords) {
   const Ended listed = reach("list devices --json", "LD_LIBRARY_PATH=");
   ASSERT_EQ(listed.exitCode, 0) << listed.err;
   const Json phantom = rowOf(listed.out, "phantom");
@@ -39,7 +41,7 @@ TEST(Devices, ListSaysWhyAVendorsLibraryIsNotThereInTheLoadersWords) {
       EXPECT_TRUE(row.contains(key)) << row["name"] << " " << key;
 }
 
-TEST(Devices, ListShowsWhatIsThereWithTheDevicesOwnLimits) {
+TEST_F(Devices, ListShowsWhatIsThereWithTheDevicesOwnLimits) {
   const Ended listed = reach("list devices --json", kFakes);
   ASSERT_EQ(listed.exitCode, 0) << listed.err;
   const Json phantom = rowOf(listed.out, "phantom");
@@ -49,20 +51,18 @@ TEST(Devices, ListShowsWhatIsThereWithTheDevicesOwnLimits) {
   EXPECT_EQ(rowOf(listed.out, "forcedimension:0")["present"], true);
 }
 
-TEST(Devices, ADeviceThatCannotBeHadIsExitThreeWithItsNameAndTheLoadersWords) {
-  const TemporaryFolder folder;
-  const Ended run = reach("run chain-slow --device phantom --data " + folder.path(), "LD_LIBRARY_PATH=");
+TEST_F(Devices, ADeviceThatCannotBeHadIsExitThreeWithItsNameAndTheLoadersWords) {
+  const Ended run = reach("run chain-slow --device phantom --data " + folder_.path(), "LD_LIBRARY_PATH=");
   EXPECT_TRUE(says(run, 3, "device phantom: libHD.so"));
-  EXPECT_TRUE(says(reach("run chain-slow --device phantom:Nowhere --data " + folder.path(), kFakes), 3, "phantom:Nowhere"));
+  EXPECT_TRUE(says(reach("run chain-slow --device phantom:Nowhere --data " + folder_.path(), kFakes), 3, "phantom:Nowhere"));
 }
 
-TEST(Devices, AnUnknownDeviceIsAWrongUse) {
-  const TemporaryFolder folder;
-  EXPECT_EQ(reach("run chain-slow --device theremin --data " + folder.path()).exitCode, 2);
-  EXPECT_EQ(reach("run chain-slow --device virtual:omni,colour=red --data " + folder.path()).exitCode, 2);
+TEST_F(Devices, AnUnknownDeviceIsAWrongUse) {
+  EXPECT_EQ(reach("run chain-slow --device theremin --data " + folder_.path()).exitCode, 2);
+  EXPECT_EQ(reach("run chain-slow --device virtual:omni,colour=red --data " + folder_.path()).exitCode, 2);
 }
 
-TEST(Devices, ValidateSaysBeforehandWhatADeviceCannotGive) {
+TEST_F(Devices, ValidateSaysBeforehandWhatADeviceCannotGive) {
   const Ended checked = reach("validate chain-fast --device virtual:omni");
   EXPECT_EQ(checked.exitCode, 0) << checked.err;
   EXPECT_NE(checked.out.find("warning  peak force: the reach needs "), std::string::npos) << checked.out;
@@ -73,7 +73,7 @@ TEST(Devices, ValidateSaysBeforehandWhatADeviceCannotGive) {
   EXPECT_GT(rows[0]["asked"], 3.3);
 }
 
-TEST(Devices, BothOfTwoHandsAreCheckedBeforehand) {
+TEST_F(Devices, BothOfTwoHandsAreCheckedBeforehand) {
   const std::string hands = "chain-two-hands --device \"virtual:highforce + virtual:omni,scale=0.5\"";
   const Ended checked = reach("validate " + hands);
   EXPECT_EQ(checked.exitCode, 0) << checked.err;
@@ -83,64 +83,59 @@ TEST(Devices, BothOfTwoHandsAreCheckedBeforehand) {
   const Json rows = Json::parse(reach("validate " + hands + " --json").out);
   EXPECT_EQ(rows.front()["hand"], 1);
   EXPECT_EQ(rows.back()["hand"], 2);
-  const TemporaryFolder folder;
-  const Ended run = reach("run " + hands + " --trials 1 --seed 1 --fast --data " + folder.path());
+  const Ended run = reach("run " + hands + " --trials 1 --seed 1 --fast --data " + folder_.path());
   EXPECT_NE(run.err.find("warning: hand 2: workspace"), std::string::npos) << run.err;
   EXPECT_EQ(run.err.find("warning: hand 1"), std::string::npos) << run.err;
 }
 
-TEST(Devices, RunWarnsOfADeviceThatIsTooWeakAndOfNoOther) {
-  const TemporaryFolder folder;
-  const std::string rest = " --trials 1 --seed 1 --fast --data " + folder.path();
+TEST_F(Devices, RunWarnsOfADeviceThatIsTooWeakAndOfNoOther) {
+  const std::string rest = " --trials 1 --seed 1 --fast --data " + folder_.path();
   EXPECT_TRUE(says(reach("run chain-fast --device virtual:omni" + rest), 0, "warning: peak force: "));
   const Ended strong = reach("run chain-slow --device virtual:premium15" + rest);
   EXPECT_EQ(strong.err.find("warning: "), std::string::npos) << strong.err;
 }
 
-TEST(Devices, AMappingIsKeptForDeviceAndSubjectAndRecordedWithTheRun) {
-  const TemporaryFolder folder;
-  const std::string rest = " --trials 1 --seed 1 --fast --data " + folder.path();
+TEST_F(Devices, AMappingIsKeptForDeviceAndSubjectAndRecordedWithTheRun) {
+  const std::string rest = " --trials 1 --seed 1 --fast --data " + folder_.path();
   EXPECT_EQ(reach("run chain-slow --device virtual:premium15 --subject 03 --save-mapping" + rest).exitCode, 2) << "there is none to keep";
   const Ended first = reach("run chain-slow --device virtual:premium15,scale=1.25,wall=yes --subject 03 --save-mapping" + rest);
   ASSERT_EQ(first.exitCode, 0) << first.err;
-  const Json kept = Json::parse(contentOf(folder / "sourcedata/mappings/sub-03_virtual-premium15.json"));
+  const Json kept = Json::parse(contentOf(folder_ / "sourcedata/mappings/sub-03_virtual-premium15.json"));
   EXPECT_EQ(kept["scale"], 1.25);
   const Ended again = reach("run chain-slow --device virtual:premium15 --subject 03" + rest);
   EXPECT_NE(again.err.find("mapping of "), std::string::npos) << again.err;
   const Ended other = reach("run chain-slow --device virtual:premium15 --subject 04" + rest);
   EXPECT_EQ(other.err.find("mapping of "), std::string::npos) << other.err;
-  const std::string name = folder.path() + "/sourcedata/sub-03_ses-01_task-chainslow_run-01_log.reach";
+  const std::string name = folder_.path() + "/sourcedata/sub-03_ses-01_task-chainslow_run-01_log.reach";
   const Ended replay = reach("replay " + name + " --check");
   EXPECT_EQ(replay.exitCode, 0) << replay.out << replay.err;
   const std::string log = contentOf(name);
   EXPECT_NE(log.find("port_energy_j"), std::string::npos);
   EXPECT_NE(log.find("\\\"scale\\\":1.25"), std::string::npos) << "the mapping is in the recording";
   EXPECT_NE(log.find("homed"), std::string::npos) << "and so are the device's states";
-  const std::string felt = contentOf(folder / "sourcedata/sub-04_ses-01_task-chainslow_run-01_log.reach");
+  const std::string felt = contentOf(folder_ / "sourcedata/sub-04_ses-01_task-chainslow_run-01_log.reach");
   EXPECT_NE(felt.find("engaged"), std::string::npos);
 }
 
-TEST(Devices, OfTwoHandsEachKeepsItsOwnMapping) {
-  const TemporaryFolder folder;
-  const std::string rest = " --subject 03 --trials 1 --seed 1 --fast --data " + folder.path();
+TEST_F(Devices, OfTwoHandsEachKeepsItsOwnMapping) {
+  const std::string rest = " --subject 03 --trials 1 --seed 1 --fast --data " + folder_.path();
   const Ended first =
       reach("run chain-two-hands --device \"virtual:premium15,scale=1.25 + virtual:omni,scale=0.5,mirror=x\" --save-mapping" + rest);
   ASSERT_EQ(first.exitCode, 0) << first.err;
-  EXPECT_EQ(Json::parse(contentOf(folder / "sourcedata/mappings/sub-03_virtual-premium15.json"))["scale"], 1.25);
-  EXPECT_EQ(Json::parse(contentOf(folder / "sourcedata/mappings/sub-03_virtual-omni.json"))["mirror_x"], true);
+  EXPECT_EQ(Json::parse(contentOf(folder_ / "sourcedata/mappings/sub-03_virtual-premium15.json"))["scale"], 1.25);
+  EXPECT_EQ(Json::parse(contentOf(folder_ / "sourcedata/mappings/sub-03_virtual-omni.json"))["mirror_x"], true);
   const Ended again = reach("run chain-two-hands --device virtual:premium15 --device virtual:omni" + rest);
   EXPECT_NE(again.err.find("sub-03_virtual-premium15.json"), std::string::npos) << again.err;
   EXPECT_NE(again.err.find("sub-03_virtual-omni.json"), std::string::npos) << again.err;
-  const std::string log = contentOf(folder.path() + "/sourcedata/sub-03_ses-01_task-chaintwohands_run-02_log.reach");
+  const std::string log = contentOf(folder_.path() + "/sourcedata/sub-03_ses-01_task-chaintwohands_run-02_log.reach");
   EXPECT_NE(log.find("\\\"scale\\\":1.25"), std::string::npos);
   EXPECT_NE(log.find("\\\"scale\\\":0.5"), std::string::npos);
 }
 
 // A scheduler that never calls, calls twice, or stands still for 30 ms each second: the run is done, or is given up in words.
-TEST(Devices, ASchedulerThatNeverCallsOrTwiceOrLateEndsInWords) {
+TEST_F(Devices, ASchedulerThatNeverCallsOrTwiceOrLateEndsInWords) {
   for (const char* fault : {"NEVER", "TWICE", "LATE"}) {
-    const TemporaryFolder folder;
-    const Ended run = reach("run chain-slow --device phantom --trials 1 --seed 1 --timing-check 0 --data " + folder.path(),
+    const Ended run = reach("run chain-slow --device phantom --trials 1 --seed 1 --timing-check 0 --data " + folder_.path(),
                             kFakes + " FAKE_HD_" + fault + "=1 timeout -s INT 30");
     EXPECT_TRUE(run.exitCode == 0 || run.exitCode == 3) << fault << ": " << run.exitCode << run.err;
     if (run.exitCode == 3) {
@@ -164,13 +159,12 @@ std::map<int, std::pair<double, double>> diaryOf(const std::filesystem::path& fi
   return felt;
 }
 
-TEST(Devices, TwoOmegasAreTwoHandsOfOneExperiment) {
-  const TemporaryFolder folder;
-  const std::string diary = folder / "diary";
-  const Ended run =
-      reachUndisturbed("run " + patient(folder, "chain-two-hands") +
-                           " --device \"forcedimension:0 + forcedimension:1\" --trials 1 --seed 1 --timing-check 0 --data " + folder.path(),
-                       kFakes + " FAKE_DHD_DEVICES=2 FAKE_DHD_ALONE=1 FAKE_DHD_DIARY=" + diary + " timeout -s INT 30");
+TEST_F(Devices, TwoOmegasAreTwoHandsOfOneExperiment) {
+  const std::string diary = folder_ / "diary";
+  const Ended run = reachUndisturbed("run " + patient(folder_, "chain-two-hands") +
+                                         " --device \"forcedimension:0 + forcedimension:1\" --trials 1 --seed 1 --timing-check 0 --data " +
+                                         folder_.path(),
+                                     kFakes + " FAKE_DHD_DEVICES=2 FAKE_DHD_ALONE=1 FAKE_DHD_DIARY=" + diary + " timeout -s INT 30");
   EXPECT_TRUE(run.exitCode == 0 || run.exitCode == 3) << run.exitCode << run.err;
   EXPECT_EQ(trialLines(run.out).size(), 1u) << run.out << run.err;
   const auto felt = diaryOf(diary);
@@ -189,20 +183,18 @@ void expectLost(const Ended& run, const std::string& device) {
   EXPECT_TRUE(run.err.find(device) != std::string::npos || isDisturbed(run)) << run.err;
 }
 
-TEST(Devices, APhantomLostInMidTrialInterruptsIt) {
-  const TemporaryFolder folder;
-  expectLost(reachUndisturbed(
-                 "run " + patient(folder, "chain-slow") + " --device phantom --trials 1 --seed 1 --timing-check 0 --data " + folder.path(),
-                 kFakes + " FAKE_HD_LOST_AFTER=2.2 timeout -s INT 30"),
+TEST_F(Devices, APhantomLostInMidTrialInterruptsIt) {
+  expectLost(reachUndisturbed("run " + patient(folder_, "chain-slow") + " --device phantom --trials 1 --seed 1 --timing-check 0 --data " +
+                                  folder_.path(),
+                              kFakes + " FAKE_HD_LOST_AFTER=2.2 timeout -s INT 30"),
              "PHANToM");
 }
 
-TEST(Devices, OneOfTwoOmegasLostInMidTrialInterruptsItAndTakesTheForceFromBoth) {
-  const TemporaryFolder folder;
-  const std::string diary = folder / "diary";
+TEST_F(Devices, OneOfTwoOmegasLostInMidTrialInterruptsItAndTakesTheForceFromBoth) {
+  const std::string diary = folder_ / "diary";
   expectLost(reachUndisturbed(
-                 "run " + patient(folder, "chain-two-hands") +
-                     " --device \"forcedimension:0 + forcedimension:1\" --trials 1 --seed 1 --timing-check 0 --data " + folder.path(),
+                 "run " + patient(folder_, "chain-two-hands") +
+                     " --device \"forcedimension:0 + forcedimension:1\" --trials 1 --seed 1 --timing-check 0 --data " + folder_.path(),
                  kFakes + " FAKE_DHD_DEVICES=2 FAKE_DHD_ALONE=1 FAKE_DHD_LOST_AFTER=2.2 FAKE_DHD_DIARY=" + diary + " timeout -s INT 30"),
              "device omega.3 4712 is lost");
   EXPECT_EQ(diaryOf(diary)[0].second, 0) << "the one that is still there";
@@ -214,21 +206,20 @@ Vec3 reachAgainAndAgain(double seconds) {
   return {t > 2.2 ? 0.1 - 0.2 * (t - 2.2) / 0.3 : -0.1 + 0.2 * s * s * s * (10 + s * (6 * s - 15)), 0, 0};
 }
 
-TEST(Devices, AnInverse3WhoseServiceEndsInMidTrialInterruptsIt) {
+TEST_F(Devices, AnInverse3WhoseServiceEndsInMidTrialInterruptsIt) {
   FakeHaply service;
   service.moveBy(reachAgainAndAgain);
   std::jthread ending([&](const std::stop_token& over) {
     while (!over.stop_requested() && !(service.largestForce() > 0)) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     service.end();
   });
-  const TemporaryFolder folder;
-  expectLost(reach("run " + patient(folder, "chain-slow") + " --device haply:port=" + std::to_string(service.port()) +
-                       " --trials 1 --seed 1 --timing-check 0 --data " + folder.path(),
+  expectLost(reach("run " + patient(folder_, "chain-slow") + " --device haply:port=" + std::to_string(service.port()) +
+                       " --trials 1 --seed 1 --timing-check 0 --data " + folder_.path(),
                    "timeout -s INT 30"),
              "Haply Inverse3");
 }
 
-TEST(Devices, BothClocksOfAPhantomAreMeasuredByOneCommand) {
+TEST_F(Devices, BothClocksOfAPhantomAreMeasuredByOneCommand) {
   const Ended measured = reach("latency --seconds 0.3 --json", kFakes);
   ASSERT_EQ(measured.exitCode, 0) << measured.err;
   const Json rows = Json::parse(measured.out);
@@ -240,7 +231,7 @@ TEST(Devices, BothClocksOfAPhantomAreMeasuredByOneCommand) {
   }
 }
 
-TEST(Devices, EstimatorsOfVelocityAreComparedByOneCommand) {
+TEST_F(Devices, EstimatorsOfVelocityAreComparedByOneCommand) {
   const Ended table = reach("velocity --json");
   ASSERT_EQ(table.exitCode, 0) << table.err;
   EXPECT_EQ(Json::parse(table.out).size(), 15u) << "five estimators on three resolutions";

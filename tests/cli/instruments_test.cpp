@@ -10,19 +10,20 @@
 using namespace reachlab;
 using namespace reachlab::test;
 
-TEST(Instruments, AreToldOfARunAndTheRecordingSaysWhen) {
+class Instruments : public InAFolder {};
+
+TEST_F(Instruments, AreToldOfARunAndTheRecordingSaysWhen) {
   int wire = -1, slave = -1;
   char name[128] = {};
   ASSERT_EQ(::openpty(&wire, &slave, name, nullptr, nullptr), 0);
   ::fcntl(wire, F_SETFL, O_NONBLOCK);
-  const TemporaryFolder folder;
-  const Ended ended = reach("run chain-fast --device simulated --trials 2 --seed 1 --timing-check 0 --data " + folder.path() +
+  const Ended ended = reach("run chain-fast --device simulated --trials 2 --seed 1 --timing-check 0 --data " + folder_.path() +
                             " --instrument byte:" + name);
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
   std::string bytes(16, '\0');
   bytes.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(wire, bytes.data(), bytes.size()))));
   EXPECT_TRUE(bytes.starts_with("\1\2")) << "go, onset";
-  const record::RunLog log = record::RunLog::open(record::findLogs(folder.path()).front());
+  const record::RunLog log = record::RunLog::open(record::findLogs(folder_.path()).front());
   EXPECT_EQ(log.configuration().instruments, std::string("byte:") + name);
   std::vector<record::RecordedEvent> sent;
   for (const record::RecordedEvent& event : log.events())
@@ -45,14 +46,12 @@ TEST(Instruments, AreToldOfARunAndTheRecordingSaysWhen) {
   ::close(slave);
 }
 
-TEST(Instruments, AreRefusedOnAVirtualClock) {
-  const TemporaryFolder folder;
-  EXPECT_TRUE(says(reach("run dingwell --device simulated --fast --data " + folder.path() + " --instrument lsl",
+TEST_F(Instruments, AreRefusedOnAVirtualClock) {
+  EXPECT_TRUE(says(reach("run dingwell --device simulated --fast --data " + folder_.path() + " --instrument lsl",
                          "LD_LIBRARY_PATH=" + (std::filesystem::path(REACHLAB_BINARY_DIR) / "tests/fakes").string()),
                    2, "there are instruments, which are on the real clock"));
 }
 
-TEST(Instruments, AMissingLibraryIsSaid) {
-  const TemporaryFolder folder;
-  EXPECT_TRUE(says(reach("run dingwell --device simulated --data " + folder.path() + " --instrument lsl"), 3, "liblsl.so"));
+TEST_F(Instruments, AMissingLibraryIsSaid) {
+  EXPECT_TRUE(says(reach("run dingwell --device simulated --data " + folder_.path() + " --instrument lsl"), 3, "liblsl.so"));
 }

@@ -79,16 +79,17 @@ std::vector<std::string> runArguments(const std::string& data, bool resume) {
   return arguments;
 }
 
-TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
-  const TemporaryFolder folder;
-  const std::string whole = folder / "whole";
+class Kill : public InAFolder {};
+
+TEST_F(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
+  const std::string whole = folder_ / "whole";
   ASSERT_EQ(runAndKill(runArguments(whole, false), -1).status, 0);
   const record::RunLog good = record::RunLog::open(session::recordedRuns({whole}).at(0).path);
   ASSERT_EQ(good.trials().size(), 30u);
 
   std::mt19937_64 random(6);
   for (int k = 0; k < killCount(); ++k) {
-    const std::string data = folder / ("kill" + std::to_string(k));
+    const std::string data = folder_ / ("kill" + std::to_string(k));
     const int after = static_cast<int>(random() % 30);
     const double moment = static_cast<double>(random() % 8000) * 1e-6;  // a trial takes a few milliseconds on the virtual clock
     const Ending killed = runAndKill(runArguments(data, false), moment, after);
@@ -140,11 +141,10 @@ TEST(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
   }
 }
 
-TEST(Kill, OfAnExportLeavesTheLogAsItWasAndNoHalfFile) {
-  const TemporaryFolder folder;
-  const std::string data = folder / "data", out = folder / "out";
-  ASSERT_EQ(runAndKill(runArguments(data, false), -1).status, 0);
-  const std::string log = session::recordedRuns({data}).at(0).path;
+TEST_F(Kill, OfAnExportLeavesTheLogAsItWasAndNoHalfFile) {
+  const std::string out = folder_ / "out";
+  ASSERT_EQ(runAndKill(runArguments(data_, false), -1).status, 0);
+  const std::string log = session::recordedRuns({data_}).at(0).path;
   const std::string bytes = record::readWholeFile(log);
   const std::vector<std::string> arguments{"export", log, "--format", "csv", "--out", out};
   const auto start = Clock::now();

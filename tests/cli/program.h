@@ -15,10 +15,11 @@
 #include <vector>
 
 #include "test_paths.h"
-#include "tests/temporary_folder.h"
+#include "tests/in_a_folder.h"
 
 namespace reachlab::test {
 
+using reachlab::InAFolder;
 using reachlab::TemporaryFolder;
 
 struct Ended {

@@ -18,11 +18,12 @@ namespace {
 
 int reach(const std::string& arguments) { return test::reach(arguments).exitCode; }
 
-TEST(Replay, OfEveryShippedExperimentIsBitIdentical) {
-  const TemporaryFolder folder;
+class Replay : public InAFolder {};
+
+TEST_F(Replay, OfEveryShippedExperimentIsBitIdentical) {
   for (const std::string& name : experiment::shippedExperiments()) {
     if (!experiment::readExperiment(name).task) continue;
-    const std::string data = folder / name;
+    const std::string data = folder_ / name;
     ASSERT_EQ(reach("run " + name + " --device replay:" REACHLAB_SOURCE_DIR "/resources/reaches --trials 3 --fast --data " + data), 0)
         << name;
     const std::string log = session::recordedRuns({data}).at(0).path;
@@ -33,18 +34,15 @@ TEST(Replay, OfEveryShippedExperimentIsBitIdentical) {
   }
 }
 
-TEST(Replay, OfSimulatedSubjectsAndOfRealTimeIsBitIdentical) {
-  const TemporaryFolder folder;
-  const std::string data = folder / "data";
-  ASSERT_EQ(reach("run chain-moderate --device simulated --trials 3 --seed 4 --fast --every-tick --data " + data), 0);
-  ASSERT_EQ(reach("run chain-fast --device simulated --trials 1 --seed 4 --data " + data), 0);
-  for (const session::RunOnDisk& run : session::recordedRuns({data})) EXPECT_EQ(reach("replay " + run.path + " --check"), 0) << run.path;
+TEST_F(Replay, OfSimulatedSubjectsAndOfRealTimeIsBitIdentical) {
+  ASSERT_EQ(reach("run chain-moderate --device simulated --trials 3 --seed 4 --fast --every-tick --data " + data_), 0);
+  ASSERT_EQ(reach("run chain-fast --device simulated --trials 1 --seed 4 --data " + data_), 0);
+  for (const session::RunOnDisk& run : session::recordedRuns({data_})) EXPECT_EQ(reach("replay " + run.path + " --check"), 0) << run.path;
 }
 
 // Years later, on another computer: the definition's file is gone, or says something else under the same name.
-TEST(Replay, NeedsNoFileOfTheConstraintThatAnExperimentNames) {
-  const TemporaryFolder folder;
-  const std::string data = folder / "data", definition = folder / "own-eight.json", experiment = folder / "eight.json";
+TEST_F(Replay, NeedsNoFileOfTheConstraintThatAnExperimentNames) {
+  const std::string definition = folder_ / "own-eight.json", experiment = folder_ / "eight.json";
   const auto write = [](const std::string& file, const std::string& text) { std::ofstream(file) << text; };
   const auto eight = [](const char* x) {
     return std::string(R"json({"schema_version": 1, "name": "own-eight", "kind": "curve", "curve": [")json") + x +
@@ -56,15 +54,15 @@ TEST(Replay, NeedsNoFileOfTheConstraintThatAnExperimentNames) {
       "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600, "damping_n_s_per_m": 5},
       "task": {"start": [0], "target": [1.5], "duration_s": 1.5, "tolerance": {"position_m": 0.012, "velocity_m_per_s": 0.012, "time_s": 1}}})");
   ::setenv("REACHLAB_CONSTRAINTS", std::filesystem::path(definition).parent_path().c_str(), 1);
-  ASSERT_EQ(reach("run " + experiment + " --device simulated --trials 2 --seed 4 --fast --data " + data), 0);
-  const std::string log = session::recordedRuns({data}).at(0).path;
+  ASSERT_EQ(reach("run " + experiment + " --device simulated --trials 2 --seed 4 --fast --data " + data_), 0);
+  const std::string log = session::recordedRuns({data_}).at(0).path;
   EXPECT_EQ(reach("replay " + log + " --check"), 0);
   write(definition, eight("0.9*w_m*cos(phi)"));
   EXPECT_EQ(reach("replay " + log + " --check"), 0) << "the file has changed";
   std::filesystem::remove(definition);
   EXPECT_EQ(reach("replay " + log + " --check"), 0) << "the file is gone";
-  EXPECT_EQ(reach("export " + data + " --format csv --out " + (folder / "tables").string()), 0);
-  EXPECT_EQ(reach("analyze " + data + " --out " + (folder / "analysis").string()), 0);
+  EXPECT_EQ(reach("export " + data_ + " --format csv --out " + (folder_ / "tables").string()), 0);
+  EXPECT_EQ(reach("analyze " + data_ + " --out " + (folder_ / "analysis").string()), 0);
   ::unsetenv("REACHLAB_CONSTRAINTS");
   const record::RunConfiguration recorded = record::RunLog::open(log).configuration();
   EXPECT_NE(recorded.definitionText.find("w_m*sin(phi)*cos(phi)"), std::string::npos);
@@ -74,11 +72,9 @@ TEST(Replay, NeedsNoFileOfTheConstraintThatAnExperimentNames) {
 }
 
 // What is gone cannot differ: without the note, a log that lost its end would count as a whole one.
-TEST(Replay, SaysOfALogThatWasCutShortThatItIsNotAllOfTheRun) {
-  const TemporaryFolder folder;
-  const std::string data = folder / "data";
-  ASSERT_EQ(reach("run dingwell --device simulated --trials 3 --seed 4 --fast --data " + data), 0);
-  const std::string log = session::recordedRuns({data}).at(0).path;
+TEST_F(Replay, SaysOfALogThatWasCutShortThatItIsNotAllOfTheRun) {
+  ASSERT_EQ(reach("run dingwell --device simulated --trials 3 --seed 4 --fast --data " + data_), 0);
+  const std::string log = session::recordedRuns({data_}).at(0).path;
   std::uint64_t beginOfLast = 0;
   {
     record::LogReader reader(log);
@@ -94,12 +90,11 @@ TEST(Replay, SaysOfALogThatWasCutShortThatItIsNotAllOfTheRun) {
 }
 
 // The same log with one number of one row changed, every record good in itself.
-TEST(Replay, NamesTheFirstStateThatDiffersAndExits1) {
-  const TemporaryFolder folder;
-  const std::string data = folder / "data", changed = folder / "changed_log.reach";
-  ASSERT_EQ(reach("run dingwell --device simulated --trials 2 --seed 4 --fast --data " + data), 0);
+TEST_F(Replay, NamesTheFirstStateThatDiffersAndExits1) {
+  const std::string changed = folder_ / "changed_log.reach";
+  ASSERT_EQ(reach("run dingwell --device simulated --trials 2 --seed 4 --fast --data " + data_), 0);
   int samples = 0;
-  record::copyLog(session::recordedRuns({data}).at(0).path, changed, [&](record::RecordType type, std::vector<std::uint8_t>& payload) {
+  record::copyLog(session::recordedRuns({data_}).at(0).path, changed, [&](record::RecordType type, std::vector<std::uint8_t>& payload) {
     if (type == record::RecordType::Samples && ++samples == 2) payload[payload.size() - 9] ^= 1;
     return true;
   });

@@ -20,7 +20,9 @@ const std::string kLineTask = R"(, "task": {"start": [0], "target": [6.283185307
 
 }  // namespace
 
-TEST(Simulate, RowsFollowTheContract) {
+class Simulate : public InAFolder {};
+
+TEST_F(Simulate, RowsFollowTheContract) {
   const Ended ended = reach("simulate chain-moderate --hand min-jerk --until 0.505 --every 0.1");
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   const Table table = parseCsv(ended.out);
@@ -37,21 +39,20 @@ TEST(Simulate, RowsFollowTheContract) {
   EXPECT_NEAR(table.at(6, "mass5_q1"), (table.at(6, "mass5_x_m") + 0.1) / 0.2 * 2 * kPi, 1e-12);
 }
 
-TEST(Simulate, ARowAtUntilIsNotWrittenTwice) {
+TEST_F(Simulate, ARowAtUntilIsNotWrittenTwice) {
   const Table table = parseCsv(reach("simulate chain-moderate --hand hold --until 0.3 --every 0.1").out);
   EXPECT_EQ(table.rows.size(), 4u);
 }
 
-TEST(Simulate, AMethodThatIsNoneIsRefusedWithThoseThatThereAre) {
+TEST_F(Simulate, AMethodThatIsNoneIsRefusedWithThoseThatThereAre) {
   const Ended ended = reach("simulate chain-fast --hand hold --until 0.1 --method euler");
   EXPECT_EQ(ended.exitCode, 2) << ended.out;
   for (const char* word : {"--method", "euler", "auto", "rk4", "exact", "abm", "adaptive", "stiff"})
     EXPECT_NE(ended.err.find(word), std::string::npos) << word << " in " << ended.err;
 }
 
-TEST(Simulate, AFallingPointFollowsTheClosedForm) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write("fall.json", onePoint(R"({"name": "free"})", R"(, "gravity_m_per_s2": [0, -9.81, 0])", ""));
+TEST_F(Simulate, AFallingPointFollowsTheClosedForm) {
+  const std::string file = folder_.write("fall.json", onePoint(R"({"name": "free"})", R"(, "gravity_m_per_s2": [0, -9.81, 0])", ""));
   const Ended ended = reach("simulate " + file + " --hand none --until 1 --at 0.1,0.2,0.3 --rate 1,0,0");
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   const Table table = parseCsv(ended.out);
@@ -62,9 +63,8 @@ TEST(Simulate, AFallingPointFollowsTheClosedForm) {
   EXPECT_EQ(table.at(last, "hand_x_m"), 0);
 }
 
-TEST(Simulate, ADampedSpringFollowsTheClosedForm) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write("spring.json", onePoint(R"({"name": "line", "shape": {"length_m": 0.2}})", "", kLineTask));
+TEST_F(Simulate, ADampedSpringFollowsTheClosedForm) {
+  const std::string file = folder_.write("spring.json", onePoint(R"({"name": "line", "shape": {"length_m": 0.2}})", "", kLineTask));
   // The hand holds at phi = 0 (x = -0.1); the mass starts 0.1 m to its right: m x'' + 5 x' + 600 x = 0.
   const Table table = parseCsv(reach("simulate " + file + " --hand hold --at 3.141592653589793 --until 2 --every 0.5").out);
   const double decay = 2.5, omega = std::sqrt(600 - decay * decay);
@@ -75,7 +75,7 @@ TEST(Simulate, ADampedSpringFollowsTheClosedForm) {
   }
 }
 
-TEST(Simulate, WritesTheSameBytesUnderAGermanLocale) {
+TEST_F(Simulate, WritesTheSameBytesUnderAGermanLocale) {
   const Ended plain = reach("simulate parallel --hand min-jerk --until 0.5");
   const Ended german = reach("simulate parallel --hand min-jerk --until 0.5", "LC_ALL=de_DE.UTF-8");
   EXPECT_EQ(plain.out, german.out);
@@ -83,8 +83,7 @@ TEST(Simulate, WritesTheSameBytesUnderAGermanLocale) {
 }
 
 // A cubic through not-a-knot samples is the cubic itself, so that its velocity is known everywhere, at the first and last instant too.
-TEST(Simulate, AHandsFileHasItsInnerVelocityAtBothEndsAndRestsBeyond) {
-  const TemporaryFolder folder;
+TEST_F(Simulate, AHandsFileHasItsInnerVelocityAtBothEndsAndRestsBeyond) {
   std::string csv = "time_s,x_m,y_m,z_m\n";
   const auto x = [](double t) { return 0.1 + 0.2 * t - 0.3 * t * t + 0.4 * t * t * t; };
   for (int i = 0; i <= 10; ++i) {
@@ -93,8 +92,8 @@ TEST(Simulate, AHandsFileHasItsInnerVelocityAtBothEndsAndRestsBeyond) {
     row << 0.1 * i << ',' << x(0.1 * i) << ",0,0\n";
     csv += row.str();
   }
-  const std::string hand = folder.write("hand.csv", csv);
-  const std::string file = folder.write("free.json", onePoint(R"({"name": "free"})", "", ""));
+  const std::string hand = folder_.write("hand.csv", csv);
+  const std::string file = folder_.write("free.json", onePoint(R"({"name": "free"})", "", ""));
   const auto forces = [&](const std::string& more) {
     return parseCsv(reach("simulate " + file + " --hand " + hand + " --until 1.2 --every 0.1 --at 0.1,0,0" + more).out);
   };
@@ -110,7 +109,7 @@ TEST(Simulate, AHandsFileHasItsInnerVelocityAtBothEndsAndRestsBeyond) {
     EXPECT_NEAR(table.at(row, "mass1_x_m"), fine.at(row, "mass1_x_m"), 1e-12) << row;
 }
 
-TEST(Simulate, AFreeBodyTurnsAsItWasLetGo) {
+TEST_F(Simulate, AFreeBodyTurnsAsItWasLetGo) {
   const Ended ended = reach("simulate free-body --hand none --angular-rate 0,0,0.5 --until 1 --every 1");
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   const Table table = parseCsv(ended.out);
@@ -123,20 +122,19 @@ TEST(Simulate, AFreeBodyTurnsAsItWasLetGo) {
   EXPECT_EQ(reach("simulate chain-slow --hand none --angular-rate 0,0,1").exitCode, 2);
 }
 
-TEST(Simulate, ATaskWhoseWayRoundingDecidesIsToldSo) {
-  const TemporaryFolder folder;
+TEST_F(Simulate, ATaskWhoseWayRoundingDecidesIsToldSo) {
   const std::string ellipse = R"j({"curve": ["0", "0.1*cos(phi)", "0.06*sin(phi)"]})j";
   const auto task = [](const std::string& from, const std::string& to) {
     return R"(, "task": {"start": [)" + from + R"(], "target": [)" + to +
            R"(], "duration_s": 1.35, "tolerance": {"position_m": 0.012, "velocity_m_per_s": 0.012, "time_s": 0.5}})";
   };
-  EXPECT_TRUE(says(reach("validate " + folder.write("tie.json", onePoint(ellipse, "", task("0", "3.141592653589793")))), 0,
+  EXPECT_TRUE(says(reach("validate " + folder_.write("tie.json", onePoint(ellipse, "", task("0", "3.141592653589793")))), 0,
                    "rounding decides which way"));
-  EXPECT_EQ(reach("validate " + folder.write("none.json", onePoint(ellipse, "", task("0.3", "3.4")))).err, "");
+  EXPECT_EQ(reach("validate " + folder_.write("none.json", onePoint(ellipse, "", task("0.3", "3.4")))).err, "");
   const Ended kink =
-      reach("validate " + folder.write("kink.json", onePoint(R"({"curve": ["phi/10", "abs(phi)/20", "0"]})", "", task("-1", "1"))));
+      reach("validate " + folder_.write("kink.json", onePoint(R"({"curve": ["phi/10", "abs(phi)/20", "0"]})", "", task("-1", "1"))));
   EXPECT_NE(kink.err.find("between start and target: kink at phi = 0: abs(phi) (passed"), std::string::npos) << kink.err;
   EXPECT_TRUE(
-      says(reach("validate " + folder.write("jump.json", onePoint(R"({"curve": ["phi/10", "sign(phi)/20", "0"]})", "", task("-1", "1")))),
+      says(reach("validate " + folder_.write("jump.json", onePoint(R"({"curve": ["phi/10", "sign(phi)/20", "0"]})", "", task("-1", "1")))),
            2, "jump at phi = 0: sign(phi)"));
 }

@@ -30,7 +30,9 @@ std::vector<std::string> commandsBelow(const std::string& command) {
 
 }  // namespace
 
-TEST(Usage, EveryCommandHasHelpOfOneForm) {
+class Usage : public InAFolder {};
+
+TEST_F(Usage, EveryCommandHasHelpOfOneForm) {
   EXPECT_EQ(reach("--version").exitCode, 0);
   const std::vector<std::string> commands = commandsBelow("");
   EXPECT_GE(commands.size(), 30u);
@@ -45,7 +47,7 @@ TEST(Usage, EveryCommandHasHelpOfOneForm) {
   }
 }
 
-TEST(Usage, HelpShowsTheCommandsInTheOrderOfTheWork) {
+TEST_F(Usage, HelpShowsTheCommandsInTheOrderOfTheWork) {
   const std::string help = reach("help").out;
   std::size_t last = 0;
   for (const char* line :
@@ -57,7 +59,7 @@ TEST(Usage, HelpShowsTheCommandsInTheOrderOfTheWork) {
   EXPECT_TRUE(says(reach("help simulat"), 2, "did you mean simulate?"));
 }
 
-TEST(Usage, WrongWordsEndWithTwoAndASentence) {
+TEST_F(Usage, WrongWordsEndWithTwoAndASentence) {
   for (const char* words :
        {"", "fly", "run", "run chain-moderate", "run nothing-like-it --device simulated", "simulate chain-moderate --hand fly",
         "predict chain-moderate --criterion min-effort", "list planets", "run chain-moderate --device teleport:x --fast",
@@ -72,10 +74,9 @@ TEST(Usage, WrongWordsEndWithTwoAndASentence) {
   }
 }
 
-TEST(Usage, MistakesAreAnsweredWithWhatWasMeant) {
-  const TemporaryFolder folder;
-  const std::string experiment = folder.write("mine.json", R"({"schema_version": 1, "object": {}})");
-  const std::string table = folder.write("plain", "");
+TEST_F(Usage, MistakesAreAnsweredWithWhatWasMeant) {
+  const std::string experiment = folder_.write("mine.json", R"({"schema_version": 1, "object": {}})");
+  const std::string table = folder_.write("plain", "");
   struct Mistake {
     std::string arguments, answer;
     int exitCode = 2;
@@ -96,7 +97,7 @@ TEST(Usage, MistakesAreAnsweredWithWhatWasMeant) {
         Mistake{"run dingwell --device virtual:omi",
                 "error: --device: is virtual:omi, which is no model\nhelp: allowed: virtual:MODEL with MODEL one of omni"},
         Mistake{"run dingwell --device polhem:/dev/none", "device polhem:/dev/none: /dev/none: No such file", 3},
-        Mistake{"run dingwell --device replay:/no-such.csv --fast --data " + (folder / "data").string(), "error: ", 3},
+        Mistake{"run dingwell --device replay:/no-such.csv --fast --data " + data_, "error: ", 3},
         Mistake{"predict chain-slow --criterion 1", "(1) min-hand-jerk, (2) min-torque-change"},
         Mistake{"constraint check " + experiment, "is an experiment file, no constraint definition\nhelp: `reach validate` checks it"},
         Mistake{"run dingwell --device simulated --fast --seed 1 --data " + table + "/data", "--data: ", 3}}) {
@@ -107,32 +108,30 @@ TEST(Usage, MistakesAreAnsweredWithWhatWasMeant) {
   }
 }
 
-TEST(Usage, PlansAndTheUsersOwnConstraintsAreListed) {
+TEST_F(Usage, PlansAndTheUsersOwnConstraintsAreListed) {
   EXPECT_NE(reach("list plans").out.find("paper                    6 blocks"), std::string::npos) << reach("list plans").out;
-  const TemporaryFolder folder;
-  folder.write("bow.json", R"json({"schema_version": 1, "name": "bow", "sentence": "A bow.", "kind": "curve",
+  folder_.write("bow.json", R"json({"schema_version": 1, "name": "bow", "sentence": "A bow.", "kind": "curve",
       "curve": ["phi", "phi^2", "0"], "domain": [-1, 1], "start": [0], "target": [0.5]})json");
-  ::setenv("REACHLAB_CONSTRAINTS", folder.path().c_str(), 1);
+  ::setenv("REACHLAB_CONSTRAINTS", folder_.path().c_str(), 1);
   const Ended listed = reach("list constraints"), whole = reach("constraint list");
   ::unsetenv("REACHLAB_CONSTRAINTS");
   EXPECT_NE(listed.out.find("bow "), std::string::npos) << listed.out << listed.err;
   EXPECT_NE(whole.out.find("bow "), std::string::npos) << whole.out;
 }
 
-TEST(Usage, RecoverGoesThroughAllItsLogs) {
-  const TemporaryFolder folder;
-  const std::string data = folder.path();
+TEST_F(Usage, RecoverGoesThroughAllItsLogs) {
+  const std::string data = folder_.path();
   for (int i = 0; i < 2; ++i) ASSERT_EQ(reach("run dingwell --device simulated --trials 1 --seed 1 --fast --data " + data).exitCode, 0);
   const Ended ended = reach("recover " + data + "/sourcedata/none.reach " + data + "/sourcedata/*_log.reach");
   EXPECT_EQ(ended.exitCode, 3) << "one of them is not there";
   EXPECT_NE(ended.out.find("run-01_log.reach: healthy, 1 trials"), std::string::npos) << ended.out;
   EXPECT_NE(ended.out.find("run-02_log.reach: healthy, 1 trials"), std::string::npos) << ended.out;
-  const Ended refused = reach("export " + data + " --format csv --out " + folder.write("file", "") + "/x");
+  const Ended refused = reach("export " + data + " --format csv --out " + folder_.write("file", "") + "/x");
   EXPECT_EQ(refused.exitCode, 3);
   EXPECT_TRUE(refused.err.starts_with("error: --out: ")) << refused.err;
 }
 
-TEST(Usage, EveryListHasNames) {
+TEST_F(Usage, EveryListHasNames) {
   for (const char* what : {"experiments", "constraints", "methods", "criteria", "devices"}) {
     const Ended ended = reach(std::string("list --json ") + what);
     ASSERT_EQ(ended.exitCode, 0) << what << ended.err;
@@ -149,11 +148,10 @@ std::string lineExperiment(const std::string& version, const std::string& target
          R"(, "tolerance": {"position_m": )" + tolerance + R"(, "velocity_m_per_s": 0.01, "time_s": 0.5}}})";
 }
 
-TEST(Usage, ValidateRefusesTheTaskThatARunRefuses) {
-  const TemporaryFolder folder;
-  const std::string file = folder.write("still.json", lineExperiment("1", "1", "0.01", "1", "1"));
+TEST_F(Usage, ValidateRefusesTheTaskThatARunRefuses) {
+  const std::string file = folder_.write("still.json", lineExperiment("1", "1", "0.01", "1", "1"));
   const Ended validated = reach("validate " + file);
-  const Ended run = reach("run " + file + " --device simulated --fast --seed 1 --data " + folder.path());
+  const Ended run = reach("run " + file + " --device simulated --fast --seed 1 --data " + folder_.path());
   EXPECT_EQ(validated.exitCode, 2);
   EXPECT_EQ(run.exitCode, 2);
   EXPECT_NE(validated.err.find("same position"), std::string::npos) << validated.err;
@@ -161,30 +159,28 @@ TEST(Usage, ValidateRefusesTheTaskThatARunRefuses) {
   EXPECT_EQ(reach("simulate " + file + " --hand hold --until 0.01").exitCode, 0) << "who only simulates needs no way";
 }
 
-TEST(Usage, ValidateWarnsOfNumbersThatAreHardlyMeant) {
-  const TemporaryFolder folder;
-  const Ended ended = reach("validate " + folder.write("odd.json", lineExperiment("1", "2", "0.5", "150", "90")));
+TEST_F(Usage, ValidateWarnsOfNumbersThatAreHardlyMeant) {
+  const Ended ended = reach("validate " + folder_.write("odd.json", lineExperiment("1", "2", "0.5", "150", "90")));
   EXPECT_EQ(ended.exitCode, 0) << ended.err;
   for (const char* part : {"masses_kg[0]: is 150 kg", "duration_s: is 90 s", "position_m: is 0.5 m"})
     EXPECT_NE(ended.err.find(part), std::string::npos) << part << "\n" << ended.err;
 }
 
-TEST(Usage, ValidateTakesNamesAndSaysWhatItExpects) {
-  const TemporaryFolder folder;
+TEST_F(Usage, ValidateTakesNamesAndSaysWhatItExpects) {
   for (const char* name : {"chain-moderate", "paper", "cardioid"}) {
     const Ended ended = reach(std::string("validate ") + name);
     EXPECT_EQ(ended.exitCode, 0) << ended.err;
     EXPECT_EQ(ended.err, "") << "nothing shipped is odd";
   }
-  for (const std::string& what : {folder.path(), folder.write("hand.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n")}) {
+  for (const std::string& what : {folder_.path(), folder_.write("hand.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n")}) {
     EXPECT_TRUE(says(reach("validate " + what), 2, "allowed: an experiment file, a constraint definition, a session plan or a study"));
   }
   EXPECT_NE(reach("validate chain-modrate").err.find("did you mean chain-moderate?"), std::string::npos);
-  const Ended old = reach("validate " + folder.write("old.json", lineExperiment("2", "2", "0.01", "1", "1")));
+  const Ended old = reach("validate " + folder_.write("old.json", lineExperiment("2", "2", "0.01", "1", "1")));
   EXPECT_NE(old.err.find("error: schema_version: is 2\n"), std::string::npos) << old.err;
 }
 
-TEST(Usage, ValidateAcceptsEveryShippedFile) {
+TEST_F(Usage, ValidateAcceptsEveryShippedFile) {
   const Ended ended = reach("validate " REACHLAB_SOURCE_DIR "/resources/experiments/*.json " REACHLAB_SOURCE_DIR
                             "/resources/plans/*.json " REACHLAB_SOURCE_DIR "/constraints/definitions/*.json");
   EXPECT_EQ(ended.exitCode, 0) << ended.err;

@@ -18,6 +18,7 @@
 #include <string>
 
 #include "base/fault.h"
+#include "tests/in_a_folder.h"
 #include "tests/record/made_run.h"
 #include "tests/refusal.h"
 
@@ -51,9 +52,10 @@ std::size_t countFiles(const std::string& folder) {
   return count;
 }
 
-TEST(AppendFile, GrowsByWhatIsAppendedInFoldersOfItsOwnMaking) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "one/two/a_log.reach";
+class AppendedFile : public InAFolder {};
+
+TEST_F(AppendedFile, GrowsByWhatIsAppendedInFoldersOfItsOwnMaking) {
+  const std::string path = folder_ / "one/two/a_log.reach";
   AppendFile file = AppendFile::create(path);
   EXPECT_EQ(file.size(), 0u);
   file.append(asBytes("abc"));
@@ -65,46 +67,40 @@ TEST(AppendFile, GrowsByWhatIsAppendedInFoldersOfItsOwnMaking) {
   EXPECT_EQ(readWholeFile(path), "abcdefgh");
 }
 
-TEST(AppendFile, NothingIsOverwritten) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  writeFileAtomically(path, "precious");
-  EXPECT_EQ(refusalOf([&] { AppendFile::create(path); }),
-            path + ": cannot be created: File exists; nothing is overwritten: choose another name");
-  EXPECT_EQ(readWholeFile(path), "precious");
+TEST_F(AppendedFile, NothingIsOverwritten) {
+  writeFileAtomically(log_, "precious");
+  EXPECT_EQ(refusalOf([&] { AppendFile::create(log_); }),
+            log_ + ": cannot be created: File exists; nothing is overwritten: choose another name");
+  EXPECT_EQ(readWholeFile(log_), "precious");
 }
 
-TEST(AppendFile, WhatIsThereIsCutToItsGoodPartAndGrowsOn) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  EXPECT_EQ(refusalOf([&] { AppendFile::openAt(path, 0); }),
-            path + ": cannot be opened for writing: No such file or directory; check the folder and its permissions");
-  writeFileAtomically(path, "good and bad");
-  AppendFile file = AppendFile::openAt(path, 4);
+TEST_F(AppendedFile, WhatIsThereIsCutToItsGoodPartAndGrowsOn) {
+  EXPECT_EQ(refusalOf([&] { AppendFile::openAt(log_, 0); }),
+            log_ + ": cannot be opened for writing: No such file or directory; check the folder and its permissions");
+  writeFileAtomically(log_, "good and bad");
+  AppendFile file = AppendFile::openAt(log_, 4);
   EXPECT_EQ(file.size(), 4u);
-  EXPECT_EQ(readWholeFile(path), "good");
+  EXPECT_EQ(readWholeFile(log_), "good");
   file.append(asBytes("ness"));
-  EXPECT_EQ(readWholeFile(path), "goodness");
+  EXPECT_EQ(readWholeFile(log_), "goodness");
 }
 
-TEST(AppendFile, WhatTheDiskTakesOnlyInPartIsTakenBack) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  AppendFile file = AppendFile::create(path);
+TEST_F(AppendedFile, WhatTheDiskTakesOnlyInPartIsTakenBack) {
+  AppendFile file = AppendFile::create(log_);
   file.append(asBytes(std::string(60, 'a')));
   {
     const FileLimit limit(100);
-    EXPECT_EQ(refusalOf([&] { file.append(asBytes(std::string(60, 'b'))); }), path + ": cannot be written: File too large; " + kTooLarge);
+    EXPECT_EQ(refusalOf([&] { file.append(asBytes(std::string(60, 'b'))); }), log_ + ": cannot be written: File too large; " + kTooLarge);
     EXPECT_EQ(file.size(), 60u);
-    EXPECT_EQ(std::filesystem::file_size(path), 60u);
+    EXPECT_EQ(std::filesystem::file_size(log_), 60u);
     EXPECT_NO_THROW(file.append(asBytes(std::string(40, 'c')))) << "what fits goes in";
   }
   file.append(asBytes("d"));
-  EXPECT_EQ(readWholeFile(path), std::string(60, 'a') + std::string(40, 'c') + "d");
+  EXPECT_EQ(readWholeFile(log_), std::string(60, 'a') + std::string(40, 'c') + "d");
 }
 
 // A file in memory that nothing makes shorter again.
-TEST(AppendFile, WhatCannotBeTakenBackIsKnownAndNothingIsWrittenBehindIt) {
+TEST_F(AppendedFile, WhatCannotBeTakenBackIsKnownAndNothingIsWrittenBehindIt) {
   const int memory = ::memfd_create("log", MFD_ALLOW_SEALING | MFD_CLOEXEC);
   ASSERT_GE(memory, 0);
   const std::string path = "/proc/self/fd/" + std::to_string(memory), good(60, 'a'), part(40, 'b');
@@ -122,56 +118,51 @@ TEST(AppendFile, WhatCannotBeTakenBackIsKnownAndNothingIsWrittenBehindIt) {
   ::close(memory);
 }
 
-TEST(AppendFile, OneThatIsMovedKeepsItsLockAndItsPlace) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach", other = folder / "b_log.reach";
+TEST_F(AppendedFile, OneThatIsMovedKeepsItsLockAndItsPlace) {
+  const std::string other = folder_ / "b_log.reach";
   {
-    AppendFile first = AppendFile::create(path);
+    AppendFile first = AppendFile::create(log_);
     first.append(asBytes("abc"));
     AppendFile second(std::move(first));
     EXPECT_EQ(second.size(), 3u);
-    EXPECT_TRUE(isBeingWritten(path));
+    EXPECT_TRUE(isBeingWritten(log_));
     AppendFile third = AppendFile::create(other);
     third = std::move(second);
-    EXPECT_EQ(third.path(), path);
+    EXPECT_EQ(third.path(), log_);
     EXPECT_EQ(third.size(), 3u);
     third.append(asBytes("d"));
     EXPECT_EQ(third.size(), 4u);
     EXPECT_NO_THROW(third.sync());
   }
-  EXPECT_EQ(readWholeFile(path), "abcd");
+  EXPECT_EQ(readWholeFile(log_), "abcd");
   EXPECT_EQ(readWholeFile(other), "");
-  EXPECT_FALSE(isBeingWritten(path));
+  EXPECT_FALSE(isBeingWritten(log_));
 }
 
-TEST(AppendFile, IsBeingWrittenAsLongAsItIsThere) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  EXPECT_FALSE(isBeingWritten(path)) << "there is none";
-  EXPECT_EQ(writerOf(path), "");
+TEST_F(AppendedFile, IsBeingWrittenAsLongAsItIsThere) {
+  EXPECT_FALSE(isBeingWritten(log_)) << "there is none";
+  EXPECT_EQ(writerOf(log_), "");
   {
-    const AppendFile file = AppendFile::create(path);
-    EXPECT_TRUE(isBeingWritten(path));
-    EXPECT_EQ(writerOf(path), " (process " + std::to_string(::getpid()) + ")");
-    EXPECT_EQ(writerOf(folder / ""), "") << "of another file";
-    EXPECT_NE(refusalOf([&] { AppendFile::openAt(path, 0); }).find("is being written by another program"), std::string::npos);
+    const AppendFile file = AppendFile::create(log_);
+    EXPECT_TRUE(isBeingWritten(log_));
+    EXPECT_EQ(writerOf(log_), " (process " + std::to_string(::getpid()) + ")");
+    EXPECT_EQ(writerOf(folder_ / ""), "") << "of another file";
+    EXPECT_NE(refusalOf([&] { AppendFile::openAt(log_, 0); }).find("is being written by another program"), std::string::npos);
   }
-  EXPECT_FALSE(isBeingWritten(path));
-  EXPECT_EQ(writerOf(path), "");
+  EXPECT_FALSE(isBeingWritten(log_));
+  EXPECT_EQ(writerOf(log_), "");
 }
 
-TEST(AppendFile, NoticesThatItIsNoLongerUnderItsName) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  const std::string words = path + ": is no longer there: its disk was taken away or it was deleted; put it back before the next run";
-  AppendFile file = AppendFile::create(path);
+TEST_F(AppendedFile, NoticesThatItIsNoLongerUnderItsName) {
+  const std::string words = log_ + ": is no longer there: its disk was taken away or it was deleted; put it back before the next run";
+  AppendFile file = AppendFile::create(log_);
   file.sync();
-  std::filesystem::rename(path, folder / "b_log.reach");
+  std::filesystem::rename(log_, folder_ / "b_log.reach");
   EXPECT_EQ(refusalOf([&] { file.sync(); }), words);
-  writeFileAtomically(path, "another file of the same name");
+  writeFileAtomically(log_, "another file of the same name");
   EXPECT_EQ(refusalOf([&] { file.sync(); }), words);
-  std::filesystem::remove(path);
-  std::filesystem::rename(folder / "b_log.reach", path);
+  std::filesystem::remove(log_);
+  std::filesystem::rename(folder_ / "b_log.reach", log_);
   EXPECT_NO_THROW(file.sync());
 }
 

@@ -15,6 +15,7 @@
 #include "sim/record/log/whole_file.h"
 #include "sim/record/recover.h"
 #include "sim/record/replay.h"
+#include "tests/in_a_folder.h"
 #include "tests/record/made_run.h"
 #include "tests/refusal.h"
 
@@ -41,49 +42,46 @@ void expectRefusal(const std::string& path, const std::string& key) {
   EXPECT_EQ(said.find("json.exception"), std::string::npos) << said;
 }
 
-TEST(HostileLog, AnEditedButHonestConfigurationIsRead) {
-  const TemporaryFolder folder;
-  EXPECT_EQ(RunLog::open(logWith(folder, [](json& j) { j["run"] = 7; })).configuration().run, 7);
+class HostileLog : public InAFolder {};
+
+TEST_F(HostileLog, AnEditedButHonestConfigurationIsRead) {
+  EXPECT_EQ(RunLog::open(logWith(folder_, [](json& j) { j["run"] = 7; })).configuration().run, 7);
 }
 
-TEST(HostileLog, LabelsAreLabelsBecauseTheyBecomeNamesOfFiles) {
-  const TemporaryFolder folder;
+TEST_F(HostileLog, LabelsAreLabelsBecauseTheyBecomeNamesOfFiles) {
   for (const char* key : {"subject", "session", "task"})
     for (const char* label : {"x/../../escaped", "", "..", "a b", "a\nb", "\x1b[31m", "/etc"})
-      expectRefusal(logWith(folder, [&](json& j) { j[key] = label; }), key);
-  expectRefusal(logWith(folder, [](json& j) { j["subject"] = std::string(300, 'a'); }), "subject");
+      expectRefusal(logWith(folder_, [&](json& j) { j[key] = label; }), key);
+  expectRefusal(logWith(folder_, [](json& j) { j["subject"] = std::string(300, 'a'); }), "subject");
 }
 
-TEST(HostileLog, EveryNumberIsWithinItsBounds) {
-  const TemporaryFolder folder;
+TEST_F(HostileLog, EveryNumberIsWithinItsBounds) {
   const json cases = json::parse(R"([["run", 0], ["run", -3], ["run", 100000], ["run", 1e300], ["run", 2.5], ["run", "1"], ["run", null],
     ["first_run", -1], ["first_trial", 0], ["first_trial", 5e9], ["block", -1], ["day", -1], ["pause_s", -1],
     ["seed", -1], ["seed", 1e30], ["sampling_hz", 0], ["sampling_hz", -1], ["device_max_force_n", -1],
     ["sample_every_ticks", 0], ["sample_every_ticks", 4294967297], ["practice", 1], ["notes", 3], ["trials", 7],
     ["participant", "F"]])");
-  for (const json& c : cases) expectRefusal(logWith(folder, [&](json& j) { j[c[0].get<std::string>()] = c[1]; }), c[0]);
-  expectRefusal(logWith(folder, [](json& j) { j["trials"] = {{{"index", -1}, {"foreperiod_ms", 0}, {"catch", false}}}; }), "index");
-  expectRefusal(logWith(folder, [](json& j) { j["table"] = 3; }), "table: is no object");
-  expectRefusal(logWith(folder, [](json& j) { j.erase("clock"); }), "clock: is missing");
+  for (const json& c : cases) expectRefusal(logWith(folder_, [&](json& j) { j[c[0].get<std::string>()] = c[1]; }), c[0]);
+  expectRefusal(logWith(folder_, [](json& j) { j["trials"] = {{{"index", -1}, {"foreperiod_ms", 0}, {"catch", false}}}; }), "index");
+  expectRefusal(logWith(folder_, [](json& j) { j["table"] = 3; }), "table: is no object");
+  expectRefusal(logWith(folder_, [](json& j) { j.erase("clock"); }), "clock: is missing");
 }
 
-TEST(HostileLog, TheTableHasTheChannelsThatItsCountsAskFor) {
-  const TemporaryFolder folder;
-  expectRefusal(logWith(folder, [](json& j) { j["table"]["mass_count"] = 2'000'000'000; }), "mass_count");
-  expectRefusal(logWith(folder, [](json& j) { j["table"]["mass_count"] = -1; }), "mass_count");
-  expectRefusal(logWith(folder, [](json& j) { j["table"]["mass_count"] = 3; }), "channels");
-  expectRefusal(logWith(folder, [](json& j) { j["table"]["parameter_count"] = 50; }), "parameter_count");
-  expectRefusal(logWith(folder, [](json& j) { j["table"]["parameter_count"] = 4; }), "parameter_count");
-  expectRefusal(logWith(folder, [](json& j) { j["table"]["parameter_count"] = 2; }), "channels");
-  expectRefusal(logWith(folder, [](json& j) { j["table"]["body"] = true; }), "channels");
-  expectRefusal(logWith(folder, [](json& j) { j["table"]["channels"] = json::array(); }), "channels");
-  expectRefusal(logWith(folder, [](json& j) { j["table"]["channels"][0]["name"] = 5; }), "name");
+TEST_F(HostileLog, TheTableHasTheChannelsThatItsCountsAskFor) {
+  expectRefusal(logWith(folder_, [](json& j) { j["table"]["mass_count"] = 2'000'000'000; }), "mass_count");
+  expectRefusal(logWith(folder_, [](json& j) { j["table"]["mass_count"] = -1; }), "mass_count");
+  expectRefusal(logWith(folder_, [](json& j) { j["table"]["mass_count"] = 3; }), "channels");
+  expectRefusal(logWith(folder_, [](json& j) { j["table"]["parameter_count"] = 50; }), "parameter_count");
+  expectRefusal(logWith(folder_, [](json& j) { j["table"]["parameter_count"] = 4; }), "parameter_count");
+  expectRefusal(logWith(folder_, [](json& j) { j["table"]["parameter_count"] = 2; }), "channels");
+  expectRefusal(logWith(folder_, [](json& j) { j["table"]["body"] = true; }), "channels");
+  expectRefusal(logWith(folder_, [](json& j) { j["table"]["channels"] = json::array(); }), "channels");
+  expectRefusal(logWith(folder_, [](json& j) { j["table"]["channels"][0]["name"] = 5; }), "name");
 }
 
-TEST(HostileLog, ATextThatIsNoJsonIsRefusedInWords) {
-  const TemporaryFolder folder;
+TEST_F(HostileLog, ATextThatIsNoJsonIsRefusedInWords) {
   for (const std::string text : {"", "[1]", "{\"run\": ", "\"run\"", "\xff\xfe"}) {
-    const std::string path = folder / "text_log.reach";
+    const std::string path = folder_ / "text_log.reach";
     std::filesystem::remove(path);
     LogWriter::create(path).append(RecordType::Configuration, asBytes(text));
     expectRefusal(path, "configuration");
@@ -100,50 +98,47 @@ std::string logWithRecord(const TemporaryFolder& folder, RecordType type, const 
   return path;
 }
 
-TEST(HostileLog, CountsOfSamplesThatOverflowTheirProductAreRefused) {
-  const TemporaryFolder folder;
+TEST_F(HostileLog, CountsOfSamplesThatOverflowTheirProductAreRefused) {
   const std::vector<std::pair<std::uint32_t, std::uint32_t>> cases{
       {0x80000000u, 0x1fffffffu}, {0xffffffffu, 0xffffffffu}, {1u << 31, (1u << 30) - 1}, {1, 0}, {0xffffffffu, 0}, {3, 46}};
   for (const auto& [count, columns] : cases) {
     ByteWriter payload;
     payload.put(count);
     payload.put(columns);
-    const RunLog log = RunLog::open(logWithRecord(folder, RecordType::Samples, payload));
+    const RunLog log = RunLog::open(logWithRecord(folder_, RecordType::Samples, payload));
     EXPECT_THROW(log.allRows(), FaultError) << count << " x " << columns;
   }
 }
 
-TEST(HostileLog, RecordsOfUnknownKindsOrLengthsAreRefused) {
-  const TemporaryFolder folder;
+TEST_F(HostileLog, RecordsOfUnknownKindsOrLengthsAreRefused) {
   ByteWriter trial;
   encode(RecordedTrial{}, {}, trial);
   for (const std::size_t outcomeAt : {std::size_t{13}, std::size_t{14}}) {  // outcome, reason: behind the trial's setup of 13 bytes
     ByteWriter bad;
     bad.putBytes(trial.bytes().data(), trial.size());
     bad.overwrite(outcomeAt, std::uint8_t{200});
-    EXPECT_THROW(RunLog::open(logWithRecord(folder, RecordType::Trial, bad)), FaultError);
+    EXPECT_THROW(RunLog::open(logWithRecord(folder_, RecordType::Trial, bad)), FaultError);
   }
   ByteWriter shorter;
   shorter.putBytes(trial.bytes().data(), trial.size() - 3);
-  EXPECT_THROW(RunLog::open(logWithRecord(folder, RecordType::Trial, shorter)), FaultError);
+  EXPECT_THROW(RunLog::open(logWithRecord(folder_, RecordType::Trial, shorter)), FaultError);
   RecordedTrial backwards;
   backwards.startTick = 100;
   backwards.lastTick = 5;
   ByteWriter bytes;
   encode(backwards, {}, bytes);
-  EXPECT_THROW(RunLog::open(logWithRecord(folder, RecordType::Trial, bytes)), FaultError);
+  EXPECT_THROW(RunLog::open(logWithRecord(folder_, RecordType::Trial, bytes)), FaultError);
   ByteWriter event;
   event.put(std::uint64_t{1});
   event.put(std::uint8_t{99});
   event.put(std::int32_t{1});
   event.put(0.0);
   event.putText("x");
-  EXPECT_THROW(RunLog::open(logWithRecord(folder, RecordType::Event, event)), FaultError);
+  EXPECT_THROW(RunLog::open(logWithRecord(folder_, RecordType::Event, event)), FaultError);
 }
 
-TEST(HostileLog, OneThatIsCutShortWhileItIsReadEndsEarly) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "cut_log.reach";
+TEST_F(HostileLog, OneThatIsCutShortWhileItIsReadEndsEarly) {
+  const std::string path = folder_ / "cut_log.reach";
   writeMadeRun(path, 40);
   const RunLog log = RunLog::open(path);
   LogReader reader(path);
@@ -155,9 +150,8 @@ TEST(HostileLog, OneThatIsCutShortWhileItIsReadEndsEarly) {
   EXPECT_THROW(log.allRows(), FaultError);
 }
 
-TEST(HostileLog, WhatIsNoRegularFileIsRefusedWithoutWaiting) {
-  const TemporaryFolder folder;
-  const std::string pipe = folder / "pipe_log.reach";
+TEST_F(HostileLog, WhatIsNoRegularFileIsRefusedWithoutWaiting) {
+  const std::string pipe = folder_ / "pipe_log.reach";
   ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
   EXPECT_THROW(RunLog::open(pipe), FaultError);
   EXPECT_THROW(RunLog::open("/dev/zero"), FaultError);

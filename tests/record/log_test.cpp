@@ -15,6 +15,7 @@
 #include "base/fault.h"
 #include "sim/record/log/atomic_file.h"
 #include "sim/record/log/whole_file.h"
+#include "tests/in_a_folder.h"
 #include "tests/record/made_run.h"
 #include "tests/refusal.h"
 
@@ -103,20 +104,20 @@ TEST(ByteReader, ReadsNothingMoreAfterItWasAskedForMoreThanThereIs) {
   EXPECT_TRUE(none.ok()) << "a text of no characters is one";
 }
 
-TEST(LogWriter, WritesHeaderAndRecordsByteByByteAsDocumented) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
+class WrittenLog : public InAFolder {};
+
+TEST_F(WrittenLog, WritesHeaderAndRecordsByteByByteAsDocumented) {
   {
-    LogWriter writer = LogWriter::create(path);
+    LogWriter writer = LogWriter::create(log_);
     EXPECT_EQ(writer.size(), 16u);
     EXPECT_EQ(writer.append(RecordType::Event, payloadOf(5)), 16u);
     EXPECT_EQ(writer.nextSequence(), 1u);
     EXPECT_EQ(writer.append(RecordType::PeerTicks, {}), 16u + 21);
     EXPECT_EQ(writer.nextSequence(), 2u);
     EXPECT_EQ(writer.size(), 16u + 21 + 16);
-    EXPECT_EQ(writer.path(), path);
+    EXPECT_EQ(writer.path(), log_);
   }
-  const std::string bytes = readWholeFile(path);
+  const std::string bytes = readWholeFile(log_);
   ASSERT_EQ(bytes.size(), 53u);
   EXPECT_EQ(bytes.substr(0, 8), "REACHLOG");
   EXPECT_EQ(numberAt<std::uint32_t>(bytes, 8), 2u);
@@ -133,31 +134,29 @@ TEST(LogWriter, WritesHeaderAndRecordsByteByByteAsDocumented) {
   EXPECT_EQ(numberAt<std::uint32_t>(bytes, 49), crcOf(bytes, 37, 12));
 }
 
-TEST(LogWriter, ARecordHolds64MiBAndNoByteMore) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  LogWriter writer = LogWriter::create(path);
+TEST_F(WrittenLog, ARecordHolds64MiBAndNoByteMore) {
+  LogWriter writer = LogWriter::create(log_);
   const Bytes most(64u << 20, 5);
   Bytes more = most;
   more.push_back(5);
   EXPECT_EQ(refusalOf([&] { writer.append(RecordType::Samples, more); }),
-            path + ": a record of 67108865 bytes; allowed: up to 67108864: plan fewer trials a run");
+            log_ + ": a record of 67108865 bytes; allowed: up to 67108864: plan fewer trials a run");
   EXPECT_EQ(writer.size(), 16u);
   writer.append(RecordType::Samples, most);
-  LogReader reader(path);
+  LogReader reader(log_);
   RecordView record;
   ASSERT_TRUE(reader.next(record));
   EXPECT_EQ(record.payload.size(), most.size());
 }
 
-TEST(LogReader, GivesEveryRecordWhereverTheWindowOntoTheFileEnds) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
+class ReadLog : public InAFolder {};
+
+TEST_F(ReadLog, GivesEveryRecordWhereverTheWindowOntoTheFileEnds) {
   std::vector<Bytes> payloads;
   for (std::size_t i = 0; i < 60; ++i)
     payloads.push_back(payloadOf(i * i * 97 % 5003 + (i == 40 ? 300'000 : 0), static_cast<std::uint8_t>(i)));
-  const auto offsets = writeLog(path, payloads);
-  LogReader reader(path);
+  const auto offsets = writeLog(log_, payloads);
+  LogReader reader(log_);
   const auto expectNext = [&](std::size_t i) {
     SCOPED_TRACE(i);
     RecordView record;
@@ -178,15 +177,13 @@ TEST(LogReader, GivesEveryRecordWhereverTheWindowOntoTheFileEnds) {
   EXPECT_FALSE(reader.next(none));
   for (std::size_t i = payloads.size(); i-- > 0;) expectAt(i);  // from the last to the first, as the chain of trials is read
   for (std::size_t i = 0; i < payloads.size(); ++i) expectAt(i * 23 % payloads.size());
-  EXPECT_EQ(reader.path(), path);
-  EXPECT_EQ(reader.fileSize(), std::filesystem::file_size(path));
+  EXPECT_EQ(reader.path(), log_);
+  EXPECT_EQ(reader.fileSize(), std::filesystem::file_size(log_));
 }
 
-TEST(LogReader, ARecordIsReadWhereOneOfItsTypeAndLengthLies) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  const auto offsets = writeLog(path, {payloadOf(10), payloadOf(20), payloadOf(0)});
-  LogReader reader(path);
+TEST_F(ReadLog, ARecordIsReadWhereOneOfItsTypeAndLengthLies) {
+  const auto offsets = writeLog(log_, {payloadOf(10), payloadOf(20), payloadOf(0)});
+  LogReader reader(log_);
   RecordView record;
   EXPECT_TRUE(reader.readAt(offsets[1], RecordType::Samples, 20, record));
   EXPECT_EQ(record.offset, offsets[1]);
@@ -196,15 +193,13 @@ TEST(LogReader, ARecordIsReadWhereOneOfItsTypeAndLengthLies) {
   EXPECT_FALSE(reader.readAt(offsets[1] + 1, RecordType::Samples, 20, record));
   EXPECT_TRUE(reader.readAt(offsets[2], RecordType::Ticks, 0, record)) << "the last one, of no payload";
   EXPECT_FALSE(reader.readAt(reader.fileSize() - 15, RecordType::Ticks, 0, record)) << "reaches beyond the end";
-  overwriteByte(path, offsets[1] + 6, 1);
-  EXPECT_FALSE(LogReader(path).readAt(offsets[1], RecordType::Samples, 20, record)) << "the two bytes behind the type are zero";
+  overwriteByte(log_, offsets[1] + 6, 1);
+  EXPECT_FALSE(LogReader(log_).readAt(offsets[1], RecordType::Samples, 20, record)) << "the two bytes behind the type are zero";
 }
 
-TEST(LogReader, EndsAtTheFirstRecordThatIsNotRight) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
+TEST_F(ReadLog, EndsAtTheFirstRecordThatIsNotRight) {
   const auto readable = [&] {
-    LogReader reader(path);
+    LogReader reader(log_);
     RecordView record;
     std::size_t count = 0;
     while (reader.next(record)) ++count;
@@ -218,22 +213,20 @@ TEST(LogReader, EndsAtTheFirstRecordThatIsNotRight) {
   };
   for (const Wrong& wrong :
        {Wrong{4, 0, 1}, {4, 1, 3}, {4, 9, 3}, {4, 10, 1}, {5, 1, 1}, {6, 1, 1}, {7, 1, 1}, {8, 0, 1}, {8, 2, 1}, {11, 1, 1}}) {
-    std::filesystem::remove(path);
-    const auto offsets = writeLog(path, {payloadOf(10), payloadOf(20), payloadOf(30)});
-    overwriteByte(path, offsets[1] + wrong.at, wrong.value);
+    std::filesystem::remove(log_);
+    const auto offsets = writeLog(log_, {payloadOf(10), payloadOf(20), payloadOf(30)});
+    overwriteByte(log_, offsets[1] + wrong.at, wrong.value);
     EXPECT_EQ(readable(), 1u) << "a wrong CRC";
-    sealRecord(path, offsets[1]);
+    sealRecord(log_, offsets[1]);
     EXPECT_EQ(readable(), wrong.good) << "byte " << wrong.at << " is " << int{wrong.value};
   }
 }
 
-TEST(LogReader, ALengthBeyondTheFileOrTheBoundIsTheEnd) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  const auto offsets = writeLog(path, {payloadOf(10), payloadOf(20)});
+TEST_F(ReadLog, ALengthBeyondTheFileOrTheBoundIsTheEnd) {
+  const auto offsets = writeLog(log_, {payloadOf(10), payloadOf(20)});
   for (const int highest : {1, 4, 5, 255}) {  // of four bytes: 16 MiB and more, 64 MiB and more, nearly 4 GiB
-    overwriteByte(path, offsets[1] + 3, static_cast<std::uint8_t>(highest));
-    LogReader reader(path);
+    overwriteByte(log_, offsets[1] + 3, static_cast<std::uint8_t>(highest));
+    LogReader reader(log_);
     RecordView record;
     EXPECT_TRUE(reader.next(record));
     EXPECT_FALSE(reader.next(record));
@@ -241,12 +234,11 @@ TEST(LogReader, ALengthBeyondTheFileOrTheBoundIsTheEnd) {
   }
 }
 
-TEST(LogReader, OneThatIsMovedReadsOn) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach", other = folder / "b_log.reach";
-  const auto offsets = writeLog(path, {payloadOf(10), payloadOf(20), payloadOf(30)});
+TEST_F(ReadLog, OneThatIsMovedReadsOn) {
+  const std::string other = folder_ / "b_log.reach";
+  const auto offsets = writeLog(log_, {payloadOf(10), payloadOf(20), payloadOf(30)});
   writeLog(other, {payloadOf(1)});
-  LogReader first(path);
+  LogReader first(log_);
   RecordView record;
   ASSERT_TRUE(first.next(record));
   LogReader second(std::move(first));
@@ -254,7 +246,7 @@ TEST(LogReader, OneThatIsMovedReadsOn) {
   EXPECT_EQ(record.payload.size(), 20u);
   LogReader third(other);
   third = std::move(second);
-  EXPECT_EQ(third.path(), path);
+  EXPECT_EQ(third.path(), log_);
   EXPECT_EQ(third.goodEnd(), offsets[2]);
   EXPECT_EQ(third.nextSequence(), 2u);
   ASSERT_TRUE(third.next(record));
@@ -262,25 +254,23 @@ TEST(LogReader, OneThatIsMovedReadsOn) {
   EXPECT_EQ(third.goodEnd(), third.fileSize());
 }
 
-TEST(LogReader, RefusesWhatIsNoLogInWords) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  const auto refusal = [&] { return refusalOf([&] { const LogReader reader(path); }, path + "opened").substr(path.size()); };
+TEST_F(ReadLog, RefusesWhatIsNoLogInWords) {
+  const auto refusal = [&] { return refusalOf([&] { const LogReader reader(log_); }, log_ + "opened").substr(log_.size()); };
   EXPECT_EQ(refusal(), ": cannot be opened: No such file or directory");
   const std::string damaged = ": not a log of reachlab, or its first 16 bytes are damaged";
-  writeFileAtomically(path, "");
+  writeFileAtomically(log_, "");
   EXPECT_EQ(refusal(), damaged);
-  writeFileAtomically(path, "REACHLOG");
+  writeFileAtomically(log_, "REACHLOG");
   EXPECT_EQ(refusal(), damaged);
-  std::filesystem::remove(path);
-  writeLog(path, {});
-  const std::string header = readWholeFile(path);
+  std::filesystem::remove(log_);
+  writeLog(log_, {});
+  const std::string header = readWholeFile(log_);
   ASSERT_EQ(header.size(), 16u);
   EXPECT_EQ(refusal(), "opened") << "a log of no record";
   for (std::size_t at = 0; at < header.size(); ++at) {
     std::string other = header;
     other[at] = static_cast<char>(other[at] ^ 1);
-    writeFileAtomically(path, other);
+    writeFileAtomically(log_, other);
     EXPECT_EQ(refusal(), damaged) << "byte " << at;
   }
   for (const int version : {1, 3}) {
@@ -288,11 +278,11 @@ TEST(LogReader, RefusesWhatIsNoLogInWords) {
     other[8] = static_cast<char>(version);
     const std::uint32_t crc = crcOf(other, 0, 12);
     std::memcpy(other.data() + 12, &crc, 4);
-    writeFileAtomically(path, other);
+    writeFileAtomically(log_, other);
     EXPECT_EQ(refusal(), ": log of schema version " + std::to_string(version) + "; allowed: 2, the version that this program reads");
   }
-  std::filesystem::remove(path);
-  std::filesystem::create_directory(path);
+  std::filesystem::remove(log_);
+  std::filesystem::create_directory(log_);
   EXPECT_EQ(refusal(), ": no regular file, so no log of reachlab");
 }
 

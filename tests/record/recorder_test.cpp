@@ -12,21 +12,22 @@
 #include "base/error.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/log/records.h"
+#include "tests/in_a_folder.h"
 #include "tests/record/made_run.h"
 
 namespace reachlab::record {
 namespace {
 
+class Recording : public InAFolder {};
+
 // One thread pushes as the haptic thread does, the recorder's writes: nothing is lost, torn or out of order. Run under TSan as
 // well.
-TEST(Recorder, KeepsEveryTickThatAnotherThreadPushes) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
+TEST_F(Recording, KeepsEveryTickThatAnotherThreadPushes) {
   RunConfiguration configuration = madeConfiguration();
   configuration.sampleEveryTicks = 1;
   constexpr std::uint64_t kTicks = 20 * MadeRun::kTicksPerTrial;
   {
-    Recorder recorder(path, configuration);
+    Recorder recorder(log_, configuration);
     std::jthread haptic([&] {
       MadeRun run;
       for (std::uint64_t tick = 0; tick < kTicks; ++tick) {
@@ -40,7 +41,7 @@ TEST(Recorder, KeepsEveryTickThatAnotherThreadPushes) {
     EXPECT_EQ(recorder.fault(), "");
     EXPECT_GT(recorder.processorSeconds(), 0);
   }
-  const RunLog log = RunLog::open(path);
+  const RunLog log = RunLog::open(log_);
   EXPECT_EQ(log.trials().size(), 20u);
   const SampleRows rows = log.allRows();
   ASSERT_EQ(rows.size(), kTicks);
@@ -52,23 +53,21 @@ TEST(Recorder, KeepsEveryTickThatAnotherThreadPushes) {
   EXPECT_EQ(log.ticks().size(), kTicks);
 }
 
-TEST(Recorder, SaysWhenItsQueueIsFullInsteadOfWaiting) {
-  const TemporaryFolder folder;
-  Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = true, .queueTicks = 8});
+TEST_F(Recording, SaysWhenItsQueueIsFullInsteadOfWaiting) {
+  Recorder recorder(log_, madeConfiguration(), {.threaded = true, .queueTicks = 8});
   MadeRun run;
   std::uint64_t lost = 0;
   for (int tick = 0; tick < 20000; ++tick) lost += !recorder.onTick(run.next(), trial::Command::None, 0);
   recorder.close();
   EXPECT_GT(lost, 0u);
-  EXPECT_EQ(RunLog::open(folder / "a_log.reach").ticks().size() + lost, 20000u);
+  EXPECT_EQ(RunLog::open(log_).ticks().size() + lost, 20000u);
 }
 
-TEST(Recorder, GoesOnCountingTrialsInAResumedBlock) {
-  const TemporaryFolder folder;
+TEST_F(Recording, GoesOnCountingTrialsInAResumedBlock) {
   RunConfiguration configuration = madeConfiguration();
   configuration.firstTrial = 8;
-  writeMadeRun(folder / "a_log.reach", 2, configuration);
-  const RunLog log = RunLog::open(folder / "a_log.reach");
+  writeMadeRun(log_, 2, configuration);
+  const RunLog log = RunLog::open(log_);
   EXPECT_EQ(log.trials()[0].trial, 8);
   EXPECT_EQ(log.trials()[1].trial, 9);
   EXPECT_EQ(log.trials()[1].planned.index, 1) << "announced by the engine's count";
@@ -77,9 +76,8 @@ TEST(Recorder, GoesOnCountingTrialsInAResumedBlock) {
   for (std::size_t row = 0; row < rows.size(); ++row) EXPECT_EQ(rows.at(row, column), 9);
 }
 
-TEST(Recorder, ATrialThatNobodyAnnouncedHasThePlaceOfItsNumber) {
-  const TemporaryFolder folder;
-  MadeRecording recording(folder / "a_log.reach");
+TEST_F(Recording, ATrialThatNobodyAnnouncedHasThePlaceOfItsNumber) {
+  MadeRecording recording(log_);
   recording.until(2 * MadeRun::kTicksPerTrial);
   const RunLog log = recording.closed();
   ASSERT_EQ(log.trials().size(), 2u);
@@ -87,8 +85,7 @@ TEST(Recorder, ATrialThatNobodyAnnouncedHasThePlaceOfItsNumber) {
 }
 
 // Two further hands, over several blocks of a thousand ticks.
-TEST(Recorder, KeepsEveryHandsRawSamples) {
-  const TemporaryFolder folder;
+TEST_F(Recording, KeepsEveryHandsRawSamples) {
   RunConfiguration configuration = madeConfiguration();
   experiment::Experiment scene;
   scene.object.kind = experiment::ObjectKind::Chain;
@@ -100,7 +97,7 @@ TEST(Recorder, KeepsEveryHandsRawSamples) {
   const auto placeOf = [](std::uint64_t tick, std::size_t hand) {
     return Vec3{0.25 * static_cast<double>(tick / 3), 0, static_cast<double>(hand)};
   };
-  MadeRecording recording(folder / "a_log.reach", configuration);
+  MadeRecording recording(log_, configuration);
   recording.until(kTicks, [&](haptics::TickState& state) {
     state.handCount = 3;
     state.trial = 0, state.phase = trial::Phase::Idle;
@@ -120,16 +117,15 @@ TEST(Recorder, KeepsEveryHandsRawSamples) {
     }
   }
   std::size_t blocks = 0;
-  LogReader reader(folder / "a_log.reach");
+  LogReader reader(log_);
   for (RecordView record; reader.next(record);) blocks += record.type == RecordType::HandTicks;
   EXPECT_EQ(blocks, 2 * 3u) << "a block for each hand with every thousand ticks, and the rest";
 }
 
-TEST(Recorder, TimeIsCountedFromItsFirstTick) {
-  const TemporaryFolder folder;
+TEST_F(Recording, TimeIsCountedFromItsFirstTick) {
   RunConfiguration configuration = madeConfiguration();
   configuration.sampleEveryTicks = 4;
-  MadeRecording recording(folder / "a_log.reach", configuration);
+  MadeRecording recording(log_, configuration);
   EXPECT_EQ(recording.recorder.massesEvery(), 2u) << "for its rows and for a picture every hundredth of a second";
   recording.until(40, [](const haptics::TickState& state) { return state.tick >= 5; });
   const SampleRows rows = recording.closed().allRows();
@@ -139,13 +135,11 @@ TEST(Recorder, TimeIsCountedFromItsFirstTick) {
     EXPECT_DOUBLE_EQ(rows.at(row, 1), static_cast<double>(rows.ticks[row] - 5) * 1.000003e-3);
 }
 
-TEST(Recorder, TellsTheDiskOnceAndForAll) {
+TEST_F(Recording, TellsTheDiskOnceAndForAll) {
   for (const bool threaded : {false, true}) {
-    const TemporaryFolder folder;
-    const std::string path = folder / "a_log.reach";
-    Recorder recorder(path, madeConfiguration(), {.threaded = threaded});
+    Recorder recorder(log_, madeConfiguration(), {.threaded = threaded});
     EXPECT_EQ(recorder.fault(), "");
-    std::filesystem::remove(path);
+    std::filesystem::remove(log_);
     MadeRun run;
     for (std::uint64_t tick = 0; tick < MadeRun::kTicksPerTrial; ++tick)
       EXPECT_TRUE(recorder.onTick(run.next(), trial::Command::None, 0)) << "the hand goes on";
@@ -162,9 +156,8 @@ TEST(Recorder, TellsTheDiskOnceAndForAll) {
   }
 }
 
-TEST(Recorder, NotesAndEventsOfOthersStandWhereTheyCame) {
-  const TemporaryFolder folder;
-  MadeRecording recording(folder / "a_log.reach");
+TEST_F(Recording, NotesAndEventsOfOthersStandWhereTheyCame) {
+  MadeRecording recording(log_);
   Recorder& recorder = recording.recorder;
   recorder.note("before");
   recording.until(100);
@@ -184,12 +177,11 @@ TEST(Recorder, NotesAndEventsOfOthersStandWhereTheyCame) {
                        {0, 0, "before"}, {99, 1, "in the trial"}, {274, 0, "after"}, {77, 1, "lamp"}}));
 }
 
-TEST(Recorder, ARunThatIsClosedInATrialInterruptsIt) {
-  const TemporaryFolder folder;
-  MadeRecording recording(folder / "a_log.reach");
+TEST_F(Recording, ARunThatIsClosedInATrialInterruptsIt) {
+  MadeRecording recording(log_);
   recording.until(120);
   recording.recorder.close();
-  const RunLog log = RunLog::open(folder / "a_log.reach", LogCheck::Trials);
+  const RunLog log = RunLog::open(log_, LogCheck::Trials);
   EXPECT_TRUE(log.healthy());
   ASSERT_EQ(log.trials().size(), 1u);
   EXPECT_EQ(log.trials()[0].result.outcome, trial::Outcome::Interrupted);
@@ -197,9 +189,8 @@ TEST(Recorder, ARunThatIsClosedInATrialInterruptsIt) {
 }
 
 // A thousand ticks are a block, whatever the clock says; a trial begins one of its own.
-TEST(Recorder, OnAVirtualClockBlocksAreCutByTicksAlone) {
-  const TemporaryFolder folder;
-  MadeRecording recording(folder / "a_log.reach");
+TEST_F(Recording, OnAVirtualClockBlocksAreCutByTicksAlone) {
+  MadeRecording recording(log_);
   recording.until(3300, [](haptics::TickState& state) {
     state.trial = state.tick < 2300 ? 0 : 1;
     state.phase = state.tick < 2300 ? trial::Phase::Idle : trial::Phase::Waiting;
@@ -207,7 +198,7 @@ TEST(Recorder, OnAVirtualClockBlocksAreCutByTicksAlone) {
   });
   recording.recorder.close();
   std::vector<std::size_t> sizes;
-  LogReader reader(folder / "a_log.reach");
+  LogReader reader(log_);
   for (RecordView record; reader.next(record);) {
     if (record.type != RecordType::Ticks) continue;
     std::vector<RecordedTick> ticks;
@@ -217,12 +208,11 @@ TEST(Recorder, OnAVirtualClockBlocksAreCutByTicksAlone) {
   EXPECT_EQ(sizes, (std::vector<std::size_t>{1000, 1000, 300, 1000}));
 }
 
-TEST(Recorder, FurtherColumnsStandBehindTheScenes) {
+TEST_F(Recording, FurtherColumnsStandBehindTheScenes) {
   class Counted : public FurtherColumns {
    public:
     void fill(double* columns) const noexcept override { columns[0] = 12.5, columns[1] = -3; }
   };
-  const TemporaryFolder folder;
   const Counted further;
   RunConfiguration configuration = madeConfiguration();
   const std::size_t scene = configuration.table.size();
@@ -230,7 +220,7 @@ TEST(Recorder, FurtherColumnsStandBehindTheScenes) {
     configuration.table.channels.push_back(configuration.table.channels.back());
     configuration.table.channels.back().name = name;
   }
-  MadeRecording recording(folder / "a_log.reach", configuration, {.threaded = false, .further = &further});
+  MadeRecording recording(log_, configuration, {.threaded = false, .further = &further});
   recording.until(30);
   const SampleRows rows = recording.closed().allRows();
   ASSERT_EQ(rows.size(), 3u);

@@ -13,6 +13,7 @@
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/log/records.h"
+#include "tests/in_a_folder.h"
 #include "tests/record/made_run.h"
 #include "tests/refusal.h"
 
@@ -45,9 +46,10 @@ auto changeOf(std::size_t row, std::size_t column, std::size_t columns) {
   };
 }
 
-TEST(Replay, LooksAtEveryTickRowAndTrial) {
-  const TemporaryFolder folder;
-  const RunLog log = edited(folder, [](RecordType, Bytes&) { return true; });
+class Replayed : public InAFolder {};
+
+TEST_F(Replayed, LooksAtEveryTickRowAndTrial) {
+  const RunLog log = edited(folder_, [](RecordType, Bytes&) { return true; });
   const Replay replay = replayRun(log);
   EXPECT_TRUE(replay.identical());
   EXPECT_EQ(replay.ticks, log.ticks().size());
@@ -58,11 +60,10 @@ TEST(Replay, LooksAtEveryTickRowAndTrial) {
   for (std::size_t i = 0; i < replay.trials.size(); ++i) EXPECT_EQ(bytesOf(replay.trials[i]), bytesOf(log.trials()[i])) << "trial " << i;
 }
 
-TEST(Replay, OneNumberThatDiffersIsNamedWithItsTickAndChannel) {
-  const TemporaryFolder folder;
+TEST_F(Replayed, OneNumberThatDiffersIsNamedWithItsTickAndChannel) {
   const ChannelTable table = RunLog::open(kRecorded).configuration().table;
   for (const std::size_t column : {std::size_t{0}, table.indexOf("mass1_pos_x"), table.size() - 1}) {
-    const RunLog log = edited(folder, changeOf(3, column, table.size()));
+    const RunLog log = edited(folder_, changeOf(3, column, table.size()));
     const Replay replay = replayRun(log);
     EXPECT_FALSE(replay.identical());
     EXPECT_EQ(replay.rowsThatDiffer, 1u);
@@ -70,15 +71,14 @@ TEST(Replay, OneNumberThatDiffersIsNamedWithItsTickAndChannel) {
     const std::string what = "tick " + std::to_string(log.allRows().ticks[3]) + ", " + table.channels[column].name + ": recorded ";
     EXPECT_EQ(replay.firstDifference.find(what), 0u) << replay.firstDifference;
   }
-  EXPECT_TRUE(replayRun(edited(folder, changeOf(3, table.indexOf("measured_time"), table.size()))).identical())
+  EXPECT_TRUE(replayRun(edited(folder_, changeOf(3, table.indexOf("measured_time"), table.size()))).identical())
       << "the computer's clock is not simulated";
 }
 
-TEST(Replay, ATrialThatDiffersInAnythingIsCounted) {
-  const TemporaryFolder folder;
+TEST_F(Replayed, ATrialThatDiffersInAnythingIsCounted) {
   const auto withSecond = [&](const std::function<void(trial::TrialResult&)>& change) {
     int trials = 0;
-    return replayRun(edited(folder, [&](RecordType type, Bytes& payload) {
+    return replayRun(edited(folder_, [&](RecordType type, Bytes& payload) {
       if (type != RecordType::Trial || ++trials != 2) return true;
       TrialLink link;
       RecordedTrial t = decodeTrial(payload, link);
@@ -109,11 +109,10 @@ TEST(Replay, ATrialThatDiffersInAnythingIsCounted) {
   EXPECT_EQ(broken.trialsThatDiffer, 0) << "what the program's end broke off has no result to compare";
 }
 
-TEST(Replay, StopsWhereATickIsMissing) {
-  const TemporaryFolder folder;
+TEST_F(Replayed, StopsWhereATickIsMissing) {
   int blocks = 0;
   std::uint64_t missing = 0;
-  const RunLog log = edited(folder, [&](RecordType type, Bytes& payload) {
+  const RunLog log = edited(folder_, [&](RecordType type, Bytes& payload) {
     if (type != RecordType::Ticks || ++blocks != 3) return true;
     std::vector<RecordedTick> ticks;
     decodeTicks(payload, ticks);
@@ -126,14 +125,12 @@ TEST(Replay, StopsWhereATickIsMissing) {
       log.path() + ": tick " + std::to_string(missing) + " is missing (dropped while recording), so the run cannot be simulated past it");
 }
 
-TEST(Replay, ATrialThatNobodyAnnouncedIsSimulatedAsAPlainOne) {
-  const TemporaryFolder folder;
-  const Replay replay = replayRun(edited(folder, [](RecordType type, Bytes&) { return type != RecordType::TrialSetup; }));
+TEST_F(Replayed, ATrialThatNobodyAnnouncedIsSimulatedAsAPlainOne) {
+  const Replay replay = replayRun(edited(folder_, [](RecordType type, Bytes&) { return type != RecordType::TrialSetup; }));
   EXPECT_EQ(replay.trials.size(), 2u);
 }
 
-TEST(Replay, ATableOfOtherMassesOrHandsIsRefused) {
-  const TemporaryFolder folder;
+TEST_F(Replayed, ATableOfOtherMassesOrHandsIsRefused) {
   const RunConfiguration recorded = RunLog::open(kRecorded).configuration();
   const auto refusalOf = [&](int masses, int parameters, int hands, bool body) {
     experiment::Experiment scene;
@@ -143,7 +140,7 @@ TEST(Replay, ATableOfOtherMassesOrHandsIsRefused) {
     RunConfiguration c = recorded;
     c.table = makeChannelTable(scene, parameters);
     c.otherHands.resize(static_cast<std::size_t>(hands - 1));
-    const std::string path = folder / "table_log.reach";
+    const std::string path = folder_ / "table_log.reach";
     std::filesystem::remove(path);
     LogWriter::create(path).append(RecordType::Configuration, asBytes(toJson(c)));
     return reachlab::refusalOf<FaultError>([&] { replayRun(RunLog::open(path)); }, path + "replayed").substr(path.size());

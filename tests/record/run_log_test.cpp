@@ -19,6 +19,7 @@
 #include "sim/record/log/atomic_file.h"
 #include "sim/record/log/whole_file.h"
 #include "sim/record/recover.h"
+#include "tests/in_a_folder.h"
 #include "tests/record/made_run.h"
 #include "tests/refusal.h"
 
@@ -27,11 +28,11 @@ namespace {
 
 void writeBytes(const std::string& path, const std::string& bytes) { std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes; }
 
-TEST(RunLog, GivesBackWhatWasRecorded) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  writeMadeRun(path, 3);
-  const RunLog log = RunLog::open(path);
+class RunLogs : public InAFolder {};
+
+TEST_F(RunLogs, GivesBackWhatWasRecorded) {
+  writeMadeRun(log_, 3);
+  const RunLog log = RunLog::open(log_);
   EXPECT_TRUE(log.healthy());
   EXPECT_EQ(log.configuration().seed, 18446744073709551615ull);
   ASSERT_EQ(log.trials().size(), 3u);
@@ -63,10 +64,9 @@ TEST(RunLog, GivesBackWhatWasRecorded) {
   }
 }
 
-TEST(RunLog, ListsTheSameTrialsByTheChainAsByReadingEverything) {
-  const TemporaryFolder folder;
+TEST_F(RunLogs, ListsTheSameTrialsByTheChainAsByReadingEverything) {
   for (const bool closed : {true, false}) {
-    const std::string path = folder / (closed ? "closed_log.reach" : "open_log.reach");
+    const std::string path = folder_ / (closed ? "closed_log.reach" : "open_log.reach");
     writeMadeRun(path, 12);
     if (!closed) {  // cut in the last trial, as a kill leaves it
       const RunLog whole = RunLog::open(path);
@@ -80,48 +80,44 @@ TEST(RunLog, ListsTheSameTrialsByTheChainAsByReadingEverything) {
   }
 }
 
-TEST(RecoverLog, LeavesAHealthyLogAlone) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  writeMadeRun(path, 2);
-  const std::string before = readWholeFile(path);
-  EXPECT_FALSE(recoverLog(path).mended);
-  EXPECT_EQ(readWholeFile(path), before);
-  EXPECT_FALSE(std::filesystem::exists(path + ".damaged"));
+class RecoverLog : public InAFolder {};
+
+TEST_F(RecoverLog, LeavesAHealthyLogAlone) {
+  writeMadeRun(log_, 2);
+  const std::string before = readWholeFile(log_);
+  EXPECT_FALSE(recoverLog(log_).mended);
+  EXPECT_EQ(readWholeFile(log_), before);
+  EXPECT_FALSE(std::filesystem::exists(log_ + ".damaged"));
 }
 
-TEST(RecoverLog, KeepsEverythingBeforeTheDamageAndEachOriginalUnderANameOfItsOwn) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
+TEST_F(RecoverLog, KeepsEverythingBeforeTheDamageAndEachOriginalUnderANameOfItsOwn) {
   for (const char* name : {".damaged", ".damaged-2", ".damaged-3"}) {
     SCOPED_TRACE(name);
-    std::filesystem::remove(path);
-    writeMadeRun(path, 4);
-    const RunLog whole = RunLog::open(path);
-    std::string bytes = readWholeFile(path);
+    std::filesystem::remove(log_);
+    writeMadeRun(log_, 4);
+    const RunLog whole = RunLog::open(log_);
+    std::string bytes = readWholeFile(log_);
     bytes[whole.trials()[2].offset + 500] ^= 1;
-    writeBytes(path, bytes);
-    const Recovery recovery = recoverLog(path);
+    writeBytes(log_, bytes);
+    const Recovery recovery = recoverLog(log_);
     EXPECT_TRUE(recovery.mended);
-    EXPECT_EQ(recovery.damagedOriginal, path + name);
-    EXPECT_EQ(readWholeFile(path + name), bytes);
-    const RunLog mended = RunLog::open(path);
+    EXPECT_EQ(recovery.damagedOriginal, log_ + name);
+    EXPECT_EQ(readWholeFile(log_ + name), bytes);
+    const RunLog mended = RunLog::open(log_);
     EXPECT_TRUE(mended.healthy());
     ASSERT_GE(mended.trials().size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(bytesOf(mended.trials()[i]), bytesOf(whole.trials()[i]));
-    EXPECT_FALSE(recoverLog(path).mended) << "a mended log is healthy";
+    EXPECT_FALSE(recoverLog(log_).mended) << "a mended log is healthy";
   }
 }
 
-TEST(RecoverLog, ClosesTheTrialThatWasUnderWayAndEndsTheLogInOrder) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  writeMadeRun(path, 3);
-  const RunLog whole = RunLog::open(path);
+TEST_F(RecoverLog, ClosesTheTrialThatWasUnderWayAndEndsTheLogInOrder) {
+  writeMadeRun(log_, 3);
+  const RunLog whole = RunLog::open(log_);
   const std::size_t rows = whole.rows(whole.trials()[2]).size();
-  cutInTheLastTrialsRecord(path);
-  const RunLog cut = RunLog::open(path);
-  const Recovery recovery = recoverLog(path);
+  cutInTheLastTrialsRecord(log_);
+  const RunLog cut = RunLog::open(log_);
+  const Recovery recovery = recoverLog(log_);
   EXPECT_TRUE(recovery.mended);
   EXPECT_EQ(recovery.trials, 3);
   EXPECT_TRUE(recovery.interruptedTrial);
@@ -129,7 +125,7 @@ TEST(RecoverLog, ClosesTheTrialThatWasUnderWayAndEndsTheLogInOrder) {
   EXPECT_EQ(recovery.lostBytes, cut.fileBytes() - cut.goodBytes());
   EXPECT_GT(recovery.lostBytes, 0u);
   for (const LogCheck check : {LogCheck::Everything, LogCheck::Trials}) {
-    const RunLog mended = RunLog::open(path, check);
+    const RunLog mended = RunLog::open(log_, check);
     EXPECT_TRUE(mended.closed());
     EXPECT_TRUE(mended.healthy());
     ASSERT_EQ(mended.trials().size(), 3u);
@@ -138,36 +134,31 @@ TEST(RecoverLog, ClosesTheTrialThatWasUnderWayAndEndsTheLogInOrder) {
     EXPECT_EQ(mended.trials()[2].startTick, whole.trials()[2].startTick);
     EXPECT_EQ(mended.rows(mended.trials()[2]).size(), rows);
   }
-  EXPECT_FALSE(std::filesystem::exists(path + ".mended"));
+  EXPECT_FALSE(std::filesystem::exists(log_ + ".mended"));
 }
 
-TEST(RecoverLog, WhatIsCutBetweenTwoTrialsHasNoneThatIsInterrupted) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  writeMadeRun(path, 2);
-  std::filesystem::resize_file(path, std::filesystem::file_size(path) - 1);
-  const Recovery recovery = recoverLog(path);
+TEST_F(RecoverLog, WhatIsCutBetweenTwoTrialsHasNoneThatIsInterrupted) {
+  writeMadeRun(log_, 2);
+  std::filesystem::resize_file(log_, std::filesystem::file_size(log_) - 1);
+  const Recovery recovery = recoverLog(log_);
   EXPECT_TRUE(recovery.mended);
   EXPECT_FALSE(recovery.interruptedTrial);
   EXPECT_EQ(recovery.trials, 2);
   EXPECT_EQ(recovery.lostBytes, 27u) << "of the closing record of 28 bytes";
-  EXPECT_TRUE(RunLog::open(path, LogCheck::Trials).healthy());
+  EXPECT_TRUE(RunLog::open(log_, LogCheck::Trials).healthy());
 }
 
-TEST(RecoverLog, RefusesALogWithoutItsConfiguration) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  writeMadeRun(path, 1);
-  std::string bytes = readWholeFile(path);
+TEST_F(RecoverLog, RefusesALogWithoutItsConfiguration) {
+  writeMadeRun(log_, 1);
+  std::string bytes = readWholeFile(log_);
   bytes[100] ^= 1;
-  writeBytes(path, bytes);
-  EXPECT_THROW(recoverLog(path), FaultError);
+  writeBytes(log_, bytes);
+  EXPECT_THROW(recoverLog(log_), FaultError);
 }
 
 // As an earlier program wrote them, which no reader took.
-TEST(RecoverLog, ShortensALabelThatFileNamesDoNotHold) {
-  const TemporaryFolder folder;
-  const std::string good = folder / "good_log.reach", path = folder / "a_log.reach";
+TEST_F(RecoverLog, ShortensALabelThatFileNamesDoNotHold) {
+  const std::string good = folder_ / "good_log.reach", path = log_;
   RunConfiguration configuration = madeConfiguration();
   configuration.task = std::string(60, 'a');
   writeMadeRun(good, 3, configuration);
@@ -193,10 +184,9 @@ TEST(Recorder, CreatesNothingThatNobodyCouldRead) {
   EXPECT_FALSE(std::filesystem::exists(folder / "a_log.reach"));
 }
 
-TEST(RecoverLog, RefusesALogThatIsBeingWritten) {
-  const TemporaryFolder folder;
-  Recorder recorder(folder / "a_log.reach", madeConfiguration(), {.threaded = false});
-  EXPECT_THROW(recoverLog(folder / "a_log.reach"), ResourceError);
+TEST_F(RecoverLog, RefusesALogThatIsBeingWritten) {
+  Recorder recorder(log_, madeConfiguration(), {.threaded = false});
+  EXPECT_THROW(recoverLog(log_), ResourceError);
 }
 
 // One seeded random damage: a flipped bit, a cut, a duplicated or a zero-filled stretch.
@@ -219,11 +209,10 @@ std::string damaged(const std::string& good, std::mt19937_64& random, std::size_
 }
 
 // Whatever happens to the bytes: no crash, no changed number, and every trial that was finished before the damage is there.
-TEST(RunLog, SurvivesTenThousandRandomDamagesWithoutOneWrongNumber) {
-  const TemporaryFolder folder;
+TEST_F(RunLogs, SurvivesTenThousandRandomDamagesWithoutOneWrongNumber) {
   RunConfiguration configuration = madeConfiguration(1);
   configuration.sampleEveryTicks = 50;
-  const std::string whole = folder / "whole_log.reach", hurt = folder / "hurt_log.reach";
+  const std::string whole = folder_ / "whole_log.reach", hurt = folder_ / "hurt_log.reach";
   writeMadeRun(whole, 5, configuration);
   const RunLog good = RunLog::open(whole);
   const std::string bytes = readWholeFile(whole);
@@ -264,11 +253,9 @@ TEST(RunLog, SurvivesTenThousandRandomDamagesWithoutOneWrongNumber) {
 }
 
 // Every reader of a part gives what is in the whole.
-TEST(RunLog, GivesTheRowsBetweenAnyTwoTicks) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  writeMadeRun(path, 4);
-  const RunLog log = RunLog::open(path);
+TEST_F(RunLogs, GivesTheRowsBetweenAnyTwoTicks) {
+  writeMadeRun(log_, 4);
+  const RunLog log = RunLog::open(log_);
   const SampleRows all = log.allRows();
   const auto end = 4 * MadeRun::kTicksPerTrial;
   for (const auto& [first, last] : std::vector<std::pair<std::uint64_t, std::uint64_t>>{
@@ -283,11 +270,9 @@ TEST(RunLog, GivesTheRowsBetweenAnyTwoTicks) {
   EXPECT_EQ(blocks, all.values);
 }
 
-TEST(RunLog, GivesSetupsAndEventsOfTheWholeRun) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
-  writeMadeRun(path, 6);
-  const std::vector<TrialSetup> setups = RunLog::open(path).setups();
+TEST_F(RunLogs, GivesSetupsAndEventsOfTheWholeRun) {
+  writeMadeRun(log_, 6);
+  const std::vector<TrialSetup> setups = RunLog::open(log_).setups();
   ASSERT_EQ(setups.size(), 6u);
   for (int i = 0; i < 6; ++i) {
     const TrialSetup& setup = setups[static_cast<std::size_t>(i)];
@@ -297,24 +282,22 @@ TEST(RunLog, GivesSetupsAndEventsOfTheWholeRun) {
     EXPECT_EQ(setup.planned.catchTrial, i == 4);
   }
   std::map<EventKind, int> kinds;
-  for (const RecordedEvent& event : RunLog::open(path).events()) ++kinds[event.kind];
+  for (const RecordedEvent& event : RunLog::open(log_).events()) ++kinds[event.kind];
   EXPECT_EQ(kinds[EventKind::TrialStart], 6);
   EXPECT_EQ(kinds[EventKind::Go], 5) << "but in the catch trial";
   EXPECT_EQ(kinds[EventKind::TrialEnd], 6);
 }
 
-TEST(RunLog, OfABrokenOffTrialKnowsWhatWasLoggedOfIt) {
-  const TemporaryFolder folder;
-  const std::string path = folder / "a_log.reach";
+TEST_F(RunLogs, OfABrokenOffTrialKnowsWhatWasLoggedOfIt) {
   {
-    MadeRecording recording(folder / "whole_log.reach");
+    MadeRecording recording(folder_ / "whole_log.reach");
     recording.recorder.announce(1, {4, 12, false});
     recording.until(150);
     recording.recorder.note("coffee spilt");  // hands everything to the kernel
-    std::filesystem::copy_file(folder / "whole_log.reach", path);
+    std::filesystem::copy_file(folder_ / "whole_log.reach", log_);
   }
   for (const LogCheck check : {LogCheck::Everything, LogCheck::Trials}) {
-    const RunLog log = RunLog::open(path, check);
+    const RunLog log = RunLog::open(log_, check);
     EXPECT_FALSE(log.closed());
     if (check == LogCheck::Everything) {
       EXPECT_FALSE(log.healthy());
