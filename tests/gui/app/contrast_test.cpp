@@ -62,10 +62,6 @@ TEST_P(Contrast, OfEveryWordIsEnough) {
     window_->resize(size);
     QTest::qWait(100);
     const QImage picture = window_->grab().toImage();
-    if (const QByteArray folder = qgetenv("REACHLAB_TEST_PICTURES"); !folder.isEmpty())
-      picture.save(QStringLiteral("%1/%2-%3.png")
-                       .arg(QString::fromLocal8Bit(folder), GetParam() == Theme::Light ? QStringLiteral("light") : QStringLiteral("dark"))
-                       .arg(size.width()));
     int seen = 0;
     for (const QWidget* widget : window_->findChildren<QWidget*>()) {
       const QString words = wordsOf(widget);

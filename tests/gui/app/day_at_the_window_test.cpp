@@ -6,10 +6,8 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDockWidget>
-#include <QFile>
 #include <QLabel>
 #include <QLineEdit>
-#include <QProcess>
 #include <QPushButton>
 #include <QRegularExpression>
 #include <QScrollArea>
@@ -18,6 +16,7 @@
 #include <QTest>
 #include <QToolButton>
 
+#include "analysis/analysis.h"
 #include "gui/app/main_window.h"
 #include "gui/session/remembered_session.h"
 #include "gui/app/screens.h"
@@ -29,6 +28,7 @@
 #include "gui/subject/subject_window.h"
 #include "sim/experiment/experiment.h"
 #include "test_paths.h"
+#include "tests/analysis/whole_dataset.h"
 #include "tests/gui/answer_box.h"
 #include "tests/gui/at_the_window.h"
 
@@ -190,9 +190,13 @@ TEST_F(Day, ClosingAsksWhileARunIsOpenOrAChangeUnsaved) {
     EXPECT_TRUE(box.asked());
   }
   EXPECT_NE(window.session().run(), nullptr);
+  const std::string log = window.session().run()->logPath();
   const AnswerBox box(QStringLiteral("End the run"));
   EXPECT_TRUE(window.close());
   EXPECT_EQ(window.session().run(), nullptr);
+  const record::RunLog read = record::RunLog::open(log);
+  EXPECT_EQ(read.trials().at(0).result.outcome, trial::Outcome::Interrupted);
+  EXPECT_TRUE(read.closed());
 }
 
 // What a widget needs to show its words in full.
@@ -382,28 +386,14 @@ TEST_F(Day, EpsilonOfTheRunIsTheAnalysissAndFailedTrialsStayOut) {
   ASSERT_GT(succeeded, 0);
   EXPECT_GT(failed, 0) << "the seed is to give both";
 
-  QProcess reach;
-  reach.start(QStringLiteral(REACH_PROGRAM), {QStringLiteral("analyze"), QString::fromStdString(request_.place.data)});
-  ASSERT_TRUE(reach.waitForFinished(120000));
-  ASSERT_EQ(reach.exitCode(), 0) << reach.readAllStandardError().toStdString();
-  QFile file(QString::fromStdString(request_.place.data) + QStringLiteral("/derivatives/reachlab/ranking.csv"));
-  ASSERT_TRUE(file.open(QIODevice::ReadOnly));
-  const QStringList heads = QString::fromUtf8(file.readLine()).trimmed().split(QLatin1Char(','));
-  const int signal = heads.indexOf(QStringLiteral("signal")), criterion = heads.indexOf(QStringLiteral("criterion")),
-            epsilon = heads.indexOf(QStringLiteral("epsilon_m_per_s"));
-  ASSERT_TRUE(signal >= 0 && criterion >= 0 && epsilon >= 0) << heads.join(QLatin1Char(' ')).toStdString();
-  int compared = 0;
-  while (!file.atEnd()) {
-    const QStringList cells = QString::fromUtf8(file.readLine()).trimmed().split(QLatin1Char(','));
-    if (cells.value(signal) != QStringLiteral("hand")) continue;
-    for (int i = 0; i < predict::kCriterionCount; ++i) {
-      const std::string_view name = predict::nameOf(static_cast<predict::Criterion>(i));
-      if (cells.value(criterion).toStdString() != name) continue;
-      EXPECT_EQ(shown.at(i).toStdString(), QString::number(cells.value(epsilon).toDouble(), 'f', 4).toStdString()) << name;
-      ++compared;
-    }
+  const analysis::Analysis analysed = analysis::analyzeTrials(analysis::openDataset(request_.place.data).input, {});
+  const analysis::ConditionResult& result = analysed.results.at(0);
+  for (const analysis::EpsilonPlace& place : result.handEpsilon) {
+    const predict::Criterion criterion = result.signals[place.criterion].criterion;
+    EXPECT_EQ(shown.at(static_cast<int>(criterion)).toStdString(), QString::number(place.epsilon, 'f', 4).toStdString())
+        << predict::nameOf(criterion);
   }
-  EXPECT_GE(compared, 3);
+  EXPECT_GE(result.handEpsilon.size(), 3u);
 }
 
 TEST_F(Day, WhatRestsIsNotDrawnAgain) {

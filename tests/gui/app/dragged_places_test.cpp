@@ -40,10 +40,6 @@ class DraggedPlaces : public AtTheWindow {
     const QPointF off = view().pixelOf(placeOn(window_->session().compiled().constraint(), q)) - from;
     return std::hypot(off.x(), off.y());
   }
-  void keepPicture(const QString& name) {
-    if (const QByteArray folder = qgetenv("REACHLAB_TEST_PICTURES"); !folder.isEmpty())
-      window_->grab().save(QString::fromLocal8Bit(folder) + QLatin1Char('/') + name);
-  }
 };
 
 constexpr double kNear = 1.5;  // pixels
@@ -64,7 +60,6 @@ TEST_F(DraggedPlaces, LieUnderThePointerOnEveryKindOfShape) {
     move(pixelOf(before), at);
     ASSERT_NE(task().target, before) << what << ": " << window_->message().toStdString();
     EXPECT_LE(apart(task().target, at), kNear) << what;
-    keepPicture(QStringLiteral("dragged-%1.png").arg(QLatin1String(what)));
     window_->edits().undo();
     EXPECT_EQ(task().target, before) << what;
     window_->edits().setClean();
@@ -83,7 +78,6 @@ TEST_F(DraggedPlaces, AreShownWhileTheyAreDraggedAndGoBackWithEscape) {
   EXPECT_EQ(task().target, target) << "not taken over yet";
   EXPECT_TRUE(find<scene::SceneOverlay>("")->label().startsWith(QStringLiteral("phi = 2.19")))
       << find<scene::SceneOverlay>("")->label().toStdString();
-  keepPicture(QStringLiteral("dragging.png"));
   QTest::keyClick(view().focusProxy(), Qt::Key_Escape);
   drop(at);
   EXPECT_EQ(task().target, target);
@@ -171,7 +165,6 @@ TEST_F(TypedPlaces, AreLengthsAlongTheCurve) {
   EXPECT_NEAR(lengthBetween(task().start[0], task().target[0]), 0.05, 1e-6);
   type("taskStart", QStringLiteral("0.15m"));
   EXPECT_NEAR(lengthBetween(task().start[0], task().target[0]), 0.15, 1e-6);
-  keepPicture(QStringLiteral("typed-places.png"));
   window_->edits().setClean();
 }
 
@@ -187,7 +180,6 @@ TEST_F(TypedPlaces, AFaultGoesWithItsCause) {
   begin("torus");
   type("taskTarget", QStringLiteral("abc"));
   EXPECT_TRUE(faults().contains(QStringLiteral("\"abc\" is no number"))) << faults().toStdString();
-  keepPicture(QStringLiteral("fault.png"));
   type("taskTarget", QStringLiteral("0.5 0.1"));
   EXPECT_EQ(faults(), QString()) << "mended";
   const std::vector<double> kept = task().target;

@@ -454,18 +454,5 @@ TEST_F(Window, ABadLabelOrAgeIsMarkedAtItsFieldAndStartingIsRefusedInTheSameWord
   EXPECT_NE(window.session().run()->logPath().find("sub-annab_ses-2"), std::string::npos);
 }
 
-TEST_F(Window, ClosedInATrialItKeepsTheTrialAsInterrupted) {
-  MainWindow& window = open();
-  window.nextTrial();
-  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
-  const std::string log = window.session().run()->logPath();
-  const AnswerBox box(QStringLiteral("End the run"));
-  window.close();
-  const record::RunLog read = record::RunLog::open(log);
-  ASSERT_EQ(read.trials().size(), 1u);
-  EXPECT_EQ(read.trials()[0].result.outcome, trial::Outcome::Interrupted);
-  EXPECT_TRUE(read.closed());
-}
-
 }  // namespace
 }  // namespace reachlab::gui::app

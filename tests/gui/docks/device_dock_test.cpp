@@ -126,8 +126,6 @@ TEST(DeviceDock, SaysWhatIsThereWhatIsNotAndWhy) {
   ASSERT_NE(subject, nullptr);
   EXPECT_EQ(subject->parent()->text(0), QStringLiteral("Hands without a device"));
   rows->setCurrentItem(phantom);
-  if (const QByteArray folder = qgetenv("REACHLAB_TEST_PICTURES"); !folder.isEmpty())
-    dock.grab().save(QString::fromLocal8Bit(folder) + QStringLiteral("/device-dock.png"));
 }
 
 }  // namespace

@@ -84,10 +84,6 @@ class Inspecting : public ::testing::Test {
     QTest::mouseClick(page_.view().viewport(), Qt::LeftButton, Qt::ShiftModifier, cell(last));
     settle();
   }
-  void keepPicture(const char* name) {
-    if (const QByteArray folder = qgetenv("REACHLAB_TEST_PICTURES"); !folder.isEmpty())
-      page_.grab().save(QString::fromLocal8Bit(folder + '/' + name));
-  }
   mutable InspectorPage page_;
   QString said_;
   static inline TemporaryFolder* folder_ = nullptr;
@@ -314,7 +310,6 @@ TEST_F(Inspecting, ADatasetWithoutLogsShowsItsMotionFiles) {
   QTest::mouseClick(find<QCheckBox>("flag"), Qt::LeftButton, {}, QPoint(8, 8));
   EXPECT_TRUE(said_.contains(QStringLiteral("Marks are kept beside a recording's log"))) << said_.toStdString();
   EXPECT_FALSE(find<QCheckBox>("flag")->isChecked());
-  keepPicture("inspector-exported.png");
 }
 
 TEST_F(Inspecting, ALogThatIsCutOffNamesWhatItLost) {
@@ -328,7 +323,6 @@ TEST_F(Inspecting, ALogThatIsCutOffNamesWhatItLost) {
   EXPECT_TRUE(said_.contains(QStringLiteral("Trial 7 broke off. The planned trials 8 to 24 are not in it."))) << said_.toStdString();
   EXPECT_TRUE(find<QLabel>("inspectorCount")->text().contains(QStringLiteral("1 with losses")));
   settle();
-  keepPicture("inspector-cut.png");
 }
 
 // At the size of a small laptop: every column shows its numbers, and what is under way has its room.
@@ -360,7 +354,6 @@ TEST_F(Inspecting, ColumnsAndProgressFit) {
     QTest::qWait(50);
     EXPECT_EQ(page_.size(), size);
     EXPECT_GE(progress->width(), QFontMetrics(progress->font()).horizontalAdvance(progress->text()) + 8) << progress->text().toStdString();
-    keepPicture(size.width() < 1500 ? "inspector-small.png" : "inspector-large.png");
     for (QWidget* button : page_.findChildren<QPushButton*>()) {
       if (button->isVisible()) {
         EXPECT_GE(button->width(), button->minimumSizeHint().width());
