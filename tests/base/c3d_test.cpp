@@ -173,8 +173,6 @@ TEST(C3dFile, RefusesInWordsWhatIsNoSuchFile) {
   EXPECT_EQ(refusalOf(good), "");
   EXPECT_EQ(refusalOf(""), "made.c3d: is no C3D file; allowed: a file that begins with the bytes of C3D");
   EXPECT_EQ(refusalOf(std::string(600, 'x')), "made.c3d: is no C3D file; allowed: a file that begins with the bytes of C3D");
-  EXPECT_NE(refusalOf(good.substr(0, 512)).find("ends before its parameters"), std::string::npos);
-  EXPECT_NE(refusalOf(good.substr(0, good.size() - 4096)).find("says 200 frames, and has "), std::string::npos);
   std::string processor = good;
   processor[512 + 3] = 7;
   EXPECT_EQ(refusalOf(processor), "made.c3d: is of processor type 7; allowed: 84 (Intel), 85 (DEC), 86 (MIPS)");

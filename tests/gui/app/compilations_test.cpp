@@ -11,44 +11,36 @@
 #include "gui/choosers/constraint_chooser.h"
 #include "gui/session/session_controller.h"
 #include "tests/constraints/count_compilations.h"
+#include "tests/gui/at_the_window.h"
 
 namespace reachlab::gui::app {
 namespace {
 
 const std::string kTyped = "0 | 0.1*cos(phi) | 0.06*sin(phi)";
 
-void type(QWidget& chooser, const char* field, const char* text) {
-  auto* line = chooser.findChild<QLineEdit*>(QLatin1String(field));
-  ASSERT_NE(line, nullptr) << field;
-  line->setFocus();
-  line->selectAll();
-  QTest::keyClicks(line, QLatin1String(text));
-}
+class Compilations : public AtTheWindow {};
 
 }  // namespace
 
-TEST(Compilations, OfATypedFormulaThatIsAcceptedAreOne) {
-  const QTemporaryDir folder;
-  session::SessionRequest request;
-  request.what = "ellipse";
-  request.place.data = (folder.path() + QStringLiteral("/data")).toStdString();
-  request.device = "simulated:noise=0";
-  request.trials = 1;
-  request.seed = 1;
-  request.fast = true;
-  MainWindow window(request);
-  window.show();
-  ASSERT_TRUE(QTest::qWaitForWindowExposed(&window));
+TEST_F(Compilations, OfATypedFormulaThatIsAcceptedAreOne) {
+  request_.what = "ellipse";
+  request_.device = "simulated:noise=0";
+  request_.trials = 1;
+  request_.fast = true;
+  MainWindow& window = open();
   window.chooseConstraint();
   docks::ConstraintChooser& chooser = window.chooser();
-  type(chooser, "formula_x", "0");
-  type(chooser, "formula_y", "0.1*cos(phi)");
+  const auto typeInto = [&](const char* field, const char* text) {
+    type(chooser.findChild<QLineEdit*>(QLatin1String(field)), text, false);
+  };
+  typeInto("formula_x", "0");
+  typeInto("formula_y", "0.1*cos(phi)");
 
   // The preview is a picture of what stands there now: each text that is a formula is another one, and is compiled for its picture. The last
   // of them is the one that will be accepted.
   (void)test::takeCompilations();
   const std::string last = "0.06*sin(phi)";
-  type(chooser, "formula_z", last.c_str());
+  typeInto("formula_z", last.c_str());
   const std::vector<std::string> preview = test::takeCompilations();
   EXPECT_LE(preview.size(), last.size()) << "one a key at most";
   EXPECT_EQ(std::count(preview.begin(), preview.end(), kTyped), 1);

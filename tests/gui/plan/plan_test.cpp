@@ -21,6 +21,7 @@
 #include "sim/record/trial_marks.h"
 #include "sim/session/programme.h"
 #include "tests/gui/answer_box.h"
+#include "tests/gui/at_the_window.h"
 
 namespace reachlab::gui::plan {
 namespace {
@@ -75,7 +76,7 @@ TEST(PlanComposer, ShowsTheOrdersThatSubjectsWillHave) {
   EXPECT_TRUE(text.contains(names.join(QStringLiteral(" → "))));
 }
 
-class PlannedSession : public ::testing::Test {
+class PlannedSession : public AtTheWindow {
  protected:
   PlannedSession() {
     const QString file = folder_.filePath(QStringLiteral("two.json"));
@@ -83,52 +84,42 @@ class PlannedSession : public ::testing::Test {
       {"experiment": "chain-moderate", "condition": "first", "trials": 2, "instructions": "Reach calmly."},
       {"experiment": "chain-fast", "condition": "second", "trials": 2, "rest_s": 600, "instructions": "Now fast."}]})";
     request_.what = file.toStdString();
-    request_.place.data = folder_.filePath(QStringLiteral("data")).toStdString();
     request_.device = "simulated:noise=0";
-    request_.seed = 1;
     request_.timingCheckSeconds = 0;
+    open();
+    EXPECT_TRUE(QTest::qWaitFor([&] { return page().isVisible(); }, 3000));
   }
   ~PlannedSession() override { app::forgetLayout(); }
-  app::MainWindow& open() {
-    window_ = std::make_unique<app::MainWindow>(request_);
-    window_->show();
-    EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
-    QApplication::setActiveWindow(window_.get());
-    EXPECT_TRUE(QTest::qWaitFor([&] { return page().isVisible(); }, 3000));
-    return *window_;
-  }
   StartPage& page() { return *window_->findChild<StartPage*>(); }
-  QString summary() { return find<QLabel>(page(), "startSummary")->text(); }
-  QString next() { return find<QLabel>(page(), "startNext")->text(); }
+  QString summary() { return find<QLabel>("startSummary")->text(); }
+  QString next() { return find<QLabel>("startNext")->text(); }
+  void go() { QTest::mouseClick(find<QPushButton>("startGo"), Qt::LeftButton); }
   void waitForTrials(int count) {
     ASSERT_TRUE(QTest::qWaitFor(
         [&] { return window_->session().lastTrial() && window_->session().lastTrial()->trial == count && !window_->session().underWay(); },
         60000));
   }
-  QTemporaryDir folder_;
-  session::SessionRequest request_;
-  std::unique_ptr<app::MainWindow> window_;
 };
 
 TEST_F(PlannedSession, BeginsOnItsStartPageRestsAndResumes) {
-  app::MainWindow* window = &open();
+  app::MainWindow* window = window_.get();
   EXPECT_EQ(summary(), QStringLiteral("0 of 2 blocks done"));
   EXPECT_TRUE(next().contains(QStringLiteral("block 1, first, with 2 trials"))) << next().toStdString();
   EXPECT_TRUE(next().contains(QStringLiteral("Reach calmly.")));
-  QTest::mouseClick(find<QPushButton>(page(), "startGo"), Qt::LeftButton);
+  go();
   ASSERT_NE(window->session().run(), nullptr) << window->message().toStdString();
   EXPECT_FALSE(page().isVisible());
   EXPECT_TRUE(window->overlay().task.startsWith(QStringLiteral("Reach calmly."))) << "until the first reach";
   waitForTrials(1);
   {
-    const reachlab::gui::AnswerBox box(QStringLiteral("End the run"));
+    const AnswerBox box(QStringLiteral("End the run"));
     window->endRun();  // broken off after a trial
     EXPECT_TRUE(box.text().contains(QStringLiteral("1 of 2 trials are done. End run ends the run"))) << box.text().toStdString();
   }
   ASSERT_TRUE(QTest::qWaitFor([&] { return page().isVisible(); }, 3000));
   EXPECT_TRUE(page().resumes());
   EXPECT_TRUE(next().contains(QStringLiteral("block 1, first, with trial 2 of 2"))) << next().toStdString();
-  QTest::mouseClick(find<QPushButton>(page(), "startGo"), Qt::LeftButton);
+  go();
   ASSERT_NE(window->session().run(), nullptr) << window->message().toStdString();
   EXPECT_EQ(window->session().run()->configuration().firstRun, 1);
   waitForTrials(1);
@@ -147,33 +138,30 @@ TEST_F(PlannedSession, BeginsOnItsStartPageRestsAndResumes) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return page().isVisible(); }, 3000));
   EXPECT_EQ(summary(), QStringLiteral("1 of 2 blocks done"));
   // Another subject has done nothing yet.
-  auto* subject = find<QLineEdit>(page(), "startSubject");
-  subject->setFocus();
-  subject->selectAll();
-  QTest::keyClicks(subject, QStringLiteral("07"));
-  QTest::keyClick(subject, Qt::Key_Return);
+  auto* subject = find<QLineEdit>("startSubject");
+  type(subject, "07");
   ASSERT_TRUE(QTest::qWaitFor([&] { return summary() == QStringLiteral("0 of 2 blocks done"); }, 3000));
   EXPECT_EQ(window->sessionDock().request().place.subject, "07");
 }
 
 TEST_F(PlannedSession, TrialsAreFlaggedAndARepeatIsTakenBack) {
-  app::MainWindow* window = &open();
-  QTest::mouseClick(find<QPushButton>(page(), "startGo"), Qt::LeftButton);
+  app::MainWindow* window = window_.get();
+  go();
   waitForTrials(1);
   const std::string log = window->session().run()->logPath();
-  QTest::mouseClick(find<QToolButton>(*window, "flagTrial"), Qt::LeftButton);
+  QTest::mouseClick(find<QToolButton>("flagTrial"), Qt::LeftButton);
   const record::RunMarks marks = record::readMarks(log);
   ASSERT_EQ(marks.trials.size(), 1u);
   EXPECT_TRUE(marks.trials[0].flagged);
   EXPECT_EQ(marks.trials[0].trial, 1);
-  QTest::mouseClick(find<QToolButton>(*window, "flagTrial"), Qt::LeftButton);
+  QTest::mouseClick(find<QToolButton>("flagTrial"), Qt::LeftButton);
   EXPECT_TRUE(record::readMarks(log).trials.empty()) << "and taken back";
   QTest::keyClick(window, Qt::Key_R, Qt::ControlModifier);
   EXPECT_EQ(window->session().run()->trialCount(), 3u);
-  QTest::mouseClick(find<QToolButton>(*window, "undoRepeat"), Qt::LeftButton);
+  QTest::mouseClick(find<QToolButton>("undoRepeat"), Qt::LeftButton);
   EXPECT_EQ(window->session().run()->trialCount(), 2u);
   EXPECT_EQ(window->session().run()->trialsLeft(), 1u);
-  QTest::mouseClick(find<QToolButton>(*window, "undoRepeat"), Qt::LeftButton);
+  QTest::mouseClick(find<QToolButton>("undoRepeat"), Qt::LeftButton);
   EXPECT_EQ(window->session().run()->trialsLeft(), 1u) << "the plan's own trials stay";
 }
 
