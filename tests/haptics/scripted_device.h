@@ -1,5 +1,6 @@
 #pragma once
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "sim/haptics/device.h"
@@ -10,16 +11,19 @@ namespace reachlab::haptics::test {
 /// A hand along x from `from` to `to` by a minimum-jerk law of `ticks` ticks after the go signal; keeps what was written to it.
 class ScriptedDevice final : public HapticDevice {
  public:
-  ScriptedDevice(double from, double to, int ticks) : from_(from), to_(to), ticks_(ticks) { written.reserve(100'000); }
-  DeviceInfo info() const override {
-    DeviceInfo info;
-    info.name = "scripted";
-    info.virtualHand = true;
-    return info;
+  ScriptedDevice(double from, double to, int ticks) : from_(from), to_(to), ticks_(ticks) {
+    about.name = "scripted";
+    about.virtualHand = true;
+    written.reserve(100'000);
   }
+  DeviceInfo info() const override { return about; }
   void cue(Cue cue) noexcept override {
     going_ = cue == Cue::Go;
     at_ = 0;
+    if (other) other->cue(cue);
+  }
+  std::vector<HapticDevice*> hands() override {
+    return other ? std::vector<HapticDevice*>{this, other.get()} : std::vector<HapticDevice*>{this};
   }
   DeviceSample read() noexcept override {
     if (going_ && at_ < ticks_) ++at_;
@@ -33,6 +37,8 @@ class ScriptedDevice final : public HapticDevice {
     if (written.size() < written.capacity()) written.push_back(force);
   }
 
+  DeviceInfo about;
+  std::unique_ptr<ScriptedDevice> other;  // which is together with this one
   std::vector<Vec3> written;
   Vec3 beside;  // [m] y and z of the hand
 

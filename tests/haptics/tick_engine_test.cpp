@@ -369,12 +369,6 @@ TEST(TickEngine, ABodyHeldOffItsCentreIsArmedWithoutForce) {
   EXPECT_EQ(engine.state().phase, trial::Phase::Armed);
 }
 
-TEST(TickEngine, RefusesAnExperimentWithoutATask) {
-  experiment::Experiment experiment = test::armedAtOnce("chain-moderate");
-  experiment.task.reset();
-  EXPECT_THROW(TickEngine(experiment, {}), FaultError);
-}
-
 TEST(TickEngine, AForceLimitOfTheExperimentWinsOverTheDevices) {
   experiment::Experiment experiment = test::armedAtOnce("chain-moderate");
   experiment.forceLimit = 1;

@@ -23,7 +23,8 @@ std::string faultsOf(const std::string& text) {
 TEST(Plan, ReadsTheKeysOfABlockAndTheDefaultsOfThePlan) {
   const Plan plan = parsePlan(R"({ "schema_version": 1, "order_seed": 9007199254740992, "pause_s": 2, "blocks": [
       { "experiment": "chain-slow", "trials": 3, "practice": true, "condition": "warm up", "day": 2 },
-      { "experiment": "chain-fast", "trials": 100, "pause_s": 0.5, "foreperiod_s": [0.8, 1.6], "catch_share": 0.1 } ] })",
+      { "experiment": "chain-fast", "trials": 100, "pause_s": 0.5, "foreperiod_s": [0.8, 1.6], "catch_share": 0.1,
+        "repeat_aborted": true, "rest_s": 90, "instructions": "Read \"this\",\nthen begin." } ] })",
                               "p.json");
   EXPECT_EQ(plan.orderSeed, 9007199254740992ull);
   ASSERT_EQ(plan.blocks.size(), 2u);
@@ -33,6 +34,10 @@ TEST(Plan, ReadsTheKeysOfABlockAndTheDefaultsOfThePlan) {
   EXPECT_EQ(plan.blocks[0].condition, "warm up");
   EXPECT_EQ(plan.blocks[1].pauseSeconds, 0.5) << "the lower level wins";
   EXPECT_EQ(plan.blocks[1].foreperiodMax, 1.6);
+  EXPECT_TRUE(plan.blocks[1].repeatAborted);
+  EXPECT_EQ(plan.blocks[1].restSeconds, 90);
+  EXPECT_EQ(plan.blocks[1].instructions, "Read \"this\",\nthen begin.");
+  EXPECT_EQ(toJson(parsePlan(toJson(plan), "p.json")), toJson(plan)) << "written and read back";
 }
 
 TEST(Plan, NamesLineColumnAndKeyOfEveryFaultAtOnce) {
@@ -72,6 +77,7 @@ TEST(Plan, KnowsTheEdgesOfWhatItTakes) {
   EXPECT_EQ(faultsOf(block("\"trials\": 1000000, \"day\": 10000")), "");
   EXPECT_NE(faultsOf(block("\"trials\": 1000001")), "");
   EXPECT_NE(faultsOf(block("\"trials\": 1, \"day\": 0")), "");
+  EXPECT_NE(faultsOf(block("\"trials\": 1, \"rest_s\": -1")).find("rest_s"), std::string::npos);
   EXPECT_NE(faultsOf(block("\"trials\": 1, \"day\": 10001")), "");
   const Plan plain = parsePlan(block("\"trials\": 2"), "folder/mine.json");
   EXPECT_EQ(plain.name, "mine");

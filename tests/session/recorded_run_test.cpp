@@ -6,6 +6,7 @@
 
 #include "base/fault.h"
 #include "tests/refusal.h"
+#include "tests/haptics/set_device.h"
 #include "tests/record/configuration_keys.h"
 #include "tests/session/recorded_runs.h"
 
@@ -16,7 +17,6 @@ namespace {
 using haptics::test::MemorySink;
 using record::expectRecorded;
 using test::goodHand;
-using test::Hand;
 using test::kNeverStop;
 using test::Recorded;
 using test::stillHand;
@@ -47,24 +47,13 @@ TEST_F(Recorded, EveryTrialIsInTheLogAndTheRunInTheDataset) {
   EXPECT_EQ(c.table.massCount, 1);
 }
 
-// It renders force, so that its own facts are in the record, and it is never moved here.
-class FeltHand final : public haptics::HapticDevice {
- public:
-  haptics::DeviceInfo info() const override {
-    haptics::DeviceInfo info;
-    info.name = "felt";
-    info.maxContinuousForce = 3;
-    info.thermalSeconds = 20;
-    info.virtualHand = info.rendersForce = true;
-    info.mapping = R"({"scale":2})";
-    return info;
-  }
-  haptics::DeviceSample read() noexcept override { return {}; }
-  void write(const Vec3&) noexcept override {}
-};
-
 TEST_F(Recorded, WhatTheDeviceSaysOfItselfIsInTheLog) {
-  RecordedRun(block(), std::make_unique<FeltHand>(), options()).finish();
+  auto own = std::make_unique<haptics::test::SetDevice>();  // it renders force, so that its own facts are in the record
+  own->about.maxContinuousForce = 3;
+  own->about.thermalSeconds = 20;
+  own->about.virtualHand = own->about.rendersForce = true;
+  own->about.mapping = R"({"scale":2})";
+  RecordedRun(block(), std::move(own), options()).finish();
   RecordedRun(block(), goodHand(), options()).finish();
   const record::RunConfiguration felt = logs().at(0).configuration(), shown = logs().at(1).configuration();
   EXPECT_FALSE(shown.firstHand.rendersForce);
@@ -99,7 +88,9 @@ TEST_F(Recorded, ARunWithoutATrialLeavesAnOrderlyLog) {
 }
 
 TEST_F(Recorded, TheVirtualClockIsRefusedToAHandInRealTimeBeforeAnythingIsWritten) {
-  const Fault fault = faultsToldBy([&] { RecordedRun run(block(), std::make_unique<Hand>(0.1, false), options()); }).at(0);
+  auto real = test::handTo(0.1);
+  real->about.virtualHand = false;
+  const Fault fault = faultsToldBy([&] { RecordedRun run(block(), std::move(real), options()); }).at(0);
   EXPECT_EQ(fault.key, "fast");
   EXPECT_NE(fault.what.find("scripted"), std::string::npos);
   EXPECT_TRUE(recordedRuns(request_.place).empty());

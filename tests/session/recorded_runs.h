@@ -20,29 +20,16 @@ inline constexpr const char* kEasy =
 
 inline const std::atomic<bool> kNeverStop{false};
 
-/// A hand that moves in real time, or by tick count.
-class Hand final : public haptics::HapticDevice {
- public:
-  Hand(double to, bool isVirtual) : reach_(-0.1, to, 300), isVirtual_(isVirtual) {}
-  haptics::DeviceInfo info() const override {
-    haptics::DeviceInfo info = reach_.info();
-    info.virtualHand = isVirtual_;
-    info.version = "7";
-    info.maxForce = 9;
-    return info;
-  }
-  void cue(haptics::Cue cue) noexcept override { reach_.cue(cue); }
-  haptics::DeviceSample read() noexcept override { return reach_.read(); }
-  void write(const Vec3& force) noexcept override { reach_.write(force); }
-
- private:
-  haptics::test::ScriptedDevice reach_;
-  bool isVirtual_;
-};
-
-inline std::unique_ptr<haptics::HapticDevice> goodHand() { return std::make_unique<Hand>(0.1, true); }
+/// A hand that moves by tick count.
+inline std::unique_ptr<haptics::test::ScriptedDevice> handTo(double to) {
+  auto hand = std::make_unique<haptics::test::ScriptedDevice>(-0.1, to, 300);
+  hand->about.version = "7";
+  hand->about.maxForce = 9;
+  return hand;
+}
+inline std::unique_ptr<haptics::HapticDevice> goodHand() { return handTo(0.1); }
 /// Every trial of it is aborted: no onset.
-inline std::unique_ptr<haptics::HapticDevice> stillHand() { return std::make_unique<Hand>(-0.1, true); }
+inline std::unique_ptr<haptics::HapticDevice> stillHand() { return handTo(-0.1); }
 
 /// A dataset of its own, and three trials of an easy reach on the virtual clock.
 class Recorded : public testing::Test {

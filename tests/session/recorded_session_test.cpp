@@ -8,6 +8,7 @@
 
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
+#include "tests/haptics/set_device.h"
 #include "tests/session/recorded_runs.h"
 
 // A session's runs, one after the other, with what is said and waited for between them.
@@ -237,22 +238,11 @@ TEST_F(Conducted, ThePlansRestLiesBetweenBlocksInRealTime) {
   EXPECT_GE(opened - ended, std::chrono::milliseconds(300));
 }
 
-// A person's hand that lies somewhere else than at the start.
-class HandElsewhere final : public haptics::HapticDevice {
- public:
-  haptics::DeviceInfo info() const override { return {}; }
-  haptics::DeviceSample read() noexcept override {
-    haptics::DeviceSample sample;
-    sample.position = {0.05, 0, 0};
-    return sample;
-  }
-  void write(const Vec3&) noexcept override {}
-};
-
+// A person's hand lies somewhere else than at the start.
 TEST_F(Conducted, ATrialThatWaitsForItsHandIsSaidToWait) {
   request_.fast = false;
   request_.trials = 1;
-  RecordedSession session(easy_, request_, [](const auto&...) { return std::make_unique<HandElsewhere>(); });
+  RecordedSession session(easy_, request_, [](const auto&...) { return std::make_unique<haptics::test::SetDevice>(Vec3{0.05, 0, 0}); });
   std::atomic<bool> stop{false};
   SessionWords said = words();
   said.waiting = [&](const RecordedRun& run) {

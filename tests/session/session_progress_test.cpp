@@ -25,34 +25,5 @@ TEST(Standing, OfASessionThatIsNotBegunHasTheSubjectsOwnOrder) {
   EXPECT_FALSE(progress.complete());
 }
 
-TEST(Plan, WithRestAndInstructionsReadsBackEqual) {
-  Plan plan;
-  plan.name = "mine";
-  plan.orderSeed = 12;
-  plan.counterbalance = Counterbalance::Permute;
-  plan.blocks.push_back({.experiment = "chain-slow",
-                         .changes = {},
-                         .trials = 3,
-                         .practice = true,
-                         .pauseSeconds = 1.5,
-                         .condition = "slow",
-                         .day = 2,
-                         .foreperiodMin = 0.5,
-                         .foreperiodMax = 1,
-                         .catchShare = 0.1,
-                         .repeatAborted = true,
-                         .restSeconds = 90,
-                         .instructions = "Read \"this\",\nthen begin.",
-                         .mix = {}});
-  const Plan read = parsePlan(toJson(plan), "mine.json");
-  EXPECT_EQ(toJson(read), toJson(plan));
-  EXPECT_EQ(read.blocks[0].instructions, plan.blocks[0].instructions);
-  EXPECT_EQ(read.blocks[0].restSeconds, 90);
-  EXPECT_EQ(read.blocks[0].day, 2);
-  plan.blocks[0].restSeconds = -1;
-  ASSERT_EQ(problems(plan).size(), 1u);
-  EXPECT_EQ(problems(plan)[0].key, "blocks[0].rest_s");
-}
-
 }  // namespace
 }  // namespace reachlab::session

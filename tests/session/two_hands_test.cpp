@@ -22,44 +22,12 @@ constexpr const char* kChain = R"({ "schema_version": 1, "name": "both", "constr
   "task": { "start": [0], "target": [6.283185307179586], "duration_s": 0.6, "timeout_s": 0.3, "rest_s": 0,
             "tolerance": { "position_m": 0.02, "velocity_m_per_s": 0.5, "time_s": 0.4 } } })";
 
-/// Two scripted devices as one.
-class Pair final : public haptics::HapticDevice {
- public:
-  explicit Pair(double otherTo = 0.1, int otherTicks = 400) : first(-0.1, 0.1, 400), second(-0.1, otherTo, otherTicks) {}
-  haptics::DeviceInfo info() const override { return first.info(); }
-  void cue(haptics::Cue cue) noexcept override { first.cue(cue), second.cue(cue); }
-  haptics::DeviceSample read() noexcept override { return first.read(); }
-  void write(const Vec3& force) noexcept override { first.write(force); }
-  std::vector<haptics::HapticDevice*> hands() override { return {this, &second}; }
-  ScriptedDevice first, second;
-};
-
-/// A scripted hand as a device that renders force, which the loop looks after; with another hand beside it, if told.
-class Rendering final : public haptics::HapticDevice {
- public:
-  Rendering(const std::string& name, int ticks, std::unique_ptr<HapticDevice> other = nullptr)
-      : name_(name), script_(-0.1, 0.1, ticks), other_(std::move(other)) {}
-  haptics::DeviceInfo info() const override {
-    haptics::DeviceInfo info = script_.info();
-    info.name = name_;
-    info.rendersForce = true;
-    return info;
-  }
-  void cue(haptics::Cue cue) noexcept override {
-    script_.cue(cue);
-    if (other_) other_->cue(cue);
-  }
-  haptics::DeviceSample read() noexcept override { return script_.read(); }
-  void write(const Vec3& force) noexcept override { script_.write(force); }
-  std::vector<haptics::HapticDevice*> hands() override {
-    return other_ ? std::vector<haptics::HapticDevice*>{this, other_.get()} : std::vector<haptics::HapticDevice*>{this};
-  }
-
- private:
-  std::string name_;
-  ScriptedDevice script_;
-  std::unique_ptr<HapticDevice> other_;
-};
+/// Two scripted devices as one, of which the second takes so many ticks.
+std::unique_ptr<ScriptedDevice> pair(int otherTicks = 400) {
+  auto first = std::make_unique<ScriptedDevice>(-0.1, 0.1, 400);
+  first->other = std::make_unique<ScriptedDevice>(-0.1, 0.1, otherTicks);
+  return first;
+}
 
 class TwoHands : public test::Recorded {
  protected:
@@ -85,8 +53,7 @@ class TwoHands : public test::Recorded {
 };
 
 TEST_F(TwoHands, AreRecordedAndReplayedToTheBit) {
-  auto device = std::make_unique<Pair>(0.1, 300);
-  const record::RunLog log = record(std::move(device));
+  const record::RunLog log = record(pair(300));
   ASSERT_EQ(results_.size(), 2u);
   EXPECT_EQ(results_[0].outcome, trial::Outcome::Success) << trial::nameOf(results_[0].reason) << " " << results_[0].by;
   EXPECT_EQ(log.configuration().table.hands, 2);
@@ -109,15 +76,18 @@ TEST_F(TwoHands, AreRecordedAndReplayedToTheBit) {
 }
 
 TEST_F(TwoHands, AResumedBlockHasTheSameHands) {
-  record(std::make_unique<Pair>(), 1);
+  record(pair(), 1);
   request_.resume = true;
-  EXPECT_EQ(record(std::make_unique<Pair>()).configuration().otherHands.size(), 1u);
+  EXPECT_EQ(record(pair()).configuration().otherHands.size(), 1u);
 }
 
 // Its device says that it is well: what the loop has found is of that hand all the same.
 TEST_F(TwoHands, AFaultThatTheLoopFindsNamesTheHandThatHasIt) {
   request_.trials = 1;
-  record(std::make_unique<Rendering>("left", 400, std::make_unique<Rendering>("right", 1)));
+  auto device = pair(1);
+  device->about.name = "left", device->other->about.name = "right";
+  device->about.rendersForce = device->other->about.rendersForce = true;  // the loop looks after such hands
+  record(std::move(device));
   ASSERT_EQ(results_.size(), 1u);
   EXPECT_EQ(results_[0].reason, trial::Reason::DeviceLost);
   EXPECT_NE(said_.find("right jumped"), std::string::npos) << said_;
@@ -129,23 +99,23 @@ TEST_F(TwoHands, NeedADeviceEach) {
 }
 
 TEST_F(TwoHands, TheTrialWaitsForBothAtTheStart) {
-  auto device = std::make_unique<Pair>();
-  device->second.beside = {0, 0.05, 0};  // 5 cm beside the start
+  auto device = pair();
+  device->other->beside = {0, 0.05, 0};  // 5 cm beside the start
   record(std::move(device));
   EXPECT_EQ(results_.at(0).reason, trial::Reason::NoStart);
 }
 
 TEST_F(TwoHands, TheSecondHandMakesTheOnsetToo) {
-  record(std::make_unique<Pair>(0.1, 200));
+  record(pair(200));
   const std::uint64_t early = results_.at(0).onsetTick;
   results_.clear();
   request_.place.data = folder_ / "late";
-  record(std::make_unique<Pair>(0.1, 4000));
+  record(pair(4000));
   EXPECT_LT(early, results_.at(0).onsetTick);
 }
 
 TEST_F(TwoHands, EachHasARowForEveryTrialInTheAnalysis) {
-  record(std::make_unique<Pair>(0.1, 300));
+  record(pair(300));
   const std::string table = analysis::handsTable(analysis::openDataset(request_.place.data));
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 2 * static_cast<std::ptrdiff_t>(results_.size())) << table;
 }
