@@ -4,6 +4,7 @@
 #include <QApplication>
 #include <QTemporaryDir>
 #include <QTest>
+#include <fstream>
 #include <memory>
 
 #include "gui/app/main_window.h"
@@ -35,6 +36,13 @@ class AtTheWindow : public ::testing::Test {
     T* found = window_->findChild<T*>(QLatin1String(name));
     EXPECT_NE(found, nullptr) << name;
     return found;
+  }
+
+  /// A new file of the test's folder.
+  std::string write(const char* name, const std::string& text) const {
+    const std::string path = folder_.filePath(QLatin1String(name)).toStdString();
+    std::ofstream(path) << text;
+    return path;
   }
 
   /// Replaces what a field holds, and takes it over where Enter is asked for.

@@ -101,9 +101,7 @@ TEST_F(Files, ADroppedFileIsOpenedAndRemembered) {
 
 TEST_F(Files, ARecordingIsInspectedAndWhatIsWrongWithItIsSaid) {
   MainWindow& window = open();
-  const QString log = folder_.filePath(QStringLiteral("sub-01_log.reach"));
-  std::ofstream(log.toStdString()) << "RCHLOG";
-  window.openExperiment(log);
+  window.openExperiment(QString::fromStdString(write("sub-01_log.reach", "RCHLOG")));
   EXPECT_TRUE(window.inspecting());
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.message().contains(QStringLiteral("sub-01_log.reach")); }, 5000));
   EXPECT_EQ(window.session().experiment().name, "ellipse");

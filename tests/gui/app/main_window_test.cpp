@@ -47,8 +47,7 @@ constexpr const char* kEasy = R"({ "schema_version": 1, "name": "easy", "constra
 class Window : public AtTheWindow {
  protected:
   Window() {
-    request_.what = (folder_.path() + QStringLiteral("/easy.json")).toStdString();
-    std::ofstream(request_.what) << kEasy;
+    request_.what = write("easy.json", kEasy);
     request_.trials = 3;
     request_.timingCheckSeconds = 0;
   }
@@ -80,7 +79,7 @@ TEST_F(Window, AReachByThePointerTurnsTheSemaphoreGreenSucceedsAndIsRecorded) {
   // However slowly this machine draws, the pointer arrives before T + dT.
   std::string easy = std::regex_replace(std::string(kEasy), std::regex("10\\.2"), "600.2");
   easy = std::regex_replace(easy, std::regex("\"time_s\": 9\\.9"), "\"time_s\": 599.9");
-  std::ofstream(request_.what) << easy;
+  write("easy.json", easy);
   MainWindow& window = open();
   QTest::keyClick(&window, Qt::Key_Space);
   ASSERT_EQ(window.message().toStdString(), "");
@@ -187,8 +186,7 @@ TEST_F(Window, AWindowInTimeWithoutABeginningLeavesThePlotToTheReach) {
   EXPECT_NEAR(open().plot().shownTimes().second, 20.35, 1e-12);  // T + dT and a quarter of a second
   experiment::Experiment ellipse = experiment::openExperiment("ellipse").experiment();
   ellipse.task->tolerance.time = 8.5;  // 1.5 s, at most 10
-  request_.what = (folder_.path() + QStringLiteral("/ellipse.json")).toStdString();
-  std::ofstream(request_.what) << experiment::toJson(ellipse);
+  request_.what = write("ellipse.json", experiment::toJson(ellipse));
   MainWindow& window = open();
   EXPECT_NEAR(window.plot().shownTimes().second, 3, 1e-12);
   const scene::ScenePlan& plan = window.view().plan();
@@ -342,8 +340,7 @@ TEST_F(Window, AGermanUsersExperimentHasTheSameBytes) {
 TEST_F(Window, PredictionsStandOnThePlotAndAreComparedWithASimulatedTrial) {
   experiment::Experiment lenient = experiment::readExperiment("dingwell");
   lenient.timing = experiment::kNoTimingLimits;  // a busy machine spoils nothing here
-  request_.what = (folder_.path() + QStringLiteral("/dingwell.json")).toStdString();
-  std::ofstream(request_.what) << experiment::toJson(lenient);
+  request_.what = write("dingwell.json", experiment::toJson(lenient));
   request_.device = "simulated:noise=0";
   MainWindow& window = open();
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.predictionsReady(); }, 20000));

@@ -118,9 +118,8 @@ TEST_F(RecordingWindow, ARunNumberThatWasAskedForHoldsForOneRun) {
 }
 
 TEST_F(RecordingWindow, APlanIsOpenedFromTheMenuAndLeftForAnExperiment) {
-  const std::string file = (folder_.path() + QStringLiteral("/two.json")).toStdString();
-  std::ofstream(file) << R"({ "schema_version": 1, "trials": 1, "blocks": [
-      { "experiment": "chain-slow", "condition": "a" }, { "experiment": "dingwell", "condition": "b" } ] })";
+  const std::string file = write("two.json", R"({ "schema_version": 1, "trials": 1, "blocks": [
+      { "experiment": "chain-slow", "condition": "a" }, { "experiment": "dingwell", "condition": "b" } ] })");
   request_.trials = 2;
   open();
   doTrial();
@@ -268,9 +267,9 @@ void expectSameBytes(const std::string& a, const std::string& b) {
 }
 
 TEST_F(RecordingWindow, RecordsByteForByteWhatTheCommandLineRecords) {
-  const std::string plan = (folder_.path() + QStringLiteral("/plan.json")).toStdString();
-  std::ofstream(plan) << R"({ "schema_version": 1, "order_seed": 4, "trials": 3, "foreperiod_s": [0.1, 0.3], "catch_share": 0.34,
-      "blocks": [ { "experiment": "chain-moderate", "condition": "a", "practice": true }, { "experiment": "epitrochoid" } ] })";
+  const std::string plan =
+      write("plan.json", R"({ "schema_version": 1, "order_seed": 4, "trials": 3, "foreperiod_s": [0.1, 0.3], "catch_share": 0.34,
+      "blocks": [ { "experiment": "chain-moderate", "condition": "a", "practice": true }, { "experiment": "epitrochoid" } ] })");
   request_.what = plan;
   request_.device = "simulated";
   open();

@@ -2,8 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <QElapsedTimer>
-#include <QFile>
-#include <QTemporaryDir>
 #include <QTest>
 #include <algorithm>
 #include <nlohmann/json.hpp>
@@ -16,6 +14,7 @@
 #include "gui/model/model_stream.h"
 #include "gui/model/vrml.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace reachlab::gui::model {
 namespace {
@@ -200,22 +199,15 @@ class Gltf : public ::testing::Test {
         {"bufferViews", {{{"buffer", 0}, {"byteOffset", 0}, {"byteLength", 36}}, {{"buffer", 0}, {"byteOffset", 36}, {"byteLength", 6}}}},
         {"buffers", {{{"byteLength", 42}, {"uri", "data:application/octet-stream;base64," + coded.toStdString()}}}}};
   }
-  std::string fileOf(const std::string& text, const char* name = "scene.gltf") {
-    const QString path = folder_.filePath(QLatin1String(name));
-    QFile file(path);
-    EXPECT_TRUE(file.open(QIODevice::WriteOnly));
-    file.write(text.data(), static_cast<qint64>(text.size()));
-    return path.toStdString();
-  }
   std::string said(const std::string& text, const char* name = "scene.gltf") {
-    const std::string file = fileOf(text, name);
+    const std::string file = folder_.write(name, text);
     return refusalOf<FaultError>([&] { return readModel(file); });
   }
-  QTemporaryDir folder_;
+  TemporaryFolder folder_;
 };
 
 TEST_F(Gltf, IsReadByAProcessOfItsOwn) {
-  const Model model = readModel(fileOf(good().dump()));
+  const Model model = readModel(folder_.write("scene.gltf", good().dump()));
   ASSERT_EQ(model.parts.size(), 1u);
   EXPECT_EQ(model.parts[0].name, "mass2");
   EXPECT_NEAR(norm(model.parts[0].points[1] - Vec3{0.2, 0, 0}), 0, 1e-6) << "scaled, not shifted";
@@ -288,13 +280,7 @@ class ModelReaders : public ::testing::Test {
     QObject::connect(&reader_, &ModelReader::progressed, [this](const QString&, int percent) { percents_.push_back(percent); });
     QObject::connect(&reader_, &ModelReader::idle, [this] { ++idle_; });
   }
-  std::string fileOf(const QString& name, const std::string& text) {
-    QFile file(folder_.filePath(name));
-    EXPECT_TRUE(file.open(QIODevice::WriteOnly));
-    file.write(text.data(), static_cast<qint64>(text.size()));
-    return file.fileName().toStdString();
-  }
-  QTemporaryDir folder_;
+  TemporaryFolder folder_;
   ModelReader reader_;
   int ready_ = 0, idle_ = 0;
   QString failed_;
@@ -302,7 +288,7 @@ class ModelReaders : public ::testing::Test {
 };
 
 TEST_F(ModelReaders, TellHowFarTheyAreAndAreGivenUp) {
-  const std::string file = fileOf(QStringLiteral("long.wrl"), longScene());
+  const std::string file = folder_.write("long.wrl", longScene());
   reader_.begin(file);
   const int before = idle_;
   reader_.cancel();
@@ -322,14 +308,14 @@ TEST_F(ModelReaders, ReadALargeFileUpToTheBoundThatIsTold) {
   const std::string line = "# " + std::string(1'000'000, 'x') + '\n';
   std::string text = kTable;
   while (text.size() < 20'000'000) text += line;
-  EXPECT_EQ(readModel(fileOf(QStringLiteral("large.wrl"), text)).parts.size(), readVrml(kTable, "table.wrl").parts.size());
+  EXPECT_EQ(readModel(folder_.write("large.wrl", text)).parts.size(), readVrml(kTable, "table.wrl").parts.size());
   while (text.size() < 65'000'000) text += line;
-  const std::string larger = fileOf(QStringLiteral("larger.wrl"), text);
+  const std::string larger = folder_.write("larger.wrl", text);
   EXPECT_NE(refusalOf<FaultError>([&] { return readModel(larger); }).find("64 MB"), std::string::npos);
 }
 
 TEST_F(ModelReaders, TheNewestWinsAndWaitsForNobodyInTheWindow) {
-  const std::string first = fileOf(QStringLiteral("long.wrl"), longScene()), second = fileOf(QStringLiteral("table.wrl"), kTable);
+  const std::string first = folder_.write("long.wrl", longScene()), second = folder_.write("table.wrl", kTable);
   QElapsedTimer clock;
   clock.start();
   reader_.begin(first);
@@ -337,7 +323,7 @@ TEST_F(ModelReaders, TheNewestWinsAndWaitsForNobodyInTheWindow) {
   EXPECT_LT(clock.elapsed(), 50) << "the window went on";
   ASSERT_TRUE(QTest::qWaitFor([&] { return ready_ > 0; }, 30'000));
   EXPECT_EQ(reader_.model()->triangleCount(), readVrml(kTable, "table.wrl").triangleCount());
-  reader_.begin(folder_.filePath(QStringLiteral("missing.wrl")).toStdString());
+  reader_.begin(folder_ / "missing.wrl");
   ASSERT_TRUE(QTest::qWaitFor([&] { return !failed_.isEmpty(); }, 30'000));
   EXPECT_EQ(reader_.model(), nullptr);
   reader_.begin({});

@@ -79,11 +79,9 @@ TEST(PlanComposer, ShowsTheOrdersThatSubjectsWillHave) {
 class PlannedSession : public AtTheWindow {
  protected:
   PlannedSession() {
-    const QString file = folder_.filePath(QStringLiteral("two.json"));
-    std::ofstream(file.toStdString()) << R"({"schema_version": 1, "name": "two", "blocks": [
+    request_.what = write("two.json", R"({"schema_version": 1, "name": "two", "blocks": [
       {"experiment": "chain-moderate", "condition": "first", "trials": 2, "instructions": "Reach calmly."},
-      {"experiment": "chain-fast", "condition": "second", "trials": 2, "rest_s": 600, "instructions": "Now fast."}]})";
-    request_.what = file.toStdString();
+      {"experiment": "chain-fast", "condition": "second", "trials": 2, "rest_s": 600, "instructions": "Now fast."}]})");
     request_.device = "simulated:noise=0";
     request_.timingCheckSeconds = 0;
     open();

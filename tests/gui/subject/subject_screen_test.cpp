@@ -37,8 +37,7 @@ class SubjectsScreen : public AtTheWindow {
     const std::string at = "\"schema_version\": 1,";
     text.replace(text.find(at), at.size(),
                  at + " \"subject_screen\": " + screen + ", \"timing\": { \"max_missed_ticks\": 10000000, \"max_gap_s\": 7200 },");
-    request_.what = folder_.filePath(QStringLiteral("seen.json")).toStdString();
-    std::ofstream(request_.what) << text;
+    request_.what = write("seen.json", text);
     request_.device = "simulated:noise=0";
     request_.timingCheckSeconds = 0;
     request_.trials = 2;
