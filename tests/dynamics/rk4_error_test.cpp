@@ -4,7 +4,7 @@
 
 #include "base/math/minimum_jerk.h"
 #include "constraints/catalogue/definition.h"
-#include "constraints/constraint.h"
+#include "constraints/geometry/task_path.h"
 #include "sim/experiment/experiment.h"
 #include "tests/dynamics/make_experiment.h"
 
@@ -20,11 +20,7 @@ double trueError(const experiment::Experiment& e) {
   const experiment::Task& task = *e.task;
   Scene rk4 = compileScene(e, {"rk4", kStep, 0}), exact = compileScene(e, {"adaptive", kStep, 0});
   const constraints::Constraint& c = *rk4.constraint;
-  const auto at = [&](const std::vector<double>& q) {
-    return c.kind == constraints::ConstraintKind::Curve ? constraints::evaluate(c.curve, q[0]).r
-                                                        : constraints::evaluate(c.surface, q[0], q[1]).r;
-  };
-  const Vec3 start = at(task.start), chord = at(task.target) - start;
+  const Vec3 start = placeOn(c, task.start), chord = placeOn(c, task.target) - start;
   const HandFunction hand = [&](double t) {
     const MinimumJerk law = heldMinimumJerk(t / task.duration);
     return HandSample{start + law.value * chord, (law.rate / task.duration) * chord, true};

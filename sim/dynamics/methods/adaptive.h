@@ -43,7 +43,7 @@ class Adaptive {
       if constexpr (System::kHas.sight) {
         sight = system.reach(y, k[0], kNearlyLast * h);
         h = std::min(h, sight);
-        looks += system.sightCost();
+        if constexpr (System::kHas.careful) looks += system.sightCost();
       }
       const bool lastPart = t + kNearlyLast * h >= dt && dt - t <= sight;
       if (lastPart) h = dt - t;
@@ -164,7 +164,7 @@ class Adaptive {
   class Allowance {
    public:
     Allowance(const System& system, double tolerance) : system_(system), tolerance_(tolerance) {
-      if constexpr (System::kHas.care) tolerance_ *= system.tightening();
+      if constexpr (System::kHas.careful) tolerance_ *= system.tightening();
     }
     double operator()(int i, double value) const noexcept {
       const double whole = tolerance_ * (system_.scale(i) + std::abs(value));

@@ -62,7 +62,6 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N>> {
     }
     return least;
   }
-  static constexpr int sightCost() noexcept { return 0; }
   /// True where only sub-steps can continue: phi is needed more exactly than usual, or a narrow place lies within the way of a step.
   bool wantsSubSteps(const State& y, double dt) const noexcept { return isSteep(y) || meetsNarrow(y, dt); }
   bool isSteep(const State& y) const noexcept {
@@ -78,7 +77,6 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N>> {
     }
     return false;
   }
-  double tightening() const noexcept { return 1; }
   /// The distance that a unit of phi moves a mass, relative to the usual distance. It has no bound towards the end of an arc, a root or a
   /// power.
   double steepness(const State& y) const noexcept {

@@ -73,7 +73,6 @@ struct QuadricSystem : SpaceSystem<Springs<1>> {
     constexpr double kSteps = 4;
     return apex && (timeToApex(y) < kSteps * dt || distanceFromApex(y) < kSubSteps);
   }
-  static constexpr double tightening() noexcept { return 1; }
   /// The longest sub-step, at most `most` [s]: the force of the surface turns round beside an apex.
   double reach(const State& y, const State&, double most) const noexcept {
     constexpr double kPart = 0.4;
@@ -83,7 +82,6 @@ struct QuadricSystem : SpaceSystem<Springs<1>> {
     atApex = atApex || distance < kNearest;
     return std::fmin(most, kPart * time);
   }
-  static constexpr int sightCost() noexcept { return 0; }
 
   /// One step along the great circle: d and v turn by |v| dt / R in the plane that they span. False where a force acts, or where the turn
   /// is too large for the series.

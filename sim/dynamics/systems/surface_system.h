@@ -17,7 +17,8 @@ namespace reachlab::dynamics {
 struct SurfaceSystem : SpaceSystem<Springs<1>> {
   static constexpr int kStates = 4;
   static constexpr bool kSecondOrder = true;
-  static constexpr Hooks kHas{.ends = true, .branches = true, .settling = true, .losing = true, .care = true, .sight = true};
+  static constexpr Hooks kHas{
+      .ends = true, .branches = true, .settling = true, .losing = true, .care = true, .careful = true, .sight = true};
   /// Squared sine of the angle between r_u and r_v. Below the first, the tolerance of the rates would show in the speed, and they are
   /// computed more exactly. Below the second, the eleventh digit of the speed is lost to their rounding.
   static constexpr double kOblique = 1e-3, kParallel = 1e-9;

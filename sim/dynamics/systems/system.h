@@ -23,9 +23,10 @@ struct Hooks {
   bool settling = false;       // settle: looks at each new state
   bool losing = false;         // lost: tells where the motion has no continuation
   bool parametrising = false;  // parametrise: finding q and q' costs, and only an observer asks for them
-  bool care = false;           // wantsSubSteps, tightening: some places need sub-steps, and smaller errors
+  bool care = false;           // wantsSubSteps: some places need sub-steps
+  bool careful = false;        // tightening, sightCost: some need smaller errors too, and to look ahead for them costs
   bool pieces = false;         // steepness, isSteep, meetsNarrow: a formula by pieces, steep or narrow in some
-  bool sight = false;          // reach, sightCost: how long a sub-step may be that misses nothing
+  bool sight = false;          // reach: how long a sub-step may be that misses nothing
   bool leadRate = false;       // rate(hand, y, dy, lead, speed): |r_phi| of one mass comes with the rates
   bool gliding = false;        // glide: some steps have a closed form
 };
