@@ -26,6 +26,18 @@ bool contains(const std::vector<std::string>& list, const std::string& name) {
   return std::find(list.begin(), list.end(), name) != list.end();
 }
 
+#ifdef REACHLAB_BENCH_PEERS
+constexpr bool kPeersBuilt = true;
+std::vector<Contender> makePeers(const BenchScene& scene) {
+  std::vector<Contender> all = makeOdeintPeers(scene);
+  for (Contender& peer : makeCvodePeers(scene)) all.push_back(std::move(peer));
+  return all;
+}
+#else
+constexpr bool kPeersBuilt = false;
+std::vector<Contender> makePeers(const BenchScene&) { return {}; }
+#endif
+
 const std::vector<std::string>& peerNames() {
   static const std::vector<std::string> names{"odeint-rk4", "odeint-dopri5", "odeint-fehlberg78", "cvode-adams", "cvode-bdf"};
   return names;
@@ -36,7 +48,7 @@ void checkNames(const SuiteOptions& options) {
   for (const auto& list : {experiment::methodNames(), peerNames()})
     for (const std::string& name : list) allowed += (allowed.empty() ? "" : ", ") + name;
   for (const std::string& m : options.methods) {
-    if (contains(peerNames(), m) && !peersBuilt())
+    if (contains(peerNames(), m) && !kPeersBuilt)
       throw ResourceError("method " + m + " is another library; configure the build with -DREACHLAB_BENCH_PEERS=ON to measure it");
     if (!contains(experiment::methodNames(), m) && !contains(peerNames(), m)) throw FaultError(Fault{"method", "is " + m, allowed});
   }
