@@ -156,12 +156,6 @@ TEST_F(Polled, ALostDeviceIsToldZeroUntilItTakesItAndAskedForEveryFifthOfASecond
   EXPECT_EQ(transport->told, (Vec3{3, 0, 0}));
 }
 
-TEST_F(Polled, OneThatGivesNoReasonHasNoConnectionAnyMore) {
-  transport->answer = Exchange::Lost;
-  device.step();
-  EXPECT_EQ(device.healthText(), "no connection any more");
-}
-
 TEST_F(Polled, OneThatIsLostAgainAtItsFirstExchangeIsAskedForLater) {
   transport->answer = Exchange::Lost;
   transport->comesBack = true;

@@ -2,14 +2,12 @@
 
 #include <gtest/gtest.h>
 
-#include <unistd.h>
-
 #include <cmath>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
+#include <sstream>
 
 #include "sim/experiment/resources.h"
+#include "tests/temporary_folder.h"
 
 namespace reachlab::devices {
 namespace {
@@ -20,22 +18,25 @@ const VelocityRow& rowOf(const std::vector<VelocityRow>& rows, const std::string
   throw std::runtime_error(kind);
 }
 
+// A minimum-jerk reach along x.
+std::string writeReach(const TemporaryFolder& folder, double duration) {
+  std::ostringstream table;
+  table.precision(17);
+  table << "time_s,x_m,y_m,z_m\n";
+  for (int i = 0; i <= 300; ++i) {
+    const double s = i / 300.0;
+    table << duration * s << ',' << s * s * s * (10 + s * (6 * s - 15)) << ",0,0\n";
+  }
+  return folder.write("reach.csv", table.str());
+}
+
 // Without encoder steps only the delay is left, and that of each filter is known.
 TEST(VelocityTable, DelaysAreThoseOfTheFilters) {
   VelocityTableSettings settings;
   settings.resolutions = {1e-9};
   // A slow minimum-jerk reach: recordings of people have frequencies beyond the cut-off, where delays are others.
-  const std::string file = (std::filesystem::temp_directory_path() / ("reach-" + std::to_string(::getpid()) + ".csv")).string();
-  {
-    std::ofstream out(file);
-    out << "time_s,x_m,y_m,z_m\n";
-    for (int i = 0; i <= 300; ++i) {
-      const double s = i / 300.0;
-      out << 0.01 * i << ',' << 0.2 * s * s * s * (10 + s * (6 * s - 15)) << ",0,0\n";
-    }
-  }
-  const auto rows = compareVelocityEstimators(file, settings);
-  std::filesystem::remove(file);
+  const TemporaryFolder folder;
+  const auto rows = compareVelocityEstimators(writeReach(folder, 3), settings);
   constexpr double kHalfTick = 0.5e-3, kFound = 0.1e-3;  // of the difference; searched in steps of 0.05 ms
   EXPECT_NEAR(rowOf(rows, "difference").delay, kHalfTick, 0.05e-3);
   EXPECT_NEAR(rowOf(rows, "butterworth").delay, kHalfTick + std::numbers::sqrt2 / (2 * std::numbers::pi * 40), kFound);
@@ -59,20 +60,10 @@ TEST(VelocityTable, EncoderStepsMakeTheDifferenceRoughAndTheFiltersSmooth) {
 // the most of a minimum-jerk reach. The rest's and the join's 0.45 s are left out, in which little happens.
 TEST(VelocityTable, TheDifferencesErrorIsHalfATickOfAcceleration) {
   constexpr double kDuration = 1.5;
-  const std::string file = (std::filesystem::temp_directory_path() / ("reach-error-" + std::to_string(::getpid()) + ".csv")).string();
-  {
-    std::ofstream out(file);
-    out.precision(17);
-    out << "time_s,x_m,y_m,z_m\n";
-    for (int i = 0; i <= 300; ++i) {
-      const double s = i / 300.0;
-      out << kDuration * s << ',' << s * s * s * (10 + s * (6 * s - 15)) << ",0,0\n";
-    }
-  }
   VelocityTableSettings settings;
   settings.resolutions = {1e-12, 1e-4};
-  const auto rows = compareVelocityEstimators(file, settings);
-  std::filesystem::remove(file);
+  const TemporaryFolder folder;
+  const auto rows = compareVelocityEstimators(writeReach(folder, kDuration), settings);
   const double unit = 0.5e-3 * 0.2 / (kDuration * kDuration);
   EXPECT_EQ(rows.front().kind, "difference");
   EXPECT_EQ(rows.front().resolution, 1e-12);

@@ -14,21 +14,12 @@
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/run_conductor.h"
+#include "tests/devices/fakes/diary_device.h"
 
 namespace reachlab::devices {
 namespace {
 
-// A hand that means to stay where it is.
-class StillHand final : public haptics::HapticDevice {
- public:
-  haptics::DeviceInfo info() const override {
-    haptics::DeviceInfo info;
-    info.virtualHand = true;
-    return info;
-  }
-  haptics::DeviceSample read() noexcept override { return {}; }
-  void write(const Vec3&) noexcept override {}
-};
+using StillHand = test::DiaryDevice;  // means to stay where it is
 
 DeviceModel frictionless() {
   DeviceModel model = *findDeviceModel("premium15");
