@@ -27,8 +27,7 @@ const std::vector<Course>& courses() {
 }  // namespace
 
 NamedFigure adaptationFigure(const Analysis& analysis) {
-  NamedFigure out;
-  out.name = "adaptation";
+  NamedFigure out{.name = "adaptation"};
   out.caption =
       "Learning from trial to trial: each line is a subject, in the order of its trials. A channel shows how much of the trained "
       "field the hand cancels, and deviations show what is left of it.";

@@ -55,8 +55,7 @@ Panel scorePanel(const Analysis& analysis, const std::string& title, const Names
 }  // namespace
 
 NamedFigure scoreFigure(const Analysis& analysis) {
-  NamedFigure out;
-  out.name = "scores";
+  NamedFigure out{.name = "scores"};
   out.caption =
       "How far each criterion is from the movements: a subject's score (mean of ln S, lower is nearer) less that of a minimum jerk that "
       "ignores the object, with its 95 % interval over the subject's trials. Dashed: that reference. Dotted: what the mean of a subject's own other trials "
@@ -89,8 +88,7 @@ NamedFigure scoreFigure(const Analysis& analysis) {
 }
 
 NamedFigure posteriorFigure(const Analysis& analysis) {
-  NamedFigure out;
-  out.name = "posterior";
+  NamedFigure out{.name = "posterior"};
   out.caption = fmt::format(
       "Probability that each candidate is the most frequent among people (protected exceedance). Broken line: the {:.2f} that a conclusion "
       "asks for, beside p.",
@@ -116,8 +114,7 @@ NamedFigure posteriorFigure(const Analysis& analysis) {
 }
 
 NamedFigure recoveryFigure(const TruthRecovery& recovery) {
-  NamedFigure out;
-  out.name = "recovery";
+  NamedFigure out{.name = "recovery"};
   out.caption = fmt::format(
       "What this design can tell: {} studies were simulated for each truth, with these subjects' numbers of trials, durations and scatter, "
       "and judged by the same rule. Rows: the truth; columns: what was named.",

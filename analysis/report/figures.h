@@ -12,9 +12,9 @@
 namespace reachlab::analysis {
 
 struct NamedFigure {
-  std::string name;     // of its file, without ending
-  std::string caption;  // plain words, for the report
-  figure::Figure figure;
+  std::string name;          // of its file, without ending
+  std::string caption = {};  // plain words, for the report
+  figure::Figure figure = {};
 };
 
 // The conclusions. In conclusion_figures.cpp.

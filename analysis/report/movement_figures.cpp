@@ -95,8 +95,7 @@ void addVelocities(NamedFigure& out, bool handAlone, const std::string& hand, co
 
 NamedFigure paperFigure(const Analysis& analysis, std::size_t condition) {
   const ConditionResult& r = analysis.results[condition];
-  NamedFigure out;
-  out.name = "velocity_" + fileNameOf(analysis.conditions[condition].name);
+  NamedFigure out{.name = "velocity_" + fileNameOf(analysis.conditions[condition].name)};
   const std::vector<const AnalyzedTrial*> used = usedTrials(analysis, condition);
   const std::size_t shown = std::min(used.size(), kMaxTrialsDrawn);
   std::vector<const AnalyzedTrial*> some;
@@ -134,8 +133,7 @@ NamedFigure paperFigure(const Analysis& analysis, std::size_t condition) {
 NamedFigure lastFiveFigure(const Analysis& analysis, std::size_t condition) {
   constexpr std::size_t kLast = 5;
   const ConditionResult& r = analysis.results[condition];
-  NamedFigure out;
-  out.name = "last_five_" + fileNameOf(analysis.conditions[condition].name);
+  NamedFigure out{.name = "last_five_" + fileNameOf(analysis.conditions[condition].name)};
   std::vector<const AnalyzedTrial*> used = usedTrials(analysis, condition);
   if (used.empty() || r.onlyFailures || analysis.conditions[condition].pooled) return out;  // five of eight targets are no series
   const std::string subject = used.front()->key.subject;
@@ -218,8 +216,7 @@ std::pair<Panel, Panel> panelsOf(const PersonResult& person, const ConditionResu
 }  // namespace
 
 NamedFigure peopleFigure(const Analysis& analysis, std::size_t condition) {
-  NamedFigure out;
-  out.name = "people_" + fileNameOf(analysis.conditions[condition].name);
+  NamedFigure out{.name = "people_" + fileNameOf(analysis.conditions[condition].name)};
   const ConditionResult& r = analysis.results[condition];
   std::vector<Panel> fits, residuals;
   for (const PersonResult& person : analysis.people) {

@@ -31,8 +31,7 @@ figure::Series typicalCourse(const Analysis& analysis, std::size_t condition) {
 }  // namespace
 
 NamedFigure learningFigure(const Analysis& analysis) {
-  NamedFigure out;
-  out.name = "learning";
+  NamedFigure out{.name = "learning"};
   const bool few = analysis.subjects.size() <= kFewPeople;
   out.caption =
       fmt::format("Success in groups of {} trials, in the order they were made{} A gap parts sessions.", analysis.options.learningBin,

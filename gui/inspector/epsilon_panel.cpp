@@ -8,6 +8,7 @@
 
 #include "analysis/report/wording.h"
 #include "gui/plot/criterion_style.h"
+#include "gui/widgets/named.h"
 
 namespace reachlab::gui::inspector {
 namespace {
@@ -43,10 +44,8 @@ EpsilonPanel::EpsilonPanel(QWidget* parent) : QWidget(parent) {
   table_->setMinimumSize(290, 110);
   table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   layout->addWidget(table_, 1);
-  told_ = new QLabel;
+  told_ = widgets::roleLabel("quiet");
   told_->setObjectName(QStringLiteral("inspectedWords"));
-  told_->setProperty("role", "quiet");
-  told_->setWordWrap(true);
   layout->addWidget(told_);
   connect(table_, &QTableWidget::itemChanged, this, [this](QTableWidgetItem* item) {
     if (item->column() == kName) Q_EMIT chosenChanged();

@@ -204,7 +204,6 @@ void InspectorPage::showRead() {
   if (inspection_->input.trials.empty())
     Q_EMIT said(tr("The chosen trials cannot be shown, because their experiment has no task. Choose trials of another experiment."));
   draw();
-  showPicked();
 }
 
 void InspectorPage::showJudged() {

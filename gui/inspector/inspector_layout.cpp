@@ -137,8 +137,8 @@ void InspectorPage::addTop(QVBoxLayout& layout) {
   report_ = widgets::named<QPushButton>("inspectorReport", tr("Report"));
   report_->setToolTip(tr("analyses all open recordings, as `reach analyze` does, and shows the report"));
   report_->setEnabled(false);
-  for (QWidget* widget : std::initializer_list<QWidget*>{openButton, title_, words_, count_, progress_, cancel_, exportButton, report_})
-    top->addWidget(widget, widget == words_ ? 1 : 0);
+  widgets::addAll(*top, {openButton, title_, words_, count_, progress_, cancel_, exportButton, report_});
+  top->setStretchFactor(words_, 1);
   layout.addLayout(top);
 }
 
@@ -157,7 +157,7 @@ QWidget* InspectorPage::makeRight() {
   fitted_ = widgets::named<QCheckBox>("inspectorFitted", tr("fitted"));
   fitted_->setChecked(true);
   fitted_->setToolTip(tr("the mean of the movements that were fitted to a person's trials (ten trials or more)"));
-  for (QWidget* widget : std::initializer_list<QWidget*>{signal_, axis_, predicted_, fitted_}) row->addWidget(widget);
+  widgets::addAll(*row, {signal_, axis_, predicted_, fitted_});
   row->addStretch(1);
   column->addLayout(row);
   plot_ = widgets::named<ProfilePlot>("inspectorPlot");

@@ -2,7 +2,6 @@
 
 #include <QCheckBox>
 #include <QFormLayout>
-#include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPushButton>
@@ -19,22 +18,18 @@ MarksPanel::MarksPanel(QWidget* parent) : QWidget(parent) {
   title_ = new QLabel;
   title_->setStyleSheet(QStringLiteral("font-weight: 600;"));
   form->addRow(title_);
-  times_ = new QLabel;
-  times_->setToolTip(tr("drag the dashed lines of the picked trial to move its onset and end"));
+  times_ = widgets::tipped(new QLabel, tr("drag the dashed lines of the picked trial to move its onset and end"));
   byRule_ = widgets::named<QPushButton>("marksByRule", tr("by the rule"));
   byRule_->setToolTip(tr("onset and end as the analysis finds them"));
-  auto* times = new QHBoxLayout;
-  times->addWidget(times_, 1);
-  times->addWidget(byRule_);
+  QHBoxLayout* times = widgets::rowOf({times_, byRule_});
+  times->setStretchFactor(times_, 1);
   form->addRow(tr("moves"), times);
   flag_ = widgets::named<QCheckBox>("flag", tr("flag"));
   exclude_ = widgets::named<QCheckBox>("exclude", tr("exclude:"));
   reason_ = widgets::named<QLineEdit>("excludeReason");
   reason_->setPlaceholderText(tr("the reason, for the report"));
-  auto* out = new QHBoxLayout;
-  out->addWidget(flag_);
-  out->addWidget(exclude_);
-  out->addWidget(reason_, 1);
+  QHBoxLayout* out = widgets::rowOf({flag_, exclude_, reason_});
+  out->setStretchFactor(reason_, 1);
   form->addRow(out);
   note_ = widgets::named<QLineEdit>("trialNote");
   form->addRow(tr("note"), note_);

@@ -48,9 +48,8 @@ QIcon iconOf(Sign sign) {
   return QIcon(picture);
 }
 
-QToolButton* makeButton(const QString& name, Sign sign, const QString& tip) {
-  auto* button = new QToolButton;
-  button->setObjectName(name);
+QToolButton* makeButton(const char* name, Sign sign, const QString& tip) {
+  auto* button = widgets::named<QToolButton>(name);
   button->setIcon(iconOf(sign));
   button->setToolTip(tip);
   button->setAutoRaise(true);
@@ -71,9 +70,9 @@ ReplayView::ReplayView(QWidget* parent) : QWidget(parent) {
   layout->addWidget(slider_);
   auto* row = new QHBoxLayout;
   row->setSpacing(3);
-  back_ = makeButton(QStringLiteral("replayBack"), Sign::Back, tr("one row back (,)"));
-  play_ = makeButton(QStringLiteral("replayPlay"), Sign::Play, tr("play, pause (P)"));
-  on_ = makeButton(QStringLiteral("replayOn"), Sign::On, tr("one row on (.)"));
+  back_ = makeButton("replayBack", Sign::Back, tr("one row back (,)"));
+  play_ = makeButton("replayPlay", Sign::Play, tr("play, pause (P)"));
+  on_ = makeButton("replayOn", Sign::On, tr("one row on (.)"));
   play_->setCheckable(true);
   speed_ = widgets::named<QComboBox>("replaySpeed");
   for (const double speed : kSpeeds) speed_->addItem(QStringLiteral("%1 ×").arg(speed), speed);
@@ -84,7 +83,7 @@ ReplayView::ReplayView(QWidget* parent) : QWidget(parent) {
   ghostsShown_->setChecked(true);
   told_ = new QLabel;
   told_->setProperty("role", "quiet");
-  for (QWidget* widget : std::initializer_list<QWidget*>{back_, play_, on_, speed_, loop_, ghostsShown_}) row->addWidget(widget);
+  widgets::addAll(*row, {back_, play_, on_, speed_, loop_, ghostsShown_});
   row->addStretch(1);
   row->addWidget(told_);
   layout->addLayout(row);

@@ -28,6 +28,12 @@ bool holds(const std::vector<std::string>& names, const std::string& name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
 
+int countOf(const std::string& kind, const std::vector<session::KindCount>& cycle) {
+  int count = 0;
+  for (const session::KindCount& some : cycle) count += some.kind == kind ? some.count : 0;
+  return count;
+}
+
 /// `{"mix_key": TEXT}` read as a plan's block is read. The faults of the text are appended.
 session::TrialMix readText(const char* key, const QString& text, QStringList& faults) {
   session::TrialMix read;
@@ -96,11 +102,9 @@ QWidget* MixEditor::makeKinds() {
   kinds_->horizontalHeader()->setStretchLastSection(true);
   kinds_->setMinimumHeight(100);
   column->addWidget(kinds_, 1);
-  auto* buttons = new QHBoxLayout;
   auto* add = widgets::named<QPushButton>("planAddKind", tr("Add kind"));
   remove_ = widgets::named<QPushButton>("planRemoveKind", tr("Remove kind"));
-  buttons->addWidget(add);
-  buttons->addWidget(remove_);
+  QHBoxLayout* buttons = widgets::rowOf({add, remove_});
   buttons->addStretch(1);
   column->addLayout(buttons);
   connect(add, &QPushButton::clicked, this, [this] {
@@ -144,11 +148,8 @@ QWidget* MixEditor::makeTargets() {
   order_ = widgets::named<QComboBox>("planOrder");
   order_->addItems({tr("as written"), tr("shuffled in each cycle"), tr("shuffled over the block")});
   wayBack_ = widgets::named<QCheckBox>("planWayBack", tr("the way back is a trial"));
-  auto* ring = new QHBoxLayout;
-  for (QWidget* part : std::initializer_list<QWidget*>{count_, new QLabel(tr("at")), radius_, new QLabel(tr("from")), first_})
-    ring->addWidget(part);
   form->addRow(tr("targets"), targets_);
-  form->addRow(tr("ring"), ring);
+  form->addRow(tr("ring"), widgets::rowOf({count_, new QLabel(tr("at")), radius_, new QLabel(tr("from")), first_}));
   form->addRow(tr("places"), list_);
   form->addRow(tr("order"), order_);
   form->addRow(wayBack_);
@@ -168,12 +169,10 @@ void MixEditor::showKinds() {
   const std::vector<session::KindCount> cycle = session::cycleOf(mix_);
   for (int row = 0; row < kinds_->rowCount(); ++row) {
     const session::TrialKind& kind = mix_.kinds[static_cast<std::size_t>(row)];
-    int count = 0;
-    for (const session::KindCount& some : cycle) count += some.kind == kind.name ? some.count : 0;
     for (int column = 0; column < kColumns; ++column) {
       auto* item = new QTableWidgetItem;
       if (column == kName) item->setText(QString::fromStdString(kind.name));
-      if (column == kCount) item->setText(QString::number(count));
+      if (column == kCount) item->setText(QString::number(countOf(kind.name, cycle)));
       if (column == kChanges) item->setText(changesText(kind));
       if (column == kNotFirst || column == kNotTwice) {
         item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
@@ -225,8 +224,7 @@ void MixEditor::takeKinds() {
     session::TrialKind& kind = mix_.kinds[static_cast<std::size_t>(row)];
     const std::string name = kinds_->item(row, kName)->text().trimmed().toStdString();
     if (name != kind.name) renamed.emplace_back(kind.name, name);
-    int had = 0;
-    for (const session::KindCount& some : before) had += some.kind == kind.name ? some.count : 0;
+    const int had = countOf(kind.name, before);
     bool isNumber = false;
     const int count = kinds_->item(row, kCount)->text().toInt(&isNumber);
     if (!isNumber || count < 0) faults_ << tr("%1: the count in a cycle is no whole number from 0").arg(QString::fromStdString(name));

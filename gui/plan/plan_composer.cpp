@@ -110,11 +110,8 @@ QWidget* PlanComposer::makeWhole() {
   orderSeed_ = new QSpinBox;
   orderSeed_->setRange(0, 999'999'999);
   orderSeed_->setToolTip(tr("draws which subject gets which order"));
-  row->addWidget(new QLabel(tr("plan")));
-  row->addWidget(name_, 1);
-  row->addWidget(permute_);
-  row->addWidget(new QLabel(tr("drawn by")));
-  row->addWidget(orderSeed_);
+  widgets::addAll(*row, {new QLabel(tr("plan")), name_, permute_, new QLabel(tr("drawn by")), orderSeed_});
+  row->setStretchFactor(name_, 1);
   return whole;
 }
 
@@ -127,18 +124,14 @@ QWidget* PlanComposer::makeList() {
   list_->setSelectionMode(QAbstractItemView::SingleSelection);
   list_->horizontalHeader()->setStretchLastSection(true);
   column->addWidget(list_, 1);
-  auto* line = new QHBoxLayout;
-  const auto button = [&](const QString& text, const char* name) {
-    auto* made = widgets::named<QPushButton>(name, text);
-    line->addWidget(made);
-    return made;
-  };
-  auto* add = button(tr("Add"), "planAdd");
-  copy_ = button(tr("Copy"), "planCopy");
-  remove_ = button(tr("Remove"), "planRemove");
+  auto* add = widgets::named<QPushButton>("planAdd", tr("Add"));
+  copy_ = widgets::named<QPushButton>("planCopy", tr("Copy"));
+  remove_ = widgets::named<QPushButton>("planRemove", tr("Remove"));
+  up_ = widgets::named<QPushButton>("planUp", tr("Earlier"));
+  down_ = widgets::named<QPushButton>("planDown", tr("Later"));
+  QHBoxLayout* line = widgets::rowOf({add, copy_, remove_});
   line->addStretch(1);
-  up_ = button(tr("Earlier"), "planUp");
-  down_ = button(tr("Later"), "planDown");
+  widgets::addAll(*line, {up_, down_});
   column->addLayout(line);
   const auto insert = [this](const session::PlanBlock& block) {
     const int at = row() < 0 ? static_cast<int>(plan_.blocks.size()) : row() + 1;
@@ -202,17 +195,13 @@ QWidget* PlanComposer::makeBlock() {
   instructions->setPlaceholderText(tr("what the subject reads before the block begins"));
   instructions->setTabChangesFocus(true);
   instructions->setMinimumHeight(70);
-  auto* fore = new QHBoxLayout;
-  fore->addWidget(least);
-  fore->addWidget(new QLabel(tr("to")));
-  fore->addWidget(most);
   form->addRow(tr("experiment"), experiment);
   form->addRow(tr("condition"), condition);
   form->addRow(tr("trials"), trials);
   form->addRow(tr("day"), day);
   form->addRow(tr("rest before it"), rest);
   form->addRow(tr("pause between trials"), pause);
-  form->addRow(tr("go signal after"), fore);
+  form->addRow(tr("go signal after"), widgets::rowOf({least, new QLabel(tr("to")), most}));
   form->addRow(tr("share without go signal"), catchShare);
   form->addRow(practice);
   form->addRow(repeatAborted);

@@ -42,8 +42,7 @@ StartPage::StartPage(QWidget* parent) : QFrame(parent) {
   const auto field = [&](const QString& words, const char* name) {
     auto* made = widgets::named<QLineEdit>(name);
     made->setMaximumWidth(130);
-    who->addWidget(new QLabel(words));
-    who->addWidget(made);
+    widgets::addAll(*who, {new QLabel(words), made});
     return made;
   };
   subject_ = field(tr("subject"), "startSubject");
@@ -57,16 +56,14 @@ StartPage::StartPage(QWidget* parent) : QFrame(parent) {
   blocks_->horizontalHeader()->setSectionResizeMode(1, QHeaderView::Stretch);
   next_ = widgets::named<QLabel>("startNext");
   next_->setWordWrap(true);
-  auto* buttons = new QHBoxLayout;
   auto* compose = new QPushButton(tr("Compose…"));
   anew_ = widgets::named<QPushButton>("startAnew", tr("Begin anew"));
   go_ = widgets::named<QPushButton>("startGo");
   go_->setProperty("role", QStringLiteral("go"));
   for (QPushButton* button : {compose, anew_, go_}) button->setFocusPolicy(Qt::NoFocus);  // Space is the trial's
-  buttons->addWidget(compose);
+  QHBoxLayout* buttons = widgets::rowOf({compose});
   buttons->addStretch(1);
-  buttons->addWidget(anew_);
-  buttons->addWidget(go_);
+  widgets::addAll(*buttons, {anew_, go_});
   layout->addWidget(title_);
   layout->addLayout(who);
   layout->addWidget(blocks_);

@@ -33,6 +33,14 @@ namespace {
 constexpr double kPenLength = 16;               // in radii of its tip
 constexpr double kPenTilt = 32, kPenTurn = 24;  // [deg] towards the viewer, to the right
 
+vtkSmartPointer<vtkSphereSource> makeSphere(double radius, int around, int down) {
+  auto sphere = vtkSmartPointer<vtkSphereSource>::New();
+  sphere->SetRadius(radius);
+  sphere->SetThetaResolution(around);
+  sphere->SetPhiResolution(down);
+  return sphere;
+}
+
 Actor actorOf(vtkPolyDataMapper* mapper, const Look& look) {
   mapper->ScalarVisibilityOff();
   const auto actor = Actor::New();
@@ -100,13 +108,7 @@ void makeShell(vtkActor& actor) {
       false);
 }
 
-Actor makeBall(const Look& look) {
-  vtkNew<vtkSphereSource> source;
-  source->SetRadius(1);
-  source->SetThetaResolution(40);
-  source->SetPhiResolution(28);
-  return actorOf(source->GetOutputPort(), look);
-}
+Actor makeBall(const Look& look) { return actorOf(makeSphere(1, 40, 28)->GetOutputPort(), look); }
 
 Actor makeBox(const Look& look) {
   vtkNew<vtkCubeSource> cube, mark;
@@ -180,10 +182,7 @@ Vec3 penEnd(const Vec3& hand, double radius) {
 }
 
 Actor makePen(const Look& look) {
-  vtkNew<vtkSphereSource> tip;
-  tip->SetRadius(1);
-  tip->SetThetaResolution(24);
-  tip->SetPhiResolution(18);
+  const auto tip = makeSphere(1, 24, 18);
   vtkNew<vtkConeSource> cone;
   cone->SetResolution(24);
   cone->SetHeight(5);
@@ -196,9 +195,7 @@ Actor makePen(const Look& look) {
   shaft->SetHeight(kPenLength - 5);
   shaft->SetCenter(0, (kPenLength + 5) / 2, 0);
   vtkNew<vtkAppendPolyData> all;
-  all->AddInputConnection(tip->GetOutputPort());
-  all->AddInputConnection(cone->GetOutputPort());
-  all->AddInputConnection(shaft->GetOutputPort());
+  for (vtkAlgorithm* part : std::initializer_list<vtkAlgorithm*>{tip, cone, shaft}) all->AddInputConnection(part->GetOutputPort());
   auto actor = actorOf(all->GetOutputPort(), look);
   actor->SetOrientation(kPenTilt, 0, -kPenTurn);
   return actor;
@@ -242,10 +239,7 @@ Actor makeDots(const std::vector<Vec3>& places, double radius, const Look& look)
   for (const Vec3& p : places) points->InsertNextPoint(p.x, p.y, p.z);
   vtkNew<vtkPolyData> data;
   data->SetPoints(points);
-  vtkNew<vtkSphereSource> ball;
-  ball->SetRadius(radius);
-  ball->SetThetaResolution(12);
-  ball->SetPhiResolution(9);
+  const auto ball = makeSphere(radius, 12, 9);
   vtkNew<vtkGlyph3D> dots;
   dots->SetInputData(data);
   dots->SetSourceConnection(ball->GetOutputPort());
