@@ -17,9 +17,8 @@ namespace {
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 using Clock = std::chrono::steady_clock;
-using std::chrono::milliseconds;
 
-constexpr milliseconds kConnectPatience{2000}, kSendPatience{200}, kClosePatience{100};
+constexpr std::chrono::milliseconds kConnectPatience{2000}, kSendPatience{200}, kClosePatience{100};
 constexpr std::size_t kLargestMessage = 1u << 20;  // [bytes] a service that sends more is none that we know
 
 // Every call is begun asynchronously and waited for with a limit: Beast's own waiting calls know none.
@@ -71,7 +70,7 @@ class WebSocketLink final : public MessageLink {
         read_ = true;
       });
     }
-    turn(milliseconds(most), read_);
+    turn(std::chrono::milliseconds(most), read_);
     if (!read_) return Got::Nothing;
     reading_ = false;
     if (readFault_) {
@@ -89,14 +88,14 @@ class WebSocketLink final : public MessageLink {
   std::string fault() const override { return fault_; }
 
  private:
-  void turn(milliseconds patience, const bool& until) {
+  void turn(std::chrono::milliseconds patience, const bool& until) {
     const auto end = Clock::now() + patience;
     io_.restart();
     while (!until && io_.run_one_until(end) > 0) {}
     if (!until) io_.poll();
   }
   template <typename Begin>
-  void wait(milliseconds patience, beast::error_code& fault, Begin&& begin) {
+  void wait(std::chrono::milliseconds patience, beast::error_code& fault, Begin&& begin) {
     auto done = std::make_shared<bool>(false);
     auto result = std::make_shared<beast::error_code>();
     begin([done, result](beast::error_code code, const auto&... /*what else an operation tells*/) {

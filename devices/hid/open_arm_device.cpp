@@ -8,16 +8,13 @@
 #include "base/error.h"
 #include "devices/driver/drivers.h"
 #include "devices/hid/report_descriptor.h"
+#include "devices/mapping/towards_right_up.h"
 
 namespace reachlab::devices {
 namespace {
 
 constexpr int kReportMs = 10;     // the firmware's turn; longer, and it is asked again
 constexpr int kMostDrained = 64;  // a device that never stops sending is answered all the same
-
-// x towards the user, y right, z up <-> x right, y up, z towards the user.
-Vec3 toWorld(const Vec3& v) { return {v.y, v.z, v.x}; }
-Vec3 toArm(const Vec3& v) { return {v.z, v.x, v.y}; }
 
 }  // namespace
 
@@ -97,9 +94,9 @@ Exchange OpenArm::exchange(ForceSource& source, haptics::DeviceSample& sample) {
   for (std::size_t i = 0; i < 3; ++i) counts[i] = counts_[i].take(report->encoders[i]);
   angles_ = jointAngles(*options_.model, counts);
   ArmCommand command;
-  command.currents = motorCurrents(*options_.model, angles_, toArm(source.newest()), options_.maxCurrent);
+  command.currents = motorCurrents(*options_.model, angles_, toTowardsRightUp(source.newest()), options_.maxCurrent);
   if (!send(command)) return Exchange::Lost;
-  sample.position = toWorld(handlePlace(*options_.model, angles_));
+  sample.position = fromTowardsRightUp(handlePlace(*options_.model, angles_));
   sample.hasVelocity = false;
   sample.buttons = report->button ? 1 : 0;
   return Exchange::Report;

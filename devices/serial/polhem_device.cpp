@@ -9,6 +9,7 @@
 #include "base/device_options.h"
 #include "base/error.h"
 #include "devices/driver/drivers.h"
+#include "devices/mapping/towards_right_up.h"
 #include "devices/serial/polhem_line.h"
 #include "devices/serial/serial_port.h"
 
@@ -18,10 +19,6 @@ namespace {
 constexpr int kAnswerMs = 10;
 constexpr std::int64_t kAskAgainNs = 10'000'000;
 constexpr int kMostUnanswered = 50;  // half a second: its firmware's own watchdog has then switched it off as well
-
-// x towards the user, y right, z up <-> x right, y up, z towards the user.
-Vec3 toWorld(const Vec3& v) { return {v.y, v.z, v.x}; }
-Vec3 toDevice(const Vec3& v) { return {v.z, v.x, v.y}; }
 
 }  // namespace
 
@@ -41,7 +38,7 @@ haptics::DeviceInfo PolhemSerial::info() const {
 Exchange PolhemSerial::exchange(ForceSource& source, haptics::DeviceSample& sample) {
   if (!port_) return Exchange::Lost;
   if (!awaiting_ || source.now() - sentNs_ > kAskAgainNs) {
-    if (!port_->send(polhemForceLine(toDevice(source.newest())))) return Exchange::Lost;
+    if (!port_->send(polhemForceLine(toTowardsRightUp(source.newest())))) return Exchange::Lost;
     sentNs_ = source.now();
     awaiting_ = true;
   }
@@ -55,7 +52,7 @@ Exchange PolhemSerial::exchange(ForceSource& source, haptics::DeviceSample& samp
   if (!state) return ++unanswered_ >= kMostUnanswered ? Exchange::Lost : Exchange::Nothing;
   awaiting_ = false;
   unanswered_ = 0;
-  sample.position = toWorld(state->place);
+  sample.position = fromTowardsRightUp(state->place);
   sample.hasVelocity = false;
   sample.buttons = state->info != 0 ? 1 : 0;
   return Exchange::Report;

@@ -11,6 +11,7 @@
 #include "devices/driver/drivers.h"
 #include "devices/driver/orientation.h"
 #include "devices/io/polled_device.h"
+#include "devices/mapping/towards_right_up.h"
 #include "devices/vendor/force_dimension_api.h"
 #include "devices/virtual/device_model.h"
 
@@ -20,10 +21,6 @@ namespace {
 
 constexpr std::int64_t kPeriodNs = 500'000;
 constexpr int kMostErrors = 20;  // in a row, before it counts as lost: some 10 ms
-
-// x towards the user, y right, z up <-> x right, y up, z towards the user.
-Vec3 toWorld(const Vec3& v) { return {v.y, v.z, v.x}; }
-Vec3 toDevice(const Vec3& v) { return {v.z, v.x, v.y}; }
 
 // Peak force where the library does not tell it [N], radius of the workspace [m]: those that CHAI3D drives each model with
 // (chai3d/chai3d:src/devices/CDeltaDevices.cpp, read).
@@ -53,13 +50,13 @@ class ForceDimension final : public Transport {
     const int said = dhd_.getPosition(&place.x, &place.y, &place.z, id_);
     bool fine = said >= 0;
     if (fine && deviceVelocity_) fine = dhd_.getLinearVelocity(&velocity.x, &velocity.y, &velocity.z, id_) >= 0;
-    const Vec3 force = toDevice(source.newest());
+    const Vec3 force = toTowardsRightUp(source.newest());
     fine = (dhd_.setForce(force.x, force.y, force.z, id_) >= 0) && fine;
     if (!fine) return fault();
     errors_ = 0;
     if (said == dhd::kTimeGuard) return Exchange::Nothing;  // the sample of before once more
-    sample.position = toWorld(place);
-    sample.velocity = toWorld(velocity);
+    sample.position = fromTowardsRightUp(place);
+    sample.velocity = fromTowardsRightUp(velocity);
     sample.hasVelocity = deviceVelocity_;
     sample.buttons = dhd_.getButtonMask != nullptr ? dhd_.getButtonMask(id_) : 0;
     if (wrist_) readOrientation(sample);
