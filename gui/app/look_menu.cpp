@@ -11,7 +11,6 @@
 #include "gui/app/main_window.h"
 #include "gui/app/menu_entries.h"
 #include "gui/scene/scene_view.h"
-#include "gui/scene_plan/part_names.h"
 #include "gui/widgets/theme.h"
 #include "gui/widgets/work_strip.h"
 #include "sim/experiment/scene_look.h"
