@@ -113,7 +113,8 @@ bool StationSink::onTick(const haptics::TickState& state, trial::Command, std::u
 std::vector<std::uint8_t> StationSink::takeGiven() {
   GivenRecord record{own_, places_, rates_, {}};
   GivenSample given;
-  while (given_->tryPop(given)) record.samples.push_back(given);
+  // No more than the ring holds, so that this ends even where the haptic thread gives faster.
+  while (record.samples.size() < kGivenRoom && given_->tryPop(given)) record.samples.push_back(given);
   if (std::exchange(said_, true) && record.samples.empty()) return {};
   return encodeGiven(std::move(record));
 }

@@ -39,7 +39,7 @@ class StationSink final : public haptics::RunSink, public record::FurtherColumns
   StationSink(LinkMemory& memory, CoupledCopy& copy, int own, int sendEvery = 1)
       : memory_(memory), copy_(copy), own_(own), sendEvery_(sendEvery), places_(static_cast<std::uint32_t>(copy.placeCount())),
         rates_(static_cast<std::uint32_t>(copy.rateCount())), linkColumns_(linkColumns(copy.peerCount())),
-        given_(std::make_unique<SpscQueue<GivenSample, 4096>>()) {}
+        given_(std::make_unique<SpscQueue<GivenSample, kGivenRoom>>()) {}
   bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override;
   /// For the latest tick.
   void fill(double* columns) const noexcept override { std::copy_n(links_.begin(), linkColumns_, columns); }
@@ -72,6 +72,7 @@ class StationSink final : public haptics::RunSink, public record::FurtherColumns
   const TowardsOthers& towardsOthers() noexcept;
 
  private:
+  static constexpr std::size_t kGivenRoom = 4096;  // samples
   int peerOf(int station) const noexcept { return station < own_ ? station : station - 1; }  // from 0
   bool give(const GivenSample& given) noexcept;
   void giveOrders(const haptics::TickState& state, std::int32_t trial) noexcept;
@@ -86,7 +87,7 @@ class StationSink final : public haptics::RunSink, public record::FurtherColumns
   std::uint32_t places_, rates_;  // of the copy, which the haptic thread owns once it runs
   std::size_t linkColumns_;
   std::array<double, kMostLinkColumns> links_{};
-  std::unique_ptr<SpscQueue<GivenSample, 4096>> given_;
+  std::unique_ptr<SpscQueue<GivenSample, kGivenRoom>> given_;
   std::uint32_t sequence_ = 0;
   std::int32_t trial_ = 0;
   double squares_ = 0;
