@@ -72,7 +72,7 @@ TEST(HapticLoop, TickThatChangesTheSceneAllocatesNothing) {
 
 TEST(TickEngine, RefusesScenesThatCannotShareARecord) {
   const experiment::Experiment first = experiment::readExperiment("chain-moderate");
-  const auto refusedKey = [&](const auto& change) -> std::string {
+  const auto refusedKey = [&](void (*change)(experiment::Experiment&)) -> std::string {
     experiment::Experiment other = first;
     change(other);
     const std::vector<experiment::CompiledExperiment> scenes{experiment::CompiledExperiment(first), experiment::CompiledExperiment(other)};

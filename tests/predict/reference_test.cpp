@@ -2,7 +2,8 @@
 // one Taylor series over the whole movement. Nothing is shared with the program but the equations of motion.
 #include <gtest/gtest.h>
 
-#include <Eigen/LU>
+#include "base/math/matrix.h"  // before Boost, which includes Eigen
+
 #include <boost/multiprecision/cpp_bin_float.hpp>
 #include <boost/multiprecision/eigen.hpp>
 #include <cmath>

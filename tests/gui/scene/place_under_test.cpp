@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <random>
 
 #include "constraints/constraint.h"
@@ -126,7 +127,7 @@ TEST(PlaceUnder, HasTheParametersNearestToThoseBefore) {
 
 TEST(PlaceUnder, WithoutAConstraintLiesInThePlaneThatFacesTheViewer) {
   constraints::Constraint free;
-  const Camera camera = lookAt({}, 0.4, {0.3, 0.2, 1}, kWidth / kHeight);
+  const Camera camera = lookAtPoints(std::array{Vec3{}}, 0.2, {0.3, 0.2, 1}, kWidth / kHeight);
   const std::vector<double> about{0.05, -0.02, 0.1};
   const auto found = placeUnder({camera, 300, 200, kWidth, kHeight}, free, {}, about);
   ASSERT_TRUE(found.has_value());
