@@ -10,7 +10,7 @@ namespace reachlab::analysis {
 std::span<AnalyzedTrial> trialsOf(Analysis& analysis, std::size_t condition);
 /// The prediction is that of every trial of the condition. The torques of an arm depend on the direction, so (2) needs a single target.
 bool holdsFor(const Condition& condition, predict::Criterion criterion);
-/// What the fits of a used trial are made to, with weights 1.
+/// The samples of a used trial for the fits, with weights 1.
 FitWindow windowOf(const Analysis& analysis, const AnalyzedTrial& trial);
 /// The trials that a person's fits are parallel to.
 std::vector<const AnalyzedTrial*> fittedTrials(const Analysis& analysis, const PersonResult& person);

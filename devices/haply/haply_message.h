@@ -33,7 +33,7 @@ enum class HaplyAnswer : std::uint8_t {
 /// With several grips no grip is used, because the service does not tell which grip belongs to which device.
 HaplyAnswer readHaplyMessage(std::string_view message, const std::string& id, HaplyState& state, const std::string& grip = {});
 
-/// What a message tells of the service.
+/// The part of a message that describes the service.
 struct HaplyService {
   std::vector<std::string> devices, grips;  // names of all of them
   std::string

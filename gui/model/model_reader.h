@@ -12,7 +12,7 @@ namespace reachlab::gui::model {
 /// The file that an experiment names so: beside the experiment or recording in `folder`, if it is there.
 std::string findSceneFile(const std::string& named, const QString& folder);
 
-/// Reads scene files on another thread, so that a large file or a slow disk does not block the window. A new request replaces the last.
+/// Reads scene files on another thread, so that a large file or a slow disk does not block the window. A new request replaces an unfinished request.
 /// Window's thread.
 class ModelReader : public QObject {
   Q_OBJECT

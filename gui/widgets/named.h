@@ -32,7 +32,7 @@ inline QLabel* roleLabel(const char* role, const QString& text = {}) {
   return label;
 }
 
-/// Adds the widgets to the layout, one after the other.
+/// Adds the widgets to the layout in this order.
 inline void addAll(QBoxLayout& layout, std::initializer_list<QWidget*> widgets) {
   for (QWidget* widget : widgets) layout.addWidget(widget);
 }

@@ -16,7 +16,7 @@ class NewestWork {
   struct Stopped {};
 
  public:
-  /// `owner` has this as a member. What the work tells is told in its thread.
+  /// `owner` has this as a member. Its thread receives the messages of the work.
   explicit NewestWork(QObject& owner) : owner_(owner) {}
 
   /// The work's view of itself, on its own thread.
@@ -44,7 +44,7 @@ class NewestWork {
   void begin(Work work, Done done) {
     drop();
     busy_ = true;
-    // The work before is waited for on the new thread, not on the window's.
+    // The new thread waits for the earlier work, so that the window does not.
     auto before = std::make_shared<std::jthread>(std::move(thread_));
     thread_ = std::jthread([this, number = turn_, work, done, before](const std::stop_token& stop) mutable {
       if (before->joinable()) before->join();

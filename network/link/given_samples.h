@@ -35,7 +35,7 @@ GivenRecord decodeGiven(std::span<const std::uint8_t> payload);
 
 /// True for the log of a station, which has fewer hands than its experiment.
 bool isOfStation(const record::RunLog& log);
-/// All samples and orders of a log, in the order in which the copy received them. If the log holds none of them, own is -1.
+/// All samples and orders of a log, in the order in which the copy received them. If the log holds no samples, own is -1.
 GivenRecord readGiven(const record::RunLog& log);
 /// The station of the log, from 1. 0 if the log holds no data of other stations.
 int recordedStation(const record::RunLog& log);

@@ -54,7 +54,7 @@ class RunConductor {
   std::size_t trialsLeft() const { return trials_.size() - next_; }
   const trial::PlannedTrial* nextPlanned() const { return next_ < trials_.size() ? &trials_[next_] : nullptr; }
   bool underWay() const { return underWay_; }
-  /// The trial under way, else the next trial. Null if there is neither.
+  /// The trial under way, else the next trial. Null if no trial is left.
   const trial::PlannedTrial* currentTrial() const { return underWay_ ? &trials_[next_ - 1] : nextPlanned(); }
 
   /// Looks at the newest state, and returns the trial under way once it has ended and is safe on the disk. Waits for the disk but not for

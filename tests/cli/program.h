@@ -80,7 +80,7 @@ inline testing::AssertionResult says(const Ended& ended, int exitCode, const std
                                      << ended.err.substr(0, 4000);
 }
 
-/// Runs a line of bash in which $REACH is the program; for redirections, pipes and limits of its own.
+/// Runs a line of bash in which $REACH is the program, for redirections, pipes and limits.
 inline Ended shell(const std::string& line) {
   const TemporaryFolder folder;
   const std::string script = folder.write("script", "REACH=\"" REACH_PROGRAM "\"\n" + line + "\n");

@@ -9,7 +9,7 @@
 /// Payloads of the log's records, to bytes and back (docs/recording.md). Decoding throws FaultError on bytes that no writer makes.
 namespace reachlab::record {
 
-/// Puts the members of a record, one behind the other. An enumerator is one byte, and so are up to eight marks.
+/// Puts the members of a record in their order. An enumerator is one byte, and so are up to eight marks.
 struct PutMembers {
   ByteWriter& out;
   template <class... Members>
