@@ -72,7 +72,7 @@ class StationSink final : public haptics::RunSink, public record::FurtherColumns
   const TowardsOthers& towardsOthers() noexcept;
 
  private:
-  static constexpr std::size_t kGivenRoom = 4096;  // samples
+  static constexpr std::size_t kGivenRoom = 4096;                                            // samples
   int peerOf(int station) const noexcept { return station < own_ ? station : station - 1; }  // from 0
   bool give(const GivenSample& given) noexcept;
   void giveOrders(const haptics::TickState& state, std::int32_t trial) noexcept;

@@ -196,7 +196,7 @@ class MessageRig : public PolledRig {
 class PolhemRig final : public MessageRig {
  public:
   PolhemRig() : MessageRig(false) {}
-  ~PolhemRig() override { polled_.reset(); }  // what it sends last goes through this rig
+  ~PolhemRig() override { polled_.reset(); }           // what it sends last goes through this rig
   double toldLimit() const override { return 5.002; }  // each axis is rounded to a millinewton
 
  protected:
