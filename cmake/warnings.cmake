@@ -58,7 +58,7 @@ function(reachlab_precompile target)
   endif()
 endfunction()
 
-# reachlab_unity(<target>): with REACHLAB_UNITY several sources are compiled as one, which spares a quarter of the time of a first build. Names in the unnamed
+# reachlab_unity(<target>): with REACHLAB_UNITY several sources are compiled as one, which spares time in a first build. Names in the unnamed
 # namespaces of a library must then differ.
 function(reachlab_unity target)
   if(REACHLAB_UNITY)
