@@ -71,6 +71,11 @@ function(reachlab_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)
 endfunction()
 
+# reachlab_compute(<sources…>): the speed of these sources counts even in a library that is compiled quickly.
+function(reachlab_compute)
+  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:RelWithDebInfo>:-O2>)
+endfunction()
+
 # reachlab_library(<name> [COMPUTES] DEPENDS <public libraries…> PRIVATE <private libraries…> ROOMS <sub-folders…>): the .cpp files of this folder and
 # of its rooms as one target. COMPUTES says that its speed counts in a dev build too.
 function(reachlab_library name)
