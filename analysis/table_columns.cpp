@@ -37,7 +37,7 @@ constexpr std::string_view kMeasures = "MEASURES";        // all of `measures`, 
 constexpr std::string_view kConclusions = "CONCLUSIONS";  // all columns of conclusions.csv, which comes before, here
 constexpr std::string_view kChoice = "Choice of the analysis that differs from the asked ones; as asked: none";
 
-/// A table's columns: names of shared ones, then those of its own, among which further shared ones may be.
+/// The columns of a table: first the names of shared columns, then columns with their sentences. `own` may name shared columns too.
 struct Table {
   std::string_view file, shared;
   Columns own;

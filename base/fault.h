@@ -48,7 +48,8 @@ struct FaultError : Error {
   std::vector<Fault> faults;
 };
 
-/// Calls `work`. A fault that it throws is told from outside, under `key`. It has no place, since the text that it is of lies in no file.
+/// Calls `work` and puts `key` before the key of each fault that `work` throws. The fault loses its place, because the parsed text is in no
+/// file.
 template <class Work>
 auto underKey(const std::string& key, const Work& work) {
   try {

@@ -19,7 +19,7 @@ QAction* addEntry(MainWindow& window, QMenu& menu, const QString& text, Slot slo
   return action;
 }
 
-/// The same for an entry that is on or off, which the slot is told.
+/// Adds an entry with a check mark. The slot receives whether the entry is checked.
 template <typename Slot>
 QAction* addSwitch(MainWindow& window, QMenu& menu, const QString& text, Slot slot, const QKeySequence& key = {}) {
   QAction* action = addEntry(window, menu, text, slot, key);

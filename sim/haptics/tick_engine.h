@@ -30,8 +30,8 @@ struct TickInput {
 };
 
 struct EngineOptions {
-  /// The devices of the hands, the first hand's at index 0. A virtual hand moves by tick count, so after a gap it is where it was and nothing
-  /// has to be anchored anew. An experiment's limit can only lower the limit of a device that renders force. It replaces any other limit.
+  /// The devices of the hands, the first hand's at index 0. A virtual hand moves by tick count. After a gap it has not moved, so the engine
+  /// does not anchor it again. An experiment's force limit lowers the limit of a device that renders force, and replaces that of other devices.
   std::vector<DeviceInfo> hands{DeviceInfo{}};
 };
 /// Those of the device's hands.

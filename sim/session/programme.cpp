@@ -44,7 +44,7 @@ Programme checkedProgramme(const std::string& file) {
   const JsonNode root = parseJson(text, file);
   std::vector<Fault> elsewhere, here;
   using What = std::pair<std::string, std::vector<experiment::Patch>>;
-  std::map<What, std::optional<experiment::CompiledExperiment>> opened;  // nullopt: its faults are told already
+  std::map<What, std::optional<experiment::CompiledExperiment>> opened;  // nullopt: the faults of this experiment are in the list already
   for (std::size_t i = 0; i < programme.plan.blocks.size(); ++i) {
     const PlanBlock& block = programme.plan.blocks[i];
     const auto [known, isNew] = opened.try_emplace(What{block.experiment, block.changes});

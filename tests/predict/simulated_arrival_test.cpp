@@ -44,7 +44,7 @@ TEST(Simulator, ArrivesAtRestUnderEveryCriterion) {
   experiment::Experiment hardCoupling = damped(chainModerate(), 1.5, 3), viscous = chainModerate(),
                          viscousTwins = makeParallel({2, 2, 1}, {80, 80, 250}, 2);
   hardCoupling.coupling->damping = 0;
-  experiment::Experiment viscousPair = damped(parallelPair(), 1.5, 3);  // whose hand has a speed of its own
+  experiment::Experiment viscousPair = damped(parallelPair(), 1.5, 3);  // the hand's speed differs from the masses'
   viscous.object.viscosity = viscousTwins.object.viscosity = viscousPair.object.viscosity = 0.7;
   for (const experiment::Experiment& e :
        {dingwell(), chainModerate(), parallelPair(), makeParallel({3, 2, 1}, {50, 250, 100}, 2), damped(chainModerate(), 1.5, 3),

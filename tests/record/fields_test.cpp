@@ -56,7 +56,7 @@ std::size_t countFields(const T& value) {
 }
 
 TEST(Fields, EveryMemberOfAConfigurationStandsInTheList) {
-  const std::size_t firstHand = countFields(haptics::DeviceInfo{});  // has keys of its own
+  const std::size_t firstHand = countFields(haptics::DeviceInfo{});  // each member of the device has a key of the configuration
   EXPECT_EQ(countFields(RunConfiguration{}), countMembers<RunConfiguration>() - 1 + firstHand);
   EXPECT_EQ(countFields(Participant{}), countMembers<Participant>());
   EXPECT_EQ(countFields(ChannelTable{}), countMembers<ChannelTable>());

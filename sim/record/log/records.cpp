@@ -26,7 +26,7 @@ Vec3 getVec3(ByteReader& in) {
   return v;
 }
 
-// A device's sample is told by some of the flags, and by these numbers behind them.
+// The log holds a device's sample as flags, followed by the numbers that the flags announce.
 std::uint8_t flagsOf(const haptics::DeviceSample& sample, bool samePosition) {
   return static_cast<std::uint8_t>((sample.valid ? kValid : 0) | (sample.hasVelocity ? kHasVelocity : 0) |
                                    (sample.buttons != 0 || sample.released ? kButtons : 0) | (samePosition ? kSamePosition : 0));
