@@ -179,6 +179,7 @@ std::string_view nameOf(Obstacle reason) {
   static constexpr std::string_view kNames[] = {
       "",     "too_few_trials",    "too_few_subjects", "reference", "not_told_apart", "subjects_differ", "mass_at_edge",
       "poor", "nothing_to_compare"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(Obstacle::NothingToCompare) + 1);
   return kNames[static_cast<std::size_t>(reason)];
 }
 

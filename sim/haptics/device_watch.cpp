@@ -26,6 +26,7 @@ constexpr FaultWords kFaults[]{
     {"no_clock", "does not call for its tick any more; is it connected?"},
     {"device", "reports a fault of its own"},
 };
+static_assert(std::size(kFaults) == static_cast<std::size_t>(DeviceFault::Device) + 1);
 
 }  // namespace
 

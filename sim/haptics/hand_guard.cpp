@@ -8,6 +8,7 @@ namespace reachlab::haptics {
 
 std::string_view nameOf(DeviceState state) {
   constexpr std::string_view kNames[]{"off", "homed", "armed", "engaged", "fault"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(DeviceState::Fault) + 1);
   return kNames[static_cast<std::size_t>(state)];
 }
 

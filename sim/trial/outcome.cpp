@@ -4,6 +4,7 @@ namespace reachlab::trial {
 
 std::string_view nameOf(Outcome outcome) {
   constexpr std::string_view kNames[]{"none", "success", "failure", "aborted", "interrupted"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(Outcome::Interrupted) + 1);
   return kNames[static_cast<std::size_t>(outcome)];
 }
 
