@@ -3,7 +3,6 @@
   eight_stations.py BUILD [STATIONS] [SECONDS]
 Two or three send at 1 kHz, more at 250 Hz. They must meet, carry out one trial, and every log must replay to the bit; rate, misses and share of a processor are reported, not judged: eight
 stations want more than two processors. Exits 1 otherwise."""
-import glob
 import json
 import os
 import re
@@ -11,26 +10,18 @@ import subprocess
 import sys
 import tempfile
 import time
+from pathlib import Path
 
-reach = os.path.realpath(os.path.join(sys.argv[1], "cli/reach"))
+from station_setup import add_station, chain_of
+
+reach = Path(sys.argv[1], "cli/reach").resolve()
 count = int(sys.argv[2]) if len(sys.argv) > 2 else 8
 seconds = float(sys.argv[3]) if len(sys.argv) > 3 else 2
 work = tempfile.mkdtemp(prefix="eight-stations-")
 os.chdir(work)
-quiet = {"check": True, "stdout": subprocess.DEVNULL}
-subprocess.run([reach, "peers", "init", "s1", "--conductor", "--name", "s1"], **quiet)
-for i in range(2, count + 1):
-    subprocess.run([reach, "peers", "init", f"s{i}", "--name", f"s{i}"], **quiet)
-    subprocess.run([reach, "peers", "add", "s1", f"s{i}/request.pem"], **quiet)
-    for file in glob.glob(f"s1/for-s{i}/*"):
-        os.link(file, f"s{i}/" + os.path.basename(file))
-with open("many.json", "w") as file:
-    json.dump({"schema_version": 1, "name": "many", "constraint": {"name": "line", "shape": {"length_m": 0.2}},
-               "object": {"kind": "chain", "masses_kg": [0.6] * count, "stiffness_n_per_m": [600] * (count - 1)},
-               "coupling": {"stiffness_n_per_m": 600, "damping_n_s_per_m": 5}, "hands": [{"mass": i + 1} for i in range(count)],
-               "timing": {"max_missed_ticks": 100000, "max_gap_s": 10},
-               "task": {"start": [0], "target": [6.283185307179586], "duration_s": seconds,
-                        "tolerance": {"position_m": 0.02, "velocity_m_per_s": 0.05, "time_s": 3}}}, file)
+for i in range(1, count + 1):
+    add_station(reach, Path("s1"), Path(f"s{i}"), f"s{i}")
+Path("many.json").write_text(json.dumps(chain_of(count, seconds)))
 begun, started = time.monotonic(), []
 for i in range(1, count + 1):
     words = [reach, "station", "many.json", "--number", str(i), "--device", "simulated:noise=0", "--seed", str(i), "--wait", "60", "--rate", "1000" if count < 4 else "250", "--peers", f"s{i}",
@@ -43,11 +34,10 @@ for process in started:
     codes[process.pid] = (os.waitstatus_to_exitcode(status), usage.ru_utime + usage.ru_stime, time.monotonic() - begun)
 for i, process in enumerate(started, 1):
     code, used, lived = codes[process.pid]
-    with open(f"{i}.out") as out, open(f"{i}.err") as err:
-        out, err = out.read(), err.read()
+    out, err = Path(f"{i}.out").read_text(), Path(f"{i}.err").read_text()
     met = len(re.findall(r"^station \d+ \(.*round trip", err, re.M))
     trial = next(iter(re.findall(r"^trial=.*", out, re.M)), "no trial")
-    logs = glob.glob(f"data{i}/sourcedata/*_log.reach")
+    logs = list(Path(f"data{i}/sourcedata").glob("*_log.reach"))
     replay = subprocess.run([reach, "replay", logs[0], "--check"], capture_output=True, text=True) if logs else None
     loop = subprocess.run(["grep", "-aoh", r"loop: [0-9.]* ticks/s\|missed [0-9]*, longest gap [0-9.]* ms", *logs], capture_output=True, text=True).stdout
     good = code == 0 and met == count - 1 and trial != "no trial" and replay is not None and replay.returncode == 0

@@ -6,7 +6,6 @@ lost ends the trial as peer_lost within 150 ms of its last sample, with zero for
 90 ms fades and recovers and is marked; a clock that steps, frames that come twice or once more change nothing; certificates that are not
 right, and other versions, are refused before a trial. Every log replays to the bit. Exits 1 otherwise."""
 import csv
-import glob
 import json
 import os
 import re
@@ -16,18 +15,14 @@ import subprocess
 import sys
 import tempfile
 import time
+from pathlib import Path
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from station_log import StationLog  # noqa: E402
+from station_log import StationLog
+from station_setup import add_station, chain_of
 
-HERE = os.path.dirname(os.path.abspath(__file__))
-SLOW = {
-    "schema_version": 1, "name": "slow", "constraint": {"name": "line", "shape": {"length_m": 0.2}},
-    "object": {"kind": "chain", "masses_kg": [0.6, 0.6], "stiffness_n_per_m": [600]},
-    "coupling": {"stiffness_n_per_m": 600, "damping_n_s_per_m": 5}, "hands": [{"mass": 1}, {"mass": 2}],
-    "timing": {"max_missed_ticks": 100000, "max_gap_s": 10},
-    "task": {"start": [0], "target": [6.283185307179586], "duration_s": 6,
-             "tolerance": {"position_m": 0.02, "velocity_m_per_s": 0.05, "time_s": 3}}}
+HERE = Path(__file__).resolve().parent
+SIDES = ("left", "right")
+SLOW = chain_of(2, 6)
 SHIM = r"""
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -93,8 +88,8 @@ class Link:
         tag = os.getpid()
         self.spaces = [f"reachA{tag}", f"reachB{tag}"]
         self.outer = [f"rva{tag}", f"rvb{tag}"]
-        relay = os.path.join(work, "link_relay")
-        run("g++", "-std=c++20", "-O2", "-o", relay, os.path.join(HERE, "link_relay.cpp"))
+        relay = work / "link_relay"
+        run("g++", "-std=c++20", "-O2", "-o", relay, HERE / "link_relay.cpp")
         for i in range(2):
             run("ip", "netns", "add", self.spaces[i])
             run("ip", "link", "add", self.outer[i], "type", "veth", "peer", "name", self.outer[i] + "n", "netns", self.spaces[i])
@@ -133,29 +128,32 @@ class Pair:
     """One run of two stations; `left` is the conductor."""
 
     def __init__(self, bench, name, wait=20, experiment=None, trials=None, noise=0, **stations):
-        self.folder = os.path.join(bench.work, name)
-        os.makedirs(self.folder)
+        self.folder = bench.work / name
+        self.folder.mkdir()
         self.bench, self.processes = bench, {}
         for side, number in (("right", 2), ("left", 1)):
             more = stations.get(side, {})
             words = ["ip", "netns", "exec", bench.link.spaces[number - 1], more.get("reach", bench.reach), "station", experiment or bench.experiment,
                      "--number", str(number), "--device", f"simulated:noise={noise}", "--seed", str(number), "--every-tick", "--wait", str(wait),
-                     "--peers", more.get("peers", os.path.join(bench.work, side)), "--interface", bench.link.outer[number - 1] + "n",
-                     "--peer", f"10.77.0.{3 - number}", "--data", self.path(side)]
+                     "--peers", more.get("peers", bench.work / side), "--interface", bench.link.outer[number - 1] + "n",
+                     "--peer", f"10.77.0.{3 - number}", "--data", self.folder / side]
             if side == "left":
                 words += ["--conductor"] + (["--trials", str(trials)] if trials else [])
-            self.processes[side] = subprocess.Popen(words, stdout=open(self.path(side + ".out"), "w"), stderr=open(self.path(side + ".err"), "w"),
+            self.processes[side] = subprocess.Popen(words, stdout=open(self.folder / f"{side}.out", "w"), stderr=open(self.folder / f"{side}.err", "w"),
                                                     env={**os.environ, **more.get("environment", {})}, preexec_fn=before_others)
 
-    def path(self, name):
-        return os.path.join(self.folder, name)
-
     def text(self, name):
-        with open(self.path(name)) as file:
-            return file.read()
+        return (self.folder / name).read_text()
+
+    def first_line(self, name):
+        return self.text(name).strip().splitlines()[:1]
+
+    def file_of(self, side, pattern):
+        """The first file of a station's dataset by a pattern, or None."""
+        return next((self.folder / side).glob(pattern), None)
 
     def log_path(self, side):
-        return next(iter(glob.glob(self.path(f"{side}/sourcedata/*_log.reach"))), None)
+        return self.file_of(side, "sourcedata/*_log.reach")
 
     def log(self, side):
         return StationLog(self.log_path(side))
@@ -189,7 +187,7 @@ class Pair:
 
     # What is asked of every log.
     def check_logs(self, killed=()):
-        for side in ("left", "right"):
+        for side in SIDES:
             path = self.log_path(side)
             if path is None:
                 check(False, f"{side}: there is a log")
@@ -201,16 +199,16 @@ class Pair:
 
     def forces(self, side):
         """(trial phase, device force) of every tick."""
-        name = glob.glob(self.path(f"{side}/sub-*/ses-*/motion/*_motion.tsv"))[0]
-        with open(name.replace("_motion.tsv", "_channels.tsv")) as file:
+        motion = self.file_of(side, "sub-*/ses-*/motion/*_motion.tsv")
+        with open(str(motion).replace("_motion.tsv", "_channels.tsv")) as file:
             columns = [row["name"] for row in csv.DictReader(file, delimiter="\t")]
         at = [columns.index(f"device_force_{axis}") for axis in "xyz"]
         latency = columns.index("latency")
-        with open(name) as file:
+        with open(motion) as file:
             return {round(1e3 * float(row[latency])): sum(float(row[i]) ** 2 for i in at) ** 0.5 for row in csv.reader(file, delimiter="\t")}
 
     def check_lost(self, side):
-        check("reason=peer_lost" in self.text(side + ".out"), f"{side}: {self.text(side + '.out').strip().splitlines()[:1]}")
+        check("reason=peer_lost" in self.text(side + ".out"), f"{side}: {self.first_line(side + '.out')}")
         log = self.log(side)
         end = log.tick_of(5)
         if end is None or not log.given:
@@ -223,20 +221,20 @@ class Pair:
         check(max(forces.values()) <= 12 and max((f for t, f in forces.items() if t >= end), default=0) == 0,
               f"{side}: force at most {max(forces.values()):.2f} N, and zero from the end on")
 
-    def check_goes_on(self, side):
-        check("outcome=" in self.text(side + ".out") and "peer_lost" not in self.text(side + ".out"),
-              f"{side}: {self.text(side + '.out').strip().splitlines()[:1]}")
+    def check_goes_on(self):
+        for side in SIDES:
+            check("outcome=" in self.text(side + ".out") and "peer_lost" not in self.text(side + ".out"), f"{side}: {self.first_line(side + '.out')}")
 
     def trials(self, side):
         """Trial -> (whole, share of its ticks that this computer missed)."""
-        with open(glob.glob(self.path(f"{side}/sub-*/ses-*/motion/*_events.tsv"))[0]) as file:
+        with open(self.file_of(side, "sub-*/ses-*/motion/*_events.tsv")) as file:
             return {int(row["trial"]): (row["outcome"] in ("success", "failure"), float(row["missed_ticks"]) / (1e3 * float(row["elapsed_s"])))
                     for row in csv.DictReader(file, delimiter="\t") if row["elapsed_s"] != "n/a"}
 
     def check_together(self, side, bound):
         """Whole trials only: one that ended early proves nothing. Nor does one in which a computer stood still: its copy is then late by that."""
         MOST_MISSED = 0.01
-        both = [self.trials(each) for each in ("left", "right")]
+        both = [self.trials(each) for each in SIDES]
         known = [trial for trial in both[0] if trial in both[1] and all(trials[trial][0] for trials in both)]
         whole = {trial for trial in known if all(trials[trial][1] <= MOST_MISSED for trials in both)}
         apart = {}
@@ -271,27 +269,22 @@ class Pair:
 
 class Bench:
     def __init__(self, build):
-        self.reach = os.path.realpath(os.path.join(build, "cli/reach"))
-        self.work = tempfile.mkdtemp(prefix="station-faults-")
-        self.experiment = os.path.join(self.work, "slow.json")
-        with open(self.experiment, "w") as file:
-            json.dump(SLOW, file)
+        self.reach = Path(build, "cli/reach").resolve()
+        self.work = Path(tempfile.mkdtemp(prefix="station-faults-"))
+        self.experiment = self.write("slow.json", SLOW)
         self.make_peers("left", "right")
         self.link = Link(self.work)
 
+    def write(self, name, experiment):
+        (self.work / name).write_text(json.dumps(experiment))
+        return self.work / name
+
     def make_peers(self, conductor, other):
-        left, right = (os.path.join(self.work, name) for name in (conductor, other))
-        quiet = {"stdout": subprocess.DEVNULL}
-        run(self.reach, "peers", "init", left, "--conductor", "--name", "left", **quiet)
-        run(self.reach, "peers", "init", right, "--name", "right", **quiet)
-        run(self.reach, "peers", "add", left, os.path.join(right, "request.pem"), **quiet)
-        for file in glob.glob(os.path.join(left, "for-right/*")):
-            shutil.copy(file, right)
+        add_station(self.reach, self.work / conductor, self.work / conductor, "left")
+        add_station(self.reach, self.work / conductor, self.work / other, "right")
 
     def copy_peers(self, name):
-        to = os.path.join(self.work, name)
-        shutil.copytree(os.path.join(self.work, "right"), to)
-        return to
+        return shutil.copytree(self.work / "right", self.work / name)
 
     def close(self):
         self.link.close()
@@ -320,19 +313,15 @@ class Bench:
 
     def stall(self):
         """A station that stands still for longer than the experiment allows, and not for long enough to be lost: it ends for both."""
-        with open(self.experiment) as file:
-            experiment = {**json.load(file), "timing": {"max_missed_ticks": 100000, "max_gap_s": 0.04}}
-        strict = os.path.join(self.work, "strict.json")
-        with open(strict, "w") as file:
-            json.dump(experiment, file)
+        strict = self.write("strict.json", {**SLOW, "timing": {"max_missed_ticks": 100000, "max_gap_s": 0.04}})
         pair = Pair(self, "stall", experiment=strict, trials=1)
         check(pair.await_movement(), "they move")
         os.kill(pair.processes["right"].pid, signal.SIGSTOP)
         time.sleep(0.06)
         os.kill(pair.processes["right"].pid, signal.SIGCONT)
         pair.end()
-        for side in ("left", "right"):
-            check("outcome=interrupted" in pair.text(side + ".out"), f"{side}: {pair.text(side + '.out').strip().splitlines()[:1]}")
+        for side in SIDES:
+            check("outcome=interrupted" in pair.text(side + ".out"), f"{side}: {pair.first_line(side + '.out')}")
             verdicts = [note for note in pair.log(side).notes() if "outcome" in note]
             check(any("outcome interrupted" in note for note in verdicts), f"{side}: {verdicts}")
         pair.check_logs()
@@ -346,40 +335,37 @@ class Bench:
 
     def cut_30(self):
         pair = self.cut(30)
-        for side in ("left", "right"):
-            pair.check_goes_on(side)
+        pair.check_goes_on()
+        for side in SIDES:
             oldest, faded = pair.silence(side)
             check(oldest is not None and oldest >= 30 and faded == 0, f"{side}: a sample was {oldest} ms old, and nothing faded ({faded} ticks)")
         pair.check_logs()
 
     def cut_90(self):
         pair = self.cut(90)
-        for side in ("left", "right"):
-            pair.check_goes_on(side)
+        pair.check_goes_on()
+        for side in SIDES:
             oldest, faded = pair.silence(side)
             check(oldest is not None and oldest >= 90 and 0 < faded < 60, f"{side}: marked: a sample was {oldest} ms old, faded for {faded} ticks")
         pair.check_logs()
 
     def cut_500(self):
         pair = self.cut(500)
-        for side in ("left", "right"):
+        for side in SIDES:
             pair.check_lost(side)
         pair.check_logs()
 
     def over_a_link(self, delay, jitter, bound, noise=0, trials=3):
         """`delay` +- `jitter` ms each way, 5 % loss; copies apart at most `bound` mm. The chain of five as it is shipped, but that ticks may be late.
         Hands without noise, or the virtual subjects as they are."""
-        with open(os.path.join(HERE, "../../resources/experiments/two-hands/chain-two-hands.json")) as file:
-            experiment = {**json.load(file), "timing": SLOW["timing"]}
-        chain = os.path.join(self.work, "chain-two-hands.json")
-        with open(chain, "w") as file:
-            json.dump(experiment, file)
+        shipped = json.loads((HERE / "../../resources/experiments/two-hands/chain-two-hands.json").read_text())
+        chain = self.write("chain-two-hands.json", {**shipped, "timing": SLOW["timing"]})
         self.link.order(f"link {delay} {jitter} 5")
         pair = Pair(self, f"link_{2 * delay}_{noise}", experiment=chain, trials=trials, noise=noise)
         codes = pair.end()
         self.link.order("link 1 0.1 0")
         check(codes == {"left": 0, "right": 0}, f"exit {codes}")
-        for side in ("left", "right"):
+        for side in SIDES:
             trip, spread, loss = pair.told_link(side)
             check(1.7 * delay < trip < 2.3 * delay, f"{side}: round trip {trip:.1f} ms, jitter {spread:.1f} ms, {loss:.0f} % lost")
             check(loss < 15, f"{side}: what is overtaken is not counted as lost")
@@ -411,20 +397,18 @@ class Bench:
         pair.check_logs()
 
     def clock_step(self):
-        shim = os.path.join(self.work, "clock_step.so")
-        with open(shim + ".c", "w") as file:
-            file.write(SHIM)
-        run("gcc", "-shared", "-fPIC", "-O2", "-o", shim, shim + ".c", "-ldl")
+        shim, source = self.work / "clock_step.so", self.work / "clock_step.c"
+        source.write_text(SHIM)
+        run("gcc", "-shared", "-fPIC", "-O2", "-o", shim, source, "-ldl")
         for seconds in (3600, -3600):
             at = int(time.clock_gettime(time.CLOCK_MONOTONIC)) + 7
             pair = Pair(self, f"clock_step_{seconds}",
-                        right={"environment": {"LD_PRELOAD": shim, "CLOCK_STEP_AT": str(at), "CLOCK_STEP": str(seconds)}})
+                        right={"environment": {"LD_PRELOAD": str(shim), "CLOCK_STEP_AT": str(at), "CLOCK_STEP": str(seconds)}})
             moving = pair.await_movement()
             stepped_in = time.clock_gettime(time.CLOCK_MONOTONIC) < at
             pair.end()
             check(moving, f"they move{', and the clock steps under way' if stepped_in else ''}")
-            for side in ("left", "right"):
-                pair.check_goes_on(side)
+            pair.check_goes_on()
             pair.check_logs()
 
     def repeated(self, name, orders):
@@ -436,8 +420,8 @@ class Bench:
             time.sleep(0.3)
         pair.end()
         self.link.order("twice 0")
-        for side in ("left", "right"):
-            pair.check_goes_on(side)
+        pair.check_goes_on()
+        for side in SIDES:
             log = pair.log(side)
             order = [g[3] for g in log.given]
             check(all(b > a for a, b in zip(order, order[1:])), f"{side}: {len(order)} samples, each newer than the one before")
@@ -461,21 +445,18 @@ class Bench:
 
     def wrong_certificate(self):
         self.make_peers("lab2", "stranger")
-        pair = self.refused("wrong_certificate", peers=os.path.join(self.work, "stranger"))
+        pair = self.refused("wrong_certificate", peers=self.work / "stranger")
         check("station 2: is not there" in pair.text("left.err"), "left does not hear it")
 
     def expired_certificate(self):
         to = self.copy_peers("expired")
-        authority = os.path.join(self.work, "left/authority")
-        config = os.path.join(self.work, "ca.cnf")
-        for name in ("index.txt", "serial"):
-            with open(os.path.join(self.work, name), "w") as file:
-                file.write("" if name == "index.txt" else "1000\n")
-        with open(config, "w") as file:
-            file.write(f"[ca]\ndefault_ca=c\n[c]\ndatabase={self.work}/index.txt\nserial={self.work}/serial\nnew_certs_dir={self.work}\n"
-                       "default_md=sha256\npolicy=p\n[p]\ncommonName=supplied\n")
-        run("openssl", "ca", "-batch", "-config", config, "-in", to + "/request.pem", "-out", to + "/identity.pem", "-notext",
-            "-cert", authority + "/identity_ca.pem", "-keyfile", authority + "/identity_ca_key.pem",
+        authority, config = self.work / "left/authority", self.work / "ca.cnf"
+        (self.work / "index.txt").write_text("")
+        (self.work / "serial").write_text("1000\n")
+        config.write_text(f"[ca]\ndefault_ca=c\n[c]\ndatabase={self.work}/index.txt\nserial={self.work}/serial\nnew_certs_dir={self.work}\n"
+                          "default_md=sha256\npolicy=p\n[p]\ncommonName=supplied\n")
+        run("openssl", "ca", "-batch", "-config", config, "-in", to / "request.pem", "-out", to / "identity.pem", "-notext",
+            "-cert", authority / "identity_ca.pem", "-keyfile", authority / "identity_ca_key.pem",
             "-startdate", "20200101000000Z", "-enddate", "20200201000000Z", stderr=subprocess.DEVNULL)
         said = subprocess.run([self.reach, "peers", "list", to], capture_output=True, text=True)
         check("expired" in said.stdout + said.stderr, f"reach peers list: {said.stdout.strip()}")
@@ -483,41 +464,33 @@ class Bench:
 
     def self_signed_permissions(self):
         to = self.copy_peers("selfsigned")
-        plain = os.path.join(self.work, "permissions.xml")
-        with open(to + "/permissions.p7s") as file:
-            text = file.read()
-        start = text.index("<?xml")
-        with open(plain, "w") as file:
-            file.write(text[start:text.index("</dds>") + 6].replace("\r", "").replace("reach_*", "*"))
-        os.remove(to + "/permissions.p7s")
-        run("openssl", "smime", "-sign", "-in", plain, "-text", "-out", to + "/permissions.p7s", "-signer", to + "/identity.pem",
-            "-inkey", to + "/key.pem")
+
+        def sign(what, change=lambda text: text):
+            """The signed text is signed again by the station itself."""
+            signed, plain = to / f"{what}.p7s", self.work / f"{what}.xml"
+            text = signed.read_text()
+            plain.write_text(change(text[text.index("<?xml"):text.index("</dds>") + 6].replace("\r", "")))
+            run("openssl", "smime", "-sign", "-in", plain, "-text", "-out", signed, "-signer", to / "identity.pem", "-inkey", to / "key.pem")
+
+        sign("permissions", lambda text: text.replace("reach_*", "*"))
         # Its own software is not what keeps it out: it may believe its own certificate.
         for authority in ("theirs", "its own"):
             if authority == "its own":
-                shutil.copy(to + "/identity.pem", to + "/permissions_ca.pem")
-                governance = os.path.join(self.work, "governance.xml")
-                with open(to + "/governance.p7s") as file:
-                    text = file.read()
-                with open(governance, "w") as file:
-                    file.write(text[text.index("<?xml"):text.index("</dds>") + 6].replace("\r", ""))
-                run("openssl", "smime", "-sign", "-in", governance, "-text", "-out", to + "/governance.p7s", "-signer", to + "/identity.pem",
-                    "-inkey", to + "/key.pem")
+                shutil.copy(to / "identity.pem", to / "permissions_ca.pem")
+                sign("governance")
             pair = self.refused("selfsigned_" + authority.replace(" ", "_"), peers=to)
             check("station 2: is not there" in pair.text("left.err"), f"left does not hear it (permissions authority: {authority})")
 
     def other_version(self):
         version = subprocess.run([self.reach, "--version"], capture_output=True, text=True, check=True).stdout.split()[-1]
         other = "9" * len(version.split(".")[0]) + version[len(version.split(".")[0]):]
-        folder = os.path.join(self.work, "other-version")
-        os.makedirs(folder)
-        with open(self.reach, "rb") as file:
-            program = file.read().replace(f"reachlab {version}".encode(), f"reachlab {other}".encode())
-        with open(folder + "/reach", "wb") as file:
-            file.write(program)
-        os.chmod(folder + "/reach", 0o755)
-        shutil.copy(os.path.join(os.path.dirname(self.reach), "reachlab-endpoint"), folder)
-        pair = self.refused("other_version", reach=folder + "/reach")
+        folder = self.work / "other-version"
+        folder.mkdir()
+        program = folder / "reach"
+        program.write_bytes(self.reach.read_bytes().replace(f"reachlab {version}".encode(), f"reachlab {other}".encode()))
+        program.chmod(0o755)
+        shutil.copy(self.reach.with_name("reachlab-endpoint"), folder)
+        pair = self.refused("other_version", reach=program)
         check(f"runs reachlab {other}, and this one reachlab {version}" in pair.text("left.err"), "left says which")
 
 
