@@ -16,26 +16,18 @@ import struct
 import subprocess
 import sys
 import tempfile
-import zlib
 from concurrent.futures import ThreadPoolExecutor
+
+from station_log import records
 
 KINDS = ["write", "read", "fsync", "rename", "open", "lock", "mmap", "malloc"]
 TRIAL, INTERRUPTED = 5, 4  # docs/recording.md: type of a trial's record, and its outcome
 
 
 def trials_in(log):
-    """Outcome by number of the trials of a log, by the rule of docs/recording.md: reading ends at the first record that is not right."""
-    data, at, number, found = log.read_bytes(), 16, 0, {}
-    while at + 16 <= len(data):
-        length, kind, _, sequence = struct.unpack_from("<IHHI", data, at)
-        end = at + 12 + length
-        if end + 4 > len(data) or sequence != number or zlib.crc32(data[at:end]) != struct.unpack_from("<I", data, end)[0]:
-            break
-        if kind == TRIAL:
-            trial, _, _, _, outcome = struct.unpack_from("<iiiBB", data, at + 12)
-            found[trial] = outcome
-        at, number = end + 4, number + 1
-    return found
+    """Outcome by number of the trials of a log."""
+    trials = (struct.unpack_from("<iiiBB", payload) for kind, payload, _ in records(log.read_bytes()) if kind == TRIAL)
+    return {trial: outcome for trial, _, _, _, outcome in trials}
 
 
 class Bench:
@@ -103,25 +95,19 @@ def scenarios(bench):
     yield "resume", lambda: copy_of(bench.half), lambda f: [*resume, f], lambda f, e: "" if (
         bench.kept(f) >= (3 if e.returncode == 0 else 1)) else f"exit {e.returncode} and {bench.kept(f)} trials are left"
 
-    expected = {}
-    for name, source, command in (("export", bench.whole, ["export", "F", "--format", "csv", "--out", "F/out"]),
-                                  ("analyze", bench.whole, ["analyze", "F", "--out", "F/out"])):
-        folder = copy_of(source)
-        bench.run([c.replace("F", str(folder)) if c.startswith("F") else c for c in command])
-        expected[name] = files_of(folder / "out")
+    for name, options in (("export", ["--format", "csv"]), ("analyze", [])):
+        command = lambda f, name=name, options=options: [name, f, *options, "--out", f / "out"]
+        folder = copy_of(bench.whole)
+        bench.run(command(folder))
 
-        def check(folder, ended, name=name):
-            if ended.returncode != 0:
-                return ""
-            return "" if files_of(folder / "out") == expected[name] else "exit 0 and its tables are not what they are without the fault"
+        def check(folder, ended, expected=files_of(folder / "out")):
+            same = ended.returncode != 0 or files_of(folder / "out") == expected
+            return "" if same else "exit 0 and its tables are not what they are without the fault"
 
-        yield (name, lambda source=source: copy_of(source), lambda f, command=command: [c.replace("F", str(f)) if c.startswith("F") else c for c in command],
-               check)
+        yield name, lambda: copy_of(bench.whole), command, check
 
-    def recovered(folder, ended):
-        return "" if bench.kept(folder) >= 1 else "the first trial is lost"
-
-    yield ("recover", lambda: copy_of(bench.half), lambda f: ["recover", *sorted((f / "sourcedata").glob("*.reach"))], recovered)
+    yield ("recover", lambda: copy_of(bench.half), lambda f: ["recover", *sorted((f / "sourcedata").glob("*.reach"))],
+           lambda f, _: "" if bench.kept(f) >= 1 else "the first trial is lost")
 
 
 def try_faults(bench, scenario, kind, points):

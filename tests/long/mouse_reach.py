@@ -9,22 +9,16 @@ import bisect
 import csv
 import ctypes
 import glob
-import os
 import sys
 import time
 
-sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from station_log import StationLog  # noqa: E402
+from station_log import StationLog
 
 GO = 3  # record::EventKind
 
 
-def only(pattern):
-    return glob.glob(pattern)[0]
-
-
 def way(data, out):
-    events = only(f"{data}/sub-*/ses-*/motion/*_events.tsv")
+    events = glob.glob(f"{data}/sub-*/ses-*/motion/*_events.tsv")[0]
     with open(events) as file:
         trial = next(row for row in csv.DictReader(file, delimiter="\t") if row["outcome"] == "success")
     motion = events.replace("_events.tsv", "_motion.tsv")

@@ -1,8 +1,22 @@
 """What a station's log says, read without the program: ticks, events, notes and the samples of the others (docs/recording.md)."""
 import struct
 import zlib
+from pathlib import Path
+
+def records(data):
+    """(type, payload, its end) of each record of a log, by the rule of docs/recording.md: reading ends at the first that is not right."""
+    at, number = 16, 0
+    while at + 16 <= len(data):
+        length, kind, _, sequence = struct.unpack_from("<IHHI", data, at)
+        end = at + 12 + length
+        if sequence != number or end + 4 > len(data) or zlib.crc32(data[at:end]) != struct.unpack_from("<I", data, end)[0]:
+            return
+        yield kind, data[at + 12:end], end + 4
+        at, number = end + 4, number + 1
+
 
 VELOCITY, BUTTONS, SAME_POSITION, COMMAND, MISSED, JUMP_TICK, JUMP_TIME = 2, 4, 8, 16, 32, 64, 128
+SIZES = {VELOCITY: 24, BUTTONS: 4, COMMAND: 1, MISSED: 4}  # bytes that a tick has where its flag is set
 
 
 class StationLog:
@@ -14,16 +28,9 @@ class StationLog:
         self.own = None
         self.closed = False
         self.trials = 0
-        with open(path, "rb") as file:
-            data = file.read()
-        at, number = 16, 0
-        while at + 16 <= len(data):
-            length, kind, _, sequence = struct.unpack_from("<IHHI", data, at)
-            end = at + 12 + length
-            if sequence != number or end + 4 > len(data) or zlib.crc32(data[at:end]) != struct.unpack_from("<I", data, end)[0]:
-                break
-            self._take(kind, data[at + 12:end])
-            at, number = end + 4, number + 1
+        data, at = Path(path).read_bytes(), 16
+        for kind, payload, at in records(data):
+            self._take(kind, payload)
         self.whole = at == len(data)
 
     def _take(self, kind, p):
@@ -66,16 +73,7 @@ class StationLog:
             else:
                 self._last += struct.unpack_from("<I", p, at)[0]
                 at += 4
-            if not flags & SAME_POSITION:
-                at += 24
-            if flags & VELOCITY:
-                at += 24
-            if flags & BUTTONS:
-                at += 4
-            if flags & COMMAND:
-                at += 1
-            if flags & MISSED:
-                at += 4
+            at += (0 if flags & SAME_POSITION else 24) + sum(size for flag, size in SIZES.items() if flags & flag)
             self.times.append(self._last)
 
     def tick_of(self, kind):
