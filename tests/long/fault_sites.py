@@ -114,12 +114,8 @@ def around(bare, partner, at):
             if bare[j - 1:j] and re.match(r"[\w>]", bare[j - 1]):
                 i = j - 1
                 continue
-            heads.append((i + 1, end))
-            i = outer(bare, partner, i)
-            end = i
-            i -= 1
-            continue
-        if c == ";" :
+            c = ";"
+        if c == ";":
             heads.append((i + 1, end))
             i = outer(bare, partner, i)
             end = i
@@ -136,14 +132,9 @@ def around(bare, partner, at):
 
 def outer(bare, partner, at):
     """The { that `at` stands in, or -1."""
-    i = at
-    while i >= 0:
-        if bare[i] in ")]}" and i in partner:
-            i = partner[i]
-        elif bare[i] in "{":
-            return i
-        i -= 1
-    return -1
+    while at >= 0 and bare[at] != "{":
+        at = (partner.get(at, at) if bare[at] in ")]}" else at) - 1
+    return at
 
 
 def without_remarks(text):
@@ -176,10 +167,12 @@ def place(text, bare, faults):
             site.region = (begin, end)
         else:
             site.region = (left_of(bare, partner, begin), right_of(bare, partner, end))
-        while kind != "statement" and text[site.region[0]].isspace():
-            site.region = (site.region[0] + 1, site.region[1])
-        while kind != "statement" and text[site.region[1] - 1].isspace():
-            site.region = (site.region[0], site.region[1] - 1)
+        first, last = site.region
+        while kind != "statement" and text[first].isspace():
+            first += 1
+        while kind != "statement" and text[last - 1].isspace():
+            last -= 1
+        site.region = (first, last)
         sites.append(site)
     return sites, left_out
 
@@ -255,20 +248,11 @@ def switched(text, bare, faults):
             m = re.search(r"\bconstexpr\b(?=[^;=]*\)[^;=]*$)", bare[begin:end])
             if m and "if constexpr" not in bare[begin:end]:
                 inside.append((begin + m.start(), begin + m.end(), "" if "inline" in bare[begin:end] else "inline"))
-    out, at = [], 0
+    written, at = '#include "tests/long/fault_switch.h"\n', 0
     cuts = sorted(set(inside) | {(e, e, "\n" + "\n".join(lines)) for e, lines in defines.items()})
-    pieces = []
-    for begin, end, new in cuts:
-        pieces.append((at, begin))
-        pieces.append(new)
+    for begin, end, new in [*cuts, (len(text), len(text), "")]:
+        written += write(text, bare, at, begin, [s for s in plain if at <= s.region[0] and s.region[1] <= begin]) + new
         at = end
-    pieces.append((at, len(text)))
-    for piece in pieces:
-        if isinstance(piece, str):
-            out.append(piece)
-        else:
-            out.append(write(text, bare, *piece, [s for s in plain if piece[0] <= s.region[0] and s.region[1] <= piece[1]]))
-    written = '#include "tests/long/fault_switch.h"\n' + "".join(out)
     left_out += [s.number for s in kept if f"seededFault({s.number}" not in written]
     return written, sorted(set(left_out))
 
