@@ -25,7 +25,7 @@ int main() {
 }
 CPP
 g++ -std=c++20 -O2 -I"$source" -march=x86-64-v3 -c newer.cpp
-g++ -std=c++20 -O2 -I"$source" -march=x86-64 -DREACHLAB_LEVEL_NUMBER=3 -DREACHLAB_LEVEL_NAME='"x86-64-v3"' -c "$source/base/processor_level.cpp"
+g++ -std=c++20 -O2 -I"$source" -march=x86-64 -DREACHLAB_LEVEL_NUMBER=3 -DREACHLAB_LEVEL_NAME='"x86-64-v3"' -c "$source/base/system/processor_level.cpp"
 g++ newer.o processor_level.o -o newer
 said=$(qemu-x86_64 -cpu Nehalem ./newer 2>&1) && ended=0 || ended=$?
 [[ $ended == 3 && $said == *"level x86-64-v3"*"packaging/run" ]] || { echo "processor_level: on an older processor: exit $ended, '$said'"; exit 1; }

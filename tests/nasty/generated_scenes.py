@@ -146,13 +146,10 @@ def cone_scene(r):
     slope, k = r.choice([1.0, 0.3, 3.0, 10.0]), r.choice([1, 1, 2, 3])
     offset, T = r.choice([0, 1e-6, 1e-5, 1e-4, 1e-3, 0.03]), r.choice([0.7, 1.6])
     u0 = place(r, -1, 1)
-    slant = np.sqrt(1 + LD(slope) ** 2)
-    radius, fall, turn = slant / 10, -slant / 10, LD(offset) / slant * k  # in the unfolded plane: angle = k u / slant
-    pos, vel = np.array([radius, LD(0)]), np.array([fall, radius * turn])
     scene = Scene(kind="surface", lines=[f"0.1*v*cos({k}*u)", f"0.1*v*sin({k}*u)", f"{0.1 * slope}*v"], at=[u0, 1.0], rate=[offset, -1.0], seconds=T)
     slope_exact = LD(0.1 * slope) * 10
     slant = np.sqrt(1 + slope_exact ** 2)
-    radius, fall, turn = slant / 10, -slant / 10, LD(offset) / slant * k
+    radius, fall, turn = slant / 10, -slant / 10, LD(offset) / slant * k  # in the unfolded plane: angle = k u / slant
     pos, vel = np.array([radius, LD(0)]), np.array([fall, radius * turn])
     scene.way = 1.0
     if offset == 0 and T > 1:
