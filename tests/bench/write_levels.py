@@ -19,12 +19,13 @@ import sys
 import tempfile
 from pathlib import Path
 
-from write_speed_and_error import is_peer, processor
+from write_speed_and_error import is_peer, processor, write_page
 
 ROOT = Path(__file__).resolve().parents[2]
 ERROR = 1e-6  # of the state, that the libraries owe
 WANTED = 2
 LEVELS = ("v2", "v3", "v4")
+METHODS = ["auto", "rk4", "exact", "abm", "adaptive", "odeint-rk4", "odeint-dopri5", "odeint-fehlberg78", "cvode-adams", "cvode-bdf"]
 
 
 def build(level):
@@ -45,10 +46,13 @@ def level_of(folder):
     return re.search(r"REACHLAB_LEVEL:\w+=x86-64-(v\d)", cache)[1]
 
 
-def methods():
-    peers = ["odeint-rk4", "odeint-dopri5", "odeint-fehlberg78", "cvode-adams", "cvode-bdf"]
-    own = ["auto", "rk4", "exact", "abm", "adaptive"]
-    return [word for name in [*own, *peers] for word in ("--method", name)]
+def bench_rows(folder, methods, scenes, *words):
+    """The rows of a bench of these methods on these scenes; none: all."""
+    chosen = [word for option, names in (("--method", methods), ("--scene", scenes)) for name in names for word in (option, name)]
+    with tempfile.TemporaryDirectory() as place:
+        file = Path(place) / "rows.json"
+        run(folder, *chosen, *words, "--json", str(file))
+        return json.loads(file.read_text())
 
 
 def measure(folders, turns, scenes):
@@ -58,13 +62,10 @@ def measure(folders, turns, scenes):
     only = [word for scene in scenes for word in ("--scene", scene)]
     for _ in range(turns):
         for level in chance.sample(list(folders), len(folders)):
-            with tempfile.TemporaryDirectory() as folder:
-                file = Path(folder) / "rows.json"
-                run(folders[level], *methods(), *only, "--json", str(file))
-                for row in json.loads(file.read_text()):
-                    kept = rows[level].setdefault((row["scene"], row["method"], row["step_s"], row["tolerance"]), {**row, "times": []})
-                    if row["ns_per_ms"]:
-                        kept["times"].append(row["ns_per_ms"])
+            for row in bench_rows(folders[level], METHODS, scenes):
+                kept = rows[level].setdefault((row["scene"], row["method"], row["step_s"], row["tolerance"]), {**row, "times": []})
+                if row["ns_per_ms"]:
+                    kept["times"].append(row["ns_per_ms"])
             out = run(folders[level], "--tick", *only)
             header, *lines = out[out.index("scene "):].splitlines()
             names = header.split()
@@ -158,11 +159,9 @@ def main():
     tick, allocations = tick_table(ticks)
     load = f"{before:.1f} to {os.getloadavg()[1]:.1f}"
     bits = "Its output:\n\n```\n" + wishes.same_bits.read_text().rstrip() + "\n```" if wishes.same_bits else "It was not part of this run."
-    page = (Path(__file__).parent / "processor-levels.md.in").read_text()
-    for key, text in {"PROCESSOR": processor(), "TURNS": str(wishes.turns), "NOTE": wishes.note and " " + wishes.note, "LOAD": load, "LEVELS": ", ".join(folders), "SPEED": speed, "BELOW": below, "WORK": work_table(rows),
-                      "TICK": tick, "ALLOCATIONS": allocations, "ROWS": bits_table(rows), "BITS": bits}.items():
-        page = page.replace(f"@{key}@", text)
-    (ROOT / "docs/benchmarks/processor-levels.md").write_text(page)
+    write_page("processor-levels", {
+        "PROCESSOR": processor(), "TURNS": str(wishes.turns), "NOTE": wishes.note and " " + wishes.note, "LOAD": load, "LEVELS": ", ".join(folders),
+        "SPEED": speed, "BELOW": below, "WORK": work_table(rows), "TICK": tick, "ALLOCATIONS": allocations, "ROWS": bits_table(rows), "BITS": bits})
 
 
 if __name__ == "__main__":

@@ -22,7 +22,7 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parents[2]
 sys.path.insert(0, str(ROOT / "tests/long"))
 from paired_ticks import median_and_error  # noqa: E402
-from write_speed_and_error import processor  # noqa: E402
+from write_speed_and_error import processor, write_page  # noqa: E402
 
 HOT = ["sim/dynamics/exact/oscillator_core.cpp", "sim/dynamics/hand/hand_segment.cpp", "sim/dynamics/object/forces.cpp", "sim/dynamics/object/plant.cpp",
        "constraints/curve_batch.cpp", "generated_catalogue.cpp"]
@@ -124,10 +124,8 @@ def main():
                 out = subprocess.run([programs[variant], str(wishes.repeats)], check=True, stdout=subprocess.PIPE, text=True).stdout
                 turns[-1][variant] = {scene: float(ns) for scene, ns in map(str.split, out.splitlines())}
             print(f"\rturn {turn + 1} of {wishes.turns}", end="", file=sys.stderr)
-    page = (Path(__file__).parent / "prices.md.in").read_text()
-    for key, text in {"PROCESSOR": processor(), "LEVEL": level, "TURNS": str(wishes.turns), "LOAD": f"{before:.1f} to {os.getloadavg()[1]:.1f}", "TABLE": table(turns)}.items():
-        page = page.replace(f"@{key}@", text)
-    (ROOT / "docs/benchmarks/prices.md").write_text(page)
+    write_page("prices", {"PROCESSOR": processor(), "LEVEL": level, "TURNS": str(wishes.turns), "LOAD": f"{before:.1f} to {os.getloadavg()[1]:.1f}",
+                          "TABLE": table(turns)})
 
 
 if __name__ == "__main__":

@@ -94,6 +94,14 @@ def processor():
         return "an unknown processor"
 
 
+def write_page(name, texts):
+    """docs/benchmarks/NAME.md from NAME.md.in beside this file, with each text in place of its @KEY@."""
+    page = pathlib.Path(__file__).with_name(f"{name}.md.in").read_text()
+    for key, text in texts.items():
+        page = page.replace(f"@{key}@", text)
+    (ROOT / f"docs/benchmarks/{name}.md").write_text(page)
+
+
 def main():
     build = pathlib.Path(sys.argv[1] if len(sys.argv) > 1 else "build/release").resolve()
     images = ROOT / "docs" / "images"
@@ -104,11 +112,8 @@ def main():
     rows = json.loads(rows_file.read_text())
     sampled = run(reach, "bench", "--sampled")
     tick = run(reach, "bench", "--tick")
-    page = (pathlib.Path(__file__).parent / "speed-and-error.md.in").read_text()
-    for key, text in {"PROCESSOR": processor(), "RATIOS": ratio_table(rows), "OWN": own_table(rows), "HARD": hard_table(table, rows),
-                      "SAMPLED": sampled.rstrip(), "TICK": tick.rstrip()}.items():
-        page = page.replace(f"@{key}@", text)
-    (ROOT / "docs/benchmarks/speed-and-error.md").write_text(page)
+    write_page("speed-and-error", {"PROCESSOR": processor(), "RATIOS": ratio_table(rows), "OWN": own_table(rows), "HARD": hard_table(table, rows),
+                                   "SAMPLED": sampled.rstrip(), "TICK": tick.rstrip()})
 
 
 if __name__ == "__main__":

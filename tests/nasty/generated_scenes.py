@@ -14,17 +14,16 @@ Verdicts: right (within 1e-9 m, relative to the largest coordinate or the length
 is not the reference's, or more than 15 % are needless. Needs numpy and mpmath."""
 import argparse
 import csv
-import json
 import math
 import pathlib
 import random
 import re
-import subprocess
 import sys
 import tempfile
 
 import numpy as np
 
+from let_go import let_go
 from line_features import Arc, COMMON, Feature, LD, RARE, RULES, number, pick, place
 
 RIGHT, NEEDLESS = 1e-9, 0.15
@@ -253,19 +252,13 @@ def scenes(seed, count, only):
 
 def run(program, scene, folder):
     """(verdict, place or None, time or None, words)"""
-    file = pathlib.Path(folder) / "scene.json"
-    file.write_text(json.dumps({"schema_version": 1, "constraint": {scene.kind: scene.lines},
-                                "object": {"kind": "point", "masses_kg": [1], "gravity_m_per_s2": [0, scene.gravity, 0]},
-                                "coupling": {"stiffness_n_per_m": 600}}))
-    ended = subprocess.run([program, "simulate", str(file), "--hand", "none", "--at=" + ",".join(map(number, scene.at)),
-                            "--rate=" + ",".join(map(number, scene.rate)), "--until", number(scene.seconds), "--every", number(scene.seconds)],
-                           capture_output=True, text=True)
-    words = ended.stderr.strip().replace("\n", " ").replace(str(file), "FILE")
-    if ended.returncode not in (0, 2, 4):
-        return "crashed", None, None, f"exit {ended.returncode}: {words}"
-    if ended.returncode:
+    code, words, last = let_go(program, folder, scene.kind, scene.lines, scene.gravity, ",".join(map(number, scene.at)),
+                               ",".join(map(number, scene.rate)), number(scene.seconds))
+    words = words.replace("\n", " ")
+    if code not in (0, 2, 4):
+        return "crashed", None, None, f"exit {code}: {words}"
+    if code:
         return "refused", None, None, words
-    last = list(csv.DictReader(ended.stdout.splitlines()))[-1]
     return "stopped" if words else "right", [float(last[f"mass1_{a}_m"]) for a in "xyz"], float(last["time_s"]), words
 
 

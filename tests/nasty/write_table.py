@@ -3,12 +3,12 @@
 
     python3 tests/nasty/write_table.py build/dev/cli/reach > docs/benchmarks/nasty-formulas.md"""
 import csv
-import json
 import pathlib
 import re
-import subprocess
 import sys
 import tempfile
+
+from let_go import let_go
 
 HEAD = """# Nasty formulas
 
@@ -27,12 +27,6 @@ closed forms for what swings to and fro, and on surfaces).
 |---|---|---|---|---|---|"""
 
 
-def experiment(row):
-    return {"schema_version": 1, "constraint": {row["kind"]: [row[k] for k in "xyz"]},
-            "object": {"kind": "point", "masses_kg": [1], "gravity_m_per_s2": [0, float(row["gravity_y"]), 0]},
-            "coupling": {"stiffness_n_per_m": 600}}
-
-
 def cell(text):
     return text.replace("|", "\\|").replace("\n", " ")
 
@@ -42,20 +36,17 @@ def main():
     print(HEAD)
     counts = {}
     with tempfile.TemporaryDirectory() as folder:
-        file = pathlib.Path(folder) / "formula.json"
         for row in rows:
-            file.write_text(json.dumps(experiment(row)))
-            ended = subprocess.run([sys.argv[1], "simulate", str(file), "--hand", "none", "--at=" + row["at"], "--rate=" + row["rate"],
-                                    "--until", row["seconds"], "--every", row["seconds"]], capture_output=True, text=True)
-            said = re.sub(re.escape(str(file)) + r"(:\d+)*: ", "", ended.stderr.strip())
+            code, said, last = let_go(sys.argv[1], folder, row["kind"], [row[k] for k in "xyz"], float(row["gravity_y"]), row["at"], row["rate"],
+                                      row["seconds"])
+            said = re.sub(r"FILE(:\d+)*: ", "", said)
             said = re.sub(r"\n +\d* \|[^\n]*", "", said).replace("error: ", "").replace("\nhelp: ", "; ")  # without the line and its caret
-            if ended.returncode != 0:
+            if code != 0:
                 verdict, words = "refused", said
             elif said:
                 verdict, words = "stopped", said
             else:
                 verdict = "right"
-                last = list(csv.DictReader(ended.stdout.splitlines()))[-1]
                 away = sum((float(last[f"mass1_{a}_m"]) - float(row[f"{a}_m"])) ** 2 for a in "xyz") ** 0.5
                 words = f"{away:.0e} m"
                 if not away <= 1e-9 * max(1, abs(float(row["x_m"]))):
