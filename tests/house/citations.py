@@ -10,6 +10,8 @@ import re
 import sys
 from pathlib import Path
 
+from self_test import judges_wrongly
+
 ROOT = Path(__file__).resolve().parents[2]
 TOPS = ["analysis", "base", "bench", "cli", "cmake", "constraints", "devices", "docs", "gui", "network", "packaging", "resources", "sim", "tests"]
 CODE = (".h", ".cpp", ".py", ".sh", ".cmake", ".in", ".txt")
@@ -90,17 +92,13 @@ def self_test():
     said = ["// see docs/nowhere.md", '// docs/theory/criteria.md, "No such heading"', '// docs/theory/criteria.md,\n// "No such heading"', "// docs/adr/9999",
             "// criteria.md 5", "int x;  // tests/long/gone.sh", "// docs/theory/criteria.md#no-such"]
     silent = ['// docs/theory/criteria.md, "Flat\n// outputs"', "// docs/adr/0020", 'auto x = "docs/nowhere.md";', "// tests/house/citations.py", "// devices/ROOM/NAME.cpp", '#include "base/gone.h"']
-    wrong = [text for text in said if not list(faults(text, "x.h", COMMENT))] + [text for text in silent if list(faults(text, "x.h", COMMENT))]
-    wrong += ["[x](gone.md)"] * (not list(faults("[x](gone.md)", "docs/x.md", None)))
-    wrong += ["[x](theory/motion.md#energy)"] * bool(list(faults("[x](theory/motion.md#energy)", "docs/x.md", None)))
-    for text in wrong:
-        print(f"citations.py judges wrongly: {text!r}")
-    return bool(wrong)
+    return (judges_wrongly("citations.py", lambda text: list(faults(text, "x.h", COMMENT)), said, silent)
+            | judges_wrongly("citations.py", lambda text: list(faults(text, "docs/x.md", None)), ["[x](gone.md)"], ["[x](theory/motion.md#energy)"]))
 
 
 def main():
-    if self_test() or "--self-test" in sys.argv:
-        return self_test()
+    if (wrong := self_test()) or "--self-test" in sys.argv:
+        return wrong
     files = [f for top in TOPS for f in sorted((ROOT / top).rglob("*")) if f.suffix in (*CODE, ".md") and f.is_file() and "expected" not in f.parts]
     files += [f for f in ROOT.glob("*.md")] + [ROOT / "CMakeLists.txt"]
     found = []

@@ -12,6 +12,8 @@ import re
 import sys
 from pathlib import Path
 
+from self_test import judges_wrongly
+
 ROOT = Path(__file__).resolve().parents[2]
 BELOW = ["base", "constraints", "sim", "analysis", "devices", "network", "bench"]
 COMMENT = re.compile(r"//[^\n]*|/\*.*?\*/", re.S)
@@ -63,15 +65,12 @@ def self_test():
               '// throw UsageError("x")', "throw;", "throw std::bad_alloc();", 'throw RefusedError("too stiff; allowed: less");',
               'struct BusError : ResourceError {}; void f() { throw BusError("gone"); }',
               'explicit FaultError(Fault fault) : FaultError(std::vector<Fault>{std::move(fault)}) {}']
-    wrong = [text for text in said if not faults_in(text)] + [text for text in silent if faults_in(text)]
-    for text in wrong:
-        print(f"faults.py judges wrongly: {text}")
-    return bool(wrong)
+    return judges_wrongly("faults.py", faults_in, said, silent)
 
 
 def main():
-    if self_test() or "--self-test" in sys.argv:
-        return self_test()
+    if (wrong := self_test()) or "--self-test" in sys.argv:
+        return wrong
     files = [f for top in BELOW for f in sorted((ROOT / top).rglob("*")) if f.suffix in (".h", ".cpp")]
     texts = {f.relative_to(ROOT): f.read_text() for f in files}
     kinds = KINDS.union(*(KIND.findall(text) for text in texts.values()))

@@ -13,6 +13,8 @@ import re
 import sys
 from pathlib import Path
 
+from self_test import judges_wrongly
+
 ROOT = Path(__file__).resolve().parents[2]
 LONG = 25
 MOST_WORDS = 32000  # README, manual and theory together
@@ -128,10 +130,7 @@ def self_test():
             "The next one is taken.", "It is drawn by who asks for it.", "A trial that is none.", "Channels that are no hand's stand with the first."]
     silent = ["Channels that belong to no single hand are listed under the first hand.", "You can run the block even if the timing check fails.",
               "A person who holds a device feels the object.", "error: run 1 already exists.", "Each trial is judged.", "What is verified?", "One mass hangs on one spring."]
-    wrong = [s for s in said if not nounless(s)] + [s for s in silent if nounless(s)]
-    for sentence in wrong:
-        print(f"prose.py judges wrongly: {sentence}")
-    return bool(wrong)
+    return judges_wrongly("prose.py", nounless, said, silent)
 
 
 def show(file):
@@ -143,8 +142,8 @@ def show(file):
 
 
 def main():
-    if self_test() or "--self-test" in sys.argv:
-        return self_test()
+    if (wrong := self_test()) or "--self-test" in sys.argv:
+        return wrong
     if "--show" in sys.argv:
         return show(Path(sys.argv[-1]).resolve())
     print(f"{'':44} {'words':>6} {'a sent.':>5} {'>25':>5}  {'no noun':>6} {'semicolons':>6}")

@@ -14,6 +14,7 @@ import sys
 from pathlib import Path
 
 from prose import groups, paragraphs_of, readable
+from self_test import judges_wrongly
 
 ROOT = Path(__file__).resolve().parents[2]
 BELOW = ["base", "constraints", "sim", "analysis", "devices", "network", "bench"]
@@ -79,21 +80,18 @@ def texts():
 def self_test():
     said = ['R"(of\nseveral lines: --check)"', 'throw FaultError("--age 200: too old");', 'x("more than 3 of --unknowns");', 'say("look into the dock");', 'say("in the Menus");']
     silent = ['#include "a--b"', '// "--age"', 'for (; n; --n) say("n");', 'say("a -- b");', 'say("tabulated, docked");', 'x = y; // "--age"', 'json["docks"]', 'say("button 2 of the handle");']
-    wrong = [line for line in said if not faults_in(line)] + [line for line in silent if faults_in(line)]
+    wrong = judges_wrongly("words.py", faults_in, said, silent)
     said = ["The reason in words.", "A clock of its own.", "It stands here.", "The trial goes on.", "Mends a log.", "The price of a step.", "One line a trial.",
             "A trial is put up.", "100 samples a second.", "along the way"]
     silent = ["In plain words.", "The hand stands still.", "It stands for a mass.", "A stand-in.", "100 samples per second.", "The trial under way.",
               "Asks once a trial is over.", "No session, no fault."]
-    wrong += [text for text in said if not wrong_terms(text)] + [text for text in silent if wrong_terms(text)]
-    wrong += [text for text in ("Every fault of the file.", "the same place") if not wrong_terms(text, True)]
-    for line in wrong:
-        print(f"words.py judges wrongly: {line}")
-    return bool(wrong)
+    wrong |= judges_wrongly("words.py", wrong_terms, said, silent)
+    return wrong | judges_wrongly("words.py", lambda text: wrong_terms(text, True), ["Every fault of the file.", "the same place"], [])
 
 
 def main():
-    if self_test() or "--self-test" in sys.argv:
-        return self_test()
+    if (wrong := self_test()) or "--self-test" in sys.argv:
+        return wrong
     files = [f for top in BELOW for f in sorted((ROOT / top).rglob("*")) if f.suffix in (".h", ".cpp") and f.parent.name != "terminal"]
     found = [(f.relative_to(ROOT), *fault) for f in files for fault in faults_in(f.read_text())]
     for file, number, string in found:
