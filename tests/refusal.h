@@ -31,10 +31,10 @@ std::vector<Fault> faultsToldBy(const Work& work) {
   }
 }
 
-/// Whether a sentence has these words in it.
-inline testing::AssertionResult holds(const std::string& sentence, const std::string& words) {
-  if (sentence.find(words) != std::string::npos) return testing::AssertionSuccess() << '"' << sentence << "\" has \"" << words << '"';
-  return testing::AssertionFailure() << '"' << sentence << "\" has no \"" << words << '"';
+/// Whether a text has these words in it. Shows as much of it as a person reads.
+inline testing::AssertionResult holds(const std::string& text, const std::string& words) {
+  const bool has = text.find(words) != std::string::npos;
+  return testing::AssertionResult(has) << '"' << text.substr(0, 4000) << "\" has " << (has ? "" : "no ") << '"' << words << '"';
 }
 
 }  // namespace reachlab

@@ -1,9 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <filesystem>
-#include <fstream>
-
-#include "test_paths.h"
 #include "tests/cli/program.h"
 
 using namespace reachlab::test;
@@ -12,30 +8,18 @@ using Json = nlohmann::json;
 
 namespace {
 
-// What a shell command prints, line by line.
-std::string outputOf(const std::string& command) {
-  std::string text;
-  FILE* pipe = popen(command.c_str(), "r");
-  for (int c; (c = std::fgetc(pipe)) != EOF;) text += static_cast<char>(c);
-  pclose(pipe);
-  return text;
-}
-
 struct Measured {
-  Ended ended;
+  std::string out;
   Json rows;
 };
 Measured measured(const std::string& arguments) {
   const fs::path file = fs::path(testing::TempDir()) / "rows.json";
   fs::remove(file);
-  const Ended ended = reach("bench " + arguments + " --json " + file.string());
-  EXPECT_EQ(ended.exitCode, 0) << ended.err;
-  std::ifstream in(file);
-  return {ended, Json::parse(in)};
+  return {printed("bench " + arguments + " --json " + file.string()), Json::parse(contentOf(file))};
 }
 
 TEST(Bench, MeasuresInAProgramOfItsOwnAndKeepsItsContract) {
-  const auto [ended, rows] = measured("--scene S1 --scene S6 --method auto --quick --rounds 5");
+  const auto [out, rows] = measured("--scene S1 --scene S6 --method auto --quick --rounds 5");
   ASSERT_EQ(rows.size(), 2u);
   for (const Json& row : rows) {
     for (const char* key : {"level", "scene", "method", "step_s", "tolerance", "state_error", "position_error_m", "ns_per_ms", "steps",
@@ -44,8 +28,8 @@ TEST(Bench, MeasuresInAProgramOfItsOwnAndKeepsItsContract) {
     EXPECT_LT(row["state_error"].get<double>(), 1e-12);  // the exact step's rounding over 1350 ticks
     EXPECT_GT(row["ns_per_ms"].get<double>(), 0);
   }
-  EXPECT_EQ(ended.out.substr(0, ended.out.find('\n')), "level " + rows[0]["level"].get<std::string>());
-  EXPECT_NE(ended.out.find("S6"), std::string::npos);
+  EXPECT_EQ(out.substr(0, out.find('\n')), "level " + rows[0]["level"].get<std::string>());
+  EXPECT_TRUE(holds(out, "S6"));
   EXPECT_EQ(reach("bench --scene S99").exitCode, 2);
   EXPECT_EQ(reach("bench --rounds 1").exitCode, 2);
   EXPECT_EQ(reach("bench --scene S1 --quick --rounds 5 --method auto --json /dev/null/rows.json").exitCode, 3);
@@ -64,14 +48,13 @@ TEST(Bench, SaysWhereTheMeasuringProgramWasLookedFor) {
   const fs::path folder = fs::path(testing::TempDir()) / "alone";
   fs::create_directories(folder);
   fs::copy_file(REACH_PROGRAM, folder / "reach", fs::copy_options::overwrite_existing);
-  const std::string said = outputOf((folder / "reach").string() + " bench --scene S1 2>&1; echo exit $?");
-  EXPECT_NE(said.find((folder / "reachlab-bench").string()), std::string::npos) << said;
-  EXPECT_NE(said.find("libexec/reachlab/reachlab-bench"), std::string::npos) << said;
-  EXPECT_NE(said.find("exit 3"), std::string::npos) << said;
+  const Ended ended = endOf((folder / "reach").string() + " bench --scene S1");
+  EXPECT_TRUE(says(ended, 3, (folder / "reachlab-bench").string()));
+  EXPECT_TRUE(holds(ended.err, "libexec/reachlab/reachlab-bench"));
 }
 
 TEST(Bench, TheProgramThatRecordsPeopleRunsUnderTheSystemsOperatorNew) {
-  const auto replaces = [](const std::string& program) { return !outputOf("nm --defined-only " + program + " | grep -w _Znwm").empty(); };
+  const auto replaces = [](const std::string& program) { return shell("nm --defined-only " + program + " | grep -w _Znwm").exitCode == 0; };
   EXPECT_FALSE(replaces(REACH_PROGRAM));
   EXPECT_TRUE(replaces(fs::path(REACH_PROGRAM).replace_filename("reachlab-bench").string())) << "the check itself";
 }

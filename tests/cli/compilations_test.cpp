@@ -19,13 +19,10 @@ std::string experimentFile(const TemporaryFolder& folder, const std::string& nam
 
 /// By `reach` with a counter that the linker has put before the compiler of formulas.
 std::vector<std::string> compiledBy(const std::string& arguments) {
-  const TemporaryFolder folder;
-  const std::string err = (folder / "err").string();
-  const std::string command =
-      "REACHLAB_TELL_COMPILATIONS=1 \"" REACHLAB_BINARY_DIR "/tests/reach_counting\" " + arguments + " > /dev/null 2> " + err;
-  EXPECT_EQ(std::system(command.c_str()), 0) << arguments << "\n" << contentOf(err);
+  const Ended ended = endOf("REACHLAB_TELL_COMPILATIONS=1 \"" REACHLAB_BINARY_DIR "/tests/reach_counting\" " + arguments);
+  EXPECT_EQ(ended.exitCode, 0) << arguments << "\n" << ended.err;
   std::vector<std::string> formulas;
-  std::istringstream lines(contentOf(err));
+  std::istringstream lines(ended.err);
   for (std::string line; std::getline(lines, line);)
     if (line.starts_with("compiled ")) formulas.push_back(line.substr(9));
   return formulas;

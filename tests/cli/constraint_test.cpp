@@ -10,22 +10,17 @@ using Json = nlohmann::json;
 class ConstraintCommand : public InAFolder {};
 
 TEST_F(ConstraintCommand, EvaluatesACurveWithItsDerivatives) {
-  const Ended ended = reach("constraint eval line --at 3.141592653589793 --json");
-  ASSERT_EQ(ended.exitCode, 0) << ended.err;
-  const Json json = Json::parse(ended.out);
+  const Json json = printedJson("constraint eval line --at 3.141592653589793 --json");
   EXPECT_NEAR(json.at("r_m")[0].get<double>(), 0, 1e-16);
   EXPECT_NEAR(json.at("r_phi")[0].get<double>(), 0.2 / (2 * M_PI), 1e-17);
   EXPECT_EQ(json.at("r_phiphi")[0].get<double>(), 0);
 }
 
 TEST_F(ConstraintCommand, ShowsEveryDefinition) {
-  const Json rows = Json::parse(reach("list constraints --json").out);
   int curves = 0, surfaces = 0;
-  for (const Json& row : rows) {
+  for (const Json& row : printedJson("list constraints --json")) {
     if (row.at("name") == "free") continue;
-    const Ended ended = reach("constraint show --json " + row.at("name").get<std::string>());
-    ASSERT_EQ(ended.exitCode, 0) << row << ended.err;
-    const Json json = Json::parse(ended.out);
+    const Json json = printedJson("constraint show --json " + row.at("name").get<std::string>());
     for (const char* key : {"name", "kind", "shape", "domain", "periodic", "at_end", "start", "target", "source"})
       EXPECT_TRUE(json.contains(key)) << row << key;
     const std::string kind = json.at("kind");
@@ -41,7 +36,7 @@ TEST_F(ConstraintCommand, PointsAtTheCharacterOfASyntaxFault) {
     "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600}})j");
   const Ended ended = reach("validate " + file);
   EXPECT_TRUE(says(ended, 2, "expected"));
-  EXPECT_NE(ended.err.find("bad.json:1:"), std::string::npos) << ended.err;
+  EXPECT_TRUE(holds(ended.err, "bad.json:1:"));
 }
 
 // sin(10 u) sin(10 v) …: singular along 40 lines and between them at more points than are listed.
@@ -55,16 +50,13 @@ TEST_F(ConstraintCommand, CheckTellsWhatItFoundAndWhereItStoppedLooking) {
   };
   const Ended many = check("many", "surface", R"j(["sin(10*u)*sin(10*v)/10", "sin(10*u)^2/10", "sin(10*v)^2/10"])j", "[[-3, 3], [-3, 3]]");
   EXPECT_EQ(many.exitCode, 0) << many.err;
-  EXPECT_NE(many.out.find("edge"), std::string::npos) << many.out;
-  EXPECT_NE(many.out.find("there may be more"), std::string::npos) << many.out;
+  for (const char* words : {"edge", "there may be more"}) EXPECT_TRUE(holds(many.out, words));
   const Ended one = check("umbrella", "surface", R"(["u*v/10", "u/10", "v^2/10"])", "[[-1, 1], [-1, 1]]");
-  EXPECT_NE(one.out.find("pinch     u = 0, v = 0"), std::string::npos) << one.out;
-  EXPECT_EQ(one.out.find("there may be more"), std::string::npos) << one.out;
-  EXPECT_NE(one.out.find("umbrella.json: fine: surface umbrella"), std::string::npos) << one.out;
-  EXPECT_NE(check("saddle", "surface", R"(["u/10", "v/10", "u*v/10"])", "[[-1, 1], [-1, 1]]").out.find("no degenerate position"),
-            std::string::npos);
-  EXPECT_NE(check("bend", "curve", R"(["phi/10", "phi^2/10", "0"])", "[-1, 1]").out.find("no kink, jump, pole, end or cusp"),
-            std::string::npos);
+  EXPECT_TRUE(holds(one.out, "pinch     u = 0, v = 0"));
+  EXPECT_FALSE(holds(one.out, "there may be more"));
+  EXPECT_TRUE(holds(one.out, "umbrella.json: fine: surface umbrella"));
+  EXPECT_TRUE(holds(check("saddle", "surface", R"(["u/10", "v/10", "u*v/10"])", "[[-1, 1], [-1, 1]]").out, "no degenerate position"));
+  EXPECT_TRUE(holds(check("bend", "curve", R"(["phi/10", "phi^2/10", "0"])", "[-1, 1]").out, "no kink, jump, pole, end or cusp"));
   EXPECT_EQ(check("point", "curve", R"(["1", "2", "3"])", "[0, 1]").exitCode, 2);
   EXPECT_TRUE(says(check("hole", "curve", R"j(["1/(phi - 0.3)", "phi", "0"])j", "[0, 1]"), 2, "not finite at phi = 0.3"));
 }
@@ -83,19 +75,18 @@ TEST_F(ConstraintCommand, RefusesTenThousandCharactersAndParentheses) {
 
 TEST_F(ConstraintCommand, CodeGivesEveryNumberThatItPromisesAValue) {
   for (const char* name : {"ellipse", "torus"}) {
-    const std::string code = reach(std::string("constraint code ") + name).out;
+    const std::string code = printed(std::string("constraint code ") + name);
     const std::size_t first = code.find("  double "), last = code.find(';', first);
     ASSERT_NE(last, std::string::npos) << code;
     std::istringstream members(code.substr(first + 9, last - first - 9));
     int count = 0;
     for (std::string member; std::getline(members >> std::ws, member, ','); ++count)
-      EXPECT_NE(code.find("  out." + member + " = "), std::string::npos) << name << " " << member;
+      EXPECT_TRUE(holds(code, "  out." + member + " = ")) << name << " " << member;
     EXPECT_GE(count, 7);
   }
 }
 
 TEST_F(ConstraintCommand, ShowsAPersonNoMoreDigitsThanAreMeant) {
-  const Ended shown = reach("constraint show ellipse");
-  EXPECT_NE(shown.out.find("reach     from [0] to [3.14159]\n"), std::string::npos) << shown.out;
-  EXPECT_NE(reach("constraint show ellipse --json").out.find("3.1415926535897931"), std::string::npos);
+  EXPECT_TRUE(holds(printed("constraint show ellipse"), "reach     from [0] to [3.14159]\n"));
+  EXPECT_TRUE(holds(printed("constraint show ellipse --json"), "3.1415926535897931"));
 }

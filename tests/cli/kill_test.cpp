@@ -58,16 +58,6 @@ Ending runAndKill(const std::vector<std::string>& arguments, double seconds, int
   return ending;
 }
 
-// The whole lines that announce a trial, without the last one when it was cut.
-std::map<int, std::string> announced(const std::string& out) {
-  std::map<int, std::string> trials;
-  for (std::size_t from = 0, end = 0; (end = out.find('\n', from)) != std::string::npos; from = end + 1) {
-    const std::string line = out.substr(from, end - from);
-    if (line.starts_with("trial=")) trials[std::atoi(line.c_str() + 6)] = line;
-  }
-  return trials;
-}
-
 bool sameResult(const trial::TrialResult& a, const trial::TrialResult& b) {
   return a.outcome == b.outcome && a.reason == b.reason && a.mass == b.mass && a.by == b.by && a.movementTime == b.movementTime;
 }
@@ -93,7 +83,7 @@ TEST_F(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
     const int after = static_cast<int>(random() % 30);
     const double moment = static_cast<double>(random() % 8000) * 1e-6;  // a trial takes a few milliseconds on the virtual clock
     const Ending killed = runAndKill(runArguments(data, false), moment, after);
-    const auto lines = announced(killed.out);
+    const auto lines = test::trialLines(killed.out.substr(0, killed.out.rfind('\n') + 1));  // without the last one where it was cut
     const std::vector<session::RunOnDisk> runs = session::recordedRuns({data});
     if (runs.empty()) {
       EXPECT_TRUE(lines.empty());

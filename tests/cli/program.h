@@ -16,9 +16,11 @@
 
 #include "test_paths.h"
 #include "tests/in_a_folder.h"
+#include "tests/refusal.h"
 
 namespace reachlab::test {
 
+using reachlab::holds;
 using reachlab::InAFolder;
 using reachlab::TemporaryFolder;
 
@@ -32,13 +34,6 @@ inline std::string contentOf(const std::filesystem::path& file) {
   std::ostringstream text;
   text << in.rdbuf();
   return std::move(text).str();
-}
-
-/// How many errors a text of the standard error tells.
-inline int errorsIn(const std::string& text) {
-  int count = 0;
-  for (std::size_t at = 0; (at = text.find("error: ", at)) != std::string::npos; ++at) ++count;
-  return count;
 }
 
 /// Each message of a wrong command has the one form (base/terminal/message.h), and no text of a library in it. REACHLAB_MESSAGES names a file
@@ -57,37 +52,46 @@ inline void expectTheOneForm(const std::string& arguments, const Ended& ended) {
   EXPECT_TRUE(told) << "reach " << arguments << "\n" << ended.err;
   for (const char* foreign : {"not in range", "Could not convert", "required", "json.exception", "syntax error", "parse error",
                               "std::", "filesystem error", "bad_alloc", " INT", " FLOAT"})
-    EXPECT_EQ(ended.err.find(foreign), std::string::npos) << "reach " << arguments << "\n" << ended.err;
+    EXPECT_FALSE(holds(ended.err, foreign)) << "reach " << arguments;
   if (const char* list = std::getenv("REACHLAB_MESSAGES"))
     std::ofstream(list, std::ios::app) << "$ reach " << arguments << "\n" << ended.err;
 }
 
+/// Runs a command with nothing to read.
+inline Ended endOf(const std::string& command) {
+  const TemporaryFolder folder;
+  const int status =
+      std::system((command + " > \"" + (folder / "out").string() + "\" 2> \"" + (folder / "err").string() + "\" < /dev/null").c_str());
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contentOf(folder / "out"), contentOf(folder / "err")};
+}
+
 /// Runs `reach ARGUMENTS` in a shell; `environment` stands before it.
 inline Ended reach(const std::string& arguments, const std::string& environment = "") {
-  const TemporaryFolder folder;
-  const std::string command = environment + " \"" REACH_PROGRAM "\" " + arguments + " > \"" + (folder / "out").string() + "\" 2> \"" +
-                              (folder / "err").string() + "\" < /dev/null";
-  const int status = std::system(command.c_str());
-  Ended ended{WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contentOf(folder / "out"), contentOf(folder / "err")};
+  Ended ended = endOf(environment + " \"" REACH_PROGRAM "\" " + arguments);
   expectTheOneForm(arguments, ended);
   return ended;
 }
 
+/// What `reach ARGUMENTS` prints. It has to end with 0.
+inline std::string printed(const std::string& arguments, const std::string& environment = "") {
+  const Ended ended = reach(arguments, environment);
+  EXPECT_EQ(ended.exitCode, 0) << "reach " << arguments << "\n" << ended.err << ended.out;
+  return ended.out;
+}
+inline nlohmann::json printedJson(const std::string& arguments, const std::string& environment = "") {
+  return nlohmann::json::parse(printed(arguments, environment));
+}
+
 /// Whether a command ended with this number, and these words are on its standard error.
 inline testing::AssertionResult says(const Ended& ended, int exitCode, const std::string& words) {
-  if (ended.exitCode == exitCode && ended.err.find(words) != std::string::npos) return testing::AssertionSuccess();
-  return testing::AssertionFailure() << "exit " << ended.exitCode << " for " << exitCode << ", looked for: " << words << "\n"
-                                     << ended.err.substr(0, 4000);
+  if (ended.exitCode == exitCode) return holds(ended.err, words);
+  return testing::AssertionFailure() << "exit " << ended.exitCode << " for " << exitCode << "\n" << ended.err.substr(0, 4000);
 }
 
 /// Runs a line of bash in which $REACH is the program, for redirections, pipes and limits.
 inline Ended shell(const std::string& line) {
   const TemporaryFolder folder;
-  const std::string script = folder.write("script", "REACH=\"" REACH_PROGRAM "\"\n" + line + "\n");
-  const std::string command =
-      "bash \"" + script + "\" > \"" + (folder / "out").string() + "\" 2> \"" + (folder / "err").string() + "\" < /dev/null";
-  const int status = std::system(command.c_str());
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), contentOf(folder / "out"), contentOf(folder / "err")};
+  return endOf("bash \"" + folder.write("script", "REACH=\"" REACH_PROGRAM "\"\n" + line + "\n") + "\"");
 }
 
 inline std::vector<std::string> split(const std::string& line, char separator) {
@@ -130,6 +134,15 @@ inline Table parseCsv(const std::string& text) {
   if (std::getline(in, line)) table.header = split(line, ',');
   while (std::getline(in, line)) table.rows.push_back(split(line, ','));
   return table;
+}
+
+/// The table of trials that `reach export` writes of a dataset or a log.
+inline Table exportedTrials(const std::string& what) {
+  const TemporaryFolder csv;
+  const Ended exported = reach("export " + what + " --format csv --out " + csv.path());
+  EXPECT_EQ(exported.exitCode, 0) << exported.err;
+  EXPECT_EQ(exported.err, "") << "the log is damaged, or was not closed in order";
+  return parseCsv(contentOf(csv / "trials.csv"));
 }
 
 /// The lines `trial=… outcome=…` of a run, each as its key=value pairs.

@@ -16,7 +16,7 @@
 namespace reachlab::cli {
 namespace {
 
-int reach(const std::string& arguments) { return test::reach(arguments).exitCode; }
+using test::printed;
 
 class Replay : public InAFolder {};
 
@@ -24,10 +24,9 @@ TEST_F(Replay, OfEveryShippedExperimentIsBitIdentical) {
   for (const std::string& name : experiment::shippedExperiments()) {
     if (!experiment::readExperiment(name).task) continue;
     const std::string data = folder_ / name;
-    ASSERT_EQ(reach("run " + name + " --device replay:" REACHLAB_SOURCE_DIR "/resources/reaches --trials 3 --fast --data " + data), 0)
-        << name;
+    printed("run " + name + " --device replay:" REACHLAB_SOURCE_DIR "/resources/reaches --trials 3 --fast --data " + data);
     const std::string log = session::recordedRuns({data}).at(0).path;
-    EXPECT_EQ(reach("replay " + log + " --check"), 0) << name;
+    printed("replay " + log + " --check");
     const record::Replay replay = record::replayRun(record::RunLog::open(log));
     EXPECT_EQ(replay.trials.size(), 3u) << name;
     EXPECT_GT(replay.rows, 100u) << name;
@@ -35,9 +34,9 @@ TEST_F(Replay, OfEveryShippedExperimentIsBitIdentical) {
 }
 
 TEST_F(Replay, OfSimulatedSubjectsAndOfRealTimeIsBitIdentical) {
-  ASSERT_EQ(reach("run chain-moderate --device simulated --trials 3 --seed 4 --fast --every-tick --data " + data_), 0);
-  ASSERT_EQ(reach("run chain-fast --device simulated --trials 1 --seed 4 --data " + data_), 0);
-  for (const session::RunOnDisk& run : session::recordedRuns({data_})) EXPECT_EQ(reach("replay " + run.path + " --check"), 0) << run.path;
+  printed("run chain-moderate --device simulated --trials 3 --seed 4 --fast --every-tick --data " + data_);
+  printed("run chain-fast --device simulated --trials 1 --seed 4 --data " + data_);
+  for (const session::RunOnDisk& run : session::recordedRuns({data_})) printed("replay " + run.path + " --check");
 }
 
 // Years later, on another computer: the definition's file is gone, or says something else under the same name.
@@ -54,18 +53,18 @@ TEST_F(Replay, NeedsNoFileOfTheConstraintThatAnExperimentNames) {
       "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600, "damping_n_s_per_m": 5},
       "task": {"start": [0], "target": [1.5], "duration_s": 1.5, "tolerance": {"position_m": 0.012, "velocity_m_per_s": 0.012, "time_s": 1}}})");
   ::setenv("REACHLAB_CONSTRAINTS", std::filesystem::path(definition).parent_path().c_str(), 1);
-  ASSERT_EQ(reach("run " + experiment + " --device simulated --trials 2 --seed 4 --fast --data " + data_), 0);
+  printed("run " + experiment + " --device simulated --trials 2 --seed 4 --fast --data " + data_);
   const std::string log = session::recordedRuns({data_}).at(0).path;
-  EXPECT_EQ(reach("replay " + log + " --check"), 0);
+  printed("replay " + log + " --check");
   write(definition, eight("0.9*w_m*cos(phi)"));
-  EXPECT_EQ(reach("replay " + log + " --check"), 0) << "the file has changed";
+  printed("replay " + log + " --check");  // the file has changed
   std::filesystem::remove(definition);
-  EXPECT_EQ(reach("replay " + log + " --check"), 0) << "the file is gone";
-  EXPECT_EQ(reach("export " + data_ + " --format csv --out " + (folder_ / "tables").string()), 0);
-  EXPECT_EQ(reach("analyze " + data_ + " --out " + (folder_ / "analysis").string()), 0);
+  printed("replay " + log + " --check");  // the file is gone
+  printed("export " + data_ + " --format csv --out " + (folder_ / "tables").string());
+  printed("analyze " + data_ + " --out " + (folder_ / "analysis").string());
   ::unsetenv("REACHLAB_CONSTRAINTS");
   const record::RunConfiguration recorded = record::RunLog::open(log).configuration();
-  EXPECT_NE(recorded.definitionText.find("w_m*sin(phi)*cos(phi)"), std::string::npos);
+  EXPECT_TRUE(holds(recorded.definitionText, "w_m*sin(phi)*cos(phi)"));
   EXPECT_THROW((void)experiment::parseExperiment(recorded.experimentText, "eight"), FaultError)
       << "without the definition it cannot be known";
   EXPECT_EQ(record::recordedExperiment(recorded).experiment().constraint.shape.at("w_m"), 0.12);
@@ -73,7 +72,7 @@ TEST_F(Replay, NeedsNoFileOfTheConstraintThatAnExperimentNames) {
 
 // What is gone cannot differ: without the note, a log that lost its end would count as a whole one.
 TEST_F(Replay, SaysOfALogThatWasCutShortThatItIsNotAllOfTheRun) {
-  ASSERT_EQ(reach("run dingwell --device simulated --trials 3 --seed 4 --fast --data " + data_), 0);
+  printed("run dingwell --device simulated --trials 3 --seed 4 --fast --data " + data_);
   const std::string log = session::recordedRuns({data_}).at(0).path;
   std::uint64_t beginOfLast = 0;
   {
@@ -85,14 +84,14 @@ TEST_F(Replay, SaysOfALogThatWasCutShortThatItIsNotAllOfTheRun) {
     if (cut) std::filesystem::resize_file(log, beginOfLast);  // between two records, as a kill leaves it
     const test::Ended ended = test::reach("replay " + log + " --check");
     EXPECT_EQ(ended.exitCode, 0);
-    EXPECT_EQ(ended.err.find("not closed in order") != std::string::npos, cut) << ended.err;
+    EXPECT_EQ(bool{test::holds(ended.err, "not closed in order")}, cut) << ended.err;
   }
 }
 
 // The same log with one number of one row changed, every record good in itself.
 TEST_F(Replay, NamesTheFirstStateThatDiffersAndExits1) {
   const std::string changed = folder_ / "changed_log.reach";
-  ASSERT_EQ(reach("run dingwell --device simulated --trials 2 --seed 4 --fast --data " + data_), 0);
+  printed("run dingwell --device simulated --trials 2 --seed 4 --fast --data " + data_);
   int samples = 0;
   record::copyLog(session::recordedRuns({data_}).at(0).path, changed, [&](record::RecordType type, std::vector<std::uint8_t>& payload) {
     if (type == record::RecordType::Samples && ++samples == 2) payload[payload.size() - 9] ^= 1;
@@ -101,9 +100,9 @@ TEST_F(Replay, NamesTheFirstStateThatDiffersAndExits1) {
   ASSERT_GE(samples, 2);
   const record::Replay replay = record::replayRun(record::RunLog::open(changed));
   EXPECT_EQ(replay.rowsThatDiffer, 1u);
-  EXPECT_NE(replay.firstDifference.find("mass1"), std::string::npos) << replay.firstDifference;
-  EXPECT_EQ(reach("replay " + changed + " --check"), 1);
-  EXPECT_EQ(reach("replay " + changed), 0) << "only --check judges";
+  EXPECT_TRUE(holds(replay.firstDifference, "mass1"));
+  EXPECT_EQ(test::reach("replay " + changed + " --check").exitCode, 1);
+  printed("replay " + changed);  // only --check judges
 }
 
 }  // namespace

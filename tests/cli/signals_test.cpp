@@ -51,10 +51,7 @@ TEST(Signals, EndARunWithTheTrialMarkedAndTheLogClosed) {
         {"run", "chain-moderate", "--device", "simulated", "--trials", "50", "--seed", "1", "--timing-check", "0", "--data", data.path()},
         signal, data / "sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach", 700);
     EXPECT_EQ(ended.exitCode, code);
-    const TemporaryFolder csv;
-    const Ended exported = reach("export " + data.path() + " --format csv --out " + csv.path());
-    EXPECT_EQ(exported.err, "") << "not closed in order";
-    const Table trials = parseCsv(contentOf(csv / "trials.csv"));
+    const Table trials = exportedTrials(data.path());
     ASSERT_FALSE(trials.rows.empty());
     EXPECT_EQ(trials.rows.back()[trials.column("outcome")], "interrupted");
     EXPECT_EQ(trials.rows.back()[trials.column("complete")], "1");

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "network/link/given_samples.h"
-#include "sim/record/log/atomic_file.h"
 #include "sim/record/log/run_log.h"
 #include "sim/session/session_folder.h"
 #include "tests/cli/program.h"
@@ -29,14 +28,19 @@ class Stations : public testing::Test {
   }
   // Domains of its own for each test program that may run beside: three each.
   static std::string domain(int which) { return std::to_string((3 * ::getpid() + which) % 230); }
-  static std::string common() { return "--interface lo --peer 127.0.0.1 --wait 40 --seed 1 --domain " + domain(0) + " "; }
+  // The station of a number, whose data are under a name; the first one conducts.
+  std::string station(int number, const std::string& data, const std::string& more, const std::string& experiment = "chain-two-hands",
+                      int which = 0, int wait = 40) const {
+    return "station " + experiment + " --number " + std::to_string(number) + (number == 1 ? " --conductor" : "") +
+           " --interface lo --peer 127.0.0.1 --seed 1 --wait " + std::to_string(wait) + " --domain " + domain(which) + " --data " +
+           (folder_ / data).string() + " " + more;
+  }
   std::pair<Ended, Ended> both(const std::string& one, const std::string& other) {
     auto second = std::async(std::launch::async, [&] { return reach(other); });
     const Ended first = reach(one);
     return {first, second.get()};
   }
-  std::string dataOf(const char* station) const { return folder_ / station; }
-  record::RunLog logOf(const char* station) const { return record::RunLog::open(session::recordedRuns({dataOf(station)}).at(0).path); }
+  record::RunLog logOf(const char* station) const { return record::RunLog::open(session::recordedRuns({folder_ / station}).at(0).path); }
   const TemporaryFolder folder_;
 };
 
@@ -93,10 +97,8 @@ void expectLostInTime(const record::RunLog& log, const record::RecordedTrial& tr
 
 // In real time, by two processes: among the long checks (tests/long/stations.sh).
 TEST_F(Stations, DISABLED_TwoMoveOneChainTogether) {
-  const auto [left, right] =
-      both("station chain-two-hands --number 1 --conductor --device simulated:noise=0 --trials 2 --insecure " + common() + "--data " +
-               dataOf("left"),
-           "station chain-two-hands --number 2 --device simulated:noise=0 --insecure " + common() + "--data " + dataOf("right"));
+  const auto [left, right] = both(station(1, "left", "--device simulated:noise=0 --insecure --trials 2"),
+                                  station(2, "right", "--device simulated:noise=0 --insecure"));
   ASSERT_EQ(left.exitCode, 0) << left.err << "\n--- right:\n" << right.err;
   ASSERT_EQ(right.exitCode, 0) << right.err;
   bool lost = false;
@@ -108,8 +110,7 @@ TEST_F(Stations, DISABLED_TwoMoveOneChainTogether) {
       if (trial.result.reason == trial::Reason::PeerLost) expectLostInTime(log, trial), lost = true;
     EXPECT_TRUE(log.healthy()) << station;
     // Each copy again, from its own log alone.
-    const Ended replayed = reach("replay " + log.path() + " --check");
-    EXPECT_EQ(replayed.exitCode, 0) << station << ": " << replayed.out << replayed.err;
+    test::printed("replay " + log.path() + " --check");
   }
   if (lost) return;
   // The last mass is the other's: it moved on this copy, too.
@@ -124,28 +125,24 @@ TEST_F(Stations, DISABLED_TwoMoveOneChainTogether) {
 TEST_F(Stations, OtherExperimentsAreNotArmed) {
   const std::string mine = folder_ / "mine.json";
   fs::copy(fs::path(REACHLAB_SOURCE_DIR) / "resources/experiments/two-hands/parallel-two-hands.json", mine);
-  const std::string quick = "--interface lo --peer 127.0.0.1 --wait 6 --seed 1 --domain " + domain(1) + " --insecure ";
-  const auto [left, right] = both("station chain-two-hands --number 1 --conductor --device simulated " + quick + "--data " + dataOf("left"),
-                                  "station " + mine + " --number 2 --device simulated " + quick + "--data " + dataOf("right"));
+  const auto [left, right] = both(station(1, "left", "--device simulated --insecure", "chain-two-hands", 1, 6),
+                                  station(2, "right", "--device simulated --insecure", mine, 1, 6));
   EXPECT_TRUE(says(left, 3, "has another experiment"));
   EXPECT_TRUE(logOf("left").trials().empty());
 }
 
 // In real time, by two processes: among the long checks (tests/long/stations.sh).
 TEST_F(Stations, DISABLED_AKilledStationIsLostWithin150MillisecondsAndNoLogLosesARecord) {
-  const std::string slow = folder_ / "slow.json";
-  record::writeFileAtomically(slow,
-                              R"({ "schema_version": 1, "name": "slow", "constraint": { "name": "line", "shape": { "length_m": 0.2 } },
+  const std::string slow =
+      folder_.write("slow.json",
+                    R"({ "schema_version": 1, "name": "slow", "constraint": { "name": "line", "shape": { "length_m": 0.2 } },
   "object": { "kind": "chain", "masses_kg": [0.6, 0.6], "stiffness_n_per_m": [600] }, "coupling": { "stiffness_n_per_m": 600, "damping_n_s_per_m": 5 },
   "hands": [{ "mass": 1 }, { "mass": 2 }], "timing": { "max_missed_ticks": 100000, "max_gap_s": 10 },
   "task": { "start": [0], "target": [6.283185307179586], "duration_s": 40, "tolerance": { "position_m": 0.01, "velocity_m_per_s": 0.01, "time_s": 1 } } })");
   auto second = std::async(std::launch::async, [&] {
-    return std::system(("timeout -s KILL 15 \"" REACH_PROGRAM "\" station " + slow + " --number 2 --device simulated:noise=0 --insecure " +
-                        common() + "--data " + dataOf("right") + " > /dev/null 2>&1")
-                           .c_str());
+    return test::endOf("timeout -s KILL 15 \"" REACH_PROGRAM "\" " + station(2, "right", "--device simulated:noise=0 --insecure", slow));
   });
-  const Ended left =
-      reach("station " + slow + " --number 1 --conductor --device simulated:noise=0 --insecure " + common() + "--data " + dataOf("left"));
+  const Ended left = reach(station(1, "left", "--device simulated:noise=0 --insecure", slow));
   second.get();
   const record::RunLog log = logOf("left");
   ASSERT_EQ(log.trials().size(), 1u) << left.err;
@@ -159,7 +156,7 @@ TEST_F(Stations, DISABLED_AKilledStationIsLostWithin150MillisecondsAndNoLogLoses
       if (rows.ticks[i] >= result.endTick) {
         ASSERT_EQ(rows.at(i, log.configuration().table.indexOf(axis)), 0) << axis << " at tick " << rows.ticks[i];
       }
-  EXPECT_EQ(reach("replay " + log.path() + " --check").exitCode, 0);
+  test::printed("replay " + log.path() + " --check");
   // The one that was killed is whole up to its last block: the trial is there, broken off.
   const record::RunLog killed = logOf("right");
   ASSERT_EQ(killed.trials().size(), 1u);
@@ -169,23 +166,18 @@ TEST_F(Stations, DISABLED_AKilledStationIsLostWithin150MillisecondsAndNoLogLoses
 
 // In real time, by two processes: among the long checks (tests/long/stations.sh).
 TEST_F(Stations, DISABLED_WithCertificatesTheyMeetAndAStrangerIsNotHeard) {
-  ASSERT_EQ(reach("peers init " + (folder_ / "lab").string() + " --conductor --name left").exitCode, 0);
-  ASSERT_EQ(reach("peers init " + (folder_ / "other").string() + " --name right").exitCode, 0);
-  ASSERT_EQ(reach("peers add " + (folder_ / "lab").string() + " " + (folder_ / "other").string() + "/request.pem").exitCode, 0);
-  for (const auto& entry : fs::directory_iterator(folder_ / "lab/for-right"))
-    fs::copy(entry.path(), folder_ / "other" / entry.path().filename());
-  ASSERT_EQ(reach("peers init " + (folder_ / "stranger").string() + " --conductor --name right").exitCode, 0);
-  const auto [left, right] = both("station chain-two-hands --number 1 --conductor --device simulated:noise=0 --peers " +
-                                      (folder_ / "lab").string() + " " + common() + "--data " + dataOf("left"),
-                                  "station chain-two-hands --number 2 --device simulated:noise=0 --peers " + (folder_ / "other").string() +
-                                      " " + common() + "--data " + dataOf("right"));
+  const std::string lab = folder_ / "lab", other = folder_ / "other", foreign = folder_ / "foreign";
+  test::printed("peers init " + lab + " --conductor --name left");
+  test::printed("peers init " + other + " --name right");
+  test::printed("peers add " + lab + " " + other + "/request.pem");
+  for (const auto& entry : fs::directory_iterator(lab + "/for-right")) fs::copy(entry.path(), fs::path(other) / entry.path().filename());
+  test::printed("peers init " + foreign + " --conductor --name right");
+  const auto [left, right] = both(station(1, "left", "--device simulated:noise=0 --peers " + lab),
+                                  station(2, "right", "--device simulated:noise=0 --peers " + other));
   EXPECT_EQ(left.exitCode, 0) << left.err << "\n--- right:\n" << right.err;
   EXPECT_EQ(right.exitCode, 0) << right.err;
-  const std::string quick = "--interface lo --peer 127.0.0.1 --wait 8 --seed 1 --domain " + domain(2) + " ";
-  const auto [alone, stranger] = both("station chain-two-hands --number 1 --conductor --device simulated --peers " +
-                                          (folder_ / "lab").string() + " " + quick + "--data " + dataOf("alone"),
-                                      "station chain-two-hands --number 2 --device simulated --peers " + (folder_ / "stranger").string() +
-                                          " " + quick + "--data " + dataOf("stranger"));
+  const auto [alone, stranger] = both(station(1, "alone", "--device simulated --peers " + lab, "chain-two-hands", 2, 8),
+                                      station(2, "stranger", "--device simulated --peers " + foreign, "chain-two-hands", 2, 8));
   EXPECT_TRUE(says(alone, 3, "station 2: is not there"));
   EXPECT_EQ(stranger.exitCode, 3) << stranger.err;
 }

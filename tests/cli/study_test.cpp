@@ -34,11 +34,15 @@ std::string tablesOf(const std::string& folder) {
 
 Table tableOf(const std::string& folder) { return parseCsv(shell("gzip -dc \"" + folder + "/trials.csv.gz\"").out); }
 
-class Study : public testing::Test {
+class Study : public InAFolder {
  protected:
-  const TemporaryFolder folder;
-  const std::string file = folder.write("small.json", kStudy);
-  std::string at(const std::string& name) const { return (folder / name).string(); }
+  const std::string file = folder_.write("small.json", kStudy);
+  std::string at(const std::string& name) const { return folder_ / name; }
+  // The rows of a study of this text, which is in a file of this name.
+  Table computed(const std::string& name, const std::string& text) const {
+    printed("study " + folder_.write(name + ".json", text) + " --out " + at(name));
+    return tableOf(at(name));
+  }
   Ended run(const std::string& out, const std::string& more = "") const {
     return reach("study " + file + " --out " + at(out) + " " + more);
   }
@@ -88,13 +92,11 @@ TEST_F(Study, ATrialIsTheSameToTheBitAsThatOfARecordedRun) {
   while (first < 6 * 5 * 3 && !succeeds(first) && !succeeds(first + 1) && !succeeds(first + 2)) first += 3;
   ASSERT_LT(first, 6u * 5u * 3u);
   const std::string subject = table.rows[first][table.column("subject")];
-  const Ended point = reach("study point " + at("a") + " 5 --subject " + subject + " --out " + folder.path());
-  ASSERT_EQ(point.exitCode, 0) << point.err;
-  ASSERT_EQ(point.out.substr(0, 10), "reach run ");
-  ASSERT_EQ(shell("$REACH " + point.out.substr(6, point.out.size() - 7) + " --data " + at("data")).exitCode, 0);
-  ASSERT_EQ(reach("export " + at("data") + " --format csv --out " + at("csv")).exitCode, 0);
-  ASSERT_EQ(reach("analyze " + at("data") + " --criterion min-hand-jerk --criterion min-crackle --out " + at("analysis")).exitCode, 0);
-  const Table recorded = parseCsv(contentOf(at("csv") + "/trials.csv")), analysed = parseCsv(contentOf(at("analysis") + "/trials.csv"));
+  const std::string point = printed("study point " + at("a") + " 5 --subject " + subject + " --out " + folder_.path());
+  ASSERT_EQ(point.substr(0, 10), "reach run ");
+  printed(point.substr(6, point.size() - 7) + " --data " + data_);
+  printed("analyze " + data_ + " --criterion min-hand-jerk --criterion min-crackle --out " + at("analysis"));
+  const Table recorded = exportedTrials(data_), analysed = parseCsv(contentOf(at("analysis") + "/trials.csv"));
   for (std::size_t trial = 0; trial < 3; ++trial) {
     EXPECT_EQ(table.at(first + trial, "point"), 5);
     EXPECT_EQ(table.rows[first + trial][table.column("subject")], subject);
@@ -107,21 +109,18 @@ TEST_F(Study, ATrialIsTheSameToTheBitAsThatOfARecordedRun) {
 }
 
 TEST_F(Study, GoesThroughAPlanAsASessionDoes) {
-  const std::string plan = folder.write("two.json", R"({"schema_version": 1, "counterbalance": "permute", "foreperiod_s": [0.2, 0.4],
+  const std::string plan = folder_.write("two.json", R"({"schema_version": 1, "counterbalance": "permute", "foreperiod_s": [0.2, 0.4],
     "blocks": [{"experiment": "chain-moderate", "trials": 2}, {"experiment": "chain-slow", "trials": 2, "condition": "slow"}]})");
-  const std::string study = folder.write(
-      "planned.json", R"({"schema_version": 1, "plan": "two.json", "subjects": 3, "vary": {"plan.blocks[0].trials": [2, 3]}})");
-  ASSERT_EQ(reach("study " + study + " --out " + at("p")).exitCode, 0);
-  const Table table = tableOf(at("p"));
+  const Table table =
+      computed("planned", R"({"schema_version": 1, "plan": "two.json", "subjects": 3, "vary": {"plan.blocks[0].trials": [2, 3]}})");
   ASSERT_EQ(table.rows.size(), 3u * 4 + 3u * 5);
   // Subject 2 of point 0, by the session that its seed repeats.
   std::vector<std::size_t> rows;
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     if (table.at(i, "point") == 0 && table.at(i, "subject") == 2) rows.push_back(i);
   const std::string seed = table.rows[rows.front()][table.column("seed")];
-  ASSERT_EQ(reach("run " + plan + " --device simulated --subject 02 --fast --seed " + seed + " --data " + at("data")).exitCode, 0);
-  ASSERT_EQ(reach("export " + at("data") + " --format csv --out " + at("csv")).exitCode, 0);
-  Table recorded = parseCsv(contentOf(at("csv") + "/trials.csv"));  // by the runs' names
+  printed("run " + plan + " --device simulated --subject 02 --fast --seed " + seed + " --data " + data_);
+  Table recorded = exportedTrials(data_);  // by the runs' names
   std::stable_sort(recorded.rows.begin(), recorded.rows.end(), [&, block = recorded.column("block")](const auto& a, const auto& b) {
     return std::stoi(a[block]) < std::stoi(b[block]);
   });
@@ -139,18 +138,16 @@ TEST_F(Study, SaysHowFarItIs) {
     return lines.empty() ? ended.err : lines.front() + "; " + lines.back();
   };
   EXPECT_EQ(told(run("a", "--shard 1/4")), "3 of 30 trials; 30 of 30 trials");
-  const Ended status = reach("study status " + at("a"));
-  EXPECT_EQ(status.exitCode, 0);
-  EXPECT_EQ(status.out.substr(0, 36), "chunks=5 of=20 trials=30 of=120 rate") << status.out;
+  const auto status = [&] { return printed("study status " + at("a")); };
+  EXPECT_TRUE(status().starts_with("chunks=5 of=20 trials=30 of=120 rate")) << status();
   // Five chunks of six trials, a second apart: 24 trials in 4 s, and 90 are left.
   auto when = std::filesystem::file_time_type::clock::now();
   for (const auto& entry : std::filesystem::recursive_directory_iterator(at("a") + "/chunks"))
     if (entry.is_regular_file()) std::filesystem::last_write_time(entry.path(), when -= std::chrono::seconds(1));
-  const std::string paced = reach("study status " + at("a")).out;
-  EXPECT_NE(paced.find(" rate_per_s=6 left_s=15 "), std::string::npos) << paced;
+  EXPECT_TRUE(holds(status(), " rate_per_s=6 left_s=15 "));
   EXPECT_TRUE(says(run("a", "--shard 1/4"), 2, "--resume"));
   EXPECT_EQ(told(run("a", "--resume")), "33 of 120 trials; 120 of 120 trials");
-  EXPECT_NE(reach("study status " + at("a")).out.find("tables=yes"), std::string::npos);
+  EXPECT_TRUE(holds(status(), "tables=yes"));
   // Of one that lacks a single chunk there is no report.
   EXPECT_EQ(reach("study report " + at("a")).exitCode, 0);
   for (const auto& entry : std::filesystem::recursive_directory_iterator(at("a") + "/chunks"))
@@ -162,29 +159,23 @@ TEST_F(Study, TellsWhatIsWrongWhereItStands) {
   const auto refusal = [&](const std::string& from, const std::string& to) {
     std::string text = kStudy;
     text.replace(text.find(from), from.size(), to);
-    const Ended ended = reach("study " + folder.write("bad.json", text) + " --out " + at("bad"));
-    EXPECT_EQ(ended.exitCode, 2) << to << ended.err;
-    return ended.err;
+    return reach("study " + folder_.write("bad.json", text) + " --out " + at("bad"));
   };
-  EXPECT_NE(refusal("\"subjects\": 5", "\"subjects\": 0").find("bad.json:2:"), std::string::npos);
-  EXPECT_NE(refusal("\"by\"", "\"bye\"").find("measures[1]: is \"bye\""), std::string::npos);
-  EXPECT_NE(refusal("[500, 600]", "[500, -1]").find("coupling.stiffness_n_per_m: is -1"), std::string::npos);
-  EXPECT_NE(refusal("\"subject.noise\"", "\"subject.nois\"").find("nois is not known"), std::string::npos);
-  EXPECT_NE(refusal("chain-moderate", "no-such-chain").find("experiment"), std::string::npos);
-  EXPECT_NE(refusal("coupling.stiffness_n_per_m", "object.masses_kg[9]").find("object.masses_kg[9]: is beyond the 5 elements"),
-            std::string::npos);
+  EXPECT_TRUE(says(refusal("\"subjects\": 5", "\"subjects\": 0"), 2, "bad.json:2:"));
+  EXPECT_TRUE(says(refusal("\"by\"", "\"bye\""), 2, "measures[1]: is \"bye\""));
+  EXPECT_TRUE(says(refusal("[500, 600]", "[500, -1]"), 2, "coupling.stiffness_n_per_m: is -1"));
+  EXPECT_TRUE(says(refusal("\"subject.noise\"", "\"subject.nois\""), 2, "nois is not known"));
+  EXPECT_TRUE(says(refusal("chain-moderate", "no-such-chain"), 2, "experiment"));
+  EXPECT_TRUE(says(refusal("coupling.stiffness_n_per_m", "object.masses_kg[9]"), 2, "object.masses_kg[9]: is beyond the 5 elements"));
   EXPECT_FALSE(std::filesystem::exists(at("bad")));
 }
 
 // Two criteria that hands follow without noise but in time: every study of five people names the truth.
 TEST_F(Study, ReportsWhatTheAnalysisWouldName) {
-  const std::string study =
-      folder.write("truths.json", R"({"schema_version": 1, "experiment": "chain-moderate", "subjects": 10, "trials": 14,
+  computed("t", R"({"schema_version": 1, "experiment": "chain-moderate", "subjects": 10, "trials": 14,
     "subject": {"noise": 0.3}, "vary": {"subject.criterion": ["min-hand-jerk", "min-crackle"]}, "measures": ["score"],
     "criteria": ["min-hand-jerk", "min-crackle", "min-hand-crackle"]})");
-  ASSERT_EQ(reach("study " + study + " --out " + at("t")).exitCode, 0);
-  const Ended report = reach("study report " + at("t") + " --studies 20 --subjects 5 --trials 14");
-  ASSERT_EQ(report.exitCode, 0) << report.err;
+  printed("study report " + at("t") + " --studies 20 --subjects 5 --trials 14");
   const Table confusion = parseCsv(contentOf(at("t") + "/report/confusion.csv")),
               power = parseCsv(contentOf(at("t") + "/report/power.csv"));
   ASSERT_EQ(power.rows.size(), 2u);
@@ -213,25 +204,20 @@ TEST_F(Study, ReportsWhatTheAnalysisWouldName) {
 }
 
 TEST_F(Study, ReportsOfWhatItDrawsNoStudies) {
-  const std::string study = folder.write("few.json", R"({"schema_version": 1, "experiment": "chain-moderate", "subjects": 4, "trials": 14,
+  computed("f", R"({"schema_version": 1, "experiment": "chain-moderate", "subjects": 4, "trials": 14,
     "subject": {"noise": 0.3}, "vary": {"subject.criterion": ["min-hand-jerk", "min-crackle"]}, "measures": ["score"],
     "criteria": ["min-hand-jerk", "min-hand-crackle"]})");
-  ASSERT_EQ(reach("study " + study + " --out " + at("f")).exitCode, 0);
   const Ended report = reach("study report " + at("f"));
   ASSERT_TRUE(says(report, 0, "min-hand-jerk: 4 virtual subjects with 10 successes; nothing is drawn from fewer than five"));
-  EXPECT_NE(report.err.find("min-crackle: 4 virtual subjects with 10 successes; its criterion is not compared"), std::string::npos)
-      << report.err;
+  EXPECT_TRUE(holds(report.err, "min-crackle: 4 virtual subjects with 10 successes; its criterion is not compared"));
 }
 
 // Each has its own part of the work done, and not by another's asking for the same.
 TEST_F(Study, MeasuresTheSameWhateverElseItMeasures) {
   const auto measured = [&](const std::string& name, const std::vector<std::string>& measures) {
-    const std::string study = folder.write(
-        name + ".json",
-        R"({"schema_version": 1, "name": "m", "seed": 3, "experiment": "chain-moderate", "subjects": 1, "trials": 2, "measures": )" +
-            nlohmann::json(measures).dump() + "}");
-    EXPECT_EQ(reach("study " + study + " --out " + at(name)).exitCode, 0) << name;
-    return tableOf(at(name));
+    return computed(
+        name, R"({"schema_version": 1, "name": "m", "seed": 3, "experiment": "chain-moderate", "subjects": 1, "trials": 2, "measures": )" +
+                  nlohmann::json(measures).dump() + "}");
   };
   const std::vector<std::string> names = split(
       "by,movement_time_s,task_reaction_time_s,reaction_time_s,peak_hand_speed_m_per_s,hand_path_m,peak_force_n,mean_force_n,onset_s,offset_s,duration_s,"
@@ -251,15 +237,12 @@ TEST_F(Study, MeasuresTheSameWhateverElseItMeasures) {
 
 // What a subject learns in one block it has in the next, and slow practice is not lost overnight.
 TEST_F(Study, ALearnerTakesWhatItLearntThroughThePlan) {
-  folder.write(
+  folder_.write(
       "days.json",
       R"({"schema_version": 1, "blocks": [{"experiment": "chain-slow", "trials": 6, "day": 1}, {"experiment": "chain-moderate", "trials": 6, "day": 1},
     {"experiment": "chain-moderate", "trials": 6, "day": 2}]})");
   const auto rows = [&](const std::string& name, const std::string& subject) {
-    const std::string study = folder.write(
-        name + ".json", R"({"schema_version": 1, "name": "l", "plan": "days.json", "subjects": 2, "subject": )" + subject + "}");
-    EXPECT_EQ(reach("study " + study + " --out " + at(name)).exitCode, 0);
-    return tableOf(at(name)).rows;
+    return computed(name, R"({"schema_version": 1, "name": "l", "plan": "days.json", "subjects": 2, "subject": )" + subject + "}").rows;
   };
   const auto learner = rows("learner", R"({"kind": "ofc", "subject": 1})"),
              none = rows("none", R"({"kind": "ofc", "subject": 1, "learn-slow": 0, "learn-fast": 0})");
@@ -272,7 +255,7 @@ TEST_F(Study, ALearnerTakesWhatItLearntThroughThePlan) {
 
 TEST_F(Study, RefusesAFolderOfAnotherStudy) {
   ASSERT_EQ(run("a").exitCode, 0);
-  EXPECT_TRUE(says(reach("study " + folder.write("small.json", std::string(kStudy) + "\n") + " --out " + at("a") + " --resume"), 3,
+  EXPECT_TRUE(says(reach("study " + folder_.write("small.json", std::string(kStudy) + "\n") + " --out " + at("a") + " --resume"), 3,
                    "another study"));
 }
 
