@@ -9,8 +9,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-const std::string kReach = "time_s,x_m,y_m,z_m\n0,0,0,0\n";
-
 std::string experimentWith(const std::string& duration) {
   return R"({"schema_version":1,"constraint":{"name":"line"},"object":{"kind":"point","masses_kg":[1]},"coupling":{"stiffness_n_per_m":600},
     "task":{"start":[0],"target":[6.28],"duration_s":)" +
@@ -57,11 +55,6 @@ TEST_F(Bounds, OfWhatAPredictionMayCost) {
     EXPECT_TRUE(says(reach("predict " + experiments[i] + " --criterion min-hand-jerk"), 4, words[i]));
   }
   EXPECT_TRUE(says(reach("predict dingwell --criterion min-torque-change --unknowns 2000000000"), 4, words[1]));
-}
-
-TEST_F(Bounds, OfAReplayedReach) {
-  const std::string file = folder_.write("far.csv", kReach + "1000000,0.1,0,0\n");
-  EXPECT_TRUE(says(reach("run dingwell --fast --device replay:" + file + " --data " + data_), 2, "at most 600 s"));
 }
 
 TEST_F(Bounds, OfSeeds) {
