@@ -19,4 +19,5 @@ for level in x86-64-v4 x86-64-v3 x86-64-v2; do
   [[ -x $program ]] || { echo "levels: the package has no program for $level"; exit 1; }
   programs+=("${level#x86-64-}=$program")
 done
-"$source/tests/long/levels.py" --emulate Nehalem ${PRICE:+--price "$PRICE"} "${programs[@]}"
+"$source/tests/long/levels.py" --emulate Nehalem "${programs[@]}"
+[[ -z ${PRICE:-} ]] || "$source/tests/long/paired_ticks.py" "$PRICE" "${programs[@]#*=}"
