@@ -104,7 +104,7 @@ def leastNorm(t, frequencies, order, moments):
     rows = []
     for k in kernels:
         for _ in range(order):
-            whole = np.concatenate([[0], np.cumsum((k[1:] + k[:-1]) / 2 * dt)])
+            whole = cumulative(k, dt)
             k = whole[-1] - whole
         rows.append(k)
     for i in range(order):  # derivative i of a at T
@@ -115,7 +115,7 @@ def leastNorm(t, frequencies, order, moments):
     R = R / scale[:, None]
     u = R.T @ np.linalg.lstsq((R * w) @ R.T, np.array(wanted) / scale, rcond=1e-14)[0]
     for _ in range(order):
-        u = np.concatenate([[0], np.cumsum((u[1:] + u[:-1]) / 2 * dt)])
+        u = cumulative(u, dt)
     return u
 
 
@@ -249,7 +249,7 @@ class Person:
             v = self.planned(self.kind, T)
         size, waves = self.warp
         if size:  # the path of the plan at a later or earlier phase: the distance stays
-            path = np.concatenate([[0], np.cumsum((v[1:] + v[:-1]) / 2)])
+            path = cumulative(v, 1)
             moved = np.interp(s + size * np.sin(math.pi * waves * s) / waves, s, path)
             v = np.gradient(moved)
         return v
