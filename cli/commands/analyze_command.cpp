@@ -2,15 +2,16 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <charconv>
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "analysis/report/alternatives.h"
 #include "analysis/report/wording.h"
 #include "analysis/report/write_analysis.h"
 #include "analysis/tables.h"
+#include "base/as_number.h"
 #include "base/error.h"
 #include "base/fault.h"
 #include "cli/commands/commands.h"
@@ -34,15 +35,12 @@ struct AnalyzeOptions {
 
 std::vector<double> parseMasses(const std::string& text) {
   std::vector<double> masses;
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  while (at != end) {
-    double value = -1;
-    const auto [stop, error] = std::from_chars(at, end, value);
-    if (error != std::errc() || !(value >= 0) || !std::isfinite(value) || (stop != end && (*stop != ',' || stop + 1 == end)))
+  std::istringstream parts(text + ",");  // an empty last part counts
+  for (std::string part; std::getline(parts, part, ',');) {
+    const auto mass = asNumber<double>(part);
+    if (!mass || !(*mass >= 0) || !std::isfinite(*mass))
       throw FaultError(Fault{"--hand-masses", "is " + text, "masses in kg, 0 or more, with commas between: 0,1,2,4,8"});
-    masses.push_back(value);
-    at = stop == end ? end : stop + 1;
+    masses.push_back(*mass);
   }
   return masses;
 }

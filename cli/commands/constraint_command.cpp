@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "base/as_number.h"
 #include "base/fault.h"
@@ -41,13 +42,9 @@ double parseNumber(const std::string& text, const std::string& option) {
 
 std::vector<double> parseNumbers(const std::string& text, const std::string& option) {
   std::vector<double> values;
-  std::size_t start = 0;
-  for (;;) {
-    const std::size_t comma = text.find(',', start);
-    values.push_back(parseNumber(text.substr(start, comma == std::string::npos ? comma : comma - start), option));
-    if (comma == std::string::npos) return values;
-    start = comma + 1;
-  }
+  std::istringstream parts(text + ",");  // an empty last part counts
+  for (std::string part; std::getline(parts, part, ',');) values.push_back(parseNumber(part, option));
+  return values;
 }
 
 std::map<std::string, double> parseShape(const std::vector<std::string>& settings) {

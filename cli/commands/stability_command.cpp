@@ -27,18 +27,16 @@ std::string tableOf(const std::vector<devices::StabilityPoint>& map) {
 
 figure::Figure figureOf(const devices::DeviceModel& model, const StabilityRequest& request,
                         const std::vector<devices::StabilityPoint>& map) {
-  figure::Panel panel;
-  panel.title = fmt::format("{}, hand of {:g} kg", model.title, request.settings.handMass);
-  panel.x.label = "Coupling damping b_h (N s/m)";
-  panel.y.label = "Largest coupling stiffness k_h (N/m)";
-  panel.y.scale = figure::Scale::Log;
-  int color = 0;
+  figure::Panel panel{.title = fmt::format("{}, hand of {:g} kg", model.title, request.settings.handMass),
+                      .x = {.label = "Coupling damping b_h (N s/m)"},
+                      .y = {.label = "Largest coupling stiffness k_h (N/m)", .scale = figure::Scale::Log},
+                      .rules = {{request.coupling, false, fmt::format("k_h = {:g}", request.coupling)}},
+                      .legend = figure::LegendPlace::Right};
+  int index = 0;
   for (const double hand : request.settings.handDampings) {
-    figure::Series stable, passive;
-    stable.label = fmt::format("stable, hand {:g} N s/m", hand);
-    passive.label = fmt::format("passive (Colgate), hand {:g} N s/m", hand);
-    stable.color = passive.color = figure::palette::series(color++);
-    passive.dash = figure::Dash::Dashed;
+    const figure::Color color = figure::palette::series(index++);
+    figure::Series stable{.label = fmt::format("stable, hand {:g} N s/m", hand), .color = color};
+    figure::Series passive{.label = fmt::format("passive (Colgate), hand {:g} N s/m", hand), .color = color, .dash = figure::Dash::Dashed};
     for (const auto& p : map) {
       if (p.handDamping != hand) continue;
       stable.x.push_back(p.damping), stable.y.push_back(p.largestStable);
@@ -47,12 +45,7 @@ figure::Figure figureOf(const devices::DeviceModel& model, const StabilityReques
     panel.series.push_back(std::move(stable));
     if (!passive.x.empty()) panel.series.push_back(std::move(passive));
   }
-  panel.rules.push_back({request.coupling, false, fmt::format("k_h = {:g}", request.coupling)});
-  panel.legend = figure::LegendPlace::Right;
-  figure::Figure figure;
-  figure.panels.push_back(std::move(panel));
-  figure.panelWidth = 100, figure.panelHeight = 70;
-  return figure;
+  return {.panels = {std::move(panel)}, .panelWidth = 100, .panelHeight = 70};
 }
 
 void drawMap(const StabilityRequest& request) {

@@ -22,16 +22,6 @@ double sampleTime(const predict::Prediction& prediction, int i, int samples) {
   return i == samples - 1 ? prediction.duration : prediction.duration * i / (samples - 1);
 }
 
-figure::Series makeSeries(std::string label, figure::Color color = figure::palette::kBlack, figure::Dash dash = figure::Dash::Solid,
-                          double width = figure::kNormal) {
-  figure::Series series;
-  series.label = std::move(label);
-  series.color = color;
-  series.dash = dash;
-  series.width = width;
-  return series;
-}
-
 // "Movement time (s)" of duration_s.
 std::string labelOf(const std::string& key) {
   std::string label = key;
@@ -48,10 +38,10 @@ std::vector<figure::Rule> findTurns(const std::vector<predict::SweepRow>& rows) 
   for (size_t i = 1; i < rows.size(); ++i) {
     if (!rows[i - 1].prediction || !rows[i].prediction) continue;
     const predict::ProfileShape &before = rows[i - 1].shape, &after = rows[i].shape;
-    figure::Rule rule;
-    rule.at = (rows[i - 1].value + rows[i].value) / 2;
-    if (before.reverses != after.reverses) rule.color = figure::palette::kVermilion;
-    if (before.velocityPeaks != after.velocityPeaks || before.reverses != after.reverses) turns.push_back(rule);
+    const bool reverses = before.reverses != after.reverses;
+    if (before.velocityPeaks == after.velocityPeaks && !reverses) continue;
+    turns.push_back(
+        {.at = (rows[i - 1].value + rows[i].value) / 2, .color = reverses ? figure::palette::kVermilion : figure::palette::kGrey});
   }
   return turns;
 }
@@ -116,8 +106,8 @@ std::string writeSweepCsv(const predict::Sweep& sweep, const std::vector<predict
 }
 
 figure::Figure drawPrediction(const predict::Prediction& prediction, int samples) {
-  figure::Series hand = makeSeries("hand", figure::palette::kBlack, figure::Dash::Solid, figure::kThick),
-                 object = makeSeries("object", figure::palette::kBlue, figure::Dash::Dashed, figure::kThick);
+  figure::Series hand{.label = "hand", .width = figure::kThick},
+      object{.label = "object", .color = figure::palette::kBlue, .width = figure::kThick, .dash = figure::Dash::Dashed};
   const auto n = static_cast<size_t>(prediction.massCount());
   std::vector<double> x(n), v(n);
   for (int i = 0; i < samples; ++i) {
@@ -126,23 +116,17 @@ figure::Figure drawPrediction(const predict::Prediction& prediction, int samples
     hand.x.push_back(t), hand.y.push_back(prediction.handAt(t).velocity);
     object.x.push_back(t), object.y.push_back(v.back());
   }
-  figure::Panel panel;
-  panel.title = predict::nameOf(prediction.criterion);
-  panel.x.label = "Time (s)";
-  panel.y.label = "Velocity (m/s)";
-  panel.series = {hand, object};
-  figure::Figure figure;
-  figure.panels = {panel};
-  return figure;
+  return {.panels = {{.title = std::string(predict::nameOf(prediction.criterion)),
+                      .x = {.label = "Time (s)"},
+                      .y = {.label = "Velocity (m/s)"},
+                      .series = {hand, object}}}};
 }
 
 figure::Figure drawSweep(const predict::Sweep& sweep, const std::vector<predict::SweepRow>& rows, predict::Criterion criterion) {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  figure::Series hand = makeSeries("hand"), object = makeSeries("object", figure::palette::kBlue, figure::Dash::Dashed),
-                 cost = makeSeries("");
-  figure::Series count = makeSeries("peaks of the hand"),
-                 reversal = makeSeries("hand reverses", figure::palette::kVermilion, figure::Dash::Solid, 0);
-  reversal.marker = figure::MarkerShape::Cross;
+  figure::Series hand{.label = "hand"}, object{.label = "object", .color = figure::palette::kBlue, .dash = figure::Dash::Dashed}, cost;
+  figure::Series count{.label = "peaks of the hand"},
+      reversal{.label = "hand reverses", .color = figure::palette::kVermilion, .width = 0, .marker = figure::MarkerShape::Cross};
   for (const predict::SweepRow& row : rows) {
     const predict::Prediction* p = row.prediction.get();
     for (figure::Series* s : {&hand, &object, &cost, &count, &reversal}) s->x.push_back(row.value);
@@ -154,17 +138,13 @@ figure::Figure drawSweep(const predict::Sweep& sweep, const std::vector<predict:
   }
   const std::string along = labelOf(sweep.key);
   const auto panel = [&](const std::string& y, figure::Scale scale, std::vector<figure::Series> series) {
-    figure::Panel made;
-    made.x.label = along;
-    made.y.label = y;
-    made.y.scale = scale;
-    made.series = std::move(series);
-    made.rules = findTurns(rows);
-    return made;
+    return figure::Panel{.x = {.label = along}, .y = {.label = y, .scale = scale}, .series = std::move(series), .rules = findTurns(rows)};
   };
   // What the lines across say, for the legend alone.
-  const figure::Series change = makeSeries("their number changes", figure::palette::kGrey, figure::Dash::Dotted, figure::kThin);
-  const figure::Series turn = makeSeries("begins or ceases to reverse", figure::palette::kVermilion, figure::Dash::Dotted, figure::kThin);
+  const figure::Series change{
+      .label = "their number changes", .color = figure::palette::kGrey, .width = figure::kThin, .dash = figure::Dash::Dotted};
+  const figure::Series turn{
+      .label = "begins or ceases to reverse", .color = figure::palette::kVermilion, .width = figure::kThin, .dash = figure::Dash::Dotted};
   figure::Panel peaks = panel("Peaks of the hand's velocity", figure::Scale::Linear, {count, reversal, change, turn});
   peaks.legend = figure::LegendPlace::Below;
   int most = 1;
@@ -172,11 +152,9 @@ figure::Figure drawSweep(const predict::Sweep& sweep, const std::vector<predict:
   peaks.y.from = 0;
   peaks.y.to = most + 0.5;
   for (int i = 0; i <= most; ++i) peaks.y.ticks.emplace_back(i, std::to_string(i));
-  figure::Figure figure;
-  figure.title = predict::nameOf(criterion);
-  figure.columns = 3;
-  figure.panels = {panel("Peak velocity (m/s)", figure::Scale::Linear, {hand, object}), panel("Cost", figure::Scale::Log, {cost}), peaks};
-  return figure;
+  return {.title = std::string(predict::nameOf(criterion)),
+          .panels = {panel("Peak velocity (m/s)", figure::Scale::Linear, {hand, object}), panel("Cost", figure::Scale::Log, {cost}), peaks},
+          .columns = 3};
 }
 
 }  // namespace reachlab::cli

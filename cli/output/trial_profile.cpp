@@ -18,22 +18,6 @@ std::vector<double> magnitudeOf(const record::SampleRows& rows, const record::Ch
   return values;
 }
 
-figure::Series line(std::string label, const std::vector<double>& x, const std::vector<double>& y, figure::Color color, double width) {
-  figure::Series series;
-  series.label = std::move(label);
-  series.x = x, series.y = y;
-  series.color = color;
-  series.width = width;
-  return series;
-}
-
-figure::Rule mark(double at, std::string label) {
-  figure::Rule rule;
-  rule.at = at;
-  rule.label = std::move(label);
-  return rule;
-}
-
 }  // namespace
 
 ShownTrial profileOf(const record::RunLog& log, const record::RecordedTrial& trial) {
@@ -55,28 +39,23 @@ ShownTrial profileOf(const record::RunLog& log, const record::RecordedTrial& tri
 figure::Figure drawTrial(const record::RunLog& log, const record::RecordedTrial& trial) {
   const ShownTrial profile = profileOf(log, trial);
   const int masses = log.configuration().table.massCount;
-  figure::Panel speed, force;
-  speed.title = "(a) Speed";
-  force.title = "(b) Coupling force";
-  speed.x.label = force.x.label = profile.sinceOnset ? "Time from onset (s)" : "Time since the trial was prepared (s)";
-  speed.y.label = "Speed (m/s)";
-  force.y.label = "Force (N)";
-  speed.series = {line("hand", profile.time, profile.handSpeed, figure::palette::kBlack, figure::kThick)};
-  if (masses > 1) speed.series.push_back(line("mass 1", profile.time, profile.firstSpeed, figure::palette::kBlue, figure::kNormal));
+  const figure::Axis time{.label = profile.sinceOnset ? "Time from onset (s)" : "Time since the trial was prepared (s)"};
+  figure::Panel speed{.title = "(a) Speed", .x = time, .y = {.label = "Speed (m/s)"}};
+  speed.series = {{.label = "hand", .x = profile.time, .y = profile.handSpeed, .width = figure::kThick}};
+  if (masses > 1) speed.series.push_back({.label = "mass 1", .x = profile.time, .y = profile.firstSpeed, .color = figure::palette::kBlue});
   if (masses > 0)
     speed.series.push_back(
-        line(fmt::format("mass {}", masses), profile.time, profile.lastSpeed, figure::palette::kVermilion, figure::kNormal));
-  force.series = {line("", profile.time, profile.force, figure::palette::kBlack, figure::kNormal)};
+        {.label = fmt::format("mass {}", masses), .x = profile.time, .y = profile.lastSpeed, .color = figure::palette::kVermilion});
+  const figure::Panel force{
+      .title = "(b) Coupling force", .x = time, .y = {.label = "Force (N)"}, .series = {{.x = profile.time, .y = profile.force}}};
   const experiment::Experiment experiment = record::recordedValues(log.configuration(), trial.planned);
   if (profile.sinceOnset && experiment.task) {
     const experiment::Task& task = *experiment.task;
-    speed.rules = {mark(0, "onset"), mark(task.duration - task.tolerance.time, "T − ΔT"),
-                   mark(task.duration + task.tolerance.time, "T + ΔT")};
+    speed.rules = {{.at = 0, .label = "onset"},
+                   {.at = task.duration - task.tolerance.time, .label = "T − ΔT"},
+                   {.at = task.duration + task.tolerance.time, .label = "T + ΔT"}};
   }
-  figure::Figure figure;
-  figure.columns = 2;
-  figure.panels = {std::move(speed), std::move(force)};
-  return figure;
+  return {.panels = {std::move(speed), force}, .columns = 2};
 }
 
 }  // namespace reachlab::cli
