@@ -42,9 +42,10 @@ struct PeerSystem {
   }
 };
 
-/// The initial numbers of the scene, in the coordinates of the right-hand side.
-template <class System>
-void setInitialState(const BenchScene& scene, double* y) {
+/// The initial numbers of the scene, in the coordinates of the right-hand side. Chains on a line start at displacement 0, whatever their
+/// parameter is.
+template <class System, class T>
+void setInitialState(const BenchScene& scene, T* y) {
   constexpr int n = System::kCoordinates, perMass = n / System::kMasses;
   const bool line = scene.experiment.constraint.name == "line";
   for (int i = 0; i < n; ++i) {
@@ -54,12 +55,12 @@ void setInitialState(const BenchScene& scene, double* y) {
 }
 
 /// Appends the state and the positions. Past a pole the state is position and velocity in the world.
-template <class System>
-void appendSample(const System& system, const double* y, Trajectory& out) {
-  std::vector<double> r(3 * System::kMasses);
+template <class System, class T, class Rows>
+void appendSample(const System& system, const T* y, Rows& out) {
+  std::vector<T> r(3 * System::kMasses);
   system.positions(y, r.data());
   if constexpr (requires { system.shape.radius; }) {
-    double world[6];
+    T world[6];
     system.shape.placeAndVelocity(y[0], y[1], y[2], y[3], world, world + 3);
     out.states.insert(out.states.end(), world, world + 6);
   } else {

@@ -5,32 +5,12 @@
 #include <cmath>
 
 #include "bench/extrapolation.h"
-#include "bench/visit_system.h"
+#include "bench/peer_system.h"
 
 namespace reachlab::bench {
 namespace {
 
 int sampleCount(const BenchScene& scene) { return static_cast<int>(std::lround(scene.duration / kSampleEvery)) + 1; }
-
-// Coordinates and rates at t = 0. Chains on a line start at displacement 0 whatever their parameter is.
-template <class System>
-std::vector<Quad> initialState(const BenchScene& scene, const System&) {
-  std::vector<Quad> y(2 * System::kCoordinates, Quad(0));
-  if (scene.experiment.constraint.name == "line") return y;
-  const int perMass = System::kCoordinates / System::kMasses;
-  for (int i = 0; i < System::kCoordinates; ++i) {
-    y[i] = scene.start[i % perMass];
-    if (!scene.rate.empty()) y[System::kCoordinates + i] = scene.rate[i % perMass];
-  }
-  return y;
-}
-
-// Place and velocity in the world, of a state in the sphere's own numbers.
-void appendCartesian(const BenchScene& scene, const std::vector<Quad>& y, std::vector<Quad>& states) {
-  Quad world[6];
-  SphereShape{scene.experiment.constraint.shape.at("R")}.placeAndVelocity(y[0], y[1], y[2], y[3], world, world + 3);
-  states.insert(states.end(), world, world + 6);
-}
 
 template <class System>
 Reference integrate(const BenchScene& scene, const System& system, const ReferenceSettings& settings) {
@@ -43,13 +23,11 @@ Reference integrate(const BenchScene& scene, const System& system, const Referen
     system.rate(y, r, v, dy);
   };
   Extrapolation<Quad, decltype(rate)> integrator(rate, 2 * System::kCoordinates, settings.columns, settings.tolerance);
-  std::vector<Quad> y = initialState(scene, system), r(3 * out.massCount);
+  std::vector<Quad> y(2 * System::kCoordinates);
+  setInitialState<System>(scene, y.data());
   for (int k = 0; k < out.samples; ++k) {
     if (k > 0) integrator.advance(Quad(k - 1) / 100, Quad(k) / 100, y);
-    system.positions(y.data(), r.data());
-    if (scene.cartesian) appendCartesian(scene, y, out.states);
-    else out.states.insert(out.states.end(), y.begin(), y.end());
-    out.positions.insert(out.positions.end(), r.begin(), r.end());
+    appendSample(system, y.data(), out);
   }
   return out;
 }

@@ -9,10 +9,11 @@
 namespace reachlab::bench {
 namespace {
 
-std::vector<std::string> scenesOf(const std::vector<Row>& rows) {
+/// The scenes or the methods, in the order of the rows.
+std::vector<std::string> eachOf(const std::vector<Row>& rows, std::string Row::*name) {
   std::vector<std::string> names;
   for (const Row& row : rows)
-    if (std::find(names.begin(), names.end(), row.scene) == names.end()) names.push_back(row.scene);
+    if (std::find(names.begin(), names.end(), row.*name) == names.end()) names.push_back(row.*name);
   return names;
 }
 
@@ -56,7 +57,7 @@ std::string formatTable(const std::vector<Row>& rows) {
 
 std::string formatRatios(const std::vector<Row>& rows) {
   std::string out;
-  for (const std::string& scene : scenesOf(rows))
+  for (const std::string& scene : eachOf(rows, &Row::scene))
     for (double error : {1e-6, 1e-10}) {
       const Row* own = cheapest(rows, scene, error, [](const Row& r) { return !isPeer(r); });
       const Row* automatic = cheapest(rows, scene, error, [](const Row& r) { return r.method == "auto"; });
@@ -70,28 +71,20 @@ std::string formatRatios(const std::vector<Row>& rows) {
 }
 
 std::string drawWorkPrecision(const std::vector<Row>& rows) {
-  figure::Figure figure;
-  figure.columns = 4;
-  figure.panelWidth = 62, figure.panelHeight = 48;
-  std::vector<std::string> methods;  // the same colour in every panel
-  for (const Row& row : rows)
-    if (std::find(methods.begin(), methods.end(), row.method) == methods.end()) methods.push_back(row.method);
+  figure::Figure figure{.columns = 4, .panelWidth = 62, .panelHeight = 48};
+  std::vector<std::string> methods = eachOf(rows, &Row::method);  // the same colour in every panel
   const auto automatic = std::find(methods.begin(), methods.end(), "auto");
   if (automatic != methods.end()) std::rotate(automatic, automatic + 1, methods.end());  // drawn last: it lies on the method it chose
-  for (const std::string& scene : scenesOf(rows)) {
-    figure::Panel panel;
-    panel.title = scene;
-    panel.x.label = "Processor time (ns per simulated ms)";
-    panel.y.label = "Largest state error (SI)";
-    panel.x.scale = panel.y.scale = figure::Scale::Log;
-    panel.legend = figure.panels.empty() ? figure::LegendPlace::Auto : figure::LegendPlace::None;
+  for (const std::string& scene : eachOf(rows, &Row::scene)) {
+    figure::Panel panel{.title = scene,
+                        .x = {.label = "Processor time (ns per simulated ms)", .scale = figure::Scale::Log},
+                        .y = {.label = "Largest state error (SI)", .scale = figure::Scale::Log},
+                        .legend = figure.panels.empty() ? figure::LegendPlace::Auto : figure::LegendPlace::None};
     for (std::size_t i = 0; i < methods.size(); ++i) {
       const std::vector<const Row*> own = worthwhile(rows, scene, methods[i]);
       if (own.empty() && !figure.panels.empty()) continue;
-      figure::Series series;
-      series.label = methods[i];
-      series.color = figure::palette::series(static_cast<int>(i));
-      series.marker = figure::markerOf(static_cast<int>(i));
+      figure::Series series{
+          .label = methods[i], .color = figure::palette::series(static_cast<int>(i)), .marker = figure::markerOf(static_cast<int>(i))};
       if (methods[i] == "auto") series.markerSize *= 1.8;
       if (!own.empty() && isPeer(*own.front())) series.dash = figure::Dash::Dashed;
       for (const Row* row : own) {

@@ -89,8 +89,7 @@ TEST(Systems, AHandsVelocityIsAskedForOnlyWhereItIsDamped) {
 
 TEST(Scenes, AnUnknownOneIsRefusedWithTheNamesThatThereAre) {
   const std::string words = refusalOf([] { (void)benchScene("S9"); });
-  for (const char* part : {"is S9", "S1, S1b50, S1b500, S2a", "S7f, S8, constraint-eval"})
-    EXPECT_NE(words.find(part), std::string::npos) << words;
+  for (const char* part : {"is S9", "S1, S1b50, S1b500, S2a", "S7f, S8, constraint-eval"}) EXPECT_TRUE(holds(words, part));
 }
 
 // A tick that does nothing: samples at every tenth, evaluations counted by the tick, and where it gave up.
