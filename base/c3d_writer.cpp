@@ -14,57 +14,63 @@ using namespace c3d;
 
 namespace {
 
-void put16(std::string& out, std::size_t value) {
-  out += static_cast<char>(value & 0xff);
-  out += static_cast<char>((value >> 8) & 0xff);
+std::string wordsOf(const std::vector<std::size_t>& values) {
+  std::string bytes;
+  for (const std::size_t value : values) {
+    bytes += static_cast<char>(value & 0xff);
+    bytes += static_cast<char>((value >> 8) & 0xff);
+  }
+  return bytes;
 }
 void putFloat(std::string& out, float value) {
   const auto bits = std::bit_cast<std::uint32_t>(value);
   for (int shift = 0; shift < 32; shift += 8) out += static_cast<char>((bits >> shift) & 0xff);
 }
+std::string floatsOf(const std::vector<float>& values) {
+  std::string bytes;
+  for (const float value : values) putFloat(bytes, value);
+  return bytes;
+}
+std::string counted(const std::string& text) { return static_cast<char>(text.size()) + text; }
+std::string padded(std::string text, std::size_t size, char with) {
+  text.resize(size, with);
+  return text;
+}
+std::string wholeBlocks(std::string bytes) {
+  const std::size_t blocks = (bytes.size() + kBlock - 1) / kBlock;
+  return padded(std::move(bytes), blocks * kBlock, '\0');
+}
 
 // The parameter section: groups, each followed by its parameters.
 class Parameters {
  public:
-  void group(const std::string& name, const std::string& description) {
-    ++group_;
-    begin(name, -group_, 2 + 1 + description.size());
-    tail(description);
+  void group(const std::string& name, const std::string& description) { put(name, -++group_, counted(description)); }
+  void add(const std::string& name, int type, const std::vector<std::size_t>& dimensions, const std::string& data,
+           const std::string& description = "") {
+    std::string body{static_cast<char>(type), static_cast<char>(dimensions.size())};
+    for (const std::size_t size : dimensions) body += static_cast<char>(size);
+    put(name, group_, body + data + counted(description));
   }
-  void word(const std::string& name, std::size_t value) {
-    open(name, kWord, {}, 2, "");
-    put16(text_, value);
-    tail("");
-  }
+  void word(const std::string& name, std::size_t value) { add(name, kWord, {}, wordsOf({value})); }
   void words(const std::string& name, const std::vector<std::size_t>& values, const std::string& description = "") {
-    open(name, kWord, {values.size()}, 2 * values.size(), description);
-    for (const std::size_t value : values) put16(text_, value);
-    tail(description);
+    add(name, kWord, {values.size()}, wordsOf(values), description);
   }
   void floats(const std::string& name, const std::vector<float>& values, const std::vector<std::size_t>& dimensions,
               const std::string& description = "") {
-    open(name, kFloat, dimensions, 4 * values.size(), description);
-    for (const float value : values) putFloat(text_, value);
-    tail(description);
+    add(name, kFloat, dimensions, floatsOf(values), description);
   }
   void text(const std::string& name, const std::string& value) {
     const std::string cut = value.empty() ? " " : value.substr(0, kMostLabels);
-    open(name, kCharacters, {cut.size()}, cut.size(), "");
-    text_ += cut;
-    tail("");
+    add(name, kCharacters, {cut.size()}, cut);
   }
   // Texts of equal length, padded; beyond 255 of them in NAME2, NAME3 …
   void texts(const std::string& name, const std::vector<std::string>& values) {
     std::size_t width = 1;
     for (const std::string& value : values) width = std::max(width, std::min<std::size_t>(value.size(), 127));
     eachPart(values.size(), [&](const std::string& number, std::size_t first, std::size_t count) {
-      open(name + number, kCharacters, {width, count}, width * count, "");
-      for (std::size_t i = 0; i < count; ++i) {
-        std::string value = values[first + i].substr(0, width);
-        value.resize(width, ' ');
-        text_ += value;
-      }
-      tail("");
+      std::string data;
+      for (std::size_t i = first; i < first + count; ++i) data += padded(values[i], width, ' ');
+      add(name + number, kCharacters, {width, count}, data);
     });
   }
   // Up to 255 of so many, and then those of the parts "2", "3" …
@@ -80,33 +86,16 @@ class Parameters {
   }
   // Whole blocks with their header; the record without a name ends them.
   std::string section() {
-    std::string whole{1, kMagic, 0, static_cast<char>(kIntel)};
-    whole += text_;
-    whole += std::string(2, '\0');
-    whole.resize((whole.size() + kBlock - 1) / kBlock * kBlock, '\0');
+    std::string whole = wholeBlocks(std::string{1, kMagic, 0, static_cast<char>(kIntel)} + text_ + std::string(2, '\0'));
     if (whole.size() / kBlock > 255) throw FaultError(Fault{.what = "a C3D file cannot hold the names of so many points and channels"});
     whole[2] = static_cast<char>(whole.size() / kBlock);
     return whole;
   }
 
  private:
-  // `follows`: bytes from the offset, itself included, to the next record.
-  void begin(const std::string& name, int id, std::size_t follows) {
-    text_ += static_cast<char>(name.size());
-    text_ += static_cast<char>(id);
-    text_ += name;
-    put16(text_, follows);
-  }
-  void open(const std::string& name, int type, const std::vector<std::size_t>& dimensions, std::size_t bytes,
-            const std::string& description) {
-    begin(name, group_, 2 + 1 + 1 + dimensions.size() + bytes + 1 + description.size());
-    text_ += static_cast<char>(type);
-    text_ += static_cast<char>(dimensions.size());
-    for (const std::size_t size : dimensions) text_ += static_cast<char>(size);
-  }
-  void tail(const std::string& description) {
-    text_ += static_cast<char>(description.size());
-    text_ += description;
+  // The offset to the next record counts itself.
+  void put(const std::string& name, int id, const std::string& body) {
+    text_ += static_cast<char>(name.size()) + (static_cast<char>(id) + name) + wordsOf({2 + body.size()}) + body;
   }
   std::string text_;
   int group_ = 0;
@@ -171,33 +160,15 @@ std::string parametersOf(const C3dFile& file, std::size_t dataBlock) {
 }
 
 std::string headerOf(const C3dFile& file, std::size_t dataBlock) {
-  std::string h;
-  h += '\x02';
-  h += static_cast<char>(kMagic);
-  put16(h, file.points.size());
-  put16(h, file.analogs.size());
-  put16(h, 1);
-  put16(h, std::min<std::size_t>(file.frames, 0xffff));
-  put16(h, 0);
-  putFloat(h, -1);
-  put16(h, dataBlock);
-  put16(h, file.analogs.empty() ? 0 : 1);
-  putFloat(h, static_cast<float>(file.rate));
-  h.resize(2 * 149, '\0');
-  put16(h, kEventKey);
+  std::string h = std::string{2, kMagic} +
+                  wordsOf({file.points.size(), file.analogs.size(), 1, std::min<std::size_t>(file.frames, 0xffff), 0}) + floatsOf({-1}) +
+                  wordsOf({dataBlock, file.analogs.empty() ? 0u : 1u}) + floatsOf({static_cast<float>(file.rate)});
   const std::size_t events = std::min<std::size_t>(file.events.size(), kMostEvents);
-  put16(h, events);
-  put16(h, 0);
+  h = padded(h, 2 * 149, '\0') + wordsOf({kEventKey, events, 0});
   for (std::size_t i = 0; i < kMostEvents; ++i) putFloat(h, i < events ? static_cast<float>(file.events[i].time) : 0);
-  for (std::size_t i = 0; i < kMostEvents; ++i) h += i < events ? '\x01' : '\0';  // shown
-  put16(h, 0);
-  for (std::size_t i = 0; i < kMostEvents; ++i) {
-    std::string label = i < events ? file.events[i].label.substr(0, 4) : "";
-    label.resize(4, ' ');
-    h += label;
-  }
-  h.resize(kBlock, '\0');
-  return h;
+  h += padded(std::string(events, '\x01'), kMostEvents, '\0') + wordsOf({0});  // shown
+  for (std::size_t i = 0; i < kMostEvents; ++i) h += padded(i < events ? file.events[i].label : "", 4, ' ');
+  return wholeBlocks(std::move(h));
 }
 
 }  // namespace
@@ -216,8 +187,7 @@ std::string c3dBytes(const C3dFile& file) {
     }
     for (std::size_t i = frame * file.analogs.size(); i < (frame + 1) * file.analogs.size(); ++i) putFloat(out, file.signals[i]);
   }
-  out.resize((out.size() + kBlock - 1) / kBlock * kBlock, '\0');
-  return out;
+  return wholeBlocks(std::move(out));
 }
 
 }  // namespace reachlab

@@ -18,6 +18,11 @@ bool isInside(std::string_view key, std::string_view outer) {
   return key.starts_with(outer) && (key.size() == outer.size() || key[outer.size()] == '.' || key[outer.size()] == '[');
 }
 
+/// Whether a fault is about that key, a key inside it, or a key around it.
+auto isBeside(const std::string& key) {
+  return [&key](const Fault& f) { return isInside(key, f.key) || isInside(f.key, key); };
+}
+
 struct Found {
   const JsonNode* node = nullptr;  // what stands at the key, or the nearest that it would stand in
   bool missing = false;            // a member that an object has not
@@ -57,15 +62,12 @@ bool FaultList::requireKind(const JsonNode& node, JsonNode::Kind kind, const std
   return node.kind == kind;
 }
 
-bool FaultList::isAbout(const std::string& key) const {
-  return std::any_of(faults_.begin(), faults_.end(), [&](const Fault& f) { return isInside(key, f.key) || isInside(f.key, key); });
-}
+bool FaultList::isAbout(const std::string& key) const { return std::any_of(faults_.begin(), faults_.end(), isBeside(key)); }
 
 void FaultList::addOfValue(const JsonNode& root, Fault fault) {
   if (ofFile_ == kNone) ofFile_ = faults_.size();
   const auto endOfFile = faults_.begin() + static_cast<std::ptrdiff_t>(ofFile_);
-  const auto told =
-      std::find_if(faults_.begin(), endOfFile, [&](const Fault& f) { return isInside(fault.key, f.key) || isInside(f.key, fault.key); });
+  const auto told = std::find_if(faults_.begin(), endOfFile, isBeside(fault.key));
   if (told != endOfFile) {
     // The file's fault knows no range; the value's does.
     if (told->key == fault.key && told->allowed == anyNumber().allowed) told->allowed = fault.allowed;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <bit>
+#include <cstring>
 #include <limits>
 
 #include "base/c3d_file.h"
@@ -98,6 +99,17 @@ TEST(C3dFormat, AFileIsTheBytesThatTheGuideHas) {
     data += floats({file.signals[static_cast<std::size_t>(frame)]});
   }
   EXPECT_EQ(c3dBytes(file), padded(header) + section(records) + padded(data));
+  const C3dFile back = readC3d(c3dBytes(file), "made.c3d");
+  EXPECT_EQ(back.rate, 250);
+  EXPECT_EQ(back.pointUnit, "mm");
+  EXPECT_EQ(back.frames, 3u);
+  EXPECT_EQ(back.seen, file.seen);
+  EXPECT_EQ(back.points.at(1).name, "goal");
+  for (std::size_t i = 0; i < file.places.size(); ++i) EXPECT_EQ(back.places[i], i / 3 == 2 ? 0 : file.places[i]) << i;
+  ASSERT_EQ(back.events.size(), 2u);
+  EXPECT_EQ(back.events[0].label, "start");
+  EXPECT_EQ(back.events[0].time, 0.5);
+  EXPECT_EQ(back.events[1].time, 125.25);
 }
 
 TEST(C3dFormat, WhatAFieldCannotHoldIsCutOrStandsInTheNextOne) {
@@ -111,16 +123,17 @@ TEST(C3dFormat, WhatAFieldCannotHoldIsCutOrStandsInTheNextOne) {
   file.places.assign(3 * 256, 0);
   file.seen.assign(256, 1);
   const std::string bytes = c3dBytes(file);
-  EXPECT_NE(bytes.find(parameter(6, "LONG", kText, {255}, std::string(254, 'n') + "o")), std::string::npos);
-  EXPECT_NE(bytes.find(parameter(1, "LABELS2", kText, {8, 1}, "the last")), std::string::npos) << "as wide as the widest of all";
-  EXPECT_NE(bytes.find(parameter(1, "DESCRIPTIONS2", kText, {127, 1}, std::string(127, ' '))), std::string::npos);
-  EXPECT_EQ(bytes.find("LABELS3"), std::string::npos);
+  EXPECT_TRUE(holds(bytes, parameter(6, "LONG", kText, {255}, std::string(254, 'n') + "o")));
+  EXPECT_TRUE(holds(bytes, parameter(1, "LABELS2", kText, {8, 1}, "the last"))) << "as wide as the widest of all";
+  EXPECT_TRUE(holds(bytes, parameter(1, "DESCRIPTIONS2", kText, {127, 1}, std::string(127, ' '))));
+  EXPECT_FALSE(holds(bytes, "LABELS3"));
   EXPECT_EQ(bytes.substr(300, 2), word(18)) << "events of the header";
   EXPECT_EQ(bytes.substr(304 + 4 * 17, 4), floats({17.5f}));
   EXPECT_EQ(bytes.substr(376, 20), std::string(18, '\x01') + word(0));
   EXPECT_EQ(bytes.substr(396 + 4 * 17, 4), "even");
   EXPECT_EQ(bytes.substr(468, 44), std::string(44, '\0'));
   EXPECT_EQ(readC3d(bytes, "made").events.size(), 20u);
+  EXPECT_EQ(readC3d(bytes, "made").points[255].name, "the last");
 }
 
 TEST(C3dFormat, HoldsSoManyAndNoMore) {
@@ -137,6 +150,53 @@ TEST(C3dFormat, HoldsSoManyAndNoMore) {
   EXPECT_EQ(refusal(1, 0, 2'147'483'648), counts);
   EXPECT_EQ(refusal(65'535, 65'535, 0), "a C3D file cannot hold the names of so many points and channels");
   EXPECT_EQ(refusal(1, 0, 0), "");
+}
+
+C3dFile filled(std::size_t points, std::size_t signals, std::size_t frames) {
+  C3dFile file;
+  for (std::size_t i = 0; i < points; ++i) file.points.push_back({"p" + std::to_string(i), "point"});
+  for (std::size_t i = 0; i < signals; ++i) file.analogs.push_back({"s" + std::to_string(i), "signal", "N"});
+  file.frames = frames;
+  file.places.assign(3 * points * frames, 0.25f);
+  file.seen.assign(points * frames, 1);
+  file.signals.assign(signals * frames, 1.5f);
+  return file;
+}
+
+// The header counts frames in 16 bits.
+TEST(C3dFormat, HoldsMoreFramesThanItsHeaderCounts) { EXPECT_EQ(readC3d(c3dBytes(filled(1, 0, 70000)), "made.c3d").frames, 70000u); }
+
+// The blocks of the section are counted in a byte. A note of 255 letters is half of one, so that every count about the limit comes up.
+TEST(C3dFormat, IsReadBackOrRefusedHoweverFullItsSectionIs) {
+  int read = 0, refused = 0;
+  for (std::size_t notes = 470; notes < 500; ++notes) {
+    C3dFile file = filled(2, 0, 1);
+    file.notes.assign(notes, {"NOTE", std::string(255, 'x')});
+    std::string bytes;
+    try {
+      bytes = c3dBytes(file);
+    } catch (const Error&) {
+      ++refused;
+      continue;
+    }
+    ++read;
+    const auto byteAt = [&](std::size_t place) { return static_cast<unsigned char>(bytes[place]); };
+    EXPECT_EQ(2 + byteAt(512 + 2), byteAt(16) + 256 * byteAt(17)) << notes << ": behind the header and its blocks come the data";
+    const C3dFile back = readC3d(bytes, "made.c3d");
+    ASSERT_EQ(back.points.size(), 2u) << notes;
+    EXPECT_EQ(back.points[1].name, "p1") << notes;
+  }
+  EXPECT_GT(read, 0);
+  EXPECT_GT(refused, 0);
+}
+
+// What other programs need to turn what is stored into volts: a common scale, and a scale and an offset a channel.
+TEST(C3dFormat, SaysHowItsSignalsAreScaled) {
+  const std::string bytes = c3dBytes(filled(1, 300, 2));
+  for (const char* name : {"GEN_SCALE", "SCALE", "SCALE2", "OFFSET", "OFFSET2"}) {
+    const std::string record = std::string(1, static_cast<char>(std::strlen(name))) + '\x02' + name;  // of the second group
+    EXPECT_TRUE(holds(bytes, record)) << name;
+  }
 }
 
 // ---- what the writer never makes
@@ -203,6 +263,7 @@ TEST(C3dFormat, RefusesNumbersThatAFileCannotHave) {
   EXPECT_EQ(rate(999'999), "");
   EXPECT_EQ(rate(std::numeric_limits<float>::quiet_NaN()), "made: has nan frames a second; allowed: more than 0");
   EXPECT_EQ(Made{.scale = 0}.refusal(), "made: has the scale 0; allowed: a number that is not 0");
+  EXPECT_EQ(Made{.points = 0}.refusal(), "made: has no points; allowed: at least one point");
   EXPECT_EQ(Made{.scale = -std::numeric_limits<float>::infinity()}.refusal(), "made: has the scale -inf; allowed: a number that is not 0");
 }
 
@@ -215,10 +276,15 @@ TEST(C3dFormat, RefusesWhatEndsTooSoonAndReadsWhatJustDoesNot) {
   const auto refusalOf = [](const std::string& bytes) -> std::string { return reachlab::refusalOf([&] { (void)readC3d(bytes, "made"); }); };
   EXPECT_EQ(refusalOf(whole.substr(0, 1023)), "made: ends before its parameters; allowed: a whole file");
   EXPECT_EQ(refusalOf(whole.substr(0, 1024)), "made: says 2 frames, and has 0; allowed: a whole file");
+  EXPECT_EQ(refusalOf(""), "made: is no C3D file; allowed: a file that begins with the bytes of C3D");
+  EXPECT_EQ(refusalOf(std::string(600, 'x')), "made: is no C3D file; allowed: a file that begins with the bytes of C3D");
   EXPECT_EQ(refusalOf(whole.substr(0, 511)), "made: is no C3D file; allowed: a file that begins with the bytes of C3D");
   std::string changed = whole;
   changed[0] = 0;
   EXPECT_EQ(refusalOf(changed), "made: ends before its parameters; allowed: a whole file") << "they cannot be the header";
+  changed = whole;
+  changed[512 + 3] = 7;
+  EXPECT_EQ(refusalOf(changed), "made: is of processor type 7; allowed: 84 (Intel), 85 (DEC), 86 (MIPS)");
   changed = whole;
   changed[16] = 1;
   EXPECT_EQ(refusalOf(changed).substr(0, 26), "made: says 2 frames, and h") << "the data cannot be the header";
@@ -269,8 +335,76 @@ TEST(C3dFormat, ANumberThatIsTooShortIsNone) {
   Made made;
   made.records = group(1, "POINT") + parameter(1, "RATE", kText, {4}, "1234");
   EXPECT_EQ(made.read().rate, 50);
-  made.records = group(1, "POINT") + parameter(1, "RATE", kWord, {}, word(0x1234));
-  EXPECT_EQ(made.read().rate, 0x1234);
+}
+
+// Other systems choose differently.
+TEST(C3dFormat, ReadsNumbersOfEveryWidth) {
+  Made made;
+  const auto rate = [&](int type, const std::string& data) {
+    made.records = group(1, "POINT") + parameter(1, "RATE", type, {}, data);
+    return made.read().rate;
+  };
+  EXPECT_EQ(rate(kByte, "d"), 100);
+  EXPECT_EQ(rate(kWord, word(0x1234)), 0x1234);
+  EXPECT_EQ(rate(kFloat, floats({125})), 125) << "not the header's";
+}
+
+TEST(C3dFormat, ReadsScaledIntegers) {
+  const C3dFile file = Made{.last = 3,
+                            .records = group(1, "POINT") + parameter(1, "SCALE", kFloat, {}, floats({0.1f})),
+                            .data = words({10, 0x10000 - 20, 30000, 0, 1, 2, 3, 0xffff, 4, 5, 6, 258})}
+                           .read();
+  EXPECT_FLOAT_EQ(file.places[0], 1.0f);
+  EXPECT_FLOAT_EQ(file.places[1], -2.0f);
+  EXPECT_FLOAT_EQ(file.places[2], 3000.0f);
+  EXPECT_EQ(file.seen, (std::vector<char>{1, 0, 1}));
+}
+
+// Two frames of one point by a processor that has its bytes in another order; no parameters, so that the header alone says how they are.
+std::string foreignBytes(unsigned char processor) {
+  std::string bytes(2 * 512, '\0');
+  const auto put = [&](std::size_t at, unsigned value) {
+    const bool bigEndian = processor == 86;
+    bytes[at + (bigEndian ? 1 : 0)] = static_cast<char>(value & 0xff);
+    bytes[at + (bigEndian ? 0 : 1)] = static_cast<char>(value >> 8);
+  };
+  const auto putFloat = [&](std::size_t at, float value) {
+    // DEC: the word with sign and exponent first, and four times the value by its exponent.
+    const auto bits = std::bit_cast<std::uint32_t>(processor == 85 ? 4 * value : value);
+    put(at, bits >> 16);
+    put(at + 2, bits & 0xffff);
+  };
+  bytes[0] = 2, bytes[1] = 0x50;
+  put(2, 1), put(6, 1), put(8, 2);
+  putFloat(12, -1);
+  put(16, 3);
+  putFloat(20, 120);
+  bytes[512 + 1] = 0x50, bytes[512 + 2] = 1, bytes[512 + 3] = static_cast<char>(processor);
+  bytes.resize(3 * 512, '\0');
+  for (std::size_t i = 0; i < 8; ++i) putFloat(1024 + 4 * i, i == 3 ? -1.0f : i == 7 ? 0.0f : 1.5f * static_cast<float>(i) - 2);
+  return bytes;
+}
+
+TEST(C3dFormat, ReadsTheNumbersOfOtherProcessors) {
+  for (const unsigned char processor : {'\x55', '\x56'}) {
+    const C3dFile back = readC3d(foreignBytes(processor), "made.c3d");
+    EXPECT_EQ(back.rate, 120) << int{processor};
+    EXPECT_EQ(back.places, (std::vector<float>{-2, -0.5, 1, 4, 5.5, 7})) << int{processor};
+    EXPECT_EQ(back.seen, (std::vector<char>{0, 1})) << int{processor};
+  }
+}
+
+// Every file is either read or refused: run under sanitizers by `packaging/test --all`.
+TEST(C3dFormat, SurvivesDamage) {
+  const std::string good = c3dBytes(filled(2, 2, 20));
+  std::uint64_t state = 7;
+  const auto next = [&state] { return state = state * 6364136223846793005ull + 1442695040888963407ull; };
+  for (int round = 0; round < 2000; ++round) {
+    std::string bytes = good;
+    for (int k = 0; k < 3; ++k) bytes[(next() >> 33) % std::min<std::size_t>(bytes.size(), 3000)] = static_cast<char>(next() >> 40);
+    if (round % 4 == 0) bytes.resize((next() >> 33) % bytes.size());
+    (void)reachlab::refusalOf([&] { (void)readC3d(bytes, "made.c3d"); });
+  }
 }
 
 // The section's block holds 508 bytes of records: the last one ends with it, or a byte later.
