@@ -42,28 +42,6 @@ TEST(Suite, ATickIsTimedWithinOneTrialOnEveryScene) {
   for (const BenchScene& scene : benchScenes()) EXPECT_EQ(haptics::measureTicks(scene.experiment, 2000).trials, 1u) << scene.name;
 }
 
-TEST(Suite, RowsHoldErrorsCountsAndPrices) {
-  SuiteOptions options;
-  options.scenes = {"S6"};
-  options.methods = {"auto", "rk4"};
-  options.quick = true;
-  options.effort = {.rounds = 5, .secondsPerRound = 1e-4};
-  std::vector<std::string> refusals;
-  const std::vector<Row> rows = runSuite(
-      options, [](const std::string&) {}, refusals);
-  EXPECT_TRUE(refusals.empty());
-  ASSERT_EQ(rows.size(), 2u);
-  for (const Row& row : rows) {
-    EXPECT_EQ(row.scene, "S6");
-    EXPECT_EQ(row.steps, 2500u);
-    EXPECT_GT(row.nsPerMs, 0);
-    EXPECT_LE(row.nsLow, row.nsPerMs);
-    EXPECT_LE(row.nsPerMs, row.nsHigh);
-  }
-  EXPECT_EQ(rows[1].rhsEvaluations, 4u * 2500) << "RK4 evaluates four times a step";
-  EXPECT_LT(rows[0].error.position, rows[1].error.position) << "the exact propagator against RK4 at 1 ms";
-}
-
 TEST(Suite, TheCheapestRowIsTheFirstOfTheLeastPriceThatErrsNoMoreThanAllowed) {
   const auto row = [](const char* scene, const char* method, double error, double price) {
     Row made;
