@@ -1,14 +1,12 @@
 #include "base/json/json_tree.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
 #include <limits>
 
-#include "base/fault.h"
 #include "base/text_file.h"
+#include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace reachlab {
 namespace {
@@ -19,8 +17,7 @@ void expectAtItsPlace(const JsonNode& node, const std::vector<std::string>& line
   const char* begin[] = {"null", node.boolean ? "true" : "false", "", "\"", "[", "{"};
   if (node.kind == JsonNode::Kind::Number) {
     ASSERT_GE(node.column, 2);
-    EXPECT_NE(std::string(" [").find(line[static_cast<std::size_t>(node.column - 2)]), std::string::npos)
-        << "not its first character: " << rest;
+    EXPECT_TRUE(holds(" [", line.substr(static_cast<std::size_t>(node.column - 2), 1))) << "not its first character: " << rest;
     EXPECT_EQ(std::stod(rest), node.number);
   } else {
     EXPECT_TRUE(rest.starts_with(begin[static_cast<int>(node.kind)])) << nameOf(node.kind) << ": " << rest;
@@ -57,12 +54,8 @@ TEST(JsonTree, KnowsWhereEachValueBegins) {
 }
 
 Fault faultOf(const std::string& text) {
-  try {
-    (void)parseJson(text, "made.json");
-  } catch (const FaultError& error) {
-    if (error.faults.size() == 1) return error.faults[0];
-  }
-  return Fault{.what = "read"};
+  const std::vector<Fault> told = faultsToldBy([&] { (void)parseJson(text, "made.json"); });
+  return told.size() == 1 ? told[0] : Fault{.what = "read"};
 }
 
 TEST(JsonTree, TellsWhereASentenceOfItsSyntaxBreaks) {
@@ -143,27 +136,22 @@ TEST(JsonTree, CountsCharactersAndReadsEscapes) {
 }
 
 std::string refusalOfFile(const std::string& file, std::uintmax_t most) {
-  try {
-    return "read " + readTextFile(file, most);
-  } catch (const FaultError& error) {
-    return error.what();
-  }
+  std::string read;
+  const std::string refusal = refusalOf<FaultError>([&] { read = "read " + readTextFile(file, most); });
+  return read.empty() ? refusal : read;
 }
 
 TEST(TextFile, IsReadWholeOrRefusedInWords) {
-  const std::filesystem::path folder = std::filesystem::temp_directory_path() / ("reachlab-text-" + std::to_string(::getpid()));
-  std::filesystem::create_directories(folder);
-  const std::string file = (folder / "a.txt").string();
-  std::ofstream(file, std::ios::binary) << "one\r\ntwo";
+  const TemporaryFolder folder;
+  const std::string file = folder.write("a.txt", "one\r\ntwo");
   EXPECT_EQ(refusalOfFile(file, 8), "read one\r\ntwo");
   EXPECT_EQ(refusalOfFile(file, 7), file + ": has 8 bytes; allowed: up to 7");
-  std::ofstream(file, std::ios::trunc).flush();
+  folder.write("a.txt", "");
   EXPECT_EQ(refusalOfFile(file, 8), "read ") << "an empty file is one, too";
   EXPECT_EQ(refusalOfFile(folder / "b.txt", 8), (folder / "b.txt").string() + ": cannot be read: No such file or directory");
-  EXPECT_EQ(refusalOfFile(folder, 8), folder.string() + ": cannot be read: Is a directory");
+  EXPECT_EQ(refusalOfFile(folder.path(), 8), folder.path() + ": cannot be read: Is a directory");
   EXPECT_EQ(refusalOfFile("/dev/zero", 8), "/dev/zero: is no regular file; allowed: a file on a disk");
   EXPECT_EQ(kMostTextBytes, 16u * 1024 * 1024);
-  std::filesystem::remove_all(folder);
 }
 
 }  // namespace

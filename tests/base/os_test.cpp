@@ -5,6 +5,7 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -91,6 +92,27 @@ TEST(Descriptors, ThatAreClosedAreHeld) {
     ::_exit(after == next && std::filesystem::read_symlink("/proc/self/fd/" + std::to_string(closed)) == "/dev/null" ? 9 : 2);
   };
   for (const int closed : {0, 1, 2}) EXPECT_EXIT(held(closed), testing::ExitedWithCode(9), "") << closed;
+}
+
+TEST(Descriptors, AboveTheStandardOnesStayAndAnErrorKeepsItsReason) {
+  const int high = ::fcntl(STDERR_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  ASSERT_GT(high, STDERR_FILENO);
+  EXPECT_EQ(aboveStandardDescriptors(high), high);
+  EXPECT_EQ(::close(high), 0);
+  errno = ENOENT;
+  EXPECT_EQ(aboveStandardDescriptors(-1), -1);
+  EXPECT_EQ(errno, ENOENT);
+}
+
+TEST(Descriptors, OfTheStandardOnesAreLeft) {
+  const int kept = ::fcntl(STDIN_FILENO, F_DUPFD_CLOEXEC, STDERR_FILENO + 1);
+  ::close(STDIN_FILENO);
+  ASSERT_EQ(::open("/dev/null", O_RDONLY), STDIN_FILENO);
+  const int moved = aboveStandardDescriptors(STDIN_FILENO);
+  EXPECT_GT(moved, STDERR_FILENO);
+  EXPECT_EQ(::fcntl(STDIN_FILENO, F_GETFD), -1) << "and is free again";
+  ::close(moved);
+  if (kept >= 0) ::dup2(kept, STDIN_FILENO), ::close(kept);
 }
 
 }  // namespace
