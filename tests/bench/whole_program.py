@@ -8,7 +8,6 @@ the rounds, and a ratio the median of the ratios within a round. The recordings 
 """
 import argparse
 import json
-import os
 import pathlib
 import re
 import statistics
@@ -16,16 +15,11 @@ import subprocess
 import sys
 import tempfile
 
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "long"))
+from study_speed import finish, start  # noqa: E402
+
 SCENES = ["chain-moderate", "chain-on-ellipse", "parallel", "torus", "moebius-strip", "helicoid"]  # cheap, usual and dear ones
 UNDER = pathlib.Path(__file__).resolve().parents[1] / "gui" / "under_xvfb"
-
-
-def processor_seconds(*command):
-    process = subprocess.Popen([str(word) for word in command], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-    _, status, usage = os.wait4(process.pid, 0)
-    if os.waitstatus_to_exitcode(status) != 0:
-        sys.exit(f"{command}: {process.stderr.read().decode()}")
-    return usage.ru_utime + usage.ru_stime
 
 
 def pictures(build):
@@ -39,8 +33,8 @@ def pictures(build):
 def measure(build, dataset, study, folder, turn):
     reach = build / "cli/reach"
     found = pictures(build)
-    found["analysis [s of processor]"] = processor_seconds(reach, "analyze", dataset, "--out", folder / f"{turn}-out")
-    found["study [s of processor]"] = processor_seconds(reach, "study", study, "--out", folder / f"{turn}-study", "--jobs", 1)
+    found["analysis [s of processor]"] = finish(start(reach, "analyze", dataset, "--out", folder / f"{turn}-out"))[0]
+    found["study [s of processor]"] = finish(start(reach, "study", study, "--out", folder / f"{turn}-study", "--jobs", 1))[0]
     return found
 
 

@@ -7,12 +7,12 @@
 Exit 1 when a run or an export takes more than 1 kB a trial (its list of trials; rows go block by block), or an analysis more than 2 kB.
 """
 import argparse
-import os
 import pathlib
-import subprocess
 import sys
 import tempfile
 import time
+
+from study_speed import finish, start
 
 EXPERIMENT = """{ "schema_version": 1, "name": "short", "constraint": { "name": "line", "shape": { "length_m": 0.02 } },
   "object": { "kind": "point", "masses_kg": [0.3], "stiffness_n_per_m": [] }, "coupling": { "stiffness_n_per_m": 900, "damping_n_s_per_m": 20 },
@@ -24,12 +24,8 @@ MOST = {"run": 1.0, "export csv": 1.0, "export bids": 1.0, "analyze": 2.0}  # [k
 def peak(command):
     """Largest memory of a program [kB], and how long it took [s]."""
     begin = time.monotonic()
-    process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
-    _, status, usage = os.wait4(process.pid, 0)
-    process.returncode = os.waitstatus_to_exitcode(status)
-    if process.returncode != 0:
-        sys.exit(f"{' '.join(map(str, command))}: {process.stderr.read().decode()}")
-    return usage.ru_maxrss, time.monotonic() - begin
+    _, most = finish(start(*command))
+    return most, time.monotonic() - begin
 
 
 def main():
