@@ -29,51 +29,36 @@ int killCount() {
   return asked != nullptr ? std::atoi(asked) : 6;
 }
 
-struct Ending {
-  int status = 0;
-  std::string out;
-};
-
-// Runs `reach`, and kills it `seconds` after it has printed so many lines; a negative time lets it end by itself.
-Ending runAndKill(const std::vector<std::string>& arguments, double seconds, int afterLines = 0) {
+// Runs `reach`, and kills it `seconds` after it has printed so many lines; what it has printed.
+std::string runAndKill(const std::string& arguments, double seconds, int afterLines = 0) {
   const TemporaryFolder folder;
   const std::string out = folder / "out";
   const int descriptor = ::open(out.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC, 0644);
-  const pid_t child = test::start(arguments, descriptor);
+  const pid_t child = test::start(test::split(arguments, ' '), descriptor);
   ::close(descriptor);
-  Ending ending;
+  const auto lines = [&] {
+    const std::string text = test::contentOf(out);
+    return std::count(text.begin(), text.end(), '\n');
+  };
   bool ended = false;
-  if (seconds >= 0) {
-    const auto lines = [&] {
-      const std::string text = test::contentOf(out);
-      return std::count(text.begin(), text.end(), '\n');
-    };
-    while (lines() < afterLines && !(ended = ::waitpid(child, &ending.status, WNOHANG) != 0))
-      std::this_thread::sleep_for(std::chrono::microseconds(200));
-    std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
-    if (!ended) ::kill(child, SIGKILL);
-  }
-  if (!ended) ::waitpid(child, &ending.status, 0);
-  ending.out = test::contentOf(out);
-  return ending;
+  while (lines() < afterLines && !(ended = ::waitpid(child, nullptr, WNOHANG) != 0))
+    std::this_thread::sleep_for(std::chrono::microseconds(200));
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  if (!ended) ::kill(child, SIGKILL), ::waitpid(child, nullptr, 0);
+  return test::contentOf(out);
 }
 
 bool sameResult(const trial::TrialResult& a, const trial::TrialResult& b) {
   return a.outcome == b.outcome && a.reason == b.reason && a.mass == b.mass && a.by == b.by && a.movementTime == b.movementTime;
 }
 
-std::vector<std::string> runArguments(const std::string& data, bool resume) {
-  std::vector<std::string> arguments{"run", "chain-moderate", "--device", "simulated", "--trials", "30", "--seed",
-                                     "11",  "--fast",         "--data",   data};
-  if (resume) arguments.push_back("--resume");
-  return arguments;
-}
+const std::string kRun = "run chain-moderate --device simulated --trials 30 --seed 11 --fast --data ";
 
 class Kill : public InAFolder {};
 
 TEST_F(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
   const std::string whole = folder_ / "whole";
-  ASSERT_EQ(runAndKill(runArguments(whole, false), -1).status, 0);
+  test::printed(kRun + whole);
   const record::RunLog good = record::RunLog::open(session::recordedRuns({whole}).at(0).path);
   ASSERT_EQ(good.trials().size(), 30u);
 
@@ -82,8 +67,8 @@ TEST_F(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
     const std::string data = folder_ / ("kill" + std::to_string(k));
     const int after = static_cast<int>(random() % 30);
     const double moment = static_cast<double>(random() % 8000) * 1e-6;  // a trial takes a few milliseconds on the virtual clock
-    const Ending killed = runAndKill(runArguments(data, false), moment, after);
-    const auto lines = test::trialLines(killed.out.substr(0, killed.out.rfind('\n') + 1));  // without the last one where it was cut
+    const std::string out = runAndKill(kRun + data, moment, after);
+    const auto lines = test::trialLines(out.substr(0, out.rfind('\n') + 1));  // without the last one where it was cut
     const std::vector<session::RunOnDisk> runs = session::recordedRuns({data});
     if (runs.empty()) {
       EXPECT_TRUE(lines.empty());
@@ -108,7 +93,7 @@ TEST_F(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
     EXPECT_TRUE(record::replayRun(log).identical()) << "kill " << k << ": " << record::replayRun(log).firstDifference;
 
     // What is left of the order is done by --resume, with the results that the unbroken run has.
-    ASSERT_EQ(runAndKill(runArguments(data, true), -1).status, 0);
+    test::printed(kRun + data + " --resume");
     std::map<int, trial::TrialResult> done;
     for (const session::RunOnDisk& run : session::recordedRuns({data})) {
       const record::RunLog part = record::RunLog::open(run.path);
@@ -133,12 +118,12 @@ TEST_F(Kill, LosesNoAnnouncedTrialAndResumesWithTheSameOrder) {
 
 TEST_F(Kill, OfAnExportLeavesTheLogAsItWasAndNoHalfFile) {
   const std::string out = folder_ / "out";
-  ASSERT_EQ(runAndKill(runArguments(data_, false), -1).status, 0);
+  test::printed(kRun + data_);
   const std::string log = session::recordedRuns({data_}).at(0).path;
   const std::string bytes = record::readWholeFile(log);
-  const std::vector<std::string> arguments{"export", log, "--format", "csv", "--out", out};
+  const std::string arguments = "export " + log + " --format csv --out " + out;
   const auto start = Clock::now();
-  ASSERT_EQ(runAndKill(arguments, -1).status, 0);
+  test::printed(arguments);
   const double length = std::chrono::duration<double>(Clock::now() - start).count();
   std::map<std::string, std::string> whole;
   for (const auto& entry : std::filesystem::directory_iterator(out))
