@@ -3,6 +3,11 @@
 
 namespace reachlab::bench {
 
+/// Largest differences from a reference in the states and in the positions [m].
+struct Deviation {
+  double state = 0, position = 0;
+};
+
 /// One row of the bench: a contender, its error against the reference, and its computation time.
 struct Row {
   std::string scene, method, form;

@@ -1,4 +1,6 @@
 #pragma once
+#include <algorithm>
+
 #include "base/ticks.h"
 #include "bench/contender.h"
 #include "bench/visit_system.h"

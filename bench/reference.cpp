@@ -1,6 +1,5 @@
 #include "bench/reference.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -59,12 +58,6 @@ std::array<Quad, 6> handTerms(const SceneHand& law, const Quad& t) {
     scale /= law.duration;
   }
   return terms;
-}
-
-double largestDifference(const std::vector<Quad>& a, const std::vector<Quad>& b) {
-  double worst = 0;
-  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) worst = std::max(worst, static_cast<double>(absolute(Quad(a[i] - b[i]))));
-  return worst;
 }
 
 }  // namespace
@@ -128,10 +121,6 @@ Reference modalChainReference(const BenchScene& scene) {
     for (int i = 0; i < n; ++i) out.positions.insert(out.positions.end(), {scene.hand.from.x + y[i], Quad(0), Quad(0)});
   }
   return out;
-}
-
-Deviation compare(const Reference& a, const Reference& b) {
-  return {largestDifference(a.states, b.states), largestDifference(a.positions, b.positions)};
 }
 
 }  // namespace reachlab::bench

@@ -31,10 +31,4 @@ Reference extrapolatedReference(const BenchScene& scene, const ReferenceSettings
 /// mode: the particular solution is h - h''/w^2 + h''''/w^4. A free oscillation is added, so that the mode starts at rest.
 Reference modalChainReference(const BenchScene& scene);
 
-/// Largest differences of two references in the states and in the positions [m].
-struct Deviation {
-  double state = 0, position = 0;
-};
-Deviation compare(const Reference& a, const Reference& b);
-
 }  // namespace reachlab::bench

@@ -45,13 +45,6 @@ TEST(Measure, WhatIsNotThereHasNoError) {
   EXPECT_TRUE(std::isnan(computeError(failed, threeNumbers()).position));
 }
 
-TEST(Measure, TwoReferencesDifferByTheirLargestDifference) {
-  Reference other = threeNumbers();
-  other.states[1] = Quad(1.5), other.positions[2] = Quad(6.25);
-  EXPECT_EQ(compare(threeNumbers(), other).state, 0.5);
-  EXPECT_EQ(compare(other, threeNumbers()).position, 0.25);
-}
-
 /// Counts its runs, and takes some processor time in each.
 Contender counting(int& runs, double seconds, const std::string& failure = {}) {
   Contender c;

@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include "bench/sampled_hand.h"
 #include "bench/suite.h"
 #include "tests/refusal.h"
 

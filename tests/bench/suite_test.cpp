@@ -1,5 +1,4 @@
 #include "base/ticks.h"
-#include "bench/sampled_hand.h"
 #include "bench/suite.h"
 #include "sim/haptics/tick_timing.h"
 
