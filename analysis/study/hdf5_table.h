@@ -1,5 +1,6 @@
 #pragma once
-#include <memory>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -7,23 +8,11 @@
 
 namespace reachlab::study {
 
-/// trials.h5: a group /trials with a dataset for each column, all of one length. Each has a `Description` and `Units`. Text is stored as
-/// codes, and the attribute `words` has the texts. /profiles/hand_m_per_s and object_m_per_s have 101 points per trial if profiles are
-/// kept. No times are stored, so the same rows give the same bytes. The file is written under another name until commit. Without commit
-/// no file is left. Throws ResourceError. One thread.
-class Hdf5Table {
- public:
-  Hdf5Table(const std::string& path, const std::vector<Column>& columns, const std::string& dictionary, std::size_t profileNumbers);
-  ~Hdf5Table();
-  Hdf5Table(const Hdf5Table&) = delete;
-  Hdf5Table& operator=(const Hdf5Table&) = delete;
-
-  void append(const ChunkRows& rows);
-  void commit();
-
- private:
-  struct Parts;
-  std::unique_ptr<Parts> parts_;
-};
+/// Writes trials.h5: a group /trials with a dataset for each column, all of one length. Each has a `Description` and `Units`. Text is stored
+/// as codes, and the attribute `words` has the texts. /profiles/hand_m_per_s and object_m_per_s have 101 points per trial if profiles are
+/// kept. No times are stored, so the same rows give the same bytes. `nextRows` gives chunk after chunk, and nothing after the last one.
+/// The file appears when it is complete. After an exception no file is left. Throws ResourceError. One thread.
+void writeHdf5Table(const std::string& path, const std::vector<Column>& columns, const std::string& dictionary, std::size_t profileNumbers,
+                    const std::function<std::optional<ChunkRows>()>& nextRows);
 
 }  // namespace reachlab::study

@@ -131,13 +131,14 @@ bool mergeTables(const StudyFolder& folder) {
   const std::string dictionary = dictionaryOf(folder.design);
   record::AtomicFile csv(folder.path + "/trials.csv.gz");
   csv.append(gzipMember(header + "\n"));
-  Hdf5Table table(folder.path + "/trials.h5", columns, dictionary, folder.design.profiles ? kProfileNumbers : 0);
-  for (std::int64_t chunk = 0; chunk < folder.chunks.count(); ++chunk) {
-    const ChunkRows rows = readChunk(folder.path, chunk, folder.fingerprint);
+  std::int64_t next = 0;
+  const auto nextRows = [&]() -> std::optional<ChunkRows> {
+    if (next == folder.chunks.count()) return std::nullopt;
+    ChunkRows rows = readChunk(folder.path, next++, folder.fingerprint);
     csv.append(rows.csvGz);
-    table.append(rows);
-  }
-  table.commit();
+    return rows;
+  };
+  writeHdf5Table(folder.path + "/trials.h5", columns, dictionary, folder.design.profiles ? kProfileNumbers : 0, nextRows);
   record::writeFileAtomically(folder.path + "/trials.json", dictionary);
   csv.commit();
   return true;

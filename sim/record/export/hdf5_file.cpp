@@ -1,10 +1,9 @@
 #include "sim/record/export/hdf5_file.h"
 
-#include <hdf5.h>
-
 #include <algorithm>
 #include <span>
 
+#include "sim/record/export/hdf5_handle.h"
 #include "sim/record/export/run_tables.h"
 #include "sim/record/export/tidy_csv.h"
 #include "sim/record/log/atomic_file.h"
@@ -14,30 +13,6 @@ namespace {
 
 constexpr hsize_t kChunk = 1 << 14;  // rows
 constexpr unsigned kCompression = 4;
-
-struct Hdf5Fault {};
-
-hid_t checked(hid_t id) {
-  if (id < 0) throw Hdf5Fault{};
-  return id;
-}
-void done(herr_t status) {
-  if (status < 0) throw Hdf5Fault{};
-}
-
-// An identifier of HDF5 with the function that gives it back.
-class Handle {
- public:
-  Handle(hid_t id, herr_t (*close)(hid_t)) : id_(checked(id)), close_(close) {}
-  ~Handle() { close_(id_); }
-  Handle(const Handle&) = delete;
-  Handle& operator=(const Handle&) = delete;
-  operator hid_t() const { return id_; }  // NOLINT: every call of the library takes it so
-
- private:
-  hid_t id_;
-  herr_t (*close_)(hid_t);
-};
 
 Handle utf8Type() {
   const hid_t type = checked(H5Tcopy(H5T_C_S1));
@@ -133,15 +108,10 @@ std::vector<std::string> writeHdf5(const std::vector<RunLog>& runs, const std::s
       // The default driver looks the file's path up, and a file without a name has none.
       const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
       done(H5Pset_fapl_stdio(access));
-      const hid_t file = checked(H5Fcreate(out.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access));
-      try {
-        addRun(file, run);
-        done(H5Fflush(file, H5F_SCOPE_GLOBAL));
-      } catch (...) {
-        H5Fclose(file);
-        throw;
-      }
-      done(H5Fclose(file));
+      Handle file(H5Fcreate(out.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access), H5Fclose);
+      addRun(file, run);
+      done(H5Fflush(file, H5F_SCOPE_GLOBAL));
+      file.close();
     } catch (const Hdf5Fault&) {
       out.giveUp("the HDF5 library failed");
     }
