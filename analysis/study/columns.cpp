@@ -8,8 +8,8 @@
 #include "analysis/study/points.h"
 #include "analysis/study/trial_row.h"
 #include "analysis/table_columns.h"
+#include "analysis/tables.h"
 #include "base/number_range.h"
-#include "sim/predict/prediction/criterion.h"
 #include "sim/record/export/column_dictionary.h"
 #include "sim/record/log/trial_measures.h"
 #include "sim/session/block_scenes.h"
@@ -53,11 +53,6 @@ bool asksFor(const Design& design, const char* family) {
   return std::find(design.measures.begin(), design.measures.end(), family) != design.measures.end();
 }
 
-std::string underscored(std::string name) {
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
-}
-
 std::vector<std::string> allCriteria() {
   std::vector<std::string> names;
   for (const predict::Criterion criterion : predict::kAllCriteria) names.emplace_back(predict::nameOf(criterion));
@@ -96,7 +91,11 @@ Needs needsOf(const Design& design) {
   return needs;
 }
 
-std::vector<std::string> criteriaOf(const Design& design) { return design.criteria.empty() ? allCriteria() : design.criteria; }
+std::vector<predict::Criterion> criteriaOf(const Design& design) {
+  std::vector<predict::Criterion> named;
+  for (const std::string& name : design.criteria) named.push_back(*predict::criterionFromName(name));
+  return predict::orAll(named);
+}
 
 std::size_t identityColumns(const Design& design) { return (design.planText.empty() ? 4 : 9) + design.axes.size(); }
 
@@ -120,10 +119,10 @@ std::vector<Column> columnsOf(const Design& design) {
   for (const std::string& name : measuresOf(design)) {
     if (name == "epsilon") {
       for (const char* what : {"hand", "object"})
-        for (const std::string& criterion : criteriaOf(design))
-          columns.push_back({fmt::format("epsilon_{}_{}_m_per_s", what, underscored(criterion)), {}});
+        for (const predict::Criterion criterion : criteriaOf(design))
+          columns.push_back({fmt::format("epsilon_{}_{}_m_per_s", what, analysis::columnOf(criterion)), {}});
     } else if (name == "score") {
-      for (const std::string& criterion : criteriaOf(design)) columns.push_back({"score_" + underscored(criterion), {}});
+      for (const predict::Criterion criterion : criteriaOf(design)) columns.push_back({"score_" + analysis::columnOf(criterion), {}});
       columns.push_back({"score_reference", {}});
       columns.push_back({"fit_effective_samples", {}});
       columns.push_back({"fit_own_score", {}});

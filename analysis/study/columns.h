@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "analysis/study/design.h"
+#include "sim/predict/prediction/criterion.h"
 
 namespace reachlab::study {
 
@@ -33,7 +34,7 @@ std::vector<std::string> measureNames();
 std::vector<std::string> usualMeasures();
 /// Faults of `measures` and `criteria`.
 std::vector<Fault> measureProblems(const Design& design);
-/// The criteria by name that epsilon and score have columns for, without the reference.
-std::vector<std::string> criteriaOf(const Design& design);
+/// The criteria that epsilon and score have columns for, without the reference.
+std::vector<predict::Criterion> criteriaOf(const Design& design);
 
 }  // namespace reachlab::study

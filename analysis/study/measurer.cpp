@@ -11,8 +11,7 @@
 namespace reachlab::study {
 
 Measurer::Measurer(const Design& design, const experiment::CompiledExperiment& experiment)
-    : design_(design), experiment_(experiment), needs_(needsOf(design)) {
-  for (const std::string& name : criteriaOf(design)) criteria_.push_back(*predict::criterionFromName(name));
+    : design_(design), experiment_(experiment), needs_(needsOf(design)), criteria_(criteriaOf(design)) {
   if (!needs_.errors) return;
   for (const predict::Criterion criterion : criteria_) {
     signals_.emplace_back();

@@ -21,7 +21,6 @@ namespace {
 
 constexpr std::size_t kStretch = 10;  // trials a point of the learning curve, as the analysis has it
 constexpr const char* kTruth = "subject.criterion";
-constexpr std::size_t kReferenceBeside = 1, kFitColumns = 3;  // reference, effective samples, own mean behind the criteria
 
 std::size_t placeOf(const std::vector<Column>& columns, const std::string& name) {
   for (std::size_t k = 0; k < columns.size(); ++k)
@@ -35,10 +34,8 @@ std::string wordOf(const Column& column, double value) {
 
 /// The trials of one virtual person in one condition.
 struct ConditionTrials {
-  std::vector<int> trial;                  // number of each used one
-  std::vector<std::vector<double>> score;  // [criterion, then the reference][trial]
-  std::vector<double> own;                 // score of the mean of the other trials
-  double effectiveSamples = 10;
+  std::vector<int> trial;            // number of each used one
+  analysis::ConditionScores scores;  // of the criteria and then the reference
 };
 using PersonTrials = std::map<std::string, ConditionTrials>;
 
@@ -56,24 +53,23 @@ struct Named {
 };
 
 Named nameCandidates(const Design& design, const std::vector<Population>& populations) {
-  const std::vector<std::string> criteria = criteriaOf(design);
+  const std::vector<predict::Criterion> criteria = criteriaOf(design);
   Named out;
   const auto same = [&](std::size_t a, std::size_t b) {
     for (const Population& population : populations)
       for (const auto& [who, person] : population.people)
         for (const auto& [condition, trials] : person)
           for (std::size_t i = 0; i < trials.trial.size(); ++i)
-            if (!(trials.score[a][i] == trials.score[b][i])) return false;
+            if (!(trials.scores.score[a][i] == trials.scores.score[b][i])) return false;
     return true;
   };
   for (std::size_t k = 0; k < criteria.size(); ++k) {
     if (!same(k, k)) continue;  // NaN somewhere
     const auto known = std::find_if(out.column.begin(), out.column.end(), [&](std::size_t other) { return same(other, k); });
-    const predict::Criterion criterion = *predict::criterionFromName(criteria[k]);
     if (known != out.column.end()) {
-      out.candidates[static_cast<std::size_t>(known - out.column.begin())].push_back(criterion);
+      out.candidates[static_cast<std::size_t>(known - out.column.begin())].push_back(criteria[k]);
     } else {
-      out.candidates.push_back({criterion});
+      out.candidates.push_back({criteria[k]});
       out.column.push_back(k);
     }
   }
@@ -86,18 +82,16 @@ Named nameCandidates(const Design& design, const std::vector<Population>& popula
 analysis::PersonScores scoresOf(const PersonTrials& person, std::size_t most, const Named& named) {
   analysis::PersonScores out;
   for (const auto& [name, trials] : person) {
-    analysis::ConditionScores scores;
-    scores.condition = out.conditions.size();
-    scores.effectiveSamples = trials.effectiveSamples;
-    scores.ceiling = 1;
+    const auto tooLate = [&](int number) { return static_cast<std::size_t>(number) > most; };
+    const auto used = std::find_if(trials.trial.begin(), trials.trial.end(), tooLate) - trials.trial.begin();
+    if (used < static_cast<std::ptrdiff_t>(analysis::kFewestTrials)) return {};
+    const auto usedOf = [&](const std::vector<double>& all) { return std::vector<double>(all.begin(), all.begin() + used); };
+    analysis::ConditionScores& scores = out.conditions.emplace_back();
+    scores.condition = out.conditions.size() - 1;
+    scores.effectiveSamples = trials.scores.effectiveSamples;
+    for (const std::size_t column : named.column) scores.score.push_back(usedOf(trials.scores.score[column]));
+    scores.own = usedOf(trials.scores.own);
     scores.r2.assign(named.column.size(), 1);
-    std::size_t used = 0;
-    while (used < trials.trial.size() && static_cast<std::size_t>(trials.trial[used]) <= most) ++used;
-    if (used < analysis::kFewestTrials) return {};
-    for (const std::size_t column : named.column)
-      scores.score.emplace_back(trials.score[column].begin(), trials.score[column].begin() + static_cast<std::ptrdiff_t>(used));
-    scores.own.assign(trials.own.begin(), trials.own.begin() + static_cast<std::ptrdiff_t>(used));
-    out.conditions.push_back(std::move(scores));
   }
   return out;
 }
@@ -189,9 +183,8 @@ class Reader {
 
   void takeScores(const ChunkRows& rows) {
     const std::size_t truth = placeOf(columns_, kTruth), trial = firstAxis_ - 2;
-    std::size_t score = columns_.size();
-    for (std::size_t k = 0; k < columns_.size() && score == columns_.size(); ++k)
-      if (columns_[k].name.starts_with("score_")) score = k;
+    // Behind the criteria are the reference, effective samples, and the score of the subject's own mean.
+    const std::size_t score = placeOf(columns_, "score_reference") - criteria_;
     for (std::int64_t row = 0; row < rows.rows; ++row) {
       if (!std::isfinite(at(rows, score + criteria_, row))) continue;
       std::string cell;
@@ -202,13 +195,13 @@ class Reader {
       population.cell = cell;
       population.truth = name;
       const auto who = std::pair{static_cast<std::int64_t>(at(rows, 0, row)), static_cast<std::int64_t>(at(rows, 1, row))};
-      ConditionTrials& trials = population.people[who][blockOf(rows, row)];
-      trials.score.resize(criteria_ + kReferenceBeside);
-      for (std::size_t k = 0; k < criteria_ + kReferenceBeside; ++k) trials.score[k].push_back(at(rows, score + k, row));
-      trials.effectiveSamples = at(rows, score + criteria_ + 1, row);
-      trials.own.push_back(at(rows, score + criteria_ + kFitColumns - 1, row));
-      trials.trial.push_back(static_cast<int>(at(rows, trial, row)));
-      population.trials = std::max(population.trials, static_cast<std::size_t>(trials.trial.back()));
+      auto& [number, scores] = population.people[who][blockOf(rows, row)];
+      scores.score.resize(criteria_ + 1);
+      for (std::size_t k = 0; k < scores.score.size(); ++k) scores.score[k].push_back(at(rows, score + k, row));
+      scores.effectiveSamples = at(rows, score + criteria_ + 1, row);
+      scores.own.push_back(at(rows, score + criteria_ + 2, row));
+      number.push_back(static_cast<int>(at(rows, trial, row)));
+      population.trials = std::max(population.trials, static_cast<std::size_t>(number.back()));
     }
   }
 

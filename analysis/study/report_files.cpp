@@ -44,64 +44,43 @@ double percentOf(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
+/// The exact interval of a share [%].
+analysis::Bounds intervalOf(std::size_t successes, std::size_t trials) {
+  const analysis::Bounds share = analysis::computeBinomialInterval(successes, trials);
+  return {100 * share.low, 100 * share.high};
+}
+
 /// Successes, trials, their share and its interval [%].
 void addShare(TableText& table, std::size_t successes, std::size_t trials) {
-  const analysis::Bounds interval = analysis::computeBinomialInterval(successes, trials);
-  table.row(successes, trials, percentOf(successes, trials), 100 * interval.low, 100 * interval.high);
+  const analysis::Bounds interval = intervalOf(successes, trials);
+  table.row(successes, trials, percentOf(successes, trials), interval.low, interval.high);
 }
 
-std::string successTable(const StudyReport& report) {
-  TableText table(',', "");
-  table.row("key", "value", "successes", "trials", "success_percent", "low_percent", "high_percent");
-  for (const SuccessAt& at : report.success) addShare(table.cells(at.key, at.value), at.successes, at.trials);
-  return table.takeText();
+void addRows(TableText& table, const SuccessAt& at) { addShare(table.cells(at.key, at.value), at.successes, at.trials); }
+
+void addRows(TableText& table, const LearningAt& at) {
+  addShare(table.cells(at.block, at.firstTrial, at.lastTrial), at.successes, at.trials);
 }
 
-std::string learningTable(const StudyReport& report) {
-  TableText table(',', "");
-  table.row("block", "first_trial", "last_trial", "successes", "trials", "success_percent", "low_percent", "high_percent");
-  for (const LearningAt& at : report.learning) addShare(table.cells(at.block, at.firstTrial, at.lastTrial), at.successes, at.trials);
-  return table.takeText();
+void addRows(TableText& table, const Confusion& c) {
+  const auto& names = c.named.candidates;
+  for (std::size_t t = 0; t + 1 < names.size(); ++t)
+    for (std::size_t k = 0; k <= names.size(); ++k)
+      table.row(c.cell, c.subjects, c.trials, analysis::nameOfCandidate(names[t]),
+                k < names.size() ? analysis::nameOfCandidate(names[k]) : "undecided", c.named.counts[t][k]);
 }
 
-std::string confusionTable(const StudyReport& report) {
-  TableText table(',', "");
-  table.row("cell", "subjects", "trials", "truth", "named", "studies");
-  for (const Confusion& c : report.confusion) {
-    const auto& names = c.named.candidates;
-    for (std::size_t t = 0; t + 1 < names.size(); ++t)
-      for (std::size_t k = 0; k <= names.size(); ++k)
-        table.row(c.cell, c.subjects, c.trials, analysis::nameOfCandidate(names[t]),
-                  k < names.size() ? analysis::nameOfCandidate(names[k]) : "undecided", c.named.counts[t][k]);
-  }
-  return table.takeText();
+void addRows(TableText& table, const PowerAt& at) {
+  table.row(at.truth, at.cell, at.subjects, at.trials, at.studies, at.right, at.wrong, percentOf(at.right, at.studies));
 }
 
-std::string powerTable(const StudyReport& report) {
-  TableText table(',', "");
-  table.row("truth", "cell", "subjects", "trials", "studies", "right", "wrong", "right_percent");
-  for (const PowerAt& at : report.power)
-    table.row(at.truth, at.cell, at.subjects, at.trials, at.studies, at.right, at.wrong, percentOf(at.right, at.studies));
-  return table.takeText();
+void addRows(TableText& table, const SmallestDesign& at) {
+  const auto known = [&](std::size_t count) { return at.subjects > 0 ? std::optional(count) : std::nullopt; };
+  table.row(at.truth, at.cell, 100 * at.level, known(at.subjects), known(at.trials));
 }
 
-std::string smallestTable(const StudyReport& report) {
-  TableText table(',', "");
-  table.row("truth", "cell", "level_percent", "subjects", "trials");
-  for (const SmallestDesign& at : report.smallest) {
-    const auto known = [&](std::size_t count) { return at.subjects > 0 ? std::optional(count) : std::nullopt; };
-    table.row(at.truth, at.cell, 100 * at.level, known(at.subjects), known(at.trials));
-  }
-  return table.takeText();
-}
-
-figure::Panel percentPanel(const std::string& x, const std::string& y) {
-  figure::Panel panel;
-  panel.x.label = x;
-  panel.y.label = y;
-  panel.y.from = 0.0;
-  panel.y.to = 100.0;
-  return panel;
+figure::Panel percentPanel(const std::string& x, const std::string& y, figure::LegendPlace legend) {
+  return {.x = {.label = x}, .y = {.label = y, .from = 0.0, .to = 100.0}, .legend = legend};
 }
 
 template <class Key>
@@ -114,43 +93,43 @@ void addLines(std::map<Key, figure::Series>& lines, figure::Panel& panel) {
   }
 }
 
+figure::Figure figureOf(std::vector<figure::Panel> panels) {
+  const int columns = panels.size() > 1 ? 2 : 1;
+  return {.panels = std::move(panels), .columns = columns};
+}
+
 // One panel a varied key.
 figure::Figure successFigure(const StudyReport& report) {
-  figure::Figure out;
+  std::vector<figure::Panel> panels;
   std::vector<std::string> keys;
   for (const SuccessAt& at : report.success)
     if (std::find(keys.begin(), keys.end(), at.key) == keys.end()) keys.push_back(at.key);
   for (const std::string& key : keys) {
-    figure::Panel panel = percentPanel(key, "Success (%)");
-    figure::Series series;
-    series.color = palette::kBlue;
-    series.marker = figure::MarkerShape::Circle;
+    figure::Panel& panel = panels.emplace_back(percentPanel(key, "Success (%)", figure::LegendPlace::None));
+    figure::Series series{.color = palette::kBlue, .marker = figure::MarkerShape::Circle};
     for (const SuccessAt& at : report.success) {
       if (at.key != key) continue;
-      const bool number = at.value == fmt::format("{}", at.number);
-      if (!number) panel.x.ticks.emplace_back(at.number, at.value);
-      const analysis::Bounds interval = analysis::computeBinomialInterval(at.successes, at.trials);
+      if (at.value != fmt::format("{}", at.number)) {  // words have no order that a line could follow
+        panel.x.ticks.emplace_back(at.number, at.value);
+        series.width = 0;
+      }
+      const analysis::Bounds interval = intervalOf(at.successes, at.trials);
       series.x.push_back(at.number);
       series.y.push_back(percentOf(at.successes, at.trials));
-      series.errorLow.push_back(100 * interval.low);
-      series.errorHigh.push_back(100 * interval.high);
-      if (!number) series.width = 0;
+      series.errorLow.push_back(interval.low);
+      series.errorHigh.push_back(interval.high);
     }
     if (series.width == 0) {
       panel.x.from = -0.5;
       panel.x.to = static_cast<double>(series.x.size()) - 0.5;
     }
     panel.series.push_back(std::move(series));
-    panel.legend = figure::LegendPlace::None;
-    out.panels.push_back(std::move(panel));
   }
-  out.columns = out.panels.size() > 1 ? 2 : 1;
-  return out;
+  return figureOf(std::move(panels));
 }
 
 // A line a block.
 figure::Figure learningFigure(const StudyReport& report) {
-  figure::Figure out;
   std::map<std::string, figure::Series> lines;
   for (const LearningAt& at : report.learning) {
     figure::Series& line = lines[at.block];
@@ -158,23 +137,22 @@ figure::Figure learningFigure(const StudyReport& report) {
     line.x.push_back(static_cast<double>(at.firstTrial + at.lastTrial) / 2);
     line.y.push_back(percentOf(at.successes, at.trials));
   }
-  if (lines.empty() || lines.begin()->second.x.size() < 2) return out;
-  figure::Panel panel = percentPanel("Trial of the block", "Success (%)");
+  if (lines.empty() || lines.begin()->second.x.size() < 2) return {};
+  figure::Panel panel =
+      percentPanel("Trial of the block", "Success (%)", lines.size() > 1 ? figure::LegendPlace::Right : figure::LegendPlace::None);
   addLines(lines, panel);
-  panel.legend = lines.size() > 1 ? figure::LegendPlace::Right : figure::LegendPlace::None;
-  out.panels.push_back(std::move(panel));
-  return out;
+  return figureOf({std::move(panel)});
 }
 
 // A panel a population, a line a number of trials.
 figure::Figure powerFigure(const StudyReport& report) {
-  figure::Figure out;
+  std::vector<figure::Panel> panels;
   std::vector<std::pair<std::string, std::string>> populations;
   for (const PowerAt& at : report.power)
     if (std::find(populations.begin(), populations.end(), std::pair{at.truth, at.cell}) == populations.end())
       populations.emplace_back(at.truth, at.cell);
   for (const auto& [truth, cell] : populations) {
-    figure::Panel panel = percentPanel("Subjects", "Right (%), rules at 80 and 95");
+    figure::Panel& panel = panels.emplace_back(percentPanel("Subjects", "Right (%), rules at 80 and 95", figure::LegendPlace::Right));
     panel.title = analysis::shortened(cell.empty() ? truth : truth + " · " + cell, 44);
     std::map<std::size_t, figure::Series> lines;
     for (const PowerAt& at : report.power) {
@@ -185,13 +163,9 @@ figure::Figure powerFigure(const StudyReport& report) {
       line.y.push_back(percentOf(at.right, at.studies));
     }
     addLines(lines, panel);
-    panel.rules.push_back({80, false, ""});  // words beside them would lie under the legend
-    panel.rules.push_back({95, false, ""});
-    panel.legend = figure::LegendPlace::Right;
-    out.panels.push_back(std::move(panel));
+    panel.rules = {{80, false, ""}, {95, false, ""}};  // words beside them would lie under the legend
   }
-  out.columns = out.panels.size() > 1 ? 2 : 1;
-  return out;
+  return figureOf(std::move(panels));
 }
 
 std::string textOf(const StudyReport& report, const std::vector<std::string>& figures) {
@@ -202,9 +176,9 @@ std::string textOf(const StudyReport& report, const std::vector<std::string>& fi
   if (!report.success.empty()) {
     text += "\n## Success\n\n| key | value | success % | 95 % interval | trials |\n|---|---|---|---|---|\n";
     for (const SuccessAt& at : report.success) {
-      const analysis::Bounds interval = analysis::computeBinomialInterval(at.successes, at.trials);
+      const analysis::Bounds interval = intervalOf(at.successes, at.trials);
       text += fmt::format("| {} | {} | {:.1f} | {:.1f} to {:.1f} | {} |\n", at.key, at.value, percentOf(at.successes, at.trials),
-                          100 * interval.low, 100 * interval.high, at.trials);
+                          interval.low, interval.high, at.trials);
     }
   }
   if (report.learning.size() > 1) {
@@ -250,11 +224,11 @@ std::string textOf(const StudyReport& report, const std::vector<std::string>& fi
 
 std::vector<std::string> writeReport(const StudyReport& report, const std::string& out) {
   std::vector<std::string> written, figures;
-  const auto write = [&](const std::string& name, const std::string& text) {
-    record::writeFileAtomically(written.emplace_back(out + "/" + name), text);
-    if (name.ends_with(".csv"))
-      record::writeFileAtomically(written.emplace_back(record::dictionaryPathOf(out + "/" + name)),
-                                  record::columnDictionary(text, kMeanings));
+  const auto write = [&](const std::string& name, const std::string& columns, const auto& items) {
+    TableText table(',', "");
+    for (const auto& item : items) addRows(table, item);
+    record::writeFileAtomically(written.emplace_back(out + "/" + name + ".csv"), columns + "\n" + table.text());
+    record::writeFileAtomically(written.emplace_back(out + "/" + name + ".json"), record::columnDictionary(columns, kMeanings));
   };
   const auto draw = [&](const std::string& name, const figure::Figure& figure) {
     if (figure.panels.empty()) return;
@@ -265,12 +239,12 @@ std::vector<std::string> writeReport(const StudyReport& report, const std::strin
     }
   };
   record::makeFolders(out);
-  write("success.csv", successTable(report));
-  write("learning.csv", learningTable(report));
+  write("success", "key,value,successes,trials,success_percent,low_percent,high_percent", report.success);
+  write("learning", "block,first_trial,last_trial,successes,trials,success_percent,low_percent,high_percent", report.learning);
   if (!report.power.empty()) {
-    write("confusion.csv", confusionTable(report));
-    write("power.csv", powerTable(report));
-    write("smallest.csv", smallestTable(report));
+    write("confusion", "cell,subjects,trials,truth,named,studies", report.confusion);
+    write("power", "truth,cell,subjects,trials,studies,right,wrong,right_percent", report.power);
+    write("smallest", "truth,cell,level_percent,subjects,trials", report.smallest);
   }
   draw("success", successFigure(report));
   draw("learning", learningFigure(report));
@@ -278,7 +252,7 @@ std::vector<std::string> writeReport(const StudyReport& report, const std::strin
     draw(report.confusion.size() == 1 ? "confusion" : fmt::format("confusion-{}", i + 1),
          analysis::recoveryFigure(report.confusion[i].named).figure);
   draw("power", powerFigure(report));
-  write("report.md", textOf(report, figures));
+  record::writeFileAtomically(written.emplace_back(out + "/report.md"), textOf(report, figures));
   return written;
 }
 
