@@ -1,12 +1,11 @@
 #include "analysis/study/chunk_worker.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "analysis/study/gzip.h"
+#include "base/error.h"
 #include "base/table_text.h"
 #include "sim/experiment/experiment.h"
 #include "sim/session/block_scenes.h"
@@ -17,28 +16,6 @@ namespace reachlab::study {
 namespace {
 
 constexpr std::size_t kMostKits = 16;  // a plan's conditions, some points apart
-
-// A fault of a point's experiment, with the point's number.
-template <class Work>
-void atPoint(const Point& point, Work&& work) {
-  const auto where = [&] {
-    const std::string what = describe(point);
-    return fmt::format("point {}{}", point.index, what.empty() ? "" : " (" + what + ")");
-  };
-  try {
-    work();
-  } catch (const FaultError& error) {
-    std::vector<Fault> faults = error.faults;
-    for (Fault& fault : faults) {
-      if (fault.key.starts_with("point ")) continue;
-      fault.key = where() + (fault.key.empty() ? "" : ": " + fault.key);
-      fault.place.reset();
-    }
-    throw FaultError(std::move(faults));
-  } catch (const RefusedError& error) {
-    throw RefusedError(where() + ": " + error.what());
-  }
-}
 
 // Text and numbers of the table, from its rows.
 std::string csvOf(const std::vector<Column>& columns, const std::vector<double>& rows, std::size_t count) {
@@ -166,7 +143,11 @@ std::optional<ChunkRows> ChunkWorker::compute(const PairRange& pairs, const std:
     }
     trials.clear();
     identity.clear();
-    atPoint(*point_, [&] { computeSubject(subject, trials, identity); });
+    try {
+      computeSubject(subject, trials, identity);
+    } catch (const Error&) {
+      rethrowAt(*point_);
+    }
     for (std::size_t i = 0; i < trials.size(); ++i) {
       const auto begin = identity.begin() + static_cast<std::ptrdiff_t>(i * identity_);
       rows.insert(rows.end(), begin, begin + static_cast<std::ptrdiff_t>(identity_));
@@ -195,11 +176,13 @@ void checkPoint(const Design& design, std::int64_t index, const PrepareSubjects&
     const PointExperiment& one = task.experiments[i];
     const session::PlanBlock& block = task.plan.blocks[i];
     if (!seen.emplace(task.device, textOf(one, block)).second) continue;
-    atPoint(point, [&] {
+    try {
       const std::vector<experiment::CompiledExperiment> scenes = openScenes(one, block);
       std::shared_ptr<void> learnt;
       BlockRun(scenes, false).begin(prepare(task.device, scenes)(1, 0, learnt));
-    });
+    } catch (const Error&) {
+      rethrowAt(point);
+    }
   }
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <set>
 
+#include "base/error.h"
 #include "base/math/philox.h"
 #include "base/math/seeded.h"
 
@@ -140,13 +141,25 @@ PointTask taskOf(const Design& design, const Point& point) try {
   }
   task.days = daysOf(task.plan);
   return task;
-} catch (const FaultError& error) {
-  std::vector<Fault> faults = error.faults;
-  for (Fault& fault : faults) {
-    fault.key = fmt::format("point {}{}: {}", point.index, point.ofAxes.empty() ? "" : " (" + describe(point) + ")", fault.key);
-    fault.place.reset();
+} catch (const FaultError&) {
+  rethrowAt(point);
+}
+
+void rethrowAt(const Point& point) {
+  const std::string what = describe(point), where = fmt::format("point {}{}", point.index, what.empty() ? "" : " (" + what + ")");
+  try {
+    throw;
+  } catch (const FaultError& error) {
+    std::vector<Fault> faults = error.faults;
+    for (Fault& fault : faults) {
+      if (fault.key.starts_with("point ")) continue;
+      fault.key = where + (fault.key.empty() ? "" : ": " + fault.key);
+      fault.place.reset();
+    }
+    throw FaultError(std::move(faults));
+  } catch (const RefusedError& error) {
+    throw RefusedError(where + ": " + error.what());
   }
-  throw FaultError(std::move(faults));
 }
 
 std::string describe(const Point& point) {

@@ -33,6 +33,8 @@ std::int64_t pairCount(const Design& design);  // points times subjects
 Point pointAt(const Design& design, std::int64_t index);
 /// Throws FaultError under "point N: KEY".
 PointTask taskOf(const Design& design, const Point& point);
+/// Throws the error that is being handled again, with the point's number and values if it is a fault or a refusal.
+[[noreturn]] void rethrowAt(const Point& point);
 /// A text in JSON without its quotes. Any other value as it is.
 std::string unquoted(const std::string& json);
 /// "coupling.stiffness_n_per_m=300, subject.noise=1". Empty if nothing is varied.
