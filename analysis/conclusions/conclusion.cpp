@@ -18,11 +18,8 @@ std::vector<double> scoresOf(const PersonScores& person, std::size_t candidates)
 
 TTest compareInPerson(const PersonScores& person, std::size_t a, std::size_t b) {
   std::vector<TTest> tests;
-  for (const ConditionScores& condition : person.conditions) {
-    std::vector<double> difference(condition.score[a]);
-    for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= condition.score[b][i];
-    tests.push_back(computeSerialTTest(difference));
-  }
+  for (const ConditionScores& condition : person.conditions)
+    tests.push_back(computeSerialTTest(subtract(condition.score[a], condition.score[b])));
   return combineTTests(tests);
 }
 
@@ -120,16 +117,10 @@ void findMassesAtEdge(Conclusion& out, const std::vector<PersonScores>& people, 
   }
 }
 
-double meanDifference(const ConditionScores& c, std::size_t best, std::vector<double>& difference) {
-  difference = c.score[best];
-  for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= c.own[i];
-  return averageOf(difference);
-}
 TTest misfitInPerson(const PersonScores& person, std::size_t best) {
   std::vector<TTest> tests;
-  std::vector<double> difference;
   for (const ConditionScores& c : person.conditions)
-    if (!c.own.empty()) meanDifference(c, best, difference), tests.push_back(computeSerialTTest(difference));
+    if (!c.own.empty()) tests.push_back(computeSerialTTest(subtract(c.score[best], c.own)));
   return tests.empty() ? TTest{} : combineTTests(tests);
 }
 /// Of each condition of each person.
@@ -161,9 +152,8 @@ std::vector<TTest> towardsInPerson(const PersonScores& person, std::size_t best,
 }
 double meanMisfit(const PersonScores& person, std::size_t best) {
   double sum = 0;
-  std::vector<double> difference;
   for (const ConditionScores& c : person.conditions)
-    if (!c.own.empty()) sum += meanDifference(c, best, difference) / static_cast<double>(person.conditions.size());
+    if (!c.own.empty()) sum += averageOf(subtract(c.score[best], c.own)) / static_cast<double>(person.conditions.size());
   return sum;
 }
 

@@ -28,23 +28,19 @@ std::vector<SuccessCell> successTable(const std::vector<Attempt>& attempts) {
 
 std::vector<LearningPoint> learningCurves(const std::vector<Attempt>& attempts, int bin) {
   std::vector<LearningPoint> out;
-  const auto close = [](LearningPoint& point) { point.interval = computeBinomialInterval(point.successes, point.trials); };
   int counted = 0;
   for (const Attempt& attempt : attempts) {
     const bool sameSubject = !out.empty() && out.back().subject == attempt.subject && out.back().condition == attempt.condition;
     if (!sameSubject) counted = 0;
     ++counted;
     const bool open = sameSubject && out.back().session == attempt.session && out.back().trials < static_cast<std::size_t>(bin);
-    if (!open) {
-      if (!out.empty()) close(out.back());
-      out.push_back({attempt.subject, attempt.session, attempt.condition, counted, counted, 0, 0, {}});
-    }
+    if (!open) out.push_back({attempt.subject, attempt.session, attempt.condition, counted, counted, 0, 0, {}});
     LearningPoint& point = out.back();
     point.lastTrial = counted;
     ++point.trials;
     if (attempt.success) ++point.successes;
   }
-  if (!out.empty()) close(out.back());
+  for (LearningPoint& point : out) point.interval = computeBinomialInterval(point.successes, point.trials);
   return out;
 }
 
@@ -75,21 +71,25 @@ struct Estimates {
 
 struct Paired {
   Estimates points, logits;
-  void add(const SuccessCell& before, const SuccessCell& after) {
-    const Share a(before), b(after);
-    points.add(100 * (after.share() - before.share()), 1e4 * (a.variance() + b.variance()));
+  /// Adds nothing where one of the two is null.
+  void add(const SuccessCell* before, const SuccessCell* after) {
+    if (before == nullptr || after == nullptr) return;
+    const Share a(*before), b(*after);
+    points.add(100 * (after->share() - before->share()), 1e4 * (a.variance() + b.variance()));
     logits.add(b.logit() - a.logit(), a.logitVariance() + b.logitVariance());
   }
 };
 
-void judge(Effect& effect, const Paired& paired) {
+void addEffect(std::vector<Effect>& effects, Effect effect, const Paired& paired) {
   effect.people = paired.points.value.size();
+  if (effect.people == 0) return;
   const PeopleMean points = computePeopleMean(paired.points.value, paired.points.variance);
   const PeopleMean logits = computePeopleMean(paired.logits.value, paired.logits.variance);
   effect.points = points.test;
   effect.pointsInterval = points.interval;
   effect.logit = logits.test;
   effect.logitInterval = logits.interval;
+  effects.push_back(effect);
 }
 
 void correct(std::vector<Effect>& effects, bool ofDay) {
@@ -126,41 +126,28 @@ std::vector<Effect> effectsOf(const std::vector<SuccessCell>& cells, std::size_t
   std::set<std::string> subjects;
   for (const SuccessCell& cell : cells)
     days.insert(cell.day), subjects.insert(cell.subject), at[{cell.subject, cell.condition, cell.day}] = &cell;
+  const auto cellOf = [&](const std::string& subject, std::size_t condition, int day) {
+    const auto found = at.find({subject, condition, day});
+    return found == at.end() ? nullptr : found->second;
+  };
   for (std::size_t c = 0; c < conditions; ++c)
     for (auto day = days.begin(); day != days.end() && std::next(day) != days.end(); ++day) {
-      Effect effect;
-      effect.ofDay = true;
-      effect.condition = c;
-      effect.from = *day;
-      effect.to = *std::next(day);
+      const int from = *day, to = *std::next(day);
       Paired paired;
-      for (const std::string& subject : subjects) {
-        const auto before = at.find({subject, c, effect.from}), after = at.find({subject, c, effect.to});
-        if (before != at.end() && after != at.end()) paired.add(*before->second, *after->second);
-      }
-      if (paired.points.value.empty()) continue;
-      judge(effect, paired);
-      out.push_back(effect);
+      for (const std::string& subject : subjects) paired.add(cellOf(subject, c, from), cellOf(subject, c, to));
+      addEffect(out, {.ofDay = true, .condition = c, .from = from, .to = to}, paired);
     }
   for (std::size_t a = 0; a < conditions; ++a)
     for (std::size_t b = a + 1; b < conditions; ++b) {
-      Effect effect;
-      effect.from = static_cast<int>(a);
-      effect.to = static_cast<int>(b);
       Paired paired;  // one number a person: the mean over the days on which both were done
       for (const std::string& subject : subjects) {
         Paired own;
-        for (const int day : days) {
-          const auto first = at.find({subject, a, day}), second = at.find({subject, b, day});
-          if (first != at.end() && second != at.end()) own.add(*first->second, *second->second);
-        }
+        for (const int day : days) own.add(cellOf(subject, a, day), cellOf(subject, b, day));
         if (own.points.value.empty()) continue;
         paired.points.addMeanOf(own.points);
         paired.logits.addMeanOf(own.logits);
       }
-      if (paired.points.value.empty()) continue;
-      judge(effect, paired);
-      out.push_back(effect);
+      addEffect(out, {.from = static_cast<int>(a), .to = static_cast<int>(b)}, paired);
     }
   correct(out, true);
   correct(out, false);

@@ -59,10 +59,10 @@ struct Effect {
   std::size_t condition = 0;
   int from = 0, to = 0;
   std::size_t people = 0;
-  TTest points;  // in percentage points
-  Bounds pointsInterval;
-  TTest logit;
-  Bounds logitInterval;
+  TTest points = {};  // in percentage points
+  Bounds pointsInterval = {};
+  TTest logit = {};
+  Bounds logitInterval = {};
   double p = 1;  // of the logit, Holm-corrected over all effects of days, or of conditions
 };
 std::vector<Effect> effectsOf(const std::vector<SuccessCell>& cells, std::size_t conditions);

@@ -7,6 +7,12 @@
 
 namespace reachlab::analysis {
 
+std::vector<double> subtract(std::span<const double> a, std::span<const double> b) {
+  std::vector<double> apart(a.begin(), a.end());
+  for (std::size_t i = 0; i < apart.size(); ++i) apart[i] -= b[i];
+  return apart;
+}
+
 MeanSd computeMeanSd(std::span<const double> values) {
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   MeanSd out{0, kNone, 0};

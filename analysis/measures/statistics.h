@@ -10,6 +10,8 @@ namespace reachlab::analysis {
 
 inline double sumOf(std::span<const double> values) { return std::accumulate(values.begin(), values.end(), 0.0); }
 inline double averageOf(std::span<const double> values) { return sumOf(values) / static_cast<double>(values.size()); }
+/// Each value of `a` less that of `b` beside it.
+std::vector<double> subtract(std::span<const double> a, std::span<const double> b);
 
 /// Mean and sample standard deviation (n - 1) of the finite values. The mean of no values and the SD of fewer than two values are NaN.
 struct MeanSd {
