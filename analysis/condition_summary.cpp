@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/epsilon_table.h"
 #include "analysis/steps.h"
 #include "base/error.h"
 #include "sim/experiment/experiment.h"

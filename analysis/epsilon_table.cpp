@@ -1,8 +1,8 @@
-#include "analysis/epsilon_table.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
+
+#include "analysis/steps.h"
 
 namespace reachlab::analysis {
 
@@ -34,8 +34,7 @@ EpsilonTable makeEpsilonTable(std::span<const AnalyzedTrial> trials, std::size_t
       place.difference = place.epsilon - table.front().epsilon;
       continue;
     }
-    std::vector<double> differences(epsilon[place.criterion]);
-    for (std::size_t s = 0; s < differences.size(); ++s) differences[s] -= epsilon[table.front().criterion][s];
+    const std::vector<double> differences = subtract(epsilon[place.criterion], epsilon[table.front().criterion]);
     place.interval = computeMeanInterval(epsilon[place.criterion]);
     place.difference = computeTTest(differences).mean;
     if (&place == &table.front()) continue;

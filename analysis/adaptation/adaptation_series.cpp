@@ -1,8 +1,7 @@
-#include "analysis/adaptation/adaptation_series.h"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/adaptation/state_space.h"
 #include "base/csv_table.h"
 #include "base/fault.h"
 

@@ -2,9 +2,9 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <vector>
 
-#include "analysis/adaptation/adaptation_series.h"
 #include "analysis/measures/statistics.h"
 
 /// Trial-by-trial learning as one or two linear states (Smith, Ghazizadeh & Shadmehr 2006, PLoS Biology 4:e179). Pure functions for any
@@ -14,6 +14,16 @@
 ///
 /// x(n) is the response in trial n, before the error of that trial is learned. x(1) = 0.
 namespace reachlab::analysis {
+
+/// The trials of one person in order, in any one unit.
+struct AdaptationTrial {
+  std::optional<double> perturbation;  // none: a channel trial, which clamps the error to zero
+  std::optional<double> response;      // how far the person compensates in this trial, before its error is learned; none: not measured
+};
+using AdaptationSeries = std::vector<AdaptationTrial>;
+
+/// Columns `perturbation` (empty in channel trials) and `response` (empty where it is not known) of a CSV file. Throws FaultError.
+AdaptationSeries readAdaptationSeries(const std::string& file);
 
 /// The share of a state that is kept from one trial to the next, and the share of an error that is learned. Both are from 0 to 1.
 struct LearningState {

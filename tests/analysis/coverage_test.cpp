@@ -7,7 +7,7 @@
 #include <random>
 
 #include "analysis/conclusions/progress_model.h"
-#include "analysis/epsilon_table.h"
+#include "analysis/steps.h"
 
 /// How often the intervals that are printed hold the truth, over simulated studies of people who differ, by the program's own code.
 /// REACHLAB_STUDIES says how many a design (default 300; tests/long/coverage.sh asks for 4000) and the table is printed.
