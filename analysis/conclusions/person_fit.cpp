@@ -121,9 +121,7 @@ Bounds intervalOf(const std::vector<MassScore>& scores) {
   std::vector<double> excess(n, -1);  // t less half the quantile, in parts of it: above 0 outside the interval. At the best mass t is 0
   for (std::size_t k = 0; k < n; ++k) {
     if (k == best) continue;
-    std::vector<double> difference(scores[k].score);
-    for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= scores[best].score[i];
-    const TTest test = computeSerialTTest(difference);
+    const TTest test = computeSerialTTest(subtract(scores[k].score, scores[best].score));
     excess[k] = test.error > 0 && test.freedom > 0 ? test.t / (computeTQuantile(0.95, test.freedom) / 2) - 1 : test.mean > 0 ? 1 : -1;
   }
   const auto crossing = [&](std::size_t in, std::size_t out) {
@@ -188,13 +186,14 @@ MassFit fitMass(const Candidate& candidate, const ShapeFitter& fitter, const std
   return out;
 }
 
-}  // namespace
-
+/// Of one trial's residuals: sqrt(sum r^2 / N).   [m/s]
 double computeFittedEpsilon(std::span<const double> residual) {
   double sum = 0;
   for (const double r : residual) sum += r * r;
   return std::sqrt(sum / static_cast<double>(residual.size()));
 }
+
+}  // namespace
 
 PersonFit fitPerson(std::span<FitWindow> windows, std::span<const double> durations, const CandidateSet& set, bool keepApart) {
   PersonFit out;

@@ -60,7 +60,4 @@ struct PersonFit {
 /// written into the windows. At least kFewestTrials. `keepApart`: see makeTemplate.
 PersonFit fitPerson(std::span<FitWindow> windows, std::span<const double> durations, const CandidateSet& set, bool keepApart = false);
 
-/// Fitted epsilon of one trial, of its residuals at the samples of the window: sqrt(sum r^2 / N).   [m/s]
-double computeFittedEpsilon(std::span<const double> residual);
-
 }  // namespace reachlab::analysis

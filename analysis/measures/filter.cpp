@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/fault.h"
+#include "base/math/butterworth.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -23,8 +24,6 @@ void runFrom(const Biquad& s, double x0, std::vector<double>& signal) {
   }
 }
 
-}  // namespace
-
 std::vector<double> filterBothWays(const Biquad& section, std::span<const double> signal) {
   const std::size_t n = signal.size();
   if (n < 2) return {signal.begin(), signal.end()};
@@ -40,6 +39,8 @@ std::vector<double> filterBothWays(const Biquad& section, std::span<const double
   }
   return {x.begin() + static_cast<std::ptrdiff_t>(pad), x.end() - static_cast<std::ptrdiff_t>(pad)};
 }
+
+}  // namespace
 
 std::vector<double> lowPass(std::span<const double> signal, double rate, double cutoff) {
   if (cutoff == 0) return {signal.begin(), signal.end()};

@@ -58,17 +58,15 @@ constexpr Measure kMeasures[] = {
     {"adaptation_r2", "R² of that share, without an intercept", &TrialMeasures::adaptationR2, "R² of the adaptation", 1, 2},
 };
 
-double component(const Vec3& v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
-
 std::vector<Vec3> filteredVelocity(const std::vector<Vec3>& position, double rate, double cutoff) {
   std::vector<Vec3> velocity(position.size());
   std::vector<double> x(position.size());
-  for (int axis = 0; axis < 3; ++axis) {
-    for (std::size_t i = 0; i < x.size(); ++i) x[i] = component(position[i], axis);
+  for (double Vec3::*component : {&Vec3::x, &Vec3::y, &Vec3::z}) {
+    for (std::size_t i = 0; i < x.size(); ++i) x[i] = position[i].*component;
     // The velocity is filtered, not the position: a trial ends while the hand still moves, and the filter continues a signal beyond its
     // end by turning it about the end point, which keeps the slope of a velocity but would flatten that of a position.
     const std::vector<double> v = lowPass(differentiate(x, rate), rate, cutoff);
-    for (std::size_t i = 0; i < x.size(); ++i) (axis == 0 ? velocity[i].x : axis == 1 ? velocity[i].y : velocity[i].z) = v[i];
+    for (std::size_t i = 0; i < x.size(); ++i) velocity[i].*component = v[i];
   }
   return velocity;
 }

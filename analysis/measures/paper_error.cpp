@@ -65,20 +65,15 @@ TrialProfile makeTrialProfile(const TrialData& trial, const TrialSignals& signal
   return out;
 }
 
-double computeRmsError(std::span<const double> predicted, std::span<const double> measured) {
-  const std::size_t n = std::min(predicted.size(), measured.size());
-  if (n == 0) return kNotMeasured;
-  double sum = 0;
-  for (std::size_t i = 0; i < n; ++i) sum += (predicted[i] - measured[i]) * (predicted[i] - measured[i]);
-  return std::sqrt(sum / static_cast<double>(n));
-}
-
 PaperError computePaperError(const TrialProfile& trial, const PredictedSignal& predicted) {
   if (trial.hand.empty()) return {kNotMeasured, kNotMeasured};
   const double duration = durationUntil(predicted, trial.endLevel), scale = trial.duration / duration;
   const auto error = [&](const std::vector<double>& signal, std::vector<double> measured) {
     for (double& v : measured) v *= scale;
-    return computeRmsError(normaliseTime(signal, predicted.rate, predicted.onset, predicted.onset + duration), measured);
+    const std::vector<double> wanted = normaliseTime(signal, predicted.rate, predicted.onset, predicted.onset + duration);
+    double sum = 0;
+    for (std::size_t i = 0; i < kProfilePoints; ++i) sum += (wanted[i] - measured[i]) * (wanted[i] - measured[i]);
+    return std::sqrt(sum / static_cast<double>(kProfilePoints));
   };
   return {error(predicted.hand, trial.hand), error(predicted.object, trial.object)};
 }

@@ -45,7 +45,4 @@ struct PaperError {
 };
 PaperError computePaperError(const TrialProfile& trial, const PredictedSignal& predicted);
 
-/// The paper's formula itself. Both arrays have the same length. NaN for empty arrays.
-double computeRmsError(std::span<const double> predicted, std::span<const double> measured);
-
 }  // namespace reachlab::analysis

@@ -64,10 +64,8 @@ RecordingFilter::RecordingFilter(double cutoff, double rate) : cutoff_(cutoff), 
 }
 
 double RecordingFilter::gain(double frequency) const {
-  if (!active()) return 1;
-  const double f = std::abs(frequency);
-  if (f >= rate_ / 2) return 0;
-  const double ratio = std::tan(std::numbers::pi * f / rate_) / std::tan(std::numbers::pi * cutoff_ / rate_);
+  if (frequency >= rate_ / 2) return 0;
+  const double ratio = std::tan(std::numbers::pi * frequency / rate_) / std::tan(std::numbers::pi * cutoff_ / rate_);
   return 1 / (1 + ratio * ratio * ratio * ratio);
 }
 
@@ -87,7 +85,7 @@ std::vector<double> RecordingFilter::apply(std::span<const double> signal, doubl
   const std::size_t n = signal.size();
   std::vector<double> out(n + 2 * margin, 0.0);
   if (n < 2) return out;
-  if (!active()) {
+  if (cutoff_ == 0) {
     std::copy(signal.begin(), signal.end(), out.begin() + static_cast<std::ptrdiff_t>(margin));
     return out;
   }

@@ -12,21 +12,16 @@ class RecordingFilter {
   /// `cutoff` [Hz], with 0 for no filter, and `rate` [Hz] of the recording. Throws FaultError unless 0 <= cutoff < rate / 2.
   RecordingFilter(double cutoff, double rate);
 
-  bool active() const { return cutoff_ > 0; }
-  double cutoff() const { return cutoff_; }
-  double rate() const { return rate_; }
-  /// |H(f)|^2, f in Hz.
-  double gain(double frequency) const;
   /// The lag [s] beyond which the kernel is below 1e-6 of its peak. 0 without a filter.
   double reach() const { return reach_; }
-  /// Impulse response at a lag of `seconds` [1/s].
-  double kernel(double seconds) const;
 
   /// `signal` is known on [0, duration] at equally spaced instants, its ends being inner limits (it may jump there), and is 0 elsewhere.
   /// The filtered signal at the same instants and `margin` steps of the same size on either side of them.
   std::vector<double> apply(std::span<const double> signal, double duration, std::size_t margin) const;
 
  private:
+  double gain(double frequency) const;  // |H(f)|^2, f >= 0 in Hz
+  double kernel(double seconds) const;  // impulse response at a lag [1/s]
   double cutoff_ = 0, rate_ = 0, reach_ = 0, step_ = 0;
   std::vector<double> table_;  // kernel at 0, step_, 2 step_ … and a few beyond reach_
 };
