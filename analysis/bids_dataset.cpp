@@ -125,16 +125,12 @@ record::SampleRows readMotion(const fs::path& path, std::size_t columns) {
   return rows;
 }
 
-trial::Outcome outcomeFrom(const std::string& text) {
-  for (const trial::Outcome o : {trial::Outcome::Success, trial::Outcome::Failure, trial::Outcome::Aborted, trial::Outcome::Interrupted})
-    if (nameOf(o) == text) return o;
-  return trial::Outcome::None;
-}
-
-trial::Reason reasonFrom(const std::string& text) {
-  for (int i = 0; i <= static_cast<int>(trial::kLastReason); ++i)
-    if (!text.empty() && nameOf(static_cast<trial::Reason>(i)) == text) return static_cast<trial::Reason>(i);
-  return trial::Reason::None;
+/// The value of that name. None for any other text.
+template <class Named>
+Named fromName(std::string_view name, Named last) {
+  for (int i = 0; i <= static_cast<int>(last); ++i)
+    if (nameOf(static_cast<Named>(i)) == name) return static_cast<Named>(i);
+  return Named::None;
 }
 
 // Tables from before there were kinds have no such columns.
@@ -182,8 +178,8 @@ record::RecordedTrial trialOf(const EventRow& row, const record::SampleRows& row
   record::RecordedTrial trial;
   trial.trial = row.count("trial");
   trial.planned.catchTrial = row.text("trial_type") == "catch";
-  trial.result.outcome = outcomeFrom(row.text("outcome"));
-  trial.result.reason = reasonFrom(row.text("reason"));
+  trial.result.outcome = fromName(row.text("outcome"), trial::Outcome::Interrupted);
+  trial.result.reason = fromName(row.text("reason"), trial::kLastReason);
   trial.result.mass = row.count("mass");
   trial.result.by = row.number("by");
   const double movement = row.number("movement_time");

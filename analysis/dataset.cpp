@@ -172,46 +172,27 @@ BidsExperiments readBidsExperiments(const RunSource& run, const std::string& fol
 
 namespace {
 
-/// A run that fails half-way is taken back: its trials, and what the index says because of it.
-class WholeRun {
- public:
-  WholeRun(DatasetIndex& index, const TrialSink& sink)
-      : index_(index), sink_(sink), conditions_(index.conditions.size()), runs_(index.runs.size()), notes_(index.notes.size()) {}
-
-  void add(const RunSource& run, std::span<const experiment::CompiledExperiment> scenes) {
-    addRun(run, scenes, index_,
-           {[this](TrialData&& trial, std::size_t condition) {
-              ++trials_;
-              handing_ = true;
-              sink_.add(std::move(trial), condition);
-              handing_ = false;
-            },
-            {}});
-  }
-  /// It was not the reading that failed.
-  bool refused() const { return handing_; }
-  void takeBack() {
-    if (trials_ > 0) sink_.takeBack(std::exchange(trials_, 0));
-    index_.conditions.erase(index_.conditions.begin() + static_cast<std::ptrdiff_t>(conditions_), index_.conditions.end());
-    index_.runs.resize(runs_);
-    index_.notes.resize(notes_);
-  }
-
- private:
-  DatasetIndex& index_;
-  const TrialSink& sink_;
-  std::size_t conditions_, runs_, notes_, trials_ = 0;
-  bool handing_ = false;
-};
-
 void readLogs(const std::vector<std::string>& logs, DatasetIndex& dataset, const TrialSink& sink, const DatasetProgress& progress) {
   ScenesOfRuns parsed;
   EqualRuns equalRuns;
   for (std::size_t i = 0; i < logs.size(); ++i) {
     if (progress) progress(i, logs.size(), logs[i]);
-    WholeRun whole(dataset, sink);
+    const std::size_t conditions = dataset.conditions.size(), runs = dataset.runs.size(), notes = dataset.notes.size();
+    std::size_t trials = 0;
+    bool handing = false;  // a trial to the sink: if that fails, it is not the reading
+    const TrialSink counted{[&](TrialData&& trial, std::size_t condition) {
+                              ++trials;
+                              handing = true;
+                              sink.add(std::move(trial), condition);
+                              handing = false;
+                            },
+                            {}};
+    // A run that fails half-way is taken back: its trials, and what the index says because of it.
     const auto leaveOut = [&](const Error& error) {
-      whole.takeBack();
+      if (trials > 0) sink.takeBack(trials);
+      dataset.conditions.erase(dataset.conditions.begin() + static_cast<std::ptrdiff_t>(conditions), dataset.conditions.end());
+      dataset.runs.resize(runs);
+      dataset.notes.resize(notes);
       equalRuns.forget(logs[i]);
       dataset.notes.push_back(fmt::format("{}: left out: {}", logs[i], error.what()));
     };
@@ -229,12 +210,13 @@ void readLogs(const std::vector<std::string>& logs, DatasetIndex& dataset, const
             fmt::format("{}: {} of {} trials repeat an earlier one exactly (a hand without noise, or a reach replayed again); they count",
                         logs[i], repeats, log.trials().size()));
       const record::RunMarks marks = record::readMarks(log);
-      whole.add({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, marks}, scenes);
+      addRun({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, marks}, scenes, dataset,
+             counted);
       dataset.runs.back().file = logs[i];
       if (const std::string loss = record::lossOf(log); !loss.empty()) dataset.notes.push_back(loss);
       else if (!log.healthy()) dataset.notes.push_back(logs[i] + ": is being recorded into; read to its last record");
     } catch (const ResourceError& error) {
-      if (whole.refused()) throw;
+      if (handing) throw;
       leaveOut(error);
       dataset.unreadable.emplace_back(error.what());
     } catch (const Error& error) {
