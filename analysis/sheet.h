@@ -74,7 +74,6 @@ std::string sheetText(const char* file, const Content& content, void (*fill)(con
 // The tables, a file for each kind.
 void writeTrialTables(const Analysis& analysis, const TableWriter& write);
 void writeConditionTables(const Analysis& analysis, const TableWriter& write);
-void writeProgressTables(const Analysis& analysis, const TableWriter& write);
 /// Writes nothing where no trial has a trained field or a rotated cursor.
 void writeAdaptationTable(const Analysis& analysis, const TableWriter& write);
 

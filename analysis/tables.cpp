@@ -18,12 +18,13 @@ std::vector<FitRow> fitRows(const Analysis& analysis) {
     const auto& candidates = analysis.results[person.condition].candidates.candidates;
     for (std::size_t k = 0; k < candidates.size(); ++k) {
       const CandidateFit& fit = person.fit.candidates[k];
-      FitRow row;
+      const std::vector<predict::Criterion>& criteria = candidates[k].criteria;
+      const Conclusion& c = person.conclusion;
+      FitRow& row = rows.emplace_back();
       row.subject = person.subject;
       row.condition = analysis.conditions[person.condition].name;
-      row.criterion = nameOfCandidate(candidates[k].criteria);
-      for (std::size_t i = 1; i < candidates[k].criteria.size(); ++i)
-        row.equivalent.emplace_back(predict::nameOf(candidates[k].criteria[i]));
+      row.criterion = nameOfCandidate(criteria);
+      for (std::size_t i = 1; i < criteria.size(); ++i) row.equivalent.emplace_back(predict::nameOf(criteria[i]));
       row.epsilon = fit.epsilonOfAll;
       row.r2 = fit.r2;
       row.score = fit.meanScore;
@@ -35,12 +36,11 @@ std::vector<FitRow> fitRows(const Analysis& analysis) {
       if (fit.mass) row.massInterval = fit.mass->interval, row.massAtEdge = fit.mass->atEdge;
       row.misfit = fit.meanScore - person.fit.own.ceilingScore;
       row.systematic = fit.systematic;
-      if (const Conclusion& c = person.conclusion; c.best == k && c.mixedWith)
+      if (c.best == k && c.mixedWith)
         row.toward = nameOfCandidate(candidates[*c.mixedWith].criteria), row.towardShare = c.mixture.mean, row.towardP = c.mixtureP;
       row.trials = person.trials;
-      row.decided = person.conclusion.follows == k;
-      row.reason = nameOf(person.conclusion.reason);
-      rows.push_back(std::move(row));
+      row.decided = c.follows == k;
+      row.reason = nameOf(c.reason);
     }
   }
   return rows;
@@ -64,7 +64,6 @@ PredictedCurve curveOf(const ConditionResult& result, std::size_t criterion) {
 void writeTables(const Analysis& analysis, const TableWriter& write) {
   writeTrialTables(analysis, write);
   writeConditionTables(analysis, write);
-  writeProgressTables(analysis, write);
   writeAdaptationTable(analysis, write);
 }
 
