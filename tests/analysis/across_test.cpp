@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "base/math/minimum_jerk.h"
 #include "sim/experiment/experiment.h"
@@ -13,11 +12,10 @@ namespace {
 
 constexpr double kB = 13, kDuration = 0.5;  // [N s/m], [s]
 constexpr experiment::SquareMatrix<3> kCurl{{{0, 0, kB}, {0, 0, 0}, {-kB, 0, 0}}};
-const Vec3 kForward{0, 0, -1}, kRight{1, 0, 0};
+const Vec3 kForward{0, 0, -1};
 
-/// A minimum-jerk reach of 10 cm forward at 1 kHz, 0.1 s after arming, bent to the right by `bend` at its middle and turned
-/// counterclockwise by `degrees`.
-TrialData reachOf(double bend, double degrees = 0) {
+/// A minimum-jerk reach of 10 cm forward at 1 kHz, 0.1 s after arming.
+TrialData straightReach() {
   TrialData trial;
   trial.rate = 1000;
   trial.taskOnset = 0.1;
@@ -25,12 +23,10 @@ TrialData reachOf(double bend, double degrees = 0) {
   trial.start = {0.2, 0.1, 0};
   trial.target = trial.start + 0.1 * kForward;
   trial.along = {kForward};
-  const double turn = degrees * std::numbers::pi / 180;
-  const Vec3 along = std::cos(turn) * kForward - std::sin(turn) * kRight, right = std::cos(turn) * kRight + std::sin(turn) * kForward;
   for (int i = 0; i <= 600; ++i) {
-    const double x = std::clamp((i / 1000.0 - 0.1) / kDuration, 0.0, 1.0), way = minimumJerk(x), rate = minimumJerkRate(x) / kDuration;
-    trial.hand.push_back(trial.start + 0.1 * way * along + bend * std::sin(std::numbers::pi * way) * right);
-    trial.velocity.push_back(0.1 * rate * along + bend * std::numbers::pi * std::cos(std::numbers::pi * way) * rate * right);
+    const double x = std::clamp((i / 1000.0 - 0.1) / kDuration, 0.0, 1.0);
+    trial.hand.push_back(trial.start + 0.1 * minimumJerk(x) * kForward);
+    trial.velocity.push_back(0.1 * minimumJerkRate(x) / kDuration * kForward);
   }
   return trial;
 }
@@ -41,33 +37,9 @@ TrialMeasures measured(const TrialData& trial) {
   return m;
 }
 
-TEST(MeasuresAcross, ADeviationIsPositiveToTheRightOfTheWay) {
-  for (const double bend : {0.02, -0.02}) {
-    const TrialMeasures m = measured(reachOf(bend));
-    EXPECT_NEAR(m.maxPerpendicular, bend, 1e-12) << "half of a sine has its largest value in the middle";
-    EXPECT_NEAR(m.perpendicularAtPeakSpeed, bend, 1e-12) << "where the reach is fastest";
-  }
-  EXPECT_NEAR(measured(reachOf(0)).maxPerpendicular, 0, 1e-15);
-}
-
-TEST(MeasuresAcross, AHandThatUndoesARotationHasItsAngle) {
-  for (const double degrees : {-30.0, 15.0, 45.0}) {
-    const TrialMeasures m = measured(reachOf(0, degrees));
-    EXPECT_NEAR(m.handAngle, degrees, 1e-9);
-    EXPECT_NEAR(m.handAngleAtRadius, degrees, 1e-9);
-    EXPECT_NEAR(m.maxPerpendicular, -0.1 * std::sin(degrees * std::numbers::pi / 180), 1e-12);
-  }
-}
-
-TEST(MeasuresAcross, AHandThatDoesNotReachTheRadiusHasNoAngleThere) {
-  TrialData trial = reachOf(0);
-  trial.target = trial.start + 0.2 * kForward;
-  EXPECT_TRUE(std::isnan(measured(trial).handAngleAtRadius));
-}
-
 /// The channel returns this share of the force that cancels a curl field, to the right.
 TrialData pressedInAChannel(double share) {
-  TrialData trial = reachOf(0);
+  TrialData trial = straightReach();
   trial.scene.channel = true;
   trial.scene.trained = kCurl;
   for (const Vec3& v : trial.velocity) trial.environment.push_back(share * Vec3{kB * v.z, 0, -kB * v.x});
@@ -110,13 +82,13 @@ TEST(MeasuresAcross, ALeakIsCountedOnAllSidesOfTheLine) {
 }
 
 TEST(MeasuresAcross, ThereIsNoneOnABentWayOrWithoutAMovement) {
-  TrialData trial = reachOf(0.02);
+  TrialData trial = straightReach();
   trial.along.push_back(kForward);
   EXPECT_TRUE(std::isnan(measured(trial).maxPerpendicular));
-  trial = reachOf(0.02);
+  trial = straightReach();
   trial.taskOnset = kNotMeasured;
   EXPECT_TRUE(std::isnan(measured(trial).maxPerpendicular));
-  trial = reachOf(0.02);
+  trial = straightReach();
   trial.scene.normal = kForward;
   EXPECT_TRUE(std::isnan(measured(trial).maxPerpendicular)) << "in this plane the way has no right";
 }

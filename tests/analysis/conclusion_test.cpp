@@ -71,15 +71,6 @@ TEST(Conclusion, OfFivePeopleWhoAgreeIsDecided) {
   EXPECT_EQ(concludePeople(people(6, 2, 0.8), kCandidates, kReference).signFlipP, 2.0 / 64);
 }
 
-TEST(Conclusion, OfTwoCampsIsNeverDecided) {
-  std::mt19937_64 random(3);
-  std::vector<PersonScores> camps;
-  for (int i = 0; i < 5; ++i) camps.push_back(person(random, i < 3 ? 0 : 1, 2));
-  const Conclusion c = concludePeople(camps, kCandidates, kReference);
-  EXPECT_FALSE(c.decided());
-  EXPECT_EQ(c.reason, Obstacle::SubjectsDiffer);
-}
-
 TEST(Conclusion, ThatTheReferenceIsAsNearIsNone) {
   EXPECT_EQ(concludePeople(people(5, kReference, 1), kCandidates, kReference).reason, Obstacle::Reference);
   EXPECT_EQ(concludePeople(people(1, kReference, 1), kCandidates, kReference).reason, Obstacle::Reference);

@@ -8,34 +8,6 @@
 namespace reachlab::analysis {
 namespace {
 
-constexpr double kPublishedDigits = 5e-6;  // the known values are given to five decimals
-
-std::vector<double> gaussian() {  // exp(-5 t^2), t = -1 … 0.99, step 0.01
-  std::vector<double> v;
-  for (int i = 0; i < 200; ++i) v.push_back(std::exp(-5 * std::pow(-1 + 0.01 * i, 2)));
-  return v;
-}
-
-std::vector<double> minimumJerk(double duration, double rate) {  // 0.2 m
-  std::vector<double> v;
-  const int n = static_cast<int>(std::lround(duration * rate));
-  for (int i = 0; i <= n; ++i) {
-    const double s = static_cast<double>(i) / n;
-    v.push_back(30 * 0.2 / duration * s * s * (1 - s) * (1 - s));
-  }
-  return v;
-}
-
-TEST(Sparc, HasItsKnownValues) {
-  EXPECT_NEAR(computeSparc(gaussian(), 100), -1.41403, kPublishedDigits);
-  EXPECT_NEAR(computeSparc(minimumJerk(1.35, 100), 100), -1.40255, kPublishedDigits);
-}
-
-TEST(LogDimensionlessJerk, HasItsKnownValues) {
-  EXPECT_NEAR(computeLogDimensionlessJerk(gaussian(), 100), -5.81636, kPublishedDigits);
-  EXPECT_NEAR(computeLogDimensionlessJerk(minimumJerk(1.35, 100), 100), -5.30722, kPublishedDigits);
-}
-
 TEST(Smoothness, NeedsSamplesARateAndFiniteSpeeds) {
   const std::vector<double> bell{0, 2, 5, 1}, one{3}, infinite{0, INFINITY, 1};
   EXPECT_TRUE(std::isnan(computeSparc(one, 100)));

@@ -42,8 +42,6 @@ TEST(Chunk, ReadsBackAsItWasWritten) {
   plain.profiles.clear();
   writeChunk(folder.path(), 0, 99, plain);
   EXPECT_TRUE(readChunk(folder.path(), 0, 99).profiles.empty());
-  const ChunkRows fresh;
-  EXPECT_TRUE(fresh.rows == 0 && fresh.columns == 0);
 }
 
 TEST(Chunk, OfAnotherStudyOrPlaceIsRefused) {
