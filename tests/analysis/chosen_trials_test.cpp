@@ -8,7 +8,6 @@
 
 #include "analysis/dataset.h"
 #include "base/fault.h"
-#include "sim/record/export/bids.h"
 #include "sim/record/trial_marks.h"
 #include "tests/analysis/recorded.h"
 #include "tests/analysis/whole_dataset.h"
@@ -60,12 +59,7 @@ TEST(ChosenTrials, OfADatasetWithoutLogsAreThoseOfItsLogs) {
   const TemporaryFolder folder;
   const std::string log = recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 3});
   const AnalysisInput before = readChosen(std::vector<ChosenTrials>{{log, {1, 3}}});
-  {
-    std::vector<record::RunLog> runs;
-    runs.push_back(record::RunLog::open(log));
-    record::writeBids(runs, folder.path());
-  }
-  std::filesystem::remove_all(folder.path() + "/sourcedata");
+  removeLogs(folder.path(), log);
   const record::TrialIndex index = indexMotionFiles(folder.path());
   ASSERT_EQ(index.runs.size(), 1u) << (index.unreadable.empty() ? "" : index.unreadable.front());
   EXPECT_EQ(index.runs[0].subject, "01");

@@ -14,8 +14,6 @@
 #include "analysis/trials/experiment_difference.h"
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
-#include "sim/record/export/bids.h"
-#include "sim/record/export/column_dictionary.h"
 #include "sim/record/log/whole_file.h"
 #include "test_paths.h"
 #include "tests/analysis/recorded.h"
@@ -34,12 +32,11 @@ AnalysisOptions quick() {
   return options;
 }
 
-// What is left of a dataset when nobody has kept its logs.
-void writeDatasetWithoutLogs(const std::string& folder, const std::string& log) {
-  std::vector<record::RunLog> runs;
-  runs.push_back(record::RunLog::open(log));
-  record::writeBids(runs, folder);
-  std::filesystem::remove_all(folder + "/sourcedata");
+/// The exported file of a run whose name ends so.
+std::string fileOf(const std::string& folder, const std::string& ending) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    if (entry.path().string().ends_with(ending)) return entry.path().string();
+  return "no such file";
 }
 
 std::string textOfNumber(double value) { return nlohmann::ordered_json(value).dump(); }
@@ -111,48 +108,29 @@ TEST(Differences, AreOfWhatIsAskedAndNotOfHowItIsWritten) {
   EXPECT_EQ(differences(e, other), (std::vector<std::string>{"masses 5 x 0.5 kg", "tolerance velocity 0.02 m/s", "no coupling"}));
 }
 
-TEST(Dataset, WithoutLogsIsReadFromItsBidsFiles) {
-  const TemporaryFolder folder;
-  const std::string log = recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 12});
-  const Analysis fromLog = analyzeTrials(openDataset(folder.path()).input, quick());
-  writeDatasetWithoutLogs(folder.path(), log);
-  const Dataset dataset = openDataset(folder.path());
-  ASSERT_EQ(dataset.notes.size(), 1u);
-  EXPECT_NE(dataset.notes[0].find("code/experiments"), std::string::npos) << "not the experiment that is shipped now: " << dataset.notes[0];
-  const Analysis fromBids = analyzeTrials(dataset.input, quick());
-  ASSERT_EQ(fromBids.trials.size(), fromLog.trials.size());
-  // Every number the same to the last bit: the rows are the same, and events say when each trial was armed, left and ended.
-  EXPECT_EQ(tablesOf(fromLog), tablesOf(fromBids));
-}
-
 TEST(Dataset, WhoseEventsAreNoTableOfEventsIsRefusedAndNotARunWithoutTrials) {
   const TemporaryFolder folder;
-  writeDatasetWithoutLogs(folder.path(), recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2}));
+  removeLogs(folder.path(), recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2}));
   ASSERT_EQ(analyzeTrials(openDataset(folder.path()).input, quick()).trials.size(), 2u);
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path()))
-    if (entry.path().filename().string().ends_with("_events.tsv"))
-      for (const std::string& text :
-           {std::string(), std::string(2000, '\xff'), std::string(2000, '\0'), std::string("onset\tduration\n")}) {
-        std::ofstream(entry.path(), std::ios::binary) << text;
-        EXPECT_THROW(analyzeTrials(openDataset(folder.path()).input, quick()), FaultError) << text.substr(0, 40);
-      }
+  const std::string events = fileOf(folder.path(), "_events.tsv");
+  for (const std::string& text : {std::string(), std::string(2000, '\xff'), std::string(2000, '\0'), std::string("onset\tduration\n")}) {
+    std::ofstream(events, std::ios::binary) << text;
+    EXPECT_THROW(analyzeTrials(openDataset(folder.path()).input, quick()), FaultError) << text.substr(0, 40);
+  }
 }
 
 // Each dataset below was read as if nothing had happened: other units, another order, and decimal commas.
 TEST(Dataset, OfBidsFilesThatAnotherProgramHasChangedIsRefusedWhereItsNumbersWouldBeOthers) {
   const TemporaryFolder folder;
-  writeDatasetWithoutLogs(folder.path(), recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2}));
+  removeLogs(folder.path(), recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2}));
   const auto refusalOf = [&](const std::string& ending, const std::regex& text, const std::string& instead) -> std::string {
-    for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path())) {
-      if (!entry.path().string().ends_with(ending)) continue;
-      const std::string before = record::readWholeFile(entry.path().string()), after = std::regex_replace(before, text, instead);
-      EXPECT_NE(before, after);
-      std::ofstream(entry.path(), std::ios::binary) << after;
-      const std::string refusal = reachlab::refusalOf<FaultError>([&] { (void)analyzeTrials(openDataset(folder.path()).input, quick()); });
-      std::ofstream(entry.path(), std::ios::binary) << before;
-      return refusal;
-    }
-    return "no such file";
+    const std::string file = fileOf(folder.path(), ending), before = record::readWholeFile(file);
+    const std::string after = std::regex_replace(before, text, instead);
+    EXPECT_NE(before, after);
+    std::ofstream(file, std::ios::binary) << after;
+    const std::string refusal = reachlab::refusalOf<FaultError>([&] { (void)analyzeTrials(openDataset(folder.path()).input, quick()); });
+    std::ofstream(file, std::ios::binary) << before;
+    return refusal;
   };
   EXPECT_EQ(refusalOf("_motion.tsv", std::regex("\n"), "\r\n"), "") << "the ends of lines are no number";
   EXPECT_NE(refusalOf("_channels.tsv", std::regex("\tm\t"), "\tmm\t").find("hand_pos_x in m"), std::string::npos);
@@ -165,19 +143,16 @@ TEST(Dataset, OfBidsFilesThatAnotherProgramHasChangedIsRefusedWhereItsNumbersWou
 // The sidecar says how often rows come, or else their times do; a single row has none to tell it by.
 TEST(Dataset, OfBidsFilesThatDoNotSayHowOftenHasTheRateOfItsRows) {
   const TemporaryFolder folder;
-  writeDatasetWithoutLogs(folder.path(), recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 1}));
-  std::filesystem::path motion;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder.path())) {
-    const std::string name = entry.path().string();
-    if (name.ends_with("_motion.tsv")) motion = entry.path();
-    if (!name.ends_with("_motion.json")) continue;
-    auto about = nlohmann::json::parse(std::ifstream(entry.path()));
-    about.at("SamplingFrequency") = 0.5;
-    std::ofstream(entry.path()) << about.dump();
-    EXPECT_EQ(openDataset(folder.path()).runs.at(0).configuration.samplingHz, 0.5) << "said, however slow";
-    ASSERT_EQ(about.erase("SamplingFrequency"), 1u);
-    std::ofstream(entry.path()) << about.dump();
-  }
+  removeLogs(folder.path(), recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 1}));
+  const std::string motion = fileOf(folder.path(), "_motion.tsv"), sidecar = fileOf(folder.path(), "_motion.json");
+  auto about = nlohmann::json::parse(std::ifstream(sidecar));
+  about.at("SamplingFrequency") = 0.5;
+  std::ofstream(sidecar) << about.dump();
+  const Dataset slow = openDataset(folder.path());
+  EXPECT_EQ(slow.runs.at(0).configuration.samplingHz, 0.5) << "said, however slow";
+  EXPECT_NE(slow.notes.at(0).find("code/experiments"), std::string::npos) << "not the shipped experiment: " << slow.notes[0];
+  ASSERT_EQ(about.erase("SamplingFrequency"), 1u);
+  std::ofstream(sidecar) << about.dump();
   EXPECT_EQ(openDataset(folder.path()).runs.at(0).configuration.samplingHz, 100);
   std::ifstream rows(motion);
   std::string first, second;
@@ -229,11 +204,11 @@ TEST(Analysis, WritesTheSameBytesEachTimeAndEveryNumberOfAFigure) {
   const ReportHeader header{"dataset", "0.1.0", "reach analyze dataset"};
   const AnalysisFiles first = writeAnalysis(analysis, dataset, header, folder.path() + "/one");
   const AnalysisFiles second = writeAnalysis(analysis, dataset, header, folder.path() + "/two");
-  ASSERT_EQ(first.tables.size(), second.tables.size());
-  for (std::size_t i = 0; i < first.tables.size(); ++i)
-    EXPECT_EQ(record::readWholeFile(first.tables[i]), record::readWholeFile(second.tables[i]));
-  for (std::size_t i = 0; i < first.figures.size(); ++i)
-    EXPECT_EQ(record::readWholeFile(first.figures[i]), record::readWholeFile(second.figures[i]));
+  for (const auto member : {&AnalysisFiles::tables, &AnalysisFiles::figures}) {
+    ASSERT_EQ((first.*member).size(), (second.*member).size());
+    for (std::size_t i = 0; i < (first.*member).size(); ++i)
+      EXPECT_EQ(record::readWholeFile((first.*member)[i]), record::readWholeFile((second.*member)[i]));
+  }
   const std::string report = record::readWholeFile(first.report);
   EXPECT_EQ(report, record::readWholeFile(second.report));
 
@@ -276,21 +251,6 @@ TEST(Analysis, WrittenByThreeAtOnceIsOneOfThem) {
       methods.push_back(words);
     }
     EXPECT_EQ(methods.size(), 1u);
-  }
-}
-
-TEST(Analysis, ExplainsEveryColumnOfEveryTable) {
-  const TemporaryFolder folder;
-  recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2});
-  const Dataset dataset = openDataset(folder.path());
-  const Analysis analysis = analyzeTrials(dataset.input, quick());
-  for (const std::string& table : writeAnalysis(analysis, dataset, {"d", "0", "c"}, folder.path() + "/out").tables) {
-    const std::string csv = record::readWholeFile(table);
-    const auto dictionary = nlohmann::json::parse(record::readWholeFile(record::dictionaryPathOf(table)));
-    EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.begin() + static_cast<std::ptrdiff_t>(csv.find('\n')), ',')) + 1,
-              dictionary.size())
-        << table;
-    for (const auto& [column, entry] : dictionary.items()) EXPECT_NE(entry.at("Description"), "") << table << ": " << column;
   }
 }
 

@@ -38,6 +38,17 @@ FitWindow recorded(const ProfileFamily& family, double duration, double onset, d
   return window;
 }
 
+/// One person's recordings.
+struct Recordings {
+  std::vector<FitWindow> windows;
+  std::vector<double> durations;
+  std::vector<double>& add(FitWindow window, double duration) {
+    durations.push_back(duration);
+    return windows.emplace_back(std::move(window)).velocity;
+  }
+  PersonFit fit(const CandidateSet& set) { return fitPerson(windows, durations, set); }
+};
+
 TEST(RecordingFilter, IsWhatTheDigitalFilterDoesToSamples) {
   // A minimum jerk of 0.8 s, sampled at 1 kHz and filtered there both ways, against the filter of the function.
   const double T = 0.8, rate = 1000;
@@ -82,16 +93,14 @@ TEST(ProfileFamily, OfTorqueChangeIsExactThoughItsPredictionsStartFromOneAnother
 
 /// Trials of one plan run faster or slower (stretched), or planned anew for each duration; no scatter but of the durations.
 PersonFit fitOf(const CandidateSet& set, std::size_t truth, std::size_t family, bool onePlan, double T) {
-  std::vector<FitWindow> windows;
-  std::vector<double> durations;
+  Recordings trials;
   std::mt19937_64 random(5);
   for (int i = 0; i < 10; ++i) {
     const double stretch = 0.9 + 0.2 * std::generate_canonical<double, 53>(random);
-    windows.push_back(onePlan ? recorded(*set.candidates[truth].families[family], T, 0.5, 0.2 / T / stretch, stretch)
-                              : recorded(*set.candidates[truth].families[family], T * stretch, 0.5, 0.2 / T / stretch));
-    durations.push_back(0.95 * T * stretch);
+    trials.add(recorded(*set.candidates[truth].families[family], onePlan ? T : T * stretch, 0.5, 0.2 / T / stretch, onePlan ? stretch : 1),
+               0.95 * T * stretch);
   }
-  return fitPerson(windows, durations, set);
+  return trials.fit(set);
 }
 
 TEST(PersonFit, WithoutScatterPutsTheTruthFirstForEveryCriterionAndTimeLaw) {
@@ -122,21 +131,18 @@ TEST(PersonFit, OfAllTrialsDoesNotDependOnTheirOrder) {
   options.handMass = 0;
   const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chainExperiment(1.35)), options);
   for (const int count : {12, 13}) {
-    std::vector<FitWindow> windows;
-    std::vector<double> durations;
+    Recordings trials;
     std::vector<std::size_t> order;
     for (int i = 0; i < count; ++i) {
       const double stretch = 0.8 + 0.03 * i;
-      windows.push_back(recorded(*set.candidates[1].families[0], 1.35, 0.5, 0.2 / stretch, stretch));
-      durations.push_back(1.3 * stretch);
+      trials.add(recorded(*set.candidates[1].families[0], 1.35, 0.5, 0.2 / stretch, stretch), 1.3 * stretch);
       order.push_back(static_cast<std::size_t>(i * 5 % count));
     }
     const auto choicesIn = [&](const std::vector<std::size_t>& places) {
-      std::vector<FitWindow> w;
-      std::vector<double> d;
-      for (const std::size_t i : places) w.push_back(windows[i]), d.push_back(durations[i]);
+      Recordings placed;
+      for (const std::size_t i : places) placed.add(trials.windows[i], trials.durations[i]);
       std::vector<double> plans;
-      for (const CandidateFit& fit : fitPerson(w, d, set).candidates) plans.push_back(fit.choice.plan);
+      for (const CandidateFit& fit : placed.fit(set).candidates) plans.push_back(fit.choice.plan);
       return plans;
     };
     const std::vector<double> shuffled = choicesIn(order);
@@ -153,16 +159,14 @@ TEST(PersonFit, OfAllTrialsDoesNotDependOnTheirOrder) {
 TEST(PersonFit, FindsAPlanBetweenThoseThatItTries) {
   const CandidateSet set = makeCandidates(experiment::CompiledExperiment(chainExperiment(1.35)), of({Criterion::MinHandJerk}));
   constexpr double kApart[kFolds] = {-0.02, 0.01, 0.02, -0.01, 0};  // of ln P, by fold
-  std::vector<FitWindow> windows;
-  std::vector<double> durations;
+  Recordings trials;
   for (int i = 0; i < 15; ++i) {
     const double stretch = 0.86 + 0.02 * i;
-    windows.push_back(recorded(*set.candidates[0].families[0], 1.35 * std::exp(kApart[i % kFolds]), 0.5, 0.2 / stretch, stretch));
-    std::vector<double>& velocity = windows.back().velocity;
+    std::vector<double>& velocity = trials.add(
+        recorded(*set.candidates[0].families[0], 1.35 * std::exp(kApart[i % kFolds]), 0.5, 0.2 / stretch, stretch), 1.3 * stretch);
     for (std::size_t k = 0; k < velocity.size(); ++k) velocity[k] += 0.006 * std::sin(0.35 * static_cast<double>(k) / stretch) / stretch;
-    durations.push_back(1.3 * stretch);
   }
-  const CandidateFit fit = fitPerson(windows, durations, set).candidates[0];
+  const CandidateFit fit = trials.fit(set).candidates[0];
   ASSERT_EQ(fit.choice.law, TimeLaw::OnePlan);
   EXPECT_NEAR(std::log(fit.choice.plan / 1.35), 0, 0.001);
   for (std::size_t fold = 0; fold < kFolds; ++fold) {
@@ -177,33 +181,28 @@ TEST(PersonFit, ScoresNoTrialByAChoiceItTookPartIn) {
   const CandidateSet set =
       makeCandidates(experiment::CompiledExperiment(chain), of({Criterion::MinHandForceChange, Criterion::MinHandJerk}));
   const std::size_t force = 0;
-  std::vector<FitWindow> windows;
-  std::vector<double> durations;
+  Recordings trials;
   // Fold 0 is planned with 2 kg, the other four with none.
-  for (int i = 0; i < 15; ++i) {
-    windows.push_back(recorded(*set.candidates[force].families[i % 5 == 0 ? 2 : 0], 1.3 + 0.01 * i, 0.5, 0.15));
-    durations.push_back(1.25 + 0.01 * i);
-  }
-  const PersonFit fit = fitPerson(windows, durations, set);
+  for (int i = 0; i < 15; ++i)
+    trials.add(recorded(*set.candidates[force].families[i % 5 == 0 ? 2 : 0], 1.3 + 0.01 * i, 0.5, 0.15), 1.25 + 0.01 * i);
+  const PersonFit fit = trials.fit(set);
   EXPECT_EQ(fit.candidates[force].foldChoice[0].family, 0u);
-  for (std::size_t i = 0; i < windows.size(); i += 5) EXPECT_GT(fit.candidates[force].score[i], fit.candidates[force].score[i + 1] + 3);
+  for (std::size_t i = 0; i < trials.windows.size(); i += 5)
+    EXPECT_GT(fit.candidates[force].score[i], fit.candidates[force].score[i + 1] + 3);
 }
 
 /// Trials of `family` with a slow wave of 3 % of the peak, another in each trial.
 PersonFit scatteredFit(const CandidateSet& set, const ProfileFamily& family) {
-  std::vector<FitWindow> windows;
-  std::vector<double> durations;
+  Recordings trials;
   std::mt19937_64 random(3);
   std::normal_distribution<double> normal;
   for (int i = 0; i < 20; ++i) {
     const double T = 1.35 * std::exp(0.04 * normal(random)), size = 0.03 * normal(random), phase = 3 * normal(random);
-    windows.push_back(recorded(family, T, 0.5, 0.2 / T));
-    std::vector<double>& velocity = windows.back().velocity;
+    std::vector<double>& velocity = trials.add(recorded(family, T, 0.5, 0.2 / T), 0.95 * T);
     const double peak = *std::max_element(velocity.begin(), velocity.end());
     for (std::size_t k = 0; k < velocity.size(); ++k) velocity[k] += peak * size * std::sin(0.06 * static_cast<double>(k) + phase);
-    durations.push_back(0.95 * T);
   }
-  return fitPerson(windows, durations, set);
+  return trials.fit(set);
 }
 
 TEST(PersonFit, FindsAHandsMassBetweenThoseThatItStartsFrom) {
@@ -245,17 +244,15 @@ TEST(PersonFit, GivesEveryCandidateTheSameWindowAndWeights) {
   const auto weightsWith = [&](std::vector<Criterion> criteria) {
     const CandidateSet truth = makeCandidates(experiment::CompiledExperiment(chain), of({Criterion::MinHandJerk})),
                        set = makeCandidates(experiment::CompiledExperiment(chain), of(std::move(criteria)));
-    std::vector<FitWindow> windows;
-    std::vector<double> durations;
+    Recordings trials;
     for (int i = 0; i < 10; ++i) {
-      windows.push_back(recorded(*truth.candidates[0].families[0], 1.2 + 0.02 * i, 0.5, 0.15 + 0.002 * (i % 3)));
-      durations.push_back(1.1 + 0.02 * i);
-      for (std::size_t k = 0; k < windows.back().velocity.size(); ++k)
-        windows.back().velocity[k] += 0.004 * std::sin(0.1 * i * static_cast<double>(k));
+      std::vector<double>& velocity =
+          trials.add(recorded(*truth.candidates[0].families[0], 1.2 + 0.02 * i, 0.5, 0.15 + 0.002 * (i % 3)), 1.1 + 0.02 * i);
+      for (std::size_t k = 0; k < velocity.size(); ++k) velocity[k] += 0.004 * std::sin(0.1 * i * static_cast<double>(k));
     }
-    fitPerson(windows, durations, set);
+    trials.fit(set);
     std::vector<std::vector<double>> weights;
-    for (const FitWindow& w : windows) weights.push_back(w.weight);
+    for (const FitWindow& w : trials.windows) weights.push_back(w.weight);
     return weights;
   };
   EXPECT_EQ(weightsWith({Criterion::MinHandJerk}), weightsWith({Criterion::MinCrackle, Criterion::MinHandForce}));

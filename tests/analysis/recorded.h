@@ -4,12 +4,14 @@
 #include <atomic>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "constraints/constraint.h"
 #include "devices/make_device.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/run_conductor.h"
+#include "sim/record/export/bids.h"
 #include "sim/record/log/recorder.h"
 #include "sim/session/session_folder.h"
 #include "tests/temporary_folder.h"
@@ -55,6 +57,14 @@ inline std::string recordRun(const std::string& folder, const RunToRecord& what)
   while (run.runTrial(stop)) continue;
   run.finish();
   return path;
+}
+
+/// What is left of a dataset when nobody has kept its logs.
+inline void removeLogs(const std::string& folder, const std::string& log) {
+  std::vector<record::RunLog> runs;
+  runs.push_back(record::RunLog::open(log));
+  record::writeBids(runs, folder);
+  std::filesystem::remove_all(folder + "/sourcedata");
 }
 
 }  // namespace reachlab::analysis

@@ -43,14 +43,20 @@ record::RecordedTrial recordedTrial() {
   return trial;
 }
 
+/// The readers of a chain's trials on a line.
+struct ChainTrials {
+  experiment::Experiment experiment = chainExperiment(1.35);
+  experiment::CompiledExperiment compiled{experiment};
+  record::ChannelTable table = record::makeChannelTable(experiment, compiled.constraint().parameterCount());
+  RunTrials trials{table, kEvery, {compiled.constraint(), experiment.task->start, experiment.task->target}, {}};
+};
+
 // Three rows are missing: they lie on the straight line between their neighbours.
 TEST(RunTrials, InterpolateRowsThatAreMissing) {
-  const experiment::Experiment e = chainExperiment(1.35);
-  const experiment::CompiledExperiment compiled(e);
-  const record::ChannelTable table = record::makeChannelTable(e, compiled.constraint().parameterCount());
-  const RunTrials trials(table, kEvery, {compiled.constraint(), e.task->start, e.task->target}, {});
+  const ChainTrials chain;
+  const record::ChannelTable& table = chain.table;
   std::pair<std::uint64_t, std::uint64_t> asked;
-  const TrialData trial = trials.read(recordedTrial(), [&](std::uint64_t first, std::uint64_t last) {
+  const TrialData trial = chain.trials.read(recordedTrial(), [&](std::uint64_t first, std::uint64_t last) {
     asked = {first, last};
     return rowsAt(table, {1010, 1020, 1050, 1070});
   });
@@ -91,26 +97,24 @@ TEST(RunTrials, OfACurveHaveADirectionForEachSample) {
 }
 
 TEST(RunTrials, OfATrialThatWasNeverArmedOrNeverLeftHaveNoMoments) {
-  const experiment::Experiment e = chainExperiment(1.35);
-  const experiment::CompiledExperiment compiled(e);
-  const record::ChannelTable table = record::makeChannelTable(e, compiled.constraint().parameterCount());
-  const RunTrials trials(table, kEvery, {compiled.constraint(), e.task->start, e.task->target}, {});
+  const ChainTrials chain;
+  const record::ChannelTable& table = chain.table;
   const auto rows = [&](std::uint64_t, std::uint64_t) { return rowsAt(table, {1010, 1020}); };
   record::RecordedTrial recorded = recordedTrial();
   recorded.armedTick = 0;
-  EXPECT_TRUE(trials.read(recorded, rows).hand.empty());
+  EXPECT_TRUE(chain.trials.read(recorded, rows).hand.empty());
   recorded = recordedTrial();
   recorded.result.onsetTick = 0, recorded.goTick = 0;
-  const TrialData still = trials.read(recorded, rows);
+  const TrialData still = chain.trials.read(recorded, rows);
   EXPECT_TRUE(std::isnan(still.taskOnset) && std::isnan(still.taskEnd) && std::isnan(still.goTime) && std::isnan(still.peakForce));
   EXPECT_EQ(still.hand.size(), 2u);
   recorded = recordedTrial();
   recorded.peakForce = 0;
-  EXPECT_TRUE(std::isnan(trials.read(recorded, rows).peakForce)) << "an older log has none";
+  EXPECT_TRUE(std::isnan(chain.trials.read(recorded, rows).peakForce)) << "an older log has none";
   recorded = recordedTrial();
   recorded.result.endTick = 0, recorded.lastTick = 1040;
-  EXPECT_NEAR(trials.read(recorded, rows).taskEnd, 0.037, 1e-12) << "broken off there";
-  EXPECT_TRUE(trials.read(recorded, [&](std::uint64_t, std::uint64_t) { return rowsAt(table, {}); }).hand.empty());
+  EXPECT_NEAR(chain.trials.read(recorded, rows).taskEnd, 0.037, 1e-12) << "broken off there";
+  EXPECT_TRUE(chain.trials.read(recorded, [&](std::uint64_t, std::uint64_t) { return rowsAt(table, {}); }).hand.empty());
 }
 
 }  // namespace

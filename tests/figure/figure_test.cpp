@@ -13,16 +13,9 @@ namespace reachlab::figure {
 namespace {
 
 Figure exampleFigure() {
-  Figure figure;
-  figure.columns = 2;
-  Panel velocity;
-  velocity.title = "(a) Hand";
-  velocity.x.label = "Time (s)";
-  velocity.y.label = "Velocity (m/s)";
-  Series line;
-  line.label = "mean";
-  Band band;
-  band.label = "± SD";
+  Panel velocity{.title = "(a) Hand", .x = {.label = "Time (s)"}, .y = {.label = "Velocity (m/s)"}, .rules = {{0.9, true, "T"}}};
+  Series line{.label = "mean"};
+  Band band{.label = "± SD"};
   for (int i = 0; i <= 50; ++i) {
     const double s = i / 50.0, v = 30 * 0.2 * s * s * (1 - s) * (1 - s);
     line.x.push_back(s), line.y.push_back(v);
@@ -30,19 +23,14 @@ Figure exampleFigure() {
   }
   velocity.series = {line};
   velocity.bands = {band};
-  velocity.rules = {{0.9, true, "T"}};
-  Panel precision;
-  precision.x.scale = precision.y.scale = Scale::Log;
-  Series points;
-  points.x = {10, 100, 1000};
-  points.y = {1e-3, 1e-7, 1e-12};
-  points.errorLow = {5e-4, 5e-8, 5e-13};
-  points.errorHigh = {2e-3, 2e-7, 2e-12};
-  points.marker = MarkerShape::Diamond;
-  points.dash = Dash::DashDot;
-  precision.series = {points};
-  figure.panels = {velocity, precision};
-  return figure;
+  const Series points{.x = {10, 100, 1000},
+                      .y = {1e-3, 1e-7, 1e-12},
+                      .dash = Dash::DashDot,
+                      .marker = MarkerShape::Diamond,
+                      .errorLow = {5e-4, 5e-8, 5e-13},
+                      .errorHigh = {2e-3, 2e-7, 2e-12}};
+  const Panel precision{.x = {.scale = Scale::Log}, .y = {.scale = Scale::Log}, .series = {points}};
+  return {.panels = {velocity, precision}, .columns = 2};
 }
 
 TEST(NiceTicks, OfNoIntervalAreNone) {
