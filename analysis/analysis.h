@@ -138,12 +138,12 @@ struct SeriesResult {
 /// What an analysis with another choice concludes (report/alternatives.h).
 struct AlternativeConclusion {
   std::string choice, condition;  // "cut-off 6 Hz"; a condition, or "all"
-  std::string criterion, reason;  // that is named, or empty and why none is
-  std::string best;               // closest candidate; empty where nothing could be compared
-  std::optional<double> p;        // of its nearest rival
-  bool changed = false;
   Conclusion conclusion;
   std::vector<std::vector<predict::Criterion>> candidates;  // that `conclusion` indexes
+  bool changed = false;
+  std::string criterion() const;  // that is named; empty where none is
+  std::string best() const;       // closest candidate; empty where nothing could be compared
+  std::optional<double> p() const { return conclusion.best ? std::optional(conclusion.p) : std::nullopt; }  // of its nearest rival
 };
 
 struct Analysis {

@@ -355,6 +355,4 @@ std::span<const record::ColumnMeaning> tableColumns(std::string_view file) {
   return found->second;
 }
 
-std::string tableDictionary(std::string_view file, std::string_view header) { return record::columnDictionary(header, tableColumns(file)); }
-
 }  // namespace reachlab::analysis

@@ -12,7 +12,4 @@ namespace reachlab::analysis {
 /// means a column for each criterion. Header and dictionary of a file both follow from this.
 std::span<const record::ColumnMeaning> tableColumns(std::string_view file);
 
-/// The dictionary of such a file, as JSON. `header` is its first line.
-std::string tableDictionary(std::string_view file, std::string_view header);
-
 }  // namespace reachlab::analysis

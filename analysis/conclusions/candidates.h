@@ -50,6 +50,7 @@ struct CandidateSet {
   std::vector<double> masses;  // [kg] where the search for (4) to (6) begins, increasing. One: the mass was given
   bool massGiven = false;
 };
+/// The criteria of each candidate, as a conclusion indexes them.
 std::vector<std::vector<predict::Criterion>> namesOf(const CandidateSet& set);
 /// The index of the candidate that has the criterion.
 std::optional<std::size_t> placeOf(const CandidateSet& set, predict::Criterion criterion);

@@ -13,17 +13,6 @@ namespace {
 
 constexpr const char* kAsAsked = "as asked";
 
-AlternativeConclusion rowOf(const std::string& choice, const std::string& condition, const Conclusion& conclusion,
-                            const std::vector<std::vector<predict::Criterion>>& names) {
-  AlternativeConclusion row{choice, condition, "", std::string(nameOf(conclusion.reason)), {}, {}, false, conclusion, names};
-  if (conclusion.follows) row.criterion = nameOfCandidate(names[*conclusion.follows]);
-  if (conclusion.best) {
-    row.best = nameOfCandidate(names[*conclusion.best]);
-    row.p = conclusion.p;
-  }
-  return row;
-}
-
 }  // namespace
 
 std::vector<Alternative> alternativesTo(const AnalysisOptions& asked) {
@@ -58,11 +47,14 @@ std::vector<Alternative> alternativesTo(const AnalysisOptions& asked) {
   return out;
 }
 
+std::string AlternativeConclusion::criterion() const { return conclusion.follows ? nameOfCandidate(candidates[*conclusion.follows]) : ""; }
+std::string AlternativeConclusion::best() const { return conclusion.best ? nameOfCandidate(candidates[*conclusion.best]) : ""; }
+
 std::vector<AlternativeConclusion> conclusionsOf(const Analysis& analysis, const std::string& choice) {
-  std::vector<AlternativeConclusion> rows{rowOf(choice, kAllTogether, analysis.overall, analysis.common)};
+  std::vector<AlternativeConclusion> rows{{choice, kAllTogether, analysis.overall, analysis.common}};
   if (analysis.conditions.size() > 1)
     for (std::size_t c = 0; c < analysis.conditions.size(); ++c)
-      rows.push_back(rowOf(choice, analysis.conditions[c].name, analysis.results[c].conclusion, candidatesOf(analysis.results[c])));
+      rows.push_back({choice, analysis.conditions[c].name, analysis.results[c].conclusion, namesOf(analysis.results[c].candidates)});
   return rows;
 }
 
@@ -71,7 +63,7 @@ void addAlternatives(Analysis& analysis, std::vector<AlternativeConclusion> othe
   const std::vector<AlternativeConclusion> asked = analysis.alternatives;
   for (AlternativeConclusion& row : others) {
     const auto same = std::find_if(asked.begin(), asked.end(), [&](const auto& a) { return a.condition == row.condition; });
-    row.changed = same != asked.end() && same->criterion != row.criterion;
+    row.changed = same != asked.end() && same->criterion() != row.criterion();
     analysis.alternatives.push_back(std::move(row));
   }
 }
@@ -85,7 +77,7 @@ std::string describeAlternatives(const Analysis& analysis) {
     changed += row.changed;
     if (row.changed)
       differ += fmt::format("{}{}: {}", differ.empty() ? " The others are: " : "; ", row.choice,
-                            row.criterion.empty() ? "undecided (" + row.reason + ")" : row.criterion);
+                            row.criterion().empty() ? fmt::format("undecided ({})", nameOf(row.conclusion.reason)) : row.criterion());
   }
   if (all == 0) return {};
   return fmt::format("The conclusion is the same in {} of {} analyses with another choice.{}", all - changed, all,
@@ -96,7 +88,7 @@ namespace {
 
 void alternativeRows(const Analysis& analysis, Sheet& table) {
   for (const AlternativeConclusion& row : analysis.alternatives)
-    table.row(row.choice, row.condition, row.criterion, row.reason, row.best, row.p, row.changed);
+    table.row(row.choice, row.condition, row.criterion(), nameOf(row.conclusion.reason), row.best(), row.p(), row.changed);
 }
 
 }  // namespace

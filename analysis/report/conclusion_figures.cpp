@@ -61,17 +61,15 @@ NamedFigure scoreFigure(const Analysis& analysis) {
       "ignores the object, with its 95 % interval over the subject's trials. Dashed: that reference. Dotted: what the mean of a subject's own other trials "
       "reaches, below which nothing can be expected. Mass at edge: the hand's mass that fits best is an end of its range.";
   for (std::size_t c = 0; c < analysis.results.size(); ++c) {
-    const Names names = candidatesOf(analysis.results[c]);
+    const Names names = namesOf(analysis.results[c].candidates);
     std::vector<PersonRow> rows;
     for (const PersonResult& person : analysis.people) {
       if (person.condition != c || !person.fitted) continue;
       const CandidateFit& reference = person.fit.candidates.back();
       PersonRow row{.subject = person.subject, .ceiling = person.fit.own.ceilingScore - reference.meanScore};
       for (const CandidateFit& fit : person.fit.candidates) {
-        std::vector<double> difference(fit.score);
-        for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= reference.score[i];
         row.score.push_back(fit.meanScore - reference.meanScore);
-        const Bounds interval = intervalOf(computeSerialTTest(difference));
+        const Bounds interval = intervalOf(computeSerialTTest(subtract(fit.score, reference.score)));
         row.interval.push_back(interval.finite() ? interval : Bounds{row.score.back(), row.score.back()});
         row.atEdge.push_back(fit.mass && fit.mass->atEdge);
       }
@@ -105,7 +103,7 @@ NamedFigure posteriorFigure(const Analysis& analysis) {
     out.figure.panels.push_back(std::move(panel));
   };
   for (std::size_t c = 0; c < analysis.results.size(); ++c)
-    add(analysis.conditions[c].name, analysis.results[c].conclusion, candidatesOf(analysis.results[c]));
+    add(analysis.conditions[c].name, analysis.results[c].conclusion, namesOf(analysis.results[c].candidates));
   if (analysis.results.size() > 1) add("All conditions", analysis.overall, analysis.common);
   out.figure.columns = static_cast<int>(std::clamp<std::size_t>(out.figure.panels.size(), 1, 2));
   out.figure.panelWidth = 62;

@@ -206,7 +206,7 @@ std::pair<Panel, Panel> panelsOf(const PersonResult& person, const ConditionResu
              .dash = lookOf(criteria).dash};
     for (const std::size_t i : shown) s.y.push_back(person.fit.candidates[k].mean[i]);
     Series apart = s;
-    for (std::size_t i = 0; i < apart.y.size(); ++i) apart.y[i] = mean.y[i] - s.y[i];
+    apart.y = subtract(mean.y, s.y);
     panel.series.push_back(std::move(s));
     rest.series.push_back(std::move(apart));
   }

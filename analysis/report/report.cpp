@@ -254,12 +254,14 @@ void addAlternatives(Html& html, const Analysis& analysis) {
   html.heading(3, "Other choices of the analysis");
   html.paragraph(sentence);
   html.table({"Choice", "Condition", "Criterion", "Closest", "p"});
-  for (const AlternativeConclusion& row : analysis.alternatives)
+  for (const AlternativeConclusion& row : analysis.alternatives) {
+    const std::string criterion = row.criterion();
     html.row({row.choice, escaped(row.condition),
-              row.criterion.empty() ? "undecided: " + row.reason
-              : row.changed         ? "<b>" + row.criterion + "</b>"
-                                    : row.criterion,
-              row.best, row.p ? shortNumber(*row.p) : ""});
+              criterion.empty() ? fmt::format("undecided: {}", nameOf(row.conclusion.reason))
+              : row.changed     ? "<b>" + criterion + "</b>"
+                                : criterion,
+              row.best(), row.p() ? shortNumber(*row.p()) : ""});
+  }
   html.endTable();
 }
 
@@ -281,6 +283,7 @@ void addMeasures(Html& html, const Analysis& analysis, std::size_t condition) {
 
 void addCondition(Html& html, const Analysis& analysis, std::size_t c, const std::vector<NamedFigure>& figures) {
   const ConditionResult& r = analysis.results[c];
+  const std::vector<std::vector<predict::Criterion>> names = namesOf(r.candidates);
   const std::string file = fileNameOf(analysis.conditions[c].name);
   html.heading(2, analysis.conditions[c].name);
   html.paragraph("Moved: " + experiment::describe(analysis.conditions[c].experiment()) + ".");
@@ -291,10 +294,10 @@ void addCondition(Html& html, const Analysis& analysis, std::size_t c, const std
         "ones, and nothing is concluded.",
         "warning");
   if (analysis.conditions.size() > 1) {
-    html.paragraph(describeConclusion(r.conclusion, candidatesOf(r)), "finding");
+    html.paragraph(describeConclusion(r.conclusion, names), "finding");
     if (r.conclusion.best) {
-      html.paragraph(describeEvidence(r.conclusion, candidatesOf(r)));
-      addScores(html, r.conclusion, candidatesOf(r));
+      html.paragraph(describeEvidence(r.conclusion, names));
+      addScores(html, r.conclusion, names);
     }
   }
   addFigure(html, figures, "people_" + file);

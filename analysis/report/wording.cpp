@@ -72,8 +72,6 @@ std::string describeCandidate(const std::vector<predict::Criterion>& criteria) {
   return joined(names) + (names.size() > 1 ? ", which predict the same" : "");
 }
 
-Names candidatesOf(const ConditionResult& result) { return namesOf(result.candidates); }
-
 namespace {
 
 /// What the residuals say of the best candidate's fit, with a space behind. Empty if they were not tested.
@@ -207,17 +205,14 @@ std::string describeChoices(const Analysis& analysis, const std::vector<std::siz
                                      mass->atEdge ? ", at the edge of the range" : ""));
     }
   }
-  const auto listed = [](const std::map<std::string, std::size_t>& counts) {
-    std::vector<std::string> parts;
-    for (const auto& [what, n] : counts) parts.push_back(fmt::format("{} ({})", what, n));
-    return joined(parts);
-  };
+  std::vector<std::string> chosen;
+  for (const auto& [law, n] : laws) chosen.push_back(fmt::format("{} ({})", law, n));
   std::string text;
   if (!tried.empty())
     text = given ? fmt::format("The hand's mass was given, {} kg.", shortNumber(tried.front()))
                  : fmt::format("The hand's mass was searched from {} to {} kg for (4) to (6).", shortNumber(tried.front()),
                                shortNumber(tried.back()));
-  if (!laws.empty()) text += " Chosen for the closest: " + listed(laws) + ".";
+  if (!chosen.empty()) text += " Chosen for the closest: " + joined(chosen) + ".";
   if (!masses.empty()) text += " Its hand mass with the 95 % interval: " + joined(masses) + ".";
   return text;
 }

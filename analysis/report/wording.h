@@ -11,8 +11,6 @@ namespace reachlab::analysis {
 /// A candidate as it is named: "(1) min-hand-jerk", "(4) min-hand-force and (6) min-com-acceleration, which predict the same", or "a
 /// minimum jerk that ignores the object".
 std::string describeCandidate(const std::vector<predict::Criterion>& criteria);
-/// The candidates of a condition, as the conclusion indexes them.
-std::vector<std::vector<predict::Criterion>> candidatesOf(const ConditionResult& result);
 
 /// The one plain sentence. It names the criterion with its certainty, or says that nothing may be concluded, with the reason.
 std::string describeConclusion(const Conclusion& conclusion, const std::vector<std::vector<predict::Criterion>>& candidates);

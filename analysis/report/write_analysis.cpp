@@ -26,7 +26,7 @@ class TableFiles {
     for (Table& table : open_) {
       table.file.commit();
       const std::string path = folder_ + "/" + table.name;
-      record::writeFileAtomically(record::dictionaryPathOf(path), tableDictionary(table.name, table.header));
+      record::writeFileAtomically(record::dictionaryPathOf(path), record::columnDictionary(table.header, tableColumns(table.name)));
       written.push_back(path);
     }
     return written;

@@ -231,7 +231,7 @@ std::string summaryJson(const analysis::Analysis& analysis, const analysis::Data
       condition["success_percent"] = {
           {"typical", 100 * r.success->mean},
           {"interval", jsonOf(analysis::Bounds{100 * r.success->interval.low, 100 * r.success->interval.high})}};
-    condition["conclusion"] = jsonOf(r.conclusion, analysis::candidatesOf(r), r.candidates.masses);
+    condition["conclusion"] = jsonOf(r.conclusion, analysis::namesOf(r.candidates), r.candidates.masses);
     condition["hand_ranking"] = jsonOf(r.handEpsilon, r, r.conclusion.decided());
     condition["object_ranking"] = jsonOf(r.objectEpsilon, r, false);
     j["conditions"].push_back(condition);
@@ -251,10 +251,10 @@ std::string summaryJson(const analysis::Analysis& analysis, const analysis::Data
     for (const analysis::AlternativeConclusion& a : analysis.alternatives)
       j["alternatives"].push_back({{"choice", a.choice},
                                    {"condition", a.condition},
-                                   {"criterion", a.criterion.empty() ? Json(nullptr) : Json(a.criterion)},
-                                   {"reason", a.reason},
-                                   {"best", a.best.empty() ? Json(nullptr) : Json(a.best)},
-                                   {"p", a.p ? Json(*a.p) : Json(nullptr)},
+                                   {"criterion", a.conclusion.follows ? Json(a.criterion()) : Json(nullptr)},
+                                   {"reason", analysis::nameOf(a.conclusion.reason)},
+                                   {"best", a.conclusion.best ? Json(a.best()) : Json(nullptr)},
+                                   {"p", a.p() ? Json(*a.p()) : Json(nullptr)},
                                    {"changed", a.changed}});
   }
   if (recovery) j["recovery"] = jsonOf(*recovery);
@@ -287,7 +287,7 @@ void printSummary(const analysis::Analysis& analysis, const analysis::DatasetInd
   for (std::size_t c = 0; c < analysis.conditions.size(); ++c) {
     const analysis::ConditionResult& r = analysis.results[c];
     fmt::print("{}: {}\n", analysis.conditions[c].name, analysis::describeCounts(r));
-    if (analysis.conditions.size() > 1) fmt::print("  {}\n", analysis::describeConclusion(r.conclusion, analysis::candidatesOf(r)));
+    if (analysis.conditions.size() > 1) fmt::print("  {}\n", analysis::describeConclusion(r.conclusion, analysis::namesOf(r.candidates)));
   }
   if (const std::string others = analysis::describeAlternatives(analysis); !others.empty()) fmt::print("{}\n", others);
   if (recovery) printRecovery(*recovery);

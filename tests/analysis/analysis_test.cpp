@@ -45,17 +45,6 @@ TEST(Study, PlannedByForceChangeWithAHandMassIsDecidedForThatAndFindsTheMass) {
   }
 }
 
-TEST(Study, NamesForceAndCentreOfMassTogetherBecauseTheyPredictTheSame) {
-  const Analysis analysis = analyzeTrials(simulatedTrials({{"parallel", experiment::CompiledExperiment(parallelExperiment(2.5))}},
-                                                          predict::Criterion::MinHandForce, 0.5, 1, 1, 15, 3),
-                                          quickOptions());
-  const auto names = candidatesOf(analysis.results[0]);
-  ASSERT_EQ(names.size(), 5u);  // (1), (4) and (6), (5), (3h), the reference
-  const std::vector<predict::Criterion> both{predict::Criterion::MinHandForce, predict::Criterion::MinComAcceleration};
-  EXPECT_NE(std::find(names.begin(), names.end(), both), names.end());
-  EXPECT_NE(describeCandidate(both).find("which predict the same"), std::string::npos);
-}
-
 // People whose hands ignore the object, and of whom it is not asked whether they succeeded.
 TEST(Study, OfHandsThatIgnoreTheObjectIsNeverConcludedUpon) {
   const auto blind = [](const experiment::Experiment& e) {

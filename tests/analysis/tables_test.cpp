@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <sstream>
 
 #include "analysis/table_columns.h"
@@ -29,18 +30,16 @@ void expectCells(const Row& row, const std::string& expected) {
 double numberIn(const Row& row, const std::string& column) { return std::stod(row.at(column)); }
 
 // Columns are named in one table and filled in order: a cell too few or too many would shift all that follow.
-TEST(Tables, HaveACellForEachColumn) {
+TEST(Tables, HaveACellAndASentenceForEachColumn) {
   const std::map<std::string, std::string> files = tablesOf(madeStudy());
   EXPECT_EQ(files.size(), 14u);
   for (const auto& [name, text] : files) {
-    EXPECT_FALSE(tableColumns(name).empty()) << name;
+    const auto dictionary = nlohmann::json::parse(record::columnDictionary(text, tableColumns(name)));
+    EXPECT_FALSE(dictionary.empty()) << name;
+    for (const auto& [column, entry] : dictionary.items()) EXPECT_NE(entry.at("Description"), "") << name << ": " << column;
     std::istringstream lines(text);
-    std::ptrdiff_t commas = -1;
-    for (std::string line; std::getline(lines, line);) {
-      const auto here = std::count(line.begin(), line.end(), ',');
-      if (commas < 0) commas = here;
-      EXPECT_EQ(here, commas) << name << ": " << line;
-    }
+    for (std::string line; std::getline(lines, line);)
+      EXPECT_EQ(std::count(line.begin(), line.end(), ',') + 1, static_cast<std::ptrdiff_t>(dictionary.size())) << name << ": " << line;
   }
 }
 
