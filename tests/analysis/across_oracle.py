@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from motion_signals import reach
+from motion_signals import reach, readRun
 
 NORMAL = {"horizontal": [0, 1, 0], "frontal": [0, 0, 1]}
 MEASURES = ["max_perpendicular_m", "perpendicular_at_peak_speed_m", "hand_angle_deg", "hand_angle_at_radius_deg"]
@@ -18,9 +18,7 @@ MEASURES = ["max_perpendicular_m", "perpendicular_at_peak_speed_m", "hand_angle_
 
 def measures_of(base):
     """One row per trial, from the files of one run."""
-    rows = pd.read_csv(f"{base}_motion.tsv", sep="\t", header=None, na_values="n/a")
-    rows.columns = pd.read_csv(f"{base}_channels.tsv", sep="\t")["name"]
-    events = pd.read_csv(f"{base}_events.tsv", sep="\t", na_values="n/a")
+    rows, events = readRun(f"{base}_motion.tsv")
     folder = Path(base).parents[3] / "code/experiments"
     task = json.loads((folder / (Path(base).name.replace("_tracksys-haptic", "") + "_experiment.json")).read_text())["experiment"]["task"]
     start, target = np.array(task["start"]), np.array(task["target"])

@@ -12,7 +12,7 @@ import numpy as np
 import pandas as pd
 from scipy import interpolate, optimize
 
-from motion_signals import CUTOFF, RATE, differentiate, lowPass, reach
+from motion_signals import CUTOFF, RATE, differentiate, lowPass, reach, readRun, readTable, sampled
 
 EXPERIMENT, T_TASK = "chain-slow", 2.25
 TOLERANCE = {"onset_s": 2e-5, "duration_s": 4e-5, "amplitude_m_per_s": 4e-5, "epsilon_fit_m_per_s": 2e-6, "r2": 1e-6,
@@ -58,14 +58,6 @@ def fit(t, v, w, shape, start):
     return got.x[0] - T / 2, T, A, v - A * phi
 
 
-def catmullRom(v, x):
-    i = np.clip(np.floor(x).astype(int), 0, len(v) - 2)
-    d = x - i
-    p0, p1, p2, p3 = v[np.maximum(i - 1, 0)], v[i], v[i + 1], v[np.minimum(i + 2, len(v) - 1)]
-    cubic = p1 + 0.5 * d * (p2 - p0 + d * (2 * p0 - 5 * p1 + 4 * p2 - p3 + d * (3 * (p1 - p2) + p3 - p0)))
-    return np.where((x >= 1) & (x < len(v) - 2), cubic, (1 - d) * p1 + d * p2)
-
-
 def weightsOf(windows, durations):
     """w^2 of every sample: each trial laid over the person's mean three times, then 1 / max(sigma, 0.1 max sigma)^2."""
     grid = np.arange(round((LAST - FIRST) / STEP) + 1) * STEP + FIRST
@@ -78,7 +70,7 @@ def weightsOf(windows, durations):
         for (t, v), (onset, T, _) in zip(windows, places):
             at = onset + T * grid
             inside = (at >= t[0]) & (at <= t[-1])
-            out.append(np.where(inside, catmullRom(v, np.where(inside, (at - t[0]) * RATE, 0)), np.nan))
+            out.append(np.where(inside, sampled(v, RATE, np.where(inside, at - t[0], 0)), np.nan))
         return np.array(out)
 
     def mean(laid):
@@ -160,17 +152,12 @@ def same(what, got, wanted, scale):
     worst[what] = max(worst.get(what, 0.0), abs(got - wanted) / scale)
 
 
-def read(file):
-    return pd.read_csv(file, dtype={"subject": str, "session": str}, float_precision="round_trip")
-
-
 def fittedWindows(data, out, subject):
     """The program's fits of one subject's trials, and the windows and weights that they must have."""
-    trials, fitted = (t[t.subject == subject] for t in (read(out / "trials.csv"), read(out / "fit_trials.csv")))
+    trials, fitted = (t[t.subject == subject] for t in (readTable(out / "trials.csv"), readTable(out / "fit_trials.csv")))
     motion = next(data.glob(f"sub-{subject}/ses-*/motion/*_motion.tsv"))
-    base = str(motion)[: -len("motion.tsv")]
-    rows = pd.read_csv(motion, sep="\t", header=None, names=list(pd.read_csv(base + "channels.tsv", sep="\t")["name"]))
-    events = pd.read_csv(base + "events.tsv", sep="\t", keep_default_na=False, na_values=["n/a"]).set_index("trial", drop=False)
+    rows, events = readRun(motion)
+    events = events.set_index("trial", drop=False)
     used = fitted[fitted.criterion == "reference"].trial.to_list()
     windows = [windowOf(rows, events.loc[i]) for i in used]
     return used, windows, weightsOf(windows, trials.set_index("trial").loc[used].duration_s.to_numpy()), fitted
@@ -181,7 +168,7 @@ def ownHands(folder):
     data, out = folder / "data", folder / "out"
     reach("run", EXPERIMENT, "--device", "simulated", "--trials", 24, "--seed", 11, "--fast", "--data", data)
     reach("analyze", data, "--out", out, "--criterion", "min-hand-jerk", "--criterion", "min-crackle")
-    fits = read(out / "fits.csv").set_index("criterion")
+    fits = readTable(out / "fits.csv").set_index("criterion")
     used, windows, weights, fitted = fittedWindows(data, out, fits.subject.iloc[0])
     samplers = {"reference": blindHand, "min-hand-jerk": lambda T: handJerk(T, EXPERIMENT, folder)}
     for criterion, sample in samplers.items():
@@ -218,7 +205,7 @@ def foreignHands(folder):
     for i, (stratum, kind) in enumerate(kinds):
         foreign_hands.write(data, experiment, plant, foreign_hands.Person(kind, stratum, kind, plant, np.random.default_rng([7, i])))
     reach("analyze", data, "--experiment", experiment, "--out", out)
-    fits = read(out / "fits.csv").set_index(["subject", "criterion"])
+    fits = readTable(out / "fits.csv").set_index(["subject", "criterion"])
     for _, kind in kinds:
         used, windows, weights, fitted = fittedWindows(data, out, kind)
         compared = 0

@@ -9,7 +9,7 @@ import numpy as np
 import pandas as pd
 from scipy import signal, stats
 
-from motion_signals import RATE, differentiate, lowPass, reach
+from motion_signals import RATE, differentiate, lowPass, reach, readRun, readTable, sampled
 
 TOLERANCE, SHARE = 1e-10, 0.05
 worst = {}
@@ -50,17 +50,6 @@ def movementIn(speed, rate):
     return onset, offset, peak, at / rate
 
 
-def sampled(x, rate, times):
-    """Catmull and Rom's cubic, linear in the first and the last interval, held beyond."""
-    at = np.clip(np.asarray(times) * rate, 0, len(x) - 1)
-    i = np.minimum(np.floor(at).astype(int), len(x) - 2)
-    s, inner = at - i, (np.asarray(times) * rate >= 1) & (np.asarray(times) * rate < len(x) - 2)
-    linear = (1 - s) * x[i] + s * x[i + 1]
-    p0, p1, p2, p3 = x[np.maximum(i - 1, 0)], x[i], x[i + 1], x[np.minimum(i + 2, len(x) - 1)]
-    cubic = p1 + 0.5 * s * (p2 - p0 + s * (2 * p0 - 5 * p1 + 4 * p2 - p3 + s * (3 * (p1 - p2) + p3 - p0)))
-    return np.where(inner, cubic, linear)
-
-
 def instants(onset, offset):
     return onset + np.linspace(0, 1, 101) * (offset - onset)
 
@@ -81,13 +70,6 @@ def sparc(speed):
 def ldlj(speed):
     jerk = np.diff(speed, 2) * RATE**2
     return -math.log((len(speed) / RATE) ** 3 / speed.max() ** 2 * np.sum(jerk**2) / RATE)
-
-
-def readRun(motion):
-    name = str(motion)[: -len("motion.tsv")]
-    columns = pd.read_csv(name + "channels.tsv", sep="\t")["name"]
-    rows = pd.read_csv(motion, sep="\t", header=None, names=list(columns))
-    return rows, pd.read_csv(name + "events.tsv", sep="\t", keep_default_na=False, na_values=["n/a"])
 
 
 def measure(rows, event, straight):
@@ -156,10 +138,6 @@ class Prediction:
         return rms(sampled(self.hand, self.rate, at), hand), rms(sampled(self.object, self.rate, at), object)
 
 
-def csv(folder, name):
-    return pd.read_csv(folder / name, dtype={"subject": str, "session": str}, float_precision="round_trip")
-
-
 def logitOf(s, f):
     return math.log((s + 0.5) / (f + 0.5)), 1 / (s + 0.5) + 1 / (f + 0.5)
 
@@ -175,7 +153,7 @@ def peopleMean(values, variances):
 
 
 def checkTrials(data, out, folder):
-    trials = csv(out, "trials.csv").set_index(["condition", "subject", "session", "run", "trial"])
+    trials = readTable(out / "trials.csv").set_index(["condition", "subject", "session", "run", "trial"])
     predictions = {c: Prediction("chain-moderate", c, 1.35, folder) for c in ("min-hand-jerk", "min-crackle")}
     profiles, checked = {}, 0
     for motion in sorted(data.glob("sub-*/ses-*/motion/*_motion.tsv")):
@@ -200,21 +178,21 @@ def checkTrials(data, out, folder):
         sys.exit(f"only {checked} trials, {len(profiles)} used: too few to say anything")
     used = trials.loc["chain-moderate"].query("used == 1")
     mean = used["duration_s"].mean()
-    c = csv(out, "conditions.csv").set_index("condition").loc["chain-moderate"]
+    c = readTable(out / "conditions.csv").set_index("condition").loc["chain-moderate"]
     for column, value in [("mean_duration_s", mean), ("sd_duration_s", used["duration_s"].std()), ("mean_movement_time_s", used["movement_time_s"].mean()),
                           ("least_movement_time_s", used["movement_time_s"].min()), ("largest_movement_time_s", used["movement_time_s"].max())]:
         same(column, c[column], value)
-    table = csv(out, "mean_profiles.csv").query("condition == 'chain-moderate'")
+    table = readTable(out / "mean_profiles.csv").query("condition == 'chain-moderate'")
     for k, what in enumerate(["hand", "object"]):
         scaled = np.array([p[k] * p[2] / mean for p in profiles.values()])
         for i in range(101):
             same("mean_profiles", table[f"{what}_mean_m_per_s"].iloc[i], scaled[:, i].mean())
             same("mean_profiles", table[f"{what}_sd_m_per_s"].iloc[i], scaled[:, i].std(ddof=1))
-    series = csv(out, "series.csv").query("condition == 'chain-moderate' and criterion == 'min-crackle'")
+    series = readTable(out / "series.csv").query("condition == 'chain-moderate' and criterion == 'min-crackle'")
     for row in series.itertuples():
         own = used.reset_index().query(f"subject == '{row.subject}' and session == '{row.session}'")
         same("series", row.epsilon_m_per_s, math.sqrt((own[f"epsilon_{row.signal}_min_crackle_m_per_s"] ** 2).mean()))
-    rank = csv(out, "ranking.csv").query("condition == 'chain-moderate' and signal == 'hand'").set_index("criterion")
+    rank = readTable(out / "ranking.csv").query("condition == 'chain-moderate' and signal == 'hand'").set_index("criterion")
     e = {c: used.groupby("subject")[f"epsilon_hand_{c.replace('-', '_')}_m_per_s"].apply(lambda x: math.sqrt((x**2).mean())) for c in rank.index}
     best = rank.index[0]
     for criterion, row in rank.iterrows():
@@ -230,23 +208,23 @@ def checkTrials(data, out, folder):
 
 
 def checkSuccess(out):
-    attempts = csv(out, "trials.csv").query("outcome in ['success', 'failure']").copy()
+    attempts = readTable(out / "trials.csv").query("outcome in ['success', 'failure']").copy()
     attempts["won"] = (attempts.outcome == "success").astype(int)
     cells = {}
-    for row in csv(out, "success_table.csv").itertuples():
+    for row in readTable(out / "success_table.csv").itertuples():
         won = attempts.query(f"subject == '{row.subject}' and day == {row.day} and condition == '{row.condition}'").won
         ci = stats.binomtest(int(won.sum()), len(won)).proportion_ci(0.95, "exact")
         for got, wanted in [(row.successes, won.sum()), (row.low_percent, 100 * ci.low), (row.high_percent, 100 * ci.high)]:
             same("success_table", got, wanted)
         cells[row.subject, row.condition, row.day] = int(won.sum()), int(len(won) - won.sum())
-    for row in csv(out, "learning.csv").itertuples():
+    for row in readTable(out / "learning.csv").itertuples():
         won = attempts.query(f"subject == '{row.subject}' and condition == '{row.condition}'").won.to_numpy()[row.first_trial - 1 : row.last_trial]
         ci = stats.binomtest(int(won.sum()), len(won)).proportion_ci(0.95, "exact")
         same("learning", row.low_percent, 100 * ci.low)
         same("learning", row.high_percent, 100 * ci.high)
     share = lambda s, f: ((s + 0.5) * (f + 0.5) / (s + f + 1) ** 2) / (s + f)
     subjects = sorted(attempts.subject.unique())
-    effects = csv(out, "effects.csv")
+    effects = readTable(out / "effects.csv")
     day = effects.query("effect == 'day' and condition == 'chain-moderate'").iloc[0]
     pairs = [(cells[s, "chain-moderate", 1], cells[s, "chain-moderate", 2]) for s in subjects]
     points = peopleMean([100 * (b[0] / sum(b) - a[0] / sum(a)) for a, b in pairs], [1e4 * (share(*a) + share(*b)) for a, b in pairs])
