@@ -49,24 +49,12 @@ struct Mover {
 
 /// Hand velocities over the part of the movement that know no object, each for one person.
 ProfileFamily::Sampler samplerOf(Kind kind, Draws& draws) {
-  if (kind == Kind::HandSnap)
-    return [](double, std::span<double> phi) {
-      for (std::size_t i = 0; i < phi.size(); ++i) {
-        const double s = static_cast<double>(i) / static_cast<double>(phi.size() - 1);
-        phi[i] = 140 * std::pow(s * (1 - s), 3);
-      }
-      return true;
-    };
-  const double part = 0.55 + 0.2 * draws.fraction(), delay = 0.25 + 0.15 * draws.fraction();
-  return [part, delay](double, std::span<double> phi) {
-    const double length = 1 - delay;
-    const auto bell = [&](double s) { return s > 0 && s < 1 ? minimumJerkRate(s) / length : 0; };
-    for (std::size_t i = 0; i < phi.size(); ++i) {
-      const double s = static_cast<double>(i) / static_cast<double>(phi.size() - 1);
-      phi[i] = part * bell(s / length) + (1 - part) * bell((s - delay) / length);
-    }
-    return true;
-  };
+  if (kind == Kind::HandSnap) return ProfileFamily::sameFor([](double s) { return 140 * std::pow(s * (1 - s), 3); });
+  const double part = 0.55 + 0.2 * draws.fraction(), delay = 0.25 + 0.15 * draws.fraction(), length = 1 - delay;
+  return ProfileFamily::sameFor([=](double s) {
+    const auto bell = [&](double x) { return x > 0 && x < 1 ? minimumJerkRate(x) / length : 0; };
+    return part * bell(s / length) + (1 - part) * bell((s - delay) / length);
+  });
 }
 
 /// The velocity of the hand [m/s] at the instants of `window` when a trial that was fitted so is moved by `family`.

@@ -71,14 +71,6 @@ ProfileFamily::Sampler samplerOf(Predictor predictor) {
   };
 }
 
-bool referenceProfile(double, std::span<double> phi) {
-  const double last = static_cast<double>(phi.size() - 1);
-  for (std::size_t i = 0; i < phi.size(); ++i) {
-    phi[i] = minimumJerkRate(static_cast<double>(i) / last);
-  }
-  return true;
-}
-
 /// Joint torque change takes a hundred times as long to predict as the others, so its durations lie as far apart as they may.
 std::unique_ptr<ProfileFamily> costlyFamily(const Predictor& predictor, const RecordingFilter& filter, ProfileFamily::Grid grid,
                                             double duration) {
@@ -188,7 +180,8 @@ CandidateSet makeCandidates(const experiment::CompiledExperiment& compiled, cons
     out.candidates.push_back(std::move(candidate));
   }
   Candidate reference;
-  reference.families.push_back(std::make_shared<ProfileFamily>(referenceProfile, filter, grid));
+  reference.families.push_back(
+      std::make_shared<ProfileFamily>(ProfileFamily::sameFor([](double s) { return minimumJerkRate(s); }), filter, grid));
   out.candidates.push_back(std::move(reference));
   return out;
 }

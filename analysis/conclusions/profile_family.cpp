@@ -39,6 +39,13 @@ ProfileFamily::ProfileFamily(Sampler sampler, const RecordingFilter& filter, con
   margin_ = marginAt(grid.shortest);
 }
 
+ProfileFamily::Sampler ProfileFamily::sameFor(std::function<double(double s)> phiOf) {
+  return [phiOf = std::move(phiOf)](double, std::span<double> phi) {
+    for (std::size_t i = 0; i < phi.size(); ++i) phi[i] = phiOf(static_cast<double>(i) / static_cast<double>(phi.size() - 1));
+    return true;
+  };
+}
+
 std::size_t ProfileFamily::marginAt(double duration) const {
   return static_cast<std::size_t>(std::ceil(filter_.reach() / duration * static_cast<double>(grid_.parts))) + 2;
 }

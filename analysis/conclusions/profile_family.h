@@ -34,6 +34,8 @@ class ProfileFamily {
     double spacing = 0.01;    // [s] between the durations that are computed
   };
   ProfileFamily(Sampler sampler, const RecordingFilter& filter, const Grid& grid);
+  /// A sampler of phi(s) that is the same for every duration.
+  static Sampler sameFor(std::function<double(double s)> phiOf);
 
   /// phi and its change at `duration` [s]. False, and `out` unchanged, if it cannot be predicted or is shorter than the grid's shortest.
   bool at(double duration, Profile& out) const;

@@ -130,20 +130,6 @@ TEST(ProfileFamily, PredictsADurationOnce) {
   EXPECT_EQ(*std::min_element(asked.begin(), asked.end()), 0.125) << "no movement lasts no time";
 }
 
-TEST(ProfileFamily, ReachesAsFarAsItsFilter) {
-  const RecordingFilter filter(10, 100);
-  const ProfileFamily family(growing, filter, {100, 0.5, 0.03});
-  Profile profile;
-  ASSERT_TRUE(family.at(1.25, profile));
-  const double cells = std::ceil(filter.reach() / 1.25 * 100) + 2;
-  EXPECT_NEAR(profile.first, -0.01 * cells, 1e-12);
-  EXPECT_EQ(profile.value.size(), 101 + 2 * static_cast<std::size_t>(cells));
-  std::vector<double> phi(101);
-  growing(1.25, phi);
-  const std::vector<double> exact = filter.apply(phi, 1.25, static_cast<std::size_t>(cells));
-  for (std::size_t i = 0; i < exact.size(); ++i) EXPECT_NEAR(profile.value[i], exact[i], 1e-6) << i;
-}
-
 TEST(MovementFit, PlansAnewForEveryDuration) {
   const auto skewed = [](double duration, std::span<double> phi) {  // its peak comes the later the longer it lasts
     for (std::size_t i = 0; i < phi.size(); ++i) {
