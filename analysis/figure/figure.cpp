@@ -5,6 +5,7 @@
 #include <cairo.h>
 
 #include <algorithm>
+#include <array>
 #include <memory>
 #include <string_view>
 
@@ -127,6 +128,18 @@ std::string replaced(const std::string& text, const std::string& from, const std
 }
 
 }  // namespace
+
+Color palette::series(int i) {
+  // Yellow is left out: it vanishes on white paper.
+  static constexpr std::array<Color, 7> kOrder{kBlue, kVermilion, kGreen, kPurple, kOrange, kSky, kBlack};
+  return kOrder[static_cast<std::size_t>(i) % kOrder.size()];
+}
+
+MarkerShape markerOf(int i) {
+  static constexpr std::array<MarkerShape, 5> kOrder{MarkerShape::Circle, MarkerShape::Square, MarkerShape::Triangle, MarkerShape::Diamond,
+                                                     MarkerShape::Cross};
+  return kOrder[static_cast<std::size_t>(i) % kOrder.size()];
+}
 
 std::string renderSvg(const Figure& figure, const std::string& idPrefix) {
   std::string bytes;

@@ -20,15 +20,6 @@ std::vector<double> bell(double before, double duration, double after, double he
   return v;
 }
 
-TEST(FindMovement, SearchesBackFromThePeakSoThatADriftBeginsNothing) {
-  // A slow drift at 8 % of the peak, which ends 0.2 s before the reach: the first upward crossing is the drift's.
-  std::vector<double> v = bell(0.8, 1.0, 0.7);
-  for (std::size_t i = 10; i < static_cast<std::size_t>(0.6 * kRate); ++i) v[i] = std::max(v[i], 0.08 * 0.7);
-  const Movement drifting = findMovement(v, kRate, {}), clean = findMovement(bell(0.8, 1.0, 0.7), kRate, {});
-  EXPECT_DOUBLE_EQ(drifting.onset, clean.onset);
-  EXPECT_DOUBLE_EQ(drifting.offset, clean.offset);
-}
-
 TEST(FindMovement, SaysWhereTheSignalBeginsOrEndsTooSoon) {
   std::vector<double> v = bell(0, 1, 0);
   v.erase(v.begin(), v.begin() + 30);
