@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -15,6 +14,7 @@
 #include "analysis/study/points.h"
 #include "analysis/study/trial_row.h"
 #include "base/fault.h"
+#include "base/system/descriptor.h"
 #include "base/text_file.h"
 #include "sim/record/log/atomic_file.h"
 #include "sim/record/log/folder_hold.h"
@@ -55,22 +55,6 @@ StudyFolder folderOf(Design design, const std::string& path) {
   folder.fingerprint = fingerprintOf(folder.design);
   return folder;
 }
-
-/// One program merges at a time, where the file system has locks; without, two would write the same bytes.
-class MergeHold {
- public:
-  explicit MergeHold(const std::string& folder) : descriptor_(::open((folder + "/.merge").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666)) {
-    if (descriptor_ >= 0) ::flock(descriptor_, LOCK_EX);
-  }
-  ~MergeHold() {
-    if (descriptor_ >= 0) ::close(descriptor_);
-  }
-  MergeHold(const MergeHold&) = delete;
-  MergeHold& operator=(const MergeHold&) = delete;
-
- private:
-  int descriptor_;
-};
 
 }  // namespace
 
@@ -123,7 +107,9 @@ bool mergeTables(const StudyFolder& folder) {
   // A thousand shares end one by one: each stops looking at the first chunk that is missing.
   for (std::int64_t chunk = 0; chunk < folder.chunks.count(); ++chunk)
     if (!isChunkThere(folder.path, chunk, folder.fingerprint)) return false;
-  const MergeHold hold(folder.path);
+  // One program merges at a time, where the file system has locks. Without, two would write the same bytes.
+  const os::Descriptor hold(::open((folder.path + "/.merge").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
+  if (hold >= 0) ::flock(hold, LOCK_EX);
   if (areTablesThere(folder)) return true;
   const std::vector<Column> columns = columnsOf(folder.design);
   std::string header;
