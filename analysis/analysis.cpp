@@ -175,15 +175,11 @@ AnalysisBuilder::AnalysisBuilder(const AnalysisOptions& options) : signals_(std:
 void AnalysisBuilder::add(TrialData&& data, std::size_t condition) {
   const AnalysisOptions& options = analysis_.options;
   AnalyzedTrial trial;
-  trial.key = std::move(data.key);
+  static_cast<TrialFacts&>(trial) = data;
   trial.condition = condition;
-  trial.result = data.result;
-  trial.practice = data.practice;
-  trial.catchTrial = data.catchTrial;
   const TrialSignals signals = computeSignals(data, options.measure);
   trial.otherWay = signals.otherWay;
   trial.measures = computeMeasures(data, signals);
-  trial.scene = data.scene;
   trial.exclusion = whyExcluded(trial, data.excluded, signals.movement, options);
   trial.counted = data.excluded.empty() && !trial.catchTrial && (!trial.practice || options.includePractice) &&
                   (trial.result.outcome == trial::Outcome::Success || trial.result.outcome == trial::Outcome::Failure);

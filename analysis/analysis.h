@@ -53,16 +53,12 @@ struct AnalysisInput {
 };
 
 /// One trial after measurement. Its signals are in `Analysis::signals`.
-struct AnalyzedTrial {
-  TrialKey key;
+struct AnalyzedTrial : TrialFacts {
   std::size_t condition = 0;
-  trial::TrialResult result;
-  bool practice = false, catchTrial = false;
   bool otherWay = false;  // it went round a closed curve the other way
   std::string exclusion;  // why it is not in the profiles and errors; empty: it is
   bool counted = false;   // success or failure of a proper trial: it counts for success rates
   TrialMeasures measures;
-  TrialScene scene;
   double endLevel = 0;                     // the hand's speed at its end, as a part of its peak
   SignalStore::Row profile;                // 101 points of the hand's velocity, then of the object's; none without a movement
   SignalStore::Row window;                 // what the fits are made to

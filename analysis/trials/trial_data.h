@@ -31,12 +31,17 @@ struct TrialScene {
   std::optional<experiment::SquareMatrix<3>> trained;  // [N s/m] of the viscous field that is trained
 };
 
-/// One recorded trial as plain arrays, evenly sampled from arming to its end. Sample i is at first + i / rate after arming. Nothing is
-/// filtered.
-struct TrialData {
+/// What is known of a trial beside its samples.
+struct TrialFacts {
   TrialKey key;
   bool practice = false, catchTrial = false;
   trial::TrialResult result;
+  TrialScene scene;
+};
+
+/// One recorded trial as plain arrays, evenly sampled from arming to its end. Sample i is at first + i / rate after arming. Nothing is
+/// filtered.
+struct TrialData : TrialFacts {
   double rate = 100;                                          // [Hz]
   double first = 0;                                           // [s] of sample 0 since arming, below 1 / rate
   double goTime = kNotMeasured;                               // [s] go signal, since arming like all times here
@@ -56,7 +61,6 @@ struct TrialData {
   std::string excluded;                                            // why the trial is not to count; empty: it counts
   double markedOnset = kNotMeasured, markedOffset = kNotMeasured;  // [s] of the movement, in place of the rule's
   Vec3 start, target;                                              // [m] of the object
-  TrialScene scene;
 };
 
 }  // namespace reachlab::analysis
