@@ -111,13 +111,10 @@ struct ConditionResult {
   MeanSd duration, movementTime;  // [s] over the used trials: by the onset rule, by the task
   Bounds movementRange;           // [s] least and largest movement time of the used trials
   MeanProfile hand, object;
-  double endLevel = 0;                                            // mean of the used trials
-  std::vector<PredictedSignal> signals;                           // one a prediction of the paper's epsilon
-  std::vector<std::unique_ptr<predict::Prediction>> predictions;  // parallel
-  PredictedSignal movedSignal;                                    // of `moved`
-  std::unique_ptr<predict::Prediction>
-      moved;                          // (1) for the T whose movement lasts as long as the trials did; null where `predictions` have it
-  std::vector<std::string> refusals;  // criteria that cannot be predicted here, and why
+  double endLevel = 0;                   // mean of the used trials
+  std::vector<PredictedSignal> signals;  // of the paper's epsilon, with their predictions
+  std::optional<PredictedSignal> moved;  // (1) for the T whose movement lasts as long as the trials did; empty where `signals` have it
+  std::vector<std::string> refusals;     // criteria that cannot be predicted here, and why
   EpsilonTable handEpsilon, objectEpsilon;
   CandidateSet candidates;              // of the fits
   Conclusion conclusion;                // indexes `candidates`

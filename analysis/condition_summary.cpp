@@ -17,19 +17,26 @@ predict::PredictOptions howOf(const AnalysisOptions& options) {
   return how;
 }
 
+PredictedSignal predicted(const Condition& condition, predict::Criterion criterion, const predict::PredictOptions& how,
+                          const AnalysisOptions& options) {
+  std::unique_ptr<predict::Prediction> prediction = predict::predict(condition.compiled, criterion, how);
+  PredictedSignal signal = recordPrediction(*prediction, options.measure, *condition.experiment().task);
+  signal.prediction = std::move(prediction);
+  return signal;
+}
+
 /// The prediction whose movement, measured like a trial's, lasts `measured`: fixed-point steps on its duration.
-std::unique_ptr<predict::Prediction> predictLasting(const Condition& condition, predict::Criterion criterion, predict::PredictOptions how,
-                                                    const AnalysisOptions& options, const ConditionResult& result) {
+PredictedSignal predictLasting(const Condition& condition, predict::Criterion criterion, predict::PredictOptions how,
+                               const AnalysisOptions& options, const ConditionResult& result) {
   how.duration = condition.experiment().task->duration;
-  std::unique_ptr<predict::Prediction> prediction;
+  PredictedSignal signal;
   for (int step = 0; step < 8; ++step) {
-    prediction = predict::predict(condition.compiled, criterion, how);
-    const PredictedSignal signal = recordPrediction(*prediction, options.measure, *condition.experiment().task);
+    signal = predicted(condition, criterion, how, options);
     const double ratio = result.duration.mean / durationUntil(signal, result.endLevel);
     if (std::abs(ratio - 1) < 1e-6) break;
     how.duration *= ratio;
   }
-  return prediction;
+  return signal;
 }
 
 void addPredictions(const Condition& condition, const AnalysisOptions& options, ConditionResult& result) {
@@ -45,11 +52,9 @@ void addPredictions(const Condition& condition, const AnalysisOptions& options, 
       continue;
     }
     try {
-      std::unique_ptr<predict::Prediction> prediction = options.predictFor == PredictionDuration::Moved && result.used > 0
-                                                            ? predictLasting(condition, criterion, how, options, result)
-                                                            : predict::predict(condition.compiled, criterion, how);
-      result.signals.push_back(recordPrediction(*prediction, options.measure, *condition.experiment().task));
-      result.predictions.push_back(std::move(prediction));
+      result.signals.push_back(options.predictFor == PredictionDuration::Moved && result.used > 0
+                                   ? predictLasting(condition, criterion, how, options, result)
+                                   : predicted(condition, criterion, how, options));
     } catch (const Error& error) {
       const std::string what = error.what();
       result.refusals.push_back(what.starts_with(nameOf(criterion)) ? what : fmt::format("{}: {}", nameOf(criterion), what));
@@ -60,14 +65,12 @@ void addPredictions(const Condition& condition, const AnalysisOptions& options, 
 /// The paper's Figs. 9 and 10 are also shown with criterion (1) for the duration that was moved.
 void addMoved(const Condition& condition, const AnalysisOptions& options, ConditionResult& result) {
   constexpr predict::Criterion kShown = predict::Criterion::MinHandJerk;
-  const bool predicted =
+  const bool drawn =
       std::any_of(result.signals.begin(), result.signals.end(), [](const PredictedSignal& s) { return s.criterion == kShown; });
-  if (!predicted || result.used == 0 || options.predictFor == PredictionDuration::Moved) return;
+  if (!drawn || result.used == 0 || options.predictFor == PredictionDuration::Moved) return;
   try {
     result.moved = predictLasting(condition, kShown, howOf(options), options, result);
-    result.movedSignal = recordPrediction(*result.moved, options.measure, *condition.experiment().task);
   } catch (const Error& error) {
-    result.moved = nullptr;
     result.refusals.push_back(fmt::format("{} for the duration that was moved: {}", nameOf(kShown), error.what()));
   }
 }

@@ -21,15 +21,15 @@ void meanProfilesTable(const Analysis& analysis, Sheet& table) {
 void predictionsTable(const Analysis& analysis, Sheet& table) {
   for (std::size_t c = 0; c < analysis.results.size(); ++c) {
     const ConditionResult& r = analysis.results[c];
-    const auto add = [&](const predict::Prediction& prediction, const PredictedSignal& signal) {
-      const PredictedCurve curve = curveOf(prediction, signal);
+    const auto add = [&](const PredictedSignal& signal) {
+      const PredictedCurve curve = curveOf(signal);
       for (std::size_t i = 0; i < curve.time.size(); ++i)
         table.row(analysis.conditions[c].name, predict::nameOf(signal.criterion), signal.plannedDuration,
                   100.0 * static_cast<double>(i) / static_cast<double>(curve.time.size() - 1), curve.time[i], curve.hand[i],
                   curve.object[i]);
     };
-    for (std::size_t k = 0; k < r.signals.size(); ++k) add(*r.predictions[k], r.signals[k]);
-    if (r.moved) add(*r.moved, r.movedSignal);
+    for (const PredictedSignal& signal : r.signals) add(signal);
+    if (r.moved) add(*r.moved);
   }
 }
 

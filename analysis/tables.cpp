@@ -46,7 +46,8 @@ std::vector<FitRow> fitRows(const Analysis& analysis) {
   return rows;
 }
 
-PredictedCurve curveOf(const predict::Prediction& p, const PredictedSignal& signal) {
+PredictedCurve curveOf(const PredictedSignal& signal) {
+  const predict::Prediction& p = *signal.prediction;
   constexpr std::size_t kPoints = 201;
   PredictedCurve curve;
   curve.hand.resize(kPoints);
@@ -55,10 +56,6 @@ PredictedCurve curveOf(const predict::Prediction& p, const PredictedSignal& sign
   for (std::size_t i = 0; i < kPoints; ++i)
     curve.time.push_back(p.duration * static_cast<double>(i) / static_cast<double>(kPoints - 1) - (signal.onset - signal.begin));
   return curve;
-}
-
-PredictedCurve curveOf(const ConditionResult& result, std::size_t criterion) {
-  return curveOf(*result.predictions[criterion], result.signals[criterion]);
 }
 
 void writeTables(const Analysis& analysis, const TableWriter& write) {
@@ -72,10 +69,10 @@ std::string numberedName(predict::Criterion criterion) {
   return std::string(kNumbers[static_cast<std::size_t>(criterion)]) + " " + std::string(nameOf(criterion));
 }
 
-std::string columnOf(predict::Criterion criterion) {
-  std::string name(nameOf(criterion));
-  std::replace(name.begin(), name.end(), '-', '_');
-  return name;
+std::string underscored(std::string_view name) {
+  std::string column(name);
+  std::replace(column.begin(), column.end(), '-', '_');
+  return column;
 }
 
 std::string fileNameOf(const std::string& condition) {

@@ -46,15 +46,14 @@ std::vector<FitRow> fitRows(const Analysis& analysis);
 struct PredictedCurve {
   std::vector<double> time, hand, object;  // [s], [m/s]
 };
-PredictedCurve curveOf(const predict::Prediction& prediction, const PredictedSignal& signal);
-PredictedCurve curveOf(const ConditionResult& result, std::size_t criterion);
+PredictedCurve curveOf(const PredictedSignal& signal);
 
 /// "(1) min-hand-jerk", with the paper's number. "(3h)" is the literal hand-crackle variant.
 std::string numberedName(predict::Criterion criterion);
 /// A candidate in one word: its first criterion, or "reference".
 std::string nameOfCandidate(const std::vector<predict::Criterion>& criteria);
-/// The name with underscores, for columns.
-std::string columnOf(predict::Criterion criterion);
+/// A name with underscores, for columns.
+std::string underscored(std::string_view name);
 /// A condition's name as part of a file name: letters, digits and dashes.
 std::string fileNameOf(const std::string& condition);
 

@@ -32,8 +32,24 @@ double errorFor(const AnalyzedTrial& trial, const ConditionResult& result, Crite
 std::vector<std::string> epsilonColumns(const Analysis& analysis) {
   std::vector<std::string> columns;
   for (const char* what : {"hand", "object"})
-    for (const Criterion c : allCriteria(analysis)) columns.push_back(std::string("epsilon_") + what + "_" + columnOf(c) + "_m_per_s");
+    for (const Criterion c : allCriteria(analysis))
+      columns.push_back(std::string("epsilon_") + what + "_" + underscored(nameOf(c)) + "_m_per_s");
   return columns;
+}
+
+/// The cells that tell a trial.
+Sheet& trialCells(const Analysis& analysis, const AnalyzedTrial& t, Sheet& table) {
+  return table.cells(analysis.conditions[t.condition].name, t.key.subject, t.key.session, t.key.run, t.key.trial);
+}
+
+/// `visit(person, trial, place)` for every trial of every fitted person.
+template <class Visit>
+void eachFittedTrial(const Analysis& analysis, Visit&& visit) {
+  for (const PersonResult& person : analysis.people) {
+    if (!person.fitted) continue;
+    std::size_t place = 0;
+    for (const AnalyzedTrial* trial : fittedTrials(analysis, person)) visit(person, *trial, place++);
+  }
 }
 
 void trialsTable(const Analysis& analysis, Sheet& table) {
@@ -56,8 +72,7 @@ void profilesTable(const Analysis& analysis, Sheet& table) {
     const TrialProfile profile = analysis.profileOf(t);
     const double mean = analysis.results[t.condition].duration.mean, factor = profile.duration / mean;
     for (std::size_t i = 0; i < kProfilePoints; ++i)
-      table.row(analysis.conditions[t.condition].name, t.key.subject, t.key.session, t.key.run, t.key.trial, i,
-                mean * static_cast<double>(i) / 100, factor * profile.hand[i], factor * profile.object[i]);
+      trialCells(analysis, t, table).row(i, mean * static_cast<double>(i) / 100, factor * profile.hand[i], factor * profile.object[i]);
   }
 }
 
@@ -71,22 +86,17 @@ void exclusionsTable(const Analysis& analysis, Sheet& table) {
 }
 
 void fitTrialsTable(const Analysis& analysis, Sheet& table) {
-  for (const PersonResult& person : analysis.people) {
-    if (!person.fitted) continue;
+  eachFittedTrial(analysis, [&](const PersonResult& person, const AnalyzedTrial& t, std::size_t place) {
     const auto& candidates = analysis.results[person.condition].candidates.candidates;
-    std::size_t place = 0;
-    for (const AnalyzedTrial* t : fittedTrials(analysis, person)) {
-      for (std::size_t k = 0; k < candidates.size(); ++k) {
-        const CandidateFit& fit = person.fit.candidates[k];
-        const MovementFit& at = fit.trials[place];
-        const auto found = [&](double value) { return at.found ? value : kNotMeasured; };
-        table.row(analysis.conditions[t->condition].name, t->key.subject, t->key.session, t->key.run, t->key.trial, place % kFolds,
-                  nameOfCandidate(candidates[k].criteria), found(at.onset), found(at.duration), found(at.amplitude), fit.epsilon[place],
-                  found(1 - at.cost / person.rest[place]), fit.score[place], person.fit.own.score[place]);
-      }
-      ++place;
+    for (std::size_t k = 0; k < candidates.size(); ++k) {
+      const CandidateFit& fit = person.fit.candidates[k];
+      const MovementFit& at = fit.trials[place];
+      const auto found = [&](double value) { return at.found ? value : kNotMeasured; };
+      trialCells(analysis, t, table)
+          .row(place % kFolds, nameOfCandidate(candidates[k].criteria), found(at.onset), found(at.duration), found(at.amplitude),
+               fit.epsilon[place], found(1 - at.cost / person.rest[place]), fit.score[place], person.fit.own.score[place]);
     }
-  }
+  });
 }
 
 /// Names of the candidates that any condition has, the reference last.
@@ -111,36 +121,27 @@ std::vector<double> residualsOf(const FitWindow& window, const CandidateFit& fit
 
 std::vector<std::string> residualColumns(const Analysis& analysis) {
   std::vector<std::string> columns;
-  for (std::string name : allCandidates(analysis)) {
-    std::replace(name.begin(), name.end(), '-', '_');
-    columns.push_back("residual_" + name + "_m_per_s");
-  }
+  for (const std::string& name : allCandidates(analysis)) columns.push_back("residual_" + underscored(name) + "_m_per_s");
   return columns;
 }
 
 void residualsTable(const Analysis& analysis, Sheet& table) {
   const std::vector<std::string> names = allCandidates(analysis);
-  for (const PersonResult& person : analysis.people) {
-    if (!person.fitted) continue;
+  eachFittedTrial(analysis, [&](const PersonResult& person, const AnalyzedTrial& t, std::size_t place) {
     const auto& candidates = analysis.results[person.condition].candidates.candidates;
-    std::size_t place = 0;
-    for (const AnalyzedTrial* t : fittedTrials(analysis, person)) {
-      FitWindow window = windowOf(analysis, *t);
-      weigh(window, person.fit.own, place);
-      std::map<std::string, std::vector<double>> residuals;
-      for (std::size_t k = 0; k < candidates.size(); ++k)
-        residuals[nameOfCandidate(candidates[k].criteria)] = residualsOf(window, person.fit.candidates[k], place);
-      const MovementFit& own = person.fit.own.place[place];
-      for (std::size_t i = 0; i < window.velocity.size(); ++i) {
-        const double time = window.begin + static_cast<double>(i) / window.rate;
-        table.cells(analysis.conditions[t->condition].name, t->key.subject, t->key.session, t->key.run, t->key.trial, time,
-                    (time - own.onset) / own.duration, window.weight[i], window.velocity[i]);
-        for (const std::string& name : names) table.cells(residuals.contains(name) ? residuals[name][i] : kNotMeasured);
-        table.endRow();
-      }
-      ++place;
+    FitWindow window = windowOf(analysis, t);
+    weigh(window, person.fit.own, place);
+    std::map<std::string, std::vector<double>> residuals;
+    for (std::size_t k = 0; k < candidates.size(); ++k)
+      residuals[nameOfCandidate(candidates[k].criteria)] = residualsOf(window, person.fit.candidates[k], place);
+    const MovementFit& own = person.fit.own.place[place];
+    for (std::size_t i = 0; i < window.velocity.size(); ++i) {
+      const double time = window.begin + static_cast<double>(i) / window.rate;
+      trialCells(analysis, t, table).cells(time, (time - own.onset) / own.duration, window.weight[i], window.velocity[i]);
+      for (const std::string& name : names) table.cells(residuals.contains(name) ? residuals[name][i] : kNotMeasured);
+      table.endRow();
     }
-  }
+  });
 }
 
 }  // namespace

@@ -1,4 +1,5 @@
 #pragma once
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -12,13 +13,14 @@ namespace reachlab::analysis {
 /// out, since they are separate numbers of the prediction (criteria 4 and 6, criterion 5 without a hand mass).
 struct PredictedSignal {
   predict::Criterion criterion{};
-  double plannedDuration = 0;         // [s] T it was predicted for
-  double rate = 0;                    // [Hz]
-  double begin = 0;                   // [s] where in the signals the movement begins: t = 0
-  std::vector<double> hand, object;   // [m/s] along the path, T and some rest on either side
-  double onset = 0;                   // [s] by the rule that is used for trials, since the beginning of the signals
-  double peak = 0;                    // [m/s] of the hand's speed
-  std::vector<std::string> warnings;  // of the prediction
+  double plannedDuration = 0;                             // [s] T it was predicted for
+  double rate = 0;                                        // [Hz]
+  double begin = 0;                                       // [s] where in the signals the movement begins: t = 0
+  std::vector<double> hand, object;                       // [m/s] along the path, T and some rest on either side
+  double onset = 0;                                       // [s] by the rule that is used for trials, since the beginning of the signals
+  double peak = 0;                                        // [m/s] of the hand's speed
+  std::vector<std::string> warnings;                      // of the prediction
+  std::unique_ptr<const predict::Prediction> prediction;  // where it is kept
 };
 
 /// `options` are those of the trials. With OnsetRule::Task the movement begins when the hand has moved `task.onset`.

@@ -35,9 +35,9 @@ void addThin(Panel& panel, const Analysis& analysis, const std::vector<const Ana
 /// What a prediction's time is counted from.
 enum class Zero { Onset, Start };
 
-void addPrediction(Panel& panel, const predict::Prediction& prediction, const PredictedSignal& signal, bool object,
-                   const figure::Color& color, Dash dash, double width, Zero zero) {
-  PredictedCurve curve = curveOf(prediction, signal);
+void addPrediction(Panel& panel, const PredictedSignal& signal, bool object, const figure::Color& color, Dash dash, double width,
+                   Zero zero) {
+  PredictedCurve curve = curveOf(signal);
   if (zero == Zero::Start)
     for (double& t : curve.time) t += signal.onset - signal.begin;
   panel.series.push_back({.label = fmt::format("{}, T = {} s", numberedName(signal.criterion), shortNumber(signal.plannedDuration)),
@@ -50,8 +50,8 @@ void addPrediction(Panel& panel, const predict::Prediction& prediction, const Pr
 
 void addPrediction(Panel& panel, const ConditionResult& r, Criterion criterion, bool object, const figure::Color& color, Dash dash,
                    double width, Zero zero = Zero::Onset) {
-  for (std::size_t k = 0; k < r.signals.size(); ++k)
-    if (r.signals[k].criterion == criterion) addPrediction(panel, *r.predictions[k], r.signals[k], object, color, dash, width, zero);
+  for (const PredictedSignal& signal : r.signals)
+    if (signal.criterion == criterion) addPrediction(panel, signal, object, color, dash, width, zero);
 }
 
 std::vector<const AnalyzedTrial*> usedTrials(const Analysis& analysis, std::size_t condition) {
@@ -145,7 +145,7 @@ NamedFigure lastFiveFigure(const Analysis& analysis, std::size_t condition) {
     addThin(panel, analysis, last, duration, object, fmt::format("last {} successful", last.size()));
     for (Series& s : panel.series) s.color = palette::kGrey, s.width = 0.7;
     addPrediction(panel, r, Criterion::MinHandJerk, object, {0.62, 0.62, 0.62}, Dash::Solid, 2.8);
-    if (r.moved) addPrediction(panel, *r.moved, r.movedSignal, object, palette::kBlue, Dash::Dashed, 1.4, Zero::Onset);
+    if (r.moved) addPrediction(panel, *r.moved, object, palette::kBlue, Dash::Dashed, 1.4, Zero::Onset);
     Series mean{.label = fmt::format("average of {}", used.size()), .x = profileTimes(duration), .width = 1.8};
     mean.y.assign(kProfilePoints, 0.0);
     for (const AnalyzedTrial* t : used) {

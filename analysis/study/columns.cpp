@@ -120,9 +120,10 @@ std::vector<Column> columnsOf(const Design& design) {
     if (name == "epsilon") {
       for (const char* what : {"hand", "object"})
         for (const predict::Criterion criterion : criteriaOf(design))
-          columns.push_back({fmt::format("epsilon_{}_{}_m_per_s", what, analysis::columnOf(criterion)), {}});
+          columns.push_back({fmt::format("epsilon_{}_{}_m_per_s", what, analysis::underscored(nameOf(criterion))), {}});
     } else if (name == "score") {
-      for (const predict::Criterion criterion : criteriaOf(design)) columns.push_back({"score_" + analysis::columnOf(criterion), {}});
+      for (const predict::Criterion criterion : criteriaOf(design))
+        columns.push_back({"score_" + analysis::underscored(nameOf(criterion)), {}});
       columns.push_back({"score_reference", {}});
       columns.push_back({"fit_effective_samples", {}});
       columns.push_back({"fit_own_score", {}});

@@ -63,9 +63,9 @@ std::vector<plot::PredictedLine> predictionsOf(const analysis::Analysis& analysi
   const analysis::ConditionResult& r = analysis.results[condition];
   for (const predict::Criterion criterion : criteria) {
     plot::PredictedLine line{plot::titleOf(criterion), plot::styleOf(criterion)};
-    for (std::size_t k = 0; !fitted && k < r.signals.size(); ++k) {
-      if (r.signals[k].criterion != criterion) continue;
-      const analysis::PredictedCurve curve = analysis::curveOf(r, k);
+    for (const analysis::PredictedSignal& predicted : r.signals) {
+      if (fitted || predicted.criterion != criterion) continue;
+      const analysis::PredictedCurve curve = analysis::curveOf(predicted);
       line.x = curve.time;
       line.y = signal == Signal::Hand ? curve.hand : curve.object;
       out.push_back(line);

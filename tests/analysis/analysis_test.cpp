@@ -108,7 +108,7 @@ TEST(Study, BearsOneTrialNoSuccessAndNoTrial) {
     const Analysis analysis = analyzeTrials(*input, quickOptions());
     EXPECT_EQ(analysis.results[0].used, 0u);
     EXPECT_FALSE(analysis.overall.best);
-    EXPECT_FALSE(analysis.results[0].predictions.empty());
+    EXPECT_FALSE(analysis.results[0].signals.empty());
   }
   // Failures alone are described, but decide nothing over all.
   const Analysis analysis = analyzeTrials(failed, quickOptions());
@@ -132,18 +132,6 @@ TEST(Study, CountsInvalidTimingApartAndLeavesItOut) {
   EXPECT_NE(words.find("before the go signal"), std::string::npos) << words;
 }
 
-TEST(Study, OfAClosedCurveTravelledTheOtherWayScoresTheWayThatTheHandWent) {
-  AnalysisInput input = simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 4, 4);
-  const AnalysisInput straight = input;
-  for (TrialData& trial : input.trials) {
-    trial.closed = true;
-    trial.along = {{-1, 0, 0}};  // what the task calls forward
-  }
-  const Analysis backwards = analyzeTrials(std::move(input), quickOptions()), forwards = analyzeTrials(straight, quickOptions());
-  EXPECT_EQ(backwards.results[0].counts.otherWay, 4u);
-  EXPECT_EQ(backwards.trials[0].paperError, forwards.trials[0].paperError);
-}
-
 // (1) for the duration that was moved lasts, measured like the trials, as long as they did.
 TEST(Study, PredictsForTheDurationThatWasMoved) {
   AnalysisOptions options = quickOptions();
@@ -151,8 +139,8 @@ TEST(Study, PredictsForTheDurationThatWasMoved) {
   const Analysis analysis = analyzeTrials(input, options);
   const ConditionResult& r = analysis.results.at(0);
   ASSERT_TRUE(r.moved);
-  EXPECT_EQ(r.movedSignal.criterion, predict::Criterion::MinHandJerk);
-  EXPECT_NEAR(durationUntil(r.movedSignal, r.endLevel), r.duration.mean, 1e-5);
+  EXPECT_EQ(r.moved->criterion, predict::Criterion::MinHandJerk);
+  EXPECT_NEAR(durationUntil(*r.moved, r.endLevel), r.duration.mean, 1e-5);
   options.predictFor = PredictionDuration::Moved;
   EXPECT_FALSE(analyzeTrials(input, options).results[0].moved) << "the prediction itself is for it";
   options = quickOptions();

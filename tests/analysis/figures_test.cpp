@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "tests/analysis/made_analysis.h"
@@ -10,10 +9,7 @@
 namespace reachlab::analysis {
 namespace {
 
-using figure::Dash;
-using figure::LegendPlace;
 using figure::Panel;
-using figure::Series;
 using predict::Criterion;
 
 void expectNear(const std::vector<double>& given, const std::vector<double>& expected) {
@@ -67,52 +63,6 @@ TEST(RecoveryFigure, HasTheTruthsDownwardsAndWhatWasNamedAcross) {
   EXPECT_EQ(panel.y.ticks[2], (std::pair<double, std::string>{1, "ref."}));
   recovery.studies = 0;
   EXPECT_NEAR(recoveryFigure(recovery).figure.panels.at(0).bands[1].color.alpha, 0.08 + 0.72 * 3, 1e-12) << "no division by nothing";
-}
-
-TEST(PeopleFigure, HasOneScaleForAllPeople) {
-  Analysis analysis = madeStudy();
-  PersonResult other = analysis.people[0];
-  other.subject = "C";
-  for (double& v : other.fit.own.mean.value) v *= 2;
-  analysis.people.push_back(other);
-  const std::vector<Panel> panels = peopleFigure(analysis, 0).figure.panels;
-  ASSERT_EQ(panels.size(), 4u);
-  EXPECT_GT(panels[0].y.to.value(), 1.6) << "the largest mean, of the other person";
-  EXPECT_EQ(panels[0].y.to, panels[1].y.to);
-  EXPECT_EQ(panels[0].y.from, panels[1].y.from);
-  EXPECT_EQ(panels[2].y.to, panels[3].y.to);
-}
-
-// A prediction begins before the onset by what the onset rule leaves out (0.12 s here), or with its t = 0 at the trials' onset.
-TEST(PaperFigure, ShowsThePredictionsFromTheOnsetAndFromTheirStart) {
-  const std::vector<Panel> panels = paperFigure(madeStudy(), 0).figure.panels;
-  ASSERT_EQ(panels.size(), 4u);
-  for (const std::size_t k : {0u, 1u}) {
-    const Series &fromOnset = panels[k].series.back(), &fromStart = panels[k + 2].series.back();
-    EXPECT_NEAR(fromOnset.x.front(), -0.12, 1e-12);
-    EXPECT_NEAR(fromStart.x.front(), 0, 1e-12);
-    EXPECT_NEAR(fromStart.x.back(), 2, 1e-12) << "T of the prediction";
-    EXPECT_EQ(fromOnset.y, fromStart.y);
-    EXPECT_EQ(panels[k].series.front().x, panels[k + 2].series.front().x) << "the trials stay";
-  }
-}
-
-TEST(LastFiveFigure, HasALineForTheDurationThatWasMoved) {
-  Analysis analysis = madeStudy();
-  const std::size_t before = lastFiveFigure(analysis, 0).figure.panels.at(0).series.size();
-  ConditionResult& r = analysis.results[0];
-  r.moved = std::make_unique<StraightPlan>(Criterion::MinHandJerk, 1.5, 0.25);
-  r.movedSignal = r.signals[1];
-  r.movedSignal.plannedDuration = 1.5;
-  const std::vector<Panel> panels = lastFiveFigure(analysis, 0).figure.panels;
-  for (const Panel& panel : panels) {
-    ASSERT_EQ(panel.series.size(), before + 1);
-    const auto line = std::find_if(panel.series.begin(), panel.series.end(), [](const Series& s) { return s.dash == Dash::Dashed; });
-    ASSERT_NE(line, panel.series.end());
-    EXPECT_EQ(line->label, "(1) min-hand-jerk, T = 1.5 s");
-    EXPECT_NEAR(line->x.back() - line->x.front(), 1.5, 1e-12);
-  }
-  EXPECT_NE(lastFiveFigure(analysis, 0).caption.find("lasts as long as the trials did (dashed blue)"), std::string::npos);
 }
 
 TEST(Shortened, KeepsWhatFitsAndSaysThatItIsCut) {

@@ -23,6 +23,15 @@ class StraightPlan final : public predict::Prediction {
   double speed_;
 };
 
+inline PredictedSignal madeSignal(predict::Criterion criterion, double seconds, double speed) {
+  PredictedSignal signal;
+  signal.criterion = criterion;
+  signal.plannedDuration = 2.25 + speed;
+  signal.begin = 0.3, signal.onset = 0.42;
+  signal.prediction = std::make_unique<StraightPlan>(criterion, seconds, speed);
+  return signal;
+}
+
 inline CandidateFit madeFit(double base, std::size_t trials, std::size_t points) {
   CandidateFit fit;
   for (std::size_t i = 0; i < trials; ++i) {
@@ -56,14 +65,8 @@ inline Analysis madeStudy() {
     r.hand.mean.push_back(1 + i), r.hand.sd.push_back(200 + i);
     r.object.mean.push_back(400 + i), r.object.sd.push_back(600 + i);
   }
-  for (const auto& [criterion, speed] : {std::pair{predict::Criterion::MinCrackle, 0.5}, {predict::Criterion::MinHandJerk, 0.25}}) {
-    r.predictions.push_back(std::make_unique<StraightPlan>(criterion, 2, speed));
-    PredictedSignal signal;
-    signal.criterion = criterion;
-    signal.plannedDuration = 2.25 + speed;
-    signal.begin = 0.3, signal.onset = 0.42;
-    r.signals.push_back(signal);
-  }
+  r.signals.push_back(madeSignal(predict::Criterion::MinCrackle, 2, 0.5));
+  r.signals.push_back(madeSignal(predict::Criterion::MinHandJerk, 2, 0.25));
   r.handEpsilon = {{1, 0.021, Bounds{0.011, 0.031}, 0, {}, false}, {0, 0.041, Bounds{0.015, 0.055}, 0.02, Bounds{0.004, 0.036}, true}};
   r.objectEpsilon = {{0, 0.07, {}, 0, {}, false}, {1, 0.09, Bounds{0.05, 0.13}, 0.02, Bounds{-0.01, 0.05}, false}};
   const auto candidate = [](std::vector<predict::Criterion> criteria, std::vector<double> masses) {
