@@ -13,20 +13,6 @@ namespace {
 // Student's own data (1908): the extra sleep of ten patients, the second drug less the first.
 const std::vector<double> kSleep{1.2, 2.4, 1.3, 1.3, 0.0, 1.0, 1.8, 0.8, 4.6, 1.4};
 
-// Two people are enough for their own scatter to count: no interval is narrower than what is known of either.
-TEST(PeopleMean, IsNoBetterKnownThanThePeopleAre) {
-  for (const std::vector<double>& values : {std::vector<double>{1, 3}, {1, 2, 3}, kSleep}) {
-    const PeopleMean known = computePeopleMean(values, std::vector<double>(values.size(), 0.0));
-    const PeopleMean scattered = computePeopleMean(values, std::vector<double>(values.size(), 400.0));
-    EXPECT_EQ(known.test.p, computeTTest(values).p);
-    EXPECT_LT(scattered.interval.low, known.interval.low) << values.size();
-    EXPECT_GT(scattered.interval.high, known.interval.high) << values.size();
-    const double half = 1.959963985 * 20 / std::sqrt(static_cast<double>(values.size()));
-    EXPECT_NEAR(scattered.interval.high - scattered.interval.low, 2 * half, 1e-6);
-    EXPECT_GT(scattered.test.p, known.test.p) << values.size();
-  }
-}
-
 TEST(SignFlip, CountsEveryExchangeOfSigns) {
   std::vector<double> many;
   for (int i = 0; i < 21; ++i) many.push_back(0.1 * i - 0.5);

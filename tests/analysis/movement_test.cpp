@@ -65,18 +65,6 @@ OnsetOptions above(double speed, double holdSeconds = 0.04) {
   return options;
 }
 
-TEST(FindMovement, CrossesTheThresholdWhereAStraightLineDoes) {
-  const std::vector<double> v = tent(40, 4, 14, 34, 2);  // 0.2 a sample up, 0.1 down
-  const Movement m = findMovement(v, 50, above(0.3));
-  EXPECT_NEAR(m.onset, 5.5 / 50, 1e-12);
-  EXPECT_NEAR(m.offset, 31.0 / 50, 1e-12);
-  EXPECT_NEAR(m.duration(), 25.5 / 50, 1e-12);
-  EXPECT_EQ(m.peak, 2);
-  // The parabola through 1.8, 2 and 1.9.
-  EXPECT_NEAR(m.peakTime, (14 + 0.5 * (1.8 - 1.9) / (1.8 - 4 + 1.9)) / 50, 1e-12);
-  EXPECT_NEAR(findMovement(v, 50, {}).onset, 4.5 / 50, 1e-12) << "5 % of 2 m/s";
-}
-
 TEST(FindMovement, BeginsAndEndsOnASampleThatIsAtTheThreshold) {
   const std::vector<double> v{0, 0, 0.25, 0.5, 1, 0.75, 0.25, 0, 0};
   const Movement m = findMovement(v, 1, above(0.25, 0));

@@ -78,23 +78,6 @@ TEST(Effects, OfDaysArePairedOverPeople) {
   EXPECT_EQ(effects[1].p, 1);
 }
 
-// Three people who gain the same have no scatter between them, and are then as unsure as their own trials: 8 and then 14 of 20.
-TEST(Effects, AreNeverSurerThanThePeoplesOwnTrials) {
-  std::vector<Attempt> all;
-  for (const char* subject : {"01", "02", "03"}) {
-    attempts(all, subject, "01", 1, 0, 8, 20);
-    attempts(all, subject, "02", 2, 0, 14, 20);
-  }
-  const Effect effect = effectsOf(successTable(all), 1).at(0);
-  const double own = 100 * std::sqrt(3 * (varianceOf(8, 20) + varianceOf(14, 20))) / 3;
-  EXPECT_NEAR(effect.points.mean, 30, 1e-9);
-  EXPECT_NEAR(effect.points.p, std::erfc(30 / own / std::sqrt(2)), 1e-12);
-  EXPECT_NEAR(effect.pointsInterval.low, 30 - 1.959963984540054 * own, 1e-9);
-  EXPECT_NEAR(effect.pointsInterval.high, 30 + 1.959963984540054 * own, 1e-9);
-  const double ownLogit = std::sqrt(3 * (1 / 8.5 + 1 / 12.5 + 1 / 14.5 + 1 / 6.5)) / 3;
-  EXPECT_NEAR(effect.logitInterval.high - effect.logitInterval.low, 2 * 1.959963984540054 * ownLogit, 1e-9);
-}
-
 // A person's effect is the mean over the days on which both were done, and as sure as the mean of those.
 TEST(Effects, OfConditionsAreMeansOverCommonDays) {
   const Effect pace = effectsOf(cells(), 2)[2];

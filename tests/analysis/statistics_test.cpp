@@ -30,14 +30,6 @@ TEST(BinomialInterval, OfNoneOrAllIsARootOfTheLevel) {
   EXPECT_EQ(computeBinomialInterval(0, 0).high, 1);
 }
 
-TEST(BinomialInterval, OfFailuresIsTheMirrorOfSuccesses) {
-  for (std::size_t k = 0; k <= 9; ++k) {
-    const Bounds successes = computeBinomialInterval(k, 9), failures = computeBinomialInterval(9 - k, 9);
-    EXPECT_NEAR(successes.low, 1 - failures.high, 1e-12);
-    EXPECT_EQ(computeBinomialInterval(k, 9, 0.95).low, successes.low) << "0.95 is the usual level";
-  }
-}
-
 TEST(MeanSd, OfFewNumbersIsWhatIsKnown) {
   const MeanSd none = computeMeanSd(std::vector<double>{std::nan(""), INFINITY});
   EXPECT_TRUE(std::isnan(none.mean) && std::isnan(none.sd));
