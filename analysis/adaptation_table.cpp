@@ -2,7 +2,6 @@
 #include <cmath>
 #include <map>
 #include <string>
-#include <vector>
 
 #include "analysis/adaptation/state_space.h"
 #include "analysis/sheet.h"

@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <set>
 
-#include "analysis/conclusions/fit_window.h"
 #include "analysis/steps.h"
 
 namespace reachlab::analysis {

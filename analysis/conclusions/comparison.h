@@ -1,7 +1,5 @@
 #pragma once
-#include <cstddef>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "analysis/measures/statistics.h"

@@ -1,7 +1,6 @@
 #include "analysis/conclusions/movement_fit.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <type_traits>
 

@@ -1,6 +1,5 @@
 #include "analysis/conclusions/progress_model.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 #include <set>

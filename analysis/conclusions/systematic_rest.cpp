@@ -1,6 +1,5 @@
 #include "analysis/conclusions/systematic_rest.h"
 
-#include <algorithm>
 #include <boost/math/distributions/gamma.hpp>
 #include <boost/math/distributions/normal.hpp>
 #include <cmath>

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <span>
 
 #include "analysis/measures/across.h"
 #include "analysis/measures/filter.h"

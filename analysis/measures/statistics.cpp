@@ -1,8 +1,6 @@
 #include "analysis/measures/statistics.h"
 
-#include <algorithm>
 #include <boost/math/distributions/binomial.hpp>
-#include <cmath>
 #include <limits>
 
 namespace reachlab::analysis {

@@ -6,7 +6,6 @@
 
 #include "analysis/report/wording.h"
 #include "analysis/sheet.h"
-#include "analysis/steps.h"
 
 namespace reachlab::analysis {
 namespace {

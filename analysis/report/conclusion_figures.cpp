@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "analysis/report/figures.h"
-#include "analysis/report/wording.h"
 
 namespace reachlab::analysis {
 namespace {

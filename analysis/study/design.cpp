@@ -4,14 +4,12 @@
 
 #include <cmath>
 #include <filesystem>
-#include <set>
 
 #include "analysis/study/columns.h"
 #include "base/json/json_reader.h"
 #include "base/text_file.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/patch.h"
-#include "sim/session/plan.h"
 
 namespace reachlab::study {
 namespace {

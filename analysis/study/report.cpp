@@ -1,13 +1,11 @@
 #include "analysis/study/report.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <set>
 
 #include "analysis/conclusions/conclusion.h"
 #include "analysis/conclusions/person_fit.h"

@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 #include "tests/analysis/made_analysis.h"
 
 namespace reachlab::analysis {
