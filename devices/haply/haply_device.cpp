@@ -90,12 +90,6 @@ Exchange HaplyInverse3::take(const std::string& message, haptics::DeviceSample& 
   sample.hasVelocity = options_.deviceVelocity && state_.velocity.has_value();
   if (sample.hasVelocity) sample.velocity = haplyToWorld(*state_.velocity);
   sample.buttons = state_.buttons;
-  sample.hasOrientation = state_.orientation.has_value();
-  if (state_.orientation) {
-    const auto& q = *state_.orientation;
-    const Vec3 axis = haplyToWorld({q[1], q[2], q[3]});
-    sample.orientation = {q[0], axis.x, axis.y, axis.z};
-  }
   return Exchange::Report;
 }
 

@@ -18,10 +18,10 @@ const Json* find(const Json* value, const char* name) {
   return at == value->end() ? nullptr : &*at;
 }
 
-// Absent: `otherwise`. nullopt: no finite number.
-std::optional<double> numberOf(const Json* value, const char* name, double otherwise) {
+// Absent: 0. nullopt: no finite number.
+std::optional<double> numberOf(const Json* value, const char* name) {
   const Json* number = find(value, name);
-  if (number == nullptr) return otherwise;
+  if (number == nullptr) return 0;
   if (!number->is_number()) return std::nullopt;
   const double x = number->get<double>();
   return std::isfinite(x) ? std::optional(x) : std::nullopt;
@@ -29,19 +29,9 @@ std::optional<double> numberOf(const Json* value, const char* name, double other
 
 std::optional<Vec3> vectorOf(const Json* value) {
   if (value == nullptr || !value->is_object()) return std::nullopt;
-  const auto x = numberOf(value, "x", 0), y = numberOf(value, "y", 0), z = numberOf(value, "z", 0);
+  const auto x = numberOf(value, "x"), y = numberOf(value, "y"), z = numberOf(value, "z");
   if (!x || !y || !z) return std::nullopt;
   return Vec3{*x, *y, *z};
-}
-
-std::optional<std::array<double, 4>> quaternionOf(const Json* value) {
-  if (value == nullptr || !value->is_object()) return std::nullopt;
-  const auto w = numberOf(value, "w", 1), x = numberOf(value, "x", 0), y = numberOf(value, "y", 0), z = numberOf(value, "z", 0);
-  if (!w || !x || !y || !z) return std::nullopt;
-  const double length = std::sqrt(*w * *w + *x * *x + *y * *y + *z * *z);
-  constexpr double kRounding = 0.01;
-  if (!(std::abs(length - 1) < kRounding)) return std::nullopt;
-  return std::array<double, 4>{*w / length, *x / length, *y / length, *z / length};
 }
 
 std::string idOf(const Json& device) {
@@ -79,9 +69,7 @@ void readGrip(const Json& message, const std::string& asked, HaplyState& state) 
   std::vector<const Json*> grips = gripsIn(message);
   if (!asked.empty()) std::erase_if(grips, [&](const Json* grip) { return idOf(*grip) != asked; });
   if (grips.size() != 1) return;
-  const Json* grip = find(grips.front(), "state");
-  state.orientation = quaternionOf(find(grip, "orientation"));
-  const Json* buttons = find(grip, "buttons");
+  const Json* buttons = find(find(grips.front(), "state"), "buttons");
   int bit = 0;
   for (const char* name : {"a", "b", "c"}) {
     const Json* button = find(buttons, name);

@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -17,8 +16,7 @@ struct HaplyState {
   std::string id;
   Vec3 position;
   std::optional<Vec3> velocity;
-  std::optional<std::array<double, 4>> orientation;  // of the grip; w, x, y, z
-  std::uint32_t buttons = 0;                         // a, b, c from bit 0
+  std::uint32_t buttons = 0;  // of the grip: a, b, c from bit 0
 };
 
 enum class HaplyAnswer : std::uint8_t {

@@ -35,7 +35,7 @@ class Transport {
  public:
   virtual ~Transport() = default;
   virtual haptics::DeviceInfo info() const = 0;
-  /// Takes the device's newest sample (world frame: position, velocity, buttons, orientation, released) and sends it the newest force. May
+  /// Takes the device's newest sample (world frame: position, velocity, buttons, released) and sends it the newest force. May
   /// wait, at most some 10 ms. A force is never older than that.
   virtual Exchange exchange(ForceSource& force, haptics::DeviceSample& sample) = 0;
   /// [ns] least time between the beginnings of two exchanges. 0: the exchange itself sets the pace.

@@ -16,22 +16,11 @@ namespace {
 
 constexpr double kGravity = 9.80665;  // [m/s^2]
 
-using Quaternion = std::array<double, 4>;
-
-Quaternion product(const Quaternion& a, const Quaternion& b) noexcept {
-  return {a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3], a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-          a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1], a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]};
-}
-
-/// Passes everything on; places, velocities and orientations into the world, forces out of it.
+/// Passes everything on; places and velocities into the world, forces out of it.
 class GuardedDevice final : public haptics::HapticDevice {
  public:
   GuardedDevice(std::unique_ptr<haptics::HapticDevice> device, const HandSettings& options)
-      : device_(std::move(device)), options_(options), rows_(directions(options.mapping)) {
-    const Vec3& r = options.mapping.rotation;
-    const double angle = norm(r), half = angle > 0 ? std::sin(angle / 2) / angle : 0;
-    turn_ = {std::cos(angle / 2), half * r.x, half * r.y, half * r.z};
-  }
+      : device_(std::move(device)), options_(options), rows_(directions(options.mapping)) {}
 
   haptics::DeviceInfo info() const override {
     haptics::DeviceInfo info = device_->info();
@@ -57,10 +46,6 @@ class GuardedDevice final : public haptics::HapticDevice {
     const Mapping& m = options_.mapping;
     sample.position = m.offset + m.scale * turned(sample.position);
     sample.velocity = m.scale * turned(sample.velocity);
-    if (sample.hasOrientation) {
-      if (m.mirrorX) sample.orientation[2] = -sample.orientation[2], sample.orientation[3] = -sample.orientation[3];
-      sample.orientation = product(turn_, sample.orientation);
-    }
     if (options_.deadManButton > 0 && (sample.buttons >> (options_.deadManButton - 1) & 1u) == 0) sample.released = true;
     return sample;
   }
@@ -85,7 +70,6 @@ class GuardedDevice final : public haptics::HapticDevice {
   std::unique_ptr<haptics::HapticDevice> device_;
   HandSettings options_;
   std::array<Vec3, 3> rows_;
-  Quaternion turn_{};
 };
 
 // "0.1/0/-0.05"

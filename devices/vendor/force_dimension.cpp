@@ -9,7 +9,6 @@
 #include "base/device_options.h"
 #include "base/fault.h"
 #include "devices/driver/drivers.h"
-#include "devices/driver/orientation.h"
 #include "devices/io/polled_device.h"
 #include "devices/mapping/towards_right_up.h"
 #include "devices/vendor/force_dimension_api.h"
@@ -59,7 +58,6 @@ class ForceDimension final : public Transport {
     sample.velocity = fromTowardsRightUp(velocity);
     sample.hasVelocity = deviceVelocity_;
     sample.buttons = dhd_.getButtonMask != nullptr ? dhd_.getButtonMask(id_) : 0;
-    if (wrist_) readOrientation(sample);
     return Exchange::Report;
   }
 
@@ -129,7 +127,6 @@ class ForceDimension final : public Transport {
             "the I/O thread tells it zero when the tick leaves no new force for 20 ms, and another thread switches its forces "
             "off when a call hangs for as long") +
         (watchdog_ ? "; its own watchdog does so too" : "; its library offers no watchdog");
-    wrist_ = dhd_.hasWrist != nullptr && dhd_.getOrientationFrame != nullptr && dhd_.hasWrist(id_);
     deviceVelocity_ = deviceVelocity_ && dhd_.getLinearVelocity != nullptr;
   }
 
@@ -139,27 +136,11 @@ class ForceDimension final : public Transport {
     return Exchange::Nothing;
   }
 
-  // R in the device's axes; in the world's it is P R P^T with P the change of axes.
-  void readOrientation(haptics::DeviceSample& sample) {
-    double r[3][3] = {};
-    sample.hasOrientation = dhd_.getOrientationFrame(r, id_) >= 0;
-    if (!sample.hasOrientation) return;
-    constexpr int from[3] = {1, 2, 0};  // world axis i is the device's axis from[i]
-    std::array<std::array<double, 3>, 3> world{};
-    for (std::size_t i = 0; i < world.size(); ++i) {
-      const double* row = r[from[i]];
-      world[i] = {row[from[0]], row[from[1]], row[from[2]]};
-    }
-    const auto q = quaternionOf(world);
-    sample.hasOrientation = q.has_value();
-    if (q) sample.orientation = *q;
-  }
-
   const dhd::Api& dhd_;
   char id_;
   std::string words_;
   haptics::DeviceInfo info_;
-  bool deviceVelocity_, wrist_ = false, isOpen_ = false, watchdog_ = false;
+  bool deviceVelocity_, isOpen_ = false, watchdog_ = false;
   std::atomic<bool> cut_{false};
   std::int64_t toldNs_ = 0;  // when an exchange began last
   int errors_ = 0;           // in a row

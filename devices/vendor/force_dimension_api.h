@@ -31,9 +31,7 @@ struct Api {
   const char* (*getSystemName)(char) = library.find("dhdGetSystemName");
   int (*getSerialNumber)(std::uint16_t*, char) = library.find("dhdGetSerialNumber");
   int (*getLinearVelocity)(double*, double*, double*, char) = library.find("dhdGetLinearVelocity");
-  int (*getOrientationFrame)(double[3][3], char) = library.find("dhdGetOrientationFrame");
   std::uint32_t (*getButtonMask)(char) = library.find("dhdGetButtonMask");
-  bool (*hasWrist)(char) = library.find("dhdHasWrist");
   double (*getMaxForce)(char) = library.find("dhdGetMaxForce");
   int (*enableExpertMode)() = library.find("dhdEnableExpertMode");
   int (*setWatchdog)(unsigned char, char) = library.find("dhdSetWatchdog");

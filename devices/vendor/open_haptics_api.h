@@ -27,7 +27,6 @@ enum : Enum {
   kSafetySwitch = 0x2001,
   kPosition = 0x2050,
   kVelocity = 0x2051,
-  kTransform = 0x2052,
   kModel = 0x2501,
   kSerial = 0x2504,
   kUsableWorkspace = 0x2551,
@@ -42,8 +41,6 @@ enum : Enum {
 };
 enum : std::uint32_t {
   kSuccess = 0,
-  kFirstArgumentError = 0x0100,
-  kLastArgumentError = 0x0104,
   kWarmMotors = 0x0200,
   kDeviceFault = 0x0300,
   kAlreadyInitiated = 0x0301,

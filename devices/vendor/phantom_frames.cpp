@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "base/system/os.h"
-#include "devices/driver/orientation.h"
 
 namespace reachlab::devices {
 
@@ -74,11 +73,9 @@ void PhantomFrames::readFrame() noexcept {
   // A call that fails leaves what it was given: the place of before, and not the origin.
   const Vec3 before = sample_.position / kMetresPerMm;
   std::array<double, 3> mm{before.x, before.y, before.z}, speed{};
-  std::array<double, 16> transform{};
   std::int32_t buttons = 0;
   hd_.getDoublev(hd::kPosition, mm.data());
   hd_.getIntegerv(hd::kButtons, &buttons);
-  if (readsTransform_) hd_.getDoublev(hd::kTransform, transform.data());
   sample_.position = kMetresPerMm * Vec3{mm[0], mm[1], mm[2]};
   sample_.buttons = static_cast<std::uint32_t>(buttons);
   if (settings_.deviceVelocity) {
@@ -90,12 +87,6 @@ void PhantomFrames::readFrame() noexcept {
     std::uint8_t closed = 1;
     hd_.getBooleanv(hd::kSafetySwitch, &closed);
     sample_.released = closed == 0;
-  }
-  if (const auto q = quaternionOf({{{transform[0], transform[4], transform[8]},
-                                    {transform[1], transform[5], transform[9]},
-                                    {transform[2], transform[6], transform[10]}}})) {
-    sample_.orientation = *q;
-    sample_.hasOrientation = true;
   }
   ++sample_.reports;
   sample_.takenNs = os::now();
@@ -119,8 +110,6 @@ void PhantomFrames::judge(std::uint32_t code) noexcept {
   lastError_.store(code, std::memory_order_release);
   DeviceHealth health = health_.load(std::memory_order_relaxed);
   if (code == hd::kWarmMotors) health = health == DeviceHealth::Ready ? DeviceHealth::Warm : health;
-  else if (code >= hd::kFirstArgumentError && code <= hd::kLastArgumentError && readsTransform_)
-    readsTransform_ = false;  // the one thing asked for that a device may not know
   else if (code >= hd::kDeviceFault && code <= hd::kTimer) health = DeviceHealth::Lost;
   else if (health != DeviceHealth::Lost) {
     health = DeviceHealth::Failed;

@@ -77,7 +77,7 @@ class PhantomFrames {
   haptics::DeviceSample taken_;                  // for the haptic thread
   std::int64_t lastTickNs_ = 0;                  // for the haptic thread
   Left left_;                                    // for the servo thread, like the members that follow
-  bool isNew_ = false, readsTransform_ = true;
+  bool isNew_ = false;
   int goodFrames_ = 0;  // in a row
   std::atomic<haptics::DeviceHealth> health_{haptics::DeviceHealth::Ready};
   std::atomic<std::uint32_t> lastError_{0}, told_{0};  // told: an error of this device that another device's frame received

@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -18,11 +17,9 @@ struct DeviceSample {
   std::uint32_t buttons = 0;
   bool hasVelocity = false;
   bool valid = true;
-  bool released = false;        // the dead-man switch is open: no force as long as it is
-  bool hasOrientation = false;  // of the handle
-  std::uint64_t reports = 0;    // how many the device has given so far; a held hand repeats its place, not its report. 0: not counted
-  std::int64_t takenNs = 0;     // monotonic clock when the newest report came, 0: now
-  std::array<double, 4> orientation{1, 0, 0, 0};  // unit quaternion w, x, y, z; world frame
+  bool released = false;      // the dead-man switch is open: no force as long as it is
+  std::uint64_t reports = 0;  // how many the device has given so far; a held hand repeats its place, not its report. 0: not counted
+  std::int64_t takenNs = 0;   // monotonic clock when the newest report came, 0: now
 };
 
 /// Properties of a device. Numbers from the device itself replace those of a data sheet.

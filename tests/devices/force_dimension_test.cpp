@@ -56,17 +56,6 @@ TEST_F(ForceDimension, TurnsItsAxesIntoTheWorlds) {
   })) << "F_device = R^T F_world";
 }
 
-// The device's z is the world's y.
-TEST_F(ForceDimension, AWristTurnsInTheWorldsAxes) {
-  EXPECT_FALSE(newest(*open()).hasOrientation) << "it has none";
-  fakeDhd().wrist = true;
-  fakeDhd().wristTurn = 0.6;
-  const haptics::DeviceSample sample = newest(*open());
-  ASSERT_TRUE(sample.hasOrientation);
-  const double expected[] = {std::cos(0.3), 0, std::sin(0.3), 0};
-  for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(sample.orientation[i], expected[i], 1e-15) << i;
-}
-
 TEST_F(ForceDimension, IsListedByTheNameThatOpensIt) {
   for (const FoundDevice& found : findDriver("forcedimension")->find(*findDriver("forcedimension"))) {
     EXPECT_TRUE(found.present) << found.whyNot;

@@ -82,7 +82,6 @@ TEST(HaplyMessage, AStateIsOfTheDeviceThatIsAskedFor) {
   EXPECT_EQ(read(two).id, "A") << "the first that has a name";
   EXPECT_EQ(read(two).position, (Vec3{1, 2, 3}));
   EXPECT_FALSE(read(two).velocity);
-  EXPECT_FALSE(read(two).orientation);
   EXPECT_EQ(read(two).buttons, 0u);
   EXPECT_EQ(read(two, "B").id, "B");
   EXPECT_EQ(read(two, "B").position, (Vec3{4, 0, 0}));
@@ -101,43 +100,19 @@ TEST(HaplyMessage, AStateIsOfTheDeviceThatIsAskedFor) {
 }
 
 // The grip of that name, wireless or on a cable; without a name the only one.
-TEST(HaplyMessage, AGripsTurnAndButtonsAreOfTheOneThatIsHeld) {
+TEST(HaplyMessage, AGripsButtonsAreOfTheOneThatIsHeld) {
   const auto with = [](const std::string& grips) {
     return R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{}}}],)" + grips + "}";
   };
-  const std::string one = R"({"device_id":"g1","state":{"orientation":{"w":0.6,"x":0.8},"buttons":{"a":false,"b":true,"c":true}}})";
-  const std::string other = R"({"device_id":"g2","state":{"orientation":{"w":0,"y":-0.6,"z":0.8},"buttons":{"a":true,"b":1}}})";
-  const HaplyState only = read(with(R"("wireless_verse_grip":[3,)" + one + "]"));
-  EXPECT_EQ(only.orientation, (std::array<double, 4>{0.6, 0.8, 0, 0}));
-  EXPECT_EQ(only.buttons, 0b110u);
+  const std::string one = R"({"device_id":"g1","state":{"buttons":{"a":false,"b":true,"c":true}}})";
+  const std::string other = R"({"device_id":"g2","state":{"buttons":{"a":true,"b":1}}})";
+  EXPECT_EQ(read(with(R"("wireless_verse_grip":[3,)" + one + "]")).buttons, 0b110u);
   const std::string both = with(R"("wireless_verse_grip":[)" + one + R"(],"verse_grip":[)" + other + "]");
   EXPECT_EQ(read(both).buttons, 0u) << "none of two";
-  EXPECT_FALSE(read(both).orientation);
-  EXPECT_EQ(read(both, "", "g2").orientation, (std::array<double, 4>{0, 0, -0.6, 0.8}));
   EXPECT_EQ(read(both, "", "g2").buttons, 1u) << "a number is no button that is pressed";
   EXPECT_EQ(read(both, "", "g3").buttons, 0u);
   EXPECT_EQ(readHaplyService(both).grips, (std::vector<std::string>{"g1", "g2"}));
   EXPECT_TRUE(readHaplyService("[]").grips.empty());
-}
-
-TEST(HaplyMessage, ATurnIsOfLengthOneWithinOnePercent) {
-  const auto turnOf = [](const std::string& parts) {
-    return read(R"({"inverse3":[{"device_id":"A","state":{"cursor_position":{}}}],"verse_grip":[{"device_id":"g","state":{"orientation":)" +
-                parts + "}}]}")
-        .orientation;
-  };
-  EXPECT_EQ(turnOf("{}"), (std::array<double, 4>{1, 0, 0, 0})) << "what equals its identity is left out";
-  ASSERT_TRUE(turnOf(R"({"w":1.009})"));
-  EXPECT_EQ((*turnOf(R"({"w":1.009})"))[0], 1) << "made one of length 1";
-  EXPECT_FALSE(turnOf(R"({"w":1.011})"));
-  EXPECT_FALSE(turnOf(R"({"w":0.989})"));
-  EXPECT_FALSE(turnOf("3"));
-  for (const char* key : {"w", "x", "y", "z"}) EXPECT_FALSE(turnOf(fmt::format(R"({{"{}":"a"}})", key))) << key;
-  const auto q = turnOf(R"({"w":0.504,"x":-0.504,"y":0.504,"z":0.504})");
-  ASSERT_TRUE(q);
-  EXPECT_NEAR((*q)[0], 0.5, 1e-15);
-  EXPECT_NEAR((*q)[1], -0.5, 1e-15);
-  EXPECT_NEAR((*q)[3], 0.5, 1e-15);
 }
 
 TEST(HaplyMessage, WhatOfItsConfigurationIsFeltIsToldInItsWords) {
@@ -288,9 +263,6 @@ TEST(Haply, GivesItsPlaceAndGetsItsForceInItsOwnAxes) {
     const haptics::DeviceSample sample = device->read();
     EXPECT_EQ(sample.buttons, 0b101u);
     EXPECT_FALSE(sample.hasVelocity);
-    ASSERT_TRUE(sample.hasOrientation);
-    EXPECT_NEAR(sample.orientation[2], 0.8, 1e-12) << "z of the grip is y of the world";
-    EXPECT_NEAR(sample.orientation[3], -0.6, 1e-12);
     ASSERT_TRUE(until([&] {
       device->write({1, 2, 3});
       return service.lastForce() == Vec3{1, -3, 2};
@@ -347,7 +319,6 @@ TEST(Haply, OfSeveralGripsOnlyTheOneThatIsNamedIsTaken) {
   const auto device = open(service, "049D");
   ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
   EXPECT_EQ(device->read().buttons, 0u) << "a dead-man's button of the other hand would be none";
-  EXPECT_FALSE(device->read().hasOrientation);
   EXPECT_TRUE(holds(refusal(service, "049D,grip=1"), "there is: 61548, 61549"));
 }
 

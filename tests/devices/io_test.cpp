@@ -9,7 +9,6 @@
 #include <thread>
 
 #include "base/error.h"
-#include "devices/driver/orientation.h"
 #include "devices/io/polled_device.h"
 #include "devices/io/rate_hand.h"
 #include "tests/refusal.h"
@@ -332,54 +331,6 @@ TEST_F(Steered, WhatIsNoNumberIsNoPushAndALossShows) {
   }
   EXPECT_TRUE(until([&] { return !hand->read().valid; }));
   EXPECT_EQ(hand->health(), DeviceHealth::Lost);
-}
-
-using Matrix = std::array<std::array<double, 3>, 3>;
-
-// Rodrigues: a turn by `angle` about a unit axis.
-Matrix turnBy(const Vec3& axis, double angle) {
-  Matrix m{};
-  const std::array<Vec3, 3> unit{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
-  for (std::size_t column = 0; column < 3; ++column) {
-    const Vec3 v = std::cos(angle) * unit[column] + std::sin(angle) * cross(axis, unit[column]) +
-                   (1 - std::cos(angle)) * dot(axis, unit[column]) * axis;
-    m[0][column] = v.x, m[1][column] = v.y, m[2][column] = v.z;
-  }
-  return m;
-}
-
-// q = (cos a/2, sin a/2 n), up to its sign; about every axis and by every angle, so that each component is the largest at times.
-TEST(Orientation, OfATurnIsHalfItsAngleAboutItsAxis) {
-  for (const Vec3& direction :
-       {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}, Vec3{1, 2, 3}, Vec3{-3, 1, 2}, Vec3{2, 3, -1}, Vec3{0.1, -5, 1}})
-    for (double angle = -3.1; angle < 3.15; angle += 0.1) {
-      const Vec3 axis = direction / norm(direction);
-      const auto q = quaternionOf(turnBy(axis, angle));
-      ASSERT_TRUE(q);
-      const double w = std::cos(angle / 2), s = std::sin(angle / 2);
-      const double sign = (*q)[0] * w + ((*q)[1] * axis.x + (*q)[2] * axis.y + (*q)[3] * axis.z) * s > 0 ? 1 : -1;
-      EXPECT_NEAR((*q)[0], sign * w, 1e-12) << angle;
-      EXPECT_NEAR((*q)[1], sign * s * axis.x, 1e-12) << angle;
-      EXPECT_NEAR((*q)[2], sign * s * axis.y, 1e-12) << angle;
-      EXPECT_NEAR((*q)[3], sign * s * axis.z, 1e-12) << angle;
-    }
-}
-
-TEST(Orientation, WhatIsNoTurnHasNone) {
-  const Matrix whole = turnBy({0.6, 0, 0.8}, 1);
-  for (std::size_t column = 0; column < 3; ++column) {
-    const auto scaled = [&](double by) {
-      Matrix m = whole;
-      for (std::size_t row = 0; row < 3; ++row) m[row][column] *= by;
-      return quaternionOf(m).has_value();
-    };
-    EXPECT_TRUE(scaled(1.0095));
-    EXPECT_FALSE(scaled(1.0105)) << "its column is not of length 1 within 1 %";
-    EXPECT_TRUE(scaled(0.9905));
-    EXPECT_FALSE(scaled(0.9895));
-    EXPECT_FALSE(scaled(std::numeric_limits<double>::quiet_NaN()));
-    EXPECT_FALSE(scaled(0));
-  }
 }
 
 }  // namespace

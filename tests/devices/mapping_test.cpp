@@ -116,33 +116,6 @@ TEST(Mapping, MirrorsForTheLeftHandThenTurnsThenScalesThenShifts) {
   EXPECT_FALSE(guarded.device->info().mapping.empty());
 }
 
-// Turned by R M as any vector is: what a handle's own axis points to in the world. Mirrored: turned the other way about the mirrored axis.
-TEST(Mapping, AHandlesAxesAreTurnedAsItsPlaceIs) {
-  std::mt19937_64 random(4);
-  std::uniform_real_distribution<double> any(-1, 1);
-  const auto turn = [](const std::array<double, 4>& q, const Vec3& v) {
-    const Vec3 n{q[1], q[2], q[3]};
-    return v + 2 * q[0] * cross(n, v) + 2 * cross(n, cross(n, v));
-  };
-  for (int i = 0; i < 200; ++i) {
-    const Mapping mapping{1.5, {}, {2 * any(random), 2 * any(random), 2 * any(random)}, i % 2 == 1};
-    Guarded guarded(mapped(mapping));
-    std::array<double, 4> q{any(random), any(random), any(random), any(random)};
-    const double length = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
-    for (double& part : q) part /= length;
-    guarded.inner->sample.hasOrientation = true;
-    guarded.inner->sample.orientation = q;
-    const Vec3 mirrored{mapping.mirrorX ? -1.0 : 1.0, 1, 1};
-    const auto mirror = [&](const Vec3& v) { return Vec3{mirrored.x * v.x, v.y, v.z}; };
-    for (const Vec3& own : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
-      // M q M turns what M took there; then R.
-      guarded.inner->sample.velocity = turn(q, mirror(own));
-      const haptics::DeviceSample sample = guarded.device->read();
-      EXPECT_LT(norm(turn(sample.orientation, own) - sample.velocity / mapping.scale), 1e-13) << i;
-    }
-  }
-}
-
 // Twice as large in the world: lengths, steps and speeds as well. The stylus' weight is held along the device's own upwards.
 TEST(Mapping, WhatTheDeviceTellsOfItselfIsOfTheWorld) {
   HandSettings options = mapped({2, {0.1, 0, 0}, {0, 0, std::numbers::pi / 2}, false});

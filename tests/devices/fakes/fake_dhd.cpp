@@ -59,8 +59,6 @@ void resetFakeDhd() {
     device.watchdog = 0;
     device.callsUntilFailure = -1;
     device.tellsSerial = true;
-    device.wrist = false;
-    device.wristTurn = 0;
     for (auto& part : device.velocity) part = 0;
     device.type = 33;
     device.maxForce = -1;
@@ -133,15 +131,6 @@ int dhdGetSerialNumber(std::uint16_t* serial, char id) {
   return 0;
 }
 std::uint32_t dhdGetButtonMask(char) { return 1; }
-bool dhdHasWrist(char id) { return fakeDhd(id).wrist; }
-int dhdGetOrientationFrame(double matrix[3][3], char id) {
-  if (answer(id) < 0) return -1;
-  const double c = std::cos(fakeDhd(id).wristTurn), s = std::sin(fakeDhd(id).wristTurn);
-  const double turned[3][3] = {{c, -s, 0}, {s, c, 0}, {0, 0, 1}};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) matrix[i][j] = turned[i][j];
-  return 0;
-}
 double dhdGetMaxForce(char id) { return fakeDhd(id).maxForce; }
 int dhdGetLinearVelocity(double* x, double* y, double* z, char id) {
   if (answer(id) < 0) return -1;

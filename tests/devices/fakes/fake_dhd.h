@@ -19,8 +19,6 @@ struct FakeDhd {
   std::atomic<bool> sameAgain{false};      // dhdGetPosition gives the sample of before, and says so (time guard)
   std::atomic<int> watchdog{0};            // [125 us] dhdSetWatchdog; -1: it refuses
   std::atomic<bool> tellsSerial{true};     // false: dhdGetSerialNumber fails
-  std::atomic<bool> wrist{false};          // dhdHasWrist
-  std::atomic<double> wristTurn{0};        // [rad] of dhdGetOrientationFrame, about the device's z
   std::atomic<double> velocity[3]{};       // [m/s], the device's axes
   std::atomic<int> type{33};               // dhdGetSystemType
   std::atomic<double> maxForce{-1};        // [N] dhdGetMaxForce

@@ -212,7 +212,6 @@ void hdGetDoublev(std::uint32_t what, double* values) {
       std::memcpy(values, device->position, sizeof device->position);
       break;
     case 0x2051: std::memcpy(values, device->velocity, sizeof device->velocity); break;
-    case 0x2052: std::memcpy(values, device->transform, sizeof device->transform); break;
     case 0x2551: {
       const double workspace[6] = {-80, -60, -35, 80, 60, 35};
       std::memcpy(values, workspace, sizeof workspace);

@@ -9,10 +9,9 @@
 namespace reachlab::test {
 
 struct FakeHdDevice {
-  double position[3] = {0, 0, 0};                                           // [mm]
-  double force[3] = {0, 0, 0};                                              // [N] in effect since the last frame's end
-  double velocity[3] = {0, 0, 0};                                           // [mm/s]
-  double transform[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};  // column by column
+  double position[3] = {0, 0, 0};  // [mm]
+  double force[3] = {0, 0, 0};     // [N] in effect since the last frame's end
+  double velocity[3] = {0, 0, 0};  // [mm/s]
   int buttons = 0;
   int frames = 0;
   bool open = false, forceOutput = false, switchClosed = true;
