@@ -20,26 +20,6 @@ std::string narrow(const wchar_t* text) {
   return out;
 }
 
-class HidApiPort final : public HidPort {
- public:
-  explicit HidApiPort(const HidInterface& interface) : device_(hid_open_path(interface.path.c_str())) {
-    if (device_ != nullptr) return;
-    const std::string why = whyNotOpen(interface);
-    throw ResourceError(fmt::format("{}: {}", interface.path, why.empty() ? narrow(hid_error(nullptr)) : why));
-  }
-  ~HidApiPort() override { hid_close(device_); }
-  HidApiPort(const HidApiPort&) = delete;
-  HidApiPort& operator=(const HidApiPort&) = delete;
-
-  int read(std::span<std::uint8_t> bytes, int milliseconds) noexcept override {
-    return hid_read_timeout(device_, bytes.data(), bytes.size(), milliseconds);
-  }
-  bool write(std::span<const std::uint8_t> bytes) noexcept override { return hid_write(device_, bytes.data(), bytes.size()) >= 0; }
-
- private:
-  hid_device* device_;
-};
-
 }  // namespace
 
 std::vector<HidInterface> findHid(std::uint16_t vendor, std::uint16_t product) {
@@ -66,6 +46,18 @@ std::string whyNotOpen(const HidInterface& interface) {
   return fmt::format("{}: {}{}", interface.path, std::strerror(error), remedy);
 }
 
-std::unique_ptr<HidPort> openHid(const HidInterface& interface) { return std::make_unique<HidApiPort>(interface); }
+HidPort::HidPort(const HidInterface& interface) : device_(hid_open_path(interface.path.c_str())) {
+  if (device_ != nullptr) return;
+  const std::string why = whyNotOpen(interface);
+  throw ResourceError(fmt::format("{}: {}", interface.path, why.empty() ? narrow(hid_error(nullptr)) : why));
+}
+
+HidPort::~HidPort() { hid_close(device_); }
+
+int HidPort::read(std::span<std::uint8_t> bytes, int milliseconds) noexcept {
+  return hid_read_timeout(device_, bytes.data(), bytes.size(), milliseconds);
+}
+
+bool HidPort::write(std::span<const std::uint8_t> bytes) noexcept { return hid_write(device_, bytes.data(), bytes.size()) >= 0; }
 
 }  // namespace reachlab::devices

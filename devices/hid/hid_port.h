@@ -1,17 +1,18 @@
 #pragma once
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <string>
 #include <vector>
+
+struct hid_device_;  // of hidapi
 
 namespace reachlab::devices {
 
 /// One HID interface that the system lists.
 struct HidInterface {
-  std::string path;  // "/dev/hidraw0"
+  std::string path = {};  // "/dev/hidraw0"
   std::uint16_t vendor = 0, product = 0;
-  std::string serial, maker, title;
+  std::string serial = {}, maker = {}, title = {};
   /// The text that a user writes behind the colon: the serial number, or the path of an interface without a serial number.
   const std::string& key() const { return serial.empty() ? path : serial; }
 };
@@ -26,15 +27,19 @@ std::string whyNotOpen(const HidInterface& interface);
 /// An open HID interface that sends and receives reports. One thread at a time.
 class HidPort {
  public:
-  virtual ~HidPort() = default;
+  /// Throws ResourceError with the system's message.
+  explicit HidPort(const HidInterface& interface);
+  ~HidPort();
+  HidPort(const HidPort&) = delete;
+  HidPort& operator=(const HidPort&) = delete;
   /// The number of bytes of the newest waiting report, read within `milliseconds`. 0: no report came. -1: the device is gone. A report
   /// without a number comes without its ID byte.
-  virtual int read(std::span<std::uint8_t> bytes, int milliseconds) noexcept = 0;
+  int read(std::span<std::uint8_t> bytes, int milliseconds) noexcept;
   /// True when the report was sent. The first byte is the report's number, or 0 for reports without a number.
-  virtual bool write(std::span<const std::uint8_t> bytes) noexcept = 0;
-};
+  bool write(std::span<const std::uint8_t> bytes) noexcept;
 
-/// Throws ResourceError with the system's message.
-std::unique_ptr<HidPort> openHid(const HidInterface& interface);
+ private:
+  hid_device_* device_;
+};
 
 }  // namespace reachlab::devices

@@ -176,7 +176,7 @@ std::unique_ptr<haptics::HapticDevice> makeArm(const DeviceRequest& request) {
   chosen.calibrateAtStart = calibrate;
   const auto open = [key = arm.key(), words = request.words()] {
     try {
-      return openHid(chooseArm(key, words));
+      return std::make_unique<HidPort>(chooseArm(key, words));
     } catch (const ResourceError& error) {
       throw ResourceError(fmt::format("{}: {}", words, error.what()));
     }

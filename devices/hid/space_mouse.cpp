@@ -40,7 +40,7 @@ HidInterface chooseSpaceMouse(const std::string& key, const std::string& words) 
 class SpaceMouseSource final : public DeflectionSource {
  public:
   SpaceMouseSource(std::string key, std::string words)
-      : key_(std::move(key)), words_(std::move(words)), port_(openHid(chooseSpaceMouse(key_, words_))) {}
+      : key_(std::move(key)), words_(std::move(words)), port_(std::make_unique<HidPort>(chooseSpaceMouse(key_, words_))) {}
 
   // Everything that waits is taken, so that the newest is never seconds old.
   bool wait(Deflection& newest, bool& lost) override {
@@ -70,7 +70,7 @@ class SpaceMouseSource final : public DeflectionSource {
     constexpr std::int64_t kPauseNs = 200'000'000;
     os::sleepUntil(os::now() + kPauseNs);
     try {
-      port_ = openHid(chooseSpaceMouse(key_, words_));
+      port_ = std::make_unique<HidPort>(chooseSpaceMouse(key_, words_));
       state_ = {};
       return true;
     } catch (const ResourceError&) {

@@ -25,8 +25,10 @@
 #include "sim/haptics/loop_core.h"
 #include "sim/haptics/watchdog.h"
 #include "tests/devices/arm_poses.h"
+#include "tests/devices/fakes/diary_device.h"
 #include "tests/devices/fakes/fake_dhd.h"
 #include "tests/devices/fakes/fake_hd.h"
+#include "tests/devices/fakes/fake_hidapi.h"
 
 /// Every driver that renders force, behind the whole loop, on invented time, with faults mixed at random (seeded: RC_PARAMS). What must hold
 /// at every tick is in `Run`. RC_PARAMS="max_success=1000" runs a thousand of each (tests/long/fault_runs.sh).
@@ -97,53 +99,38 @@ class PolledRig : public Rig {
 
 class ArmRig final : public PolledRig {
  public:
+  ~ArmRig() override {
+    polled_.reset();
+    test::resetFakeHids();
+  }
+  void advance(const std::function<void()>& tick) override {
+    PolledRig::advance(tick);
+    if (hid_.written.empty()) return;
+    told_ = largestCurrent(hid_.written.back());
+    answered_ = timeNs;
+    hid_.written.clear();
+  }
   bool knowsOwn(Fault kind) const override { return kind != Fault::NotANumber; }
   double told() const override { return told_; }
   double toldLimit() const override { return 2000; }
 
  protected:
-  struct Port final : HidPort {
-    explicit Port(ArmRig& r) : rig(r) {}
-    int read(std::span<std::uint8_t> bytes, int) noexcept override {
-      if (rig.has(Fault::Unplug)) return -1;
-      if (rig.waiting_.empty()) return 0;
-      const auto report = rig.waiting_;
-      rig.waiting_.clear();
-      std::copy(report.begin(), report.end(), bytes.begin());
-      return static_cast<int>(report.size());
-    }
-    bool write(std::span<const std::uint8_t> bytes) noexcept override {
-      if (rig.has(Fault::Unplug) || rig.has(Fault::Refusal)) return false;
-      rig.told_ = 0;
-      for (const std::size_t at : {1, 3, 5})
-        rig.told_ = std::max(rig.told_, std::abs(1.0 * static_cast<std::int16_t>(bytes[at] | bytes[at + 1] << 8)));
-      rig.answered_ = timeNs;
-      return true;
-    }
-    ArmRig& rig;
-  };
   std::shared_ptr<Transport> transport() override {
     OpenArm::Options options;
     options.model = findArmModel("woodenhaptics_v2015");
-    return std::make_shared<OpenArm>(options, "1", [this]() -> std::unique_ptr<HidPort> {
-      if (has(Fault::Unplug)) throw ResourceError("gone");
-      return std::make_unique<Port>(*this);
-    });
+    return std::make_shared<OpenArm>(options, "1", [this] { return std::make_unique<HidPort>(HidInterface{.path = hid_.path}); });
   }
   void serve() override {
     if (timeNs - answered_ > 500 * kMs || has(Fault::Unplug)) told_ = 0;  // the firmware's watchdog; no current without a cable
+    hid_.gone = has(Fault::Unplug), hid_.deaf = has(Fault::Refusal);
     if (has(Fault::Silence)) return;
     const ArmModel& model = *findArmModel("woodenhaptics_v2015");
     const Vec3 at = seen();
     const auto counts = encoderCounts(model, anglesAt(model, {at.z, at.x, at.y}));
-    waiting_.assign(has(Fault::Garbage) ? 7 : 64, 0);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto raw = static_cast<std::uint16_t>(static_cast<std::int64_t>(std::llround(counts[i])));
-      waiting_[2 * i] = static_cast<std::uint8_t>(raw & 0xFF);
-      waiting_[2 * i + 1] = static_cast<std::uint8_t>(raw >> 8);
-    }
+    hid_.reports = {armReport(counts)};
+    if (has(Fault::Garbage)) hid_.reports[0].resize(7);
   }
-  std::vector<std::uint8_t> waiting_;
+  test::FakeHid& hid_ = test::resetToOneFakeHid();
   double told_ = 0;  // [mA]
   std::int64_t answered_ = 0;
 };
@@ -320,28 +307,20 @@ class VirtualRig final : public Rig {
   std::shared_ptr<haptics::HapticDevice> open() override {
     VirtualDevice::Options options;
     options.hand = {1, 300, 30};
-    auto hand = std::make_unique<Hand>(*this);
+    auto hand = std::make_unique<test::DiaryDevice>();
+    hand_ = hand.get();
     return device_ = std::make_shared<VirtualDevice>(*findDeviceModel("premium15"), options, std::move(hand));
   }
   void advance(const std::function<void()>& tick) override {
+    hand_->sample.position = seen();
+    hand_->sample.valid = !has(Fault::Silence);
     if (tick) tick();
   }
   double told() const override { return 0; }
   double toldLimit() const override { return 8.5; }
 
  private:
-  struct Hand final : haptics::HapticDevice {
-    explicit Hand(VirtualRig& r) : rig(r) {}
-    haptics::DeviceInfo info() const override { return {}; }
-    haptics::DeviceSample read() noexcept override {
-      haptics::DeviceSample sample;
-      sample.position = rig.seen();
-      sample.valid = !rig.has(Fault::Silence);
-      return sample;
-    }
-    void write(const Vec3&) noexcept override {}
-    VirtualRig& rig;
-  };
+  test::DiaryDevice* hand_ = nullptr;  // what holds the device
   std::shared_ptr<VirtualDevice> device_;
 };
 
@@ -496,9 +475,12 @@ TEST(FaultRuns, SilenceIsFoundWhereNothingLooksAfterTheDevice) {
   plan.faults = {{Fault::Silence, 300, 250}};
   plan.mass = 1000;  // does not follow: the force stands
   plan.reach = 0.02;
-  ArmRig guarded, unguarded;
-  EXPECT_NO_THROW(runPlan(guarded, plan));
-  EXPECT_THROW(runPlan(unguarded, plan, false), rc::detail::CaseResult);
+  const auto run = [&](bool guarded) {
+    ArmRig rig;
+    runPlan(rig, plan, guarded);
+  };
+  EXPECT_NO_THROW(run(true));
+  EXPECT_THROW(run(false), rc::detail::CaseResult);
 }
 
 }  // namespace

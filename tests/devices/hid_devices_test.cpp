@@ -10,6 +10,7 @@
 #include "devices/hid/open_serial_arm.h"
 #include "devices/hid/report_descriptor.h"
 #include "devices/hot_plug.h"
+#include "tests/devices/arm_poses.h"
 #include "tests/devices/driver_answers.h"
 #include "tests/devices/fakes/fake_hidapi.h"
 #include "tests/refusal.h"
@@ -23,11 +24,6 @@ using test::fakeHids;
 using test::until;
 using Bytes = std::vector<std::uint8_t>;
 
-// A vendor's page with so many bytes in and out.
-Bytes vendorPage(std::uint8_t bytes) {
-  return {0x06, 0xAB, 0xFF,  0x0A, 0x00, 0x02, 0xA1, 0x01, 0x15, 0x00, 0x26,  0xFF, 0x00, 0x75,
-          0x08, 0x95, bytes, 0x09, 0x01, 0x81, 0x02, 0x09, 0x02, 0x95, bytes, 0x91, 0x02, 0xC0};
-}
 FakeHid teensy(const std::string& path = "/dev/hidraw3", const std::wstring& serial = L"A1") {
   return {.path = path,
           .vendor = 0x16C0,
@@ -89,10 +85,10 @@ TEST_F(HidDevices, OneThatMayNotBeOpenedSaysWhatToDo) {
   EXPECT_EQ(why(EACCES), "/dev/hidraw3: Permission denied" + remedy);
   EXPECT_EQ(why(EPERM), "/dev/hidraw3: Operation not permitted" + remedy);
   EXPECT_EQ(why(ENXIO), "/dev/hidraw3: No such device or address");
-  EXPECT_THROW(openHid(findHid().at(0)), ResourceError);
+  EXPECT_THROW(HidPort(findHid().at(0)), ResourceError);
   HidInterface nowhere;
   nowhere.path = "/dev/null";  // it may be opened, but not as HID
-  EXPECT_EQ(reachlab::refusalOf([&] { openHid(nowhere); }), "/dev/null: the library?s own words");
+  EXPECT_EQ(reachlab::refusalOf([&] { const HidPort port(nowhere); }), "/dev/null: the library?s own words");
 }
 
 TEST_F(HidDevices, APortIsReadWrittenAndClosed) {
@@ -101,15 +97,15 @@ TEST_F(HidDevices, APortIsReadWrittenAndClosed) {
   hid.reports = {{1, 2, 3}};
   test::resetFakeHids({hid});
   {
-    const auto port = openHid(findHid().at(0));
+    HidPort port(findHid().at(0));
     Bytes report(8);
-    EXPECT_EQ(port->read(report, 5), 3);
+    EXPECT_EQ(port.read(report, 5), 3);
     EXPECT_EQ(report[2], 3);
-    EXPECT_EQ(port->read(report, 0), 0);
-    EXPECT_TRUE(port->write(Bytes{0, 9}));
+    EXPECT_EQ(port.read(report, 0), 0);
+    EXPECT_TRUE(port.write(Bytes{0, 9}));
     fakeHids().list[0].gone = true;
-    EXPECT_EQ(port->read(report, 0), -1);
-    EXPECT_FALSE(port->write(Bytes{0, 9}));
+    EXPECT_EQ(port.read(report, 0), -1);
+    EXPECT_FALSE(port.write(Bytes{0, 9}));
   }
   EXPECT_EQ(fakeHids().list[0].waits, (std::vector<int>{5, 0, 0}));
   EXPECT_EQ(fakeHids().list[0].open, 0);
@@ -191,8 +187,7 @@ TEST_F(HidDevices, AnArmsCurrentIsHeldToTwoAmperesUnlessItIsTold) {
       device->write({1000, 1000, 1000});
       const auto all = written();
       if (all.size() < 20) return false;
-      for (const std::size_t at : {1u, 3u, 5u})
-        largest = std::max(largest, std::abs(static_cast<int>(static_cast<std::int16_t>(all.back()[at] | all.back()[at + 1] << 8))));
+      largest = std::max(largest, largestCurrent(all.back()));
       return largest > 0;
     });
     return largest;

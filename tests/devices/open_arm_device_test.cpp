@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <deque>
 
 #include "base/error.h"
 #include "tests/devices/arm_poses.h"
+#include "tests/devices/fakes/fake_hidapi.h"
 #include "tests/devices/fakes/fake_message_line.h"
 #include "tests/refusal.h"
 
@@ -15,62 +15,28 @@ namespace {
 
 using Report = std::vector<std::uint8_t>;
 
-// What a port is asked to give, and what it was sent.
-struct Line {
-  std::deque<Report> waiting;
-  std::vector<Report> sent;
-  bool gone = false, refuses = false;
-  std::vector<std::pair<std::size_t, int>> readings;  // room [bytes] and wait [ms]
-};
-class FakePort final : public HidPort {
- public:
-  explicit FakePort(std::shared_ptr<Line> line) : line_(std::move(line)) {}
-  int read(std::span<std::uint8_t> bytes, int milliseconds) noexcept override {
-    line_->readings.emplace_back(bytes.size(), milliseconds);
-    if (line_->gone) return -1;
-    if (line_->waiting.empty()) return 0;
-    const Report report = line_->waiting.front();
-    line_->waiting.pop_front();
-    std::copy_n(report.begin(), std::min(report.size(), bytes.size()), bytes.begin());
-    return static_cast<int>(report.size());
-  }
-  bool write(std::span<const std::uint8_t> bytes) noexcept override {
-    if (line_->refuses) return false;
-    line_->sent.emplace_back(bytes.begin(), bytes.end());
-    return true;
-  }
-
- private:
-  std::shared_ptr<Line> line_;
-};
-
 class OpenArmOverAPort : public ::testing::Test {
  protected:
   OpenArmOverAPort() {
     options.model = findArmModel("woodenhaptics_v2015");
     open();
   }
-  void open(const std::string& serial = "1") {
-    arm = std::make_unique<OpenArm>(options, serial, [this]() -> std::unique_ptr<HidPort> {
-      if (line->gone) throw ResourceError("gone");
-      return std::make_unique<FakePort>(line);
-    });
+  ~OpenArmOverAPort() override {
+    arm.reset();
+    test::resetFakeHids();
   }
-  static Report reportAt(const std::array<double, 3>& counts, std::int16_t info = 0) {
-    Report report(64, 0);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const auto raw = static_cast<std::uint16_t>(static_cast<std::int64_t>(std::llround(counts[i])));
-      report[2 * i] = static_cast<std::uint8_t>(raw & 0xFF);
-      report[2 * i + 1] = static_cast<std::uint8_t>(raw >> 8);
-    }
-    report[12] = static_cast<std::uint8_t>(info);
+  void open() {
+    arm = std::make_unique<OpenArm>(options, "1", [this] { return std::make_unique<HidPort>(HidInterface{.path = hid.path}); });
+  }
+  static Report reportAt(const std::array<double, 3>& counts, std::uint8_t info = 0) {
+    Report report = armReport(counts);
+    report[12] = info;
     return report;
   }
   Report reportOf(const Vec3& inArm) const { return reportAt(encoderCounts(*options.model, anglesAt(*options.model, inArm))); }
-  static std::int16_t field(const Report& report, std::size_t at) { return static_cast<std::int16_t>(report[at] | report[at + 1] << 8); }
 
   OpenArm::Options options;
-  std::shared_ptr<Line> line = std::make_shared<Line>();
+  test::FakeHid& hid = test::resetToOneFakeHid();
   std::unique_ptr<OpenArm> arm;
   test::StandingForce wish;
   haptics::DeviceSample sample;
@@ -78,39 +44,39 @@ class OpenArmOverAPort : public ::testing::Test {
 
 TEST_F(OpenArmOverAPort, GivesThePlaceInTheWorldsAxesToACount) {
   const Vec3 inArm{0.02, -0.03, 0.04};
-  line->waiting.push_back(reportOf(inArm));
+  hid.reports.push_back(reportOf(inArm));
   ASSERT_EQ(arm->exchange(wish, sample), Exchange::Report);
   EXPECT_LT(norm(sample.position - Vec3{-0.03, 0.04, 0.02}), 2e-4) << "a count on every axis is 0.1 mm";
 }
 
 TEST_F(OpenArmOverAPort, AnswersEveryReportOnceWithTheForcesCurrents) {
-  line->waiting.push_back(reportOf({}));
+  hid.reports.push_back(reportOf({}));
   wish.force = {1, 0, 0};  // the arm's y: to the right
   arm->exchange(wish, sample);
-  ASSERT_EQ(line->sent.size(), 1u);
-  EXPECT_EQ(line->sent[0].size(), 65u);
-  EXPECT_EQ(field(line->sent[0], 7), 0);
+  ASSERT_EQ(hid.written.size(), 1u);
+  EXPECT_EQ(hid.written[0].size(), 65u);
+  EXPECT_EQ(fieldOf(hid.written[0], 7), 0);
   // tau_A = cos(thA) R F = 0.22 N m at the origin; through 16:1 and 0.0259 Nm/A: 531 mA.
-  EXPECT_NEAR(field(line->sent[0], 1), 531, 2);
-  EXPECT_EQ(field(line->sent[0], 3), 0);
+  EXPECT_NEAR(fieldOf(hid.written[0], 1), 531, 2);
+  EXPECT_EQ(fieldOf(hid.written[0], 3), 0);
 }
 
 TEST_F(OpenArmOverAPort, ALostReportIsAskedForAgainWithoutForce) {
   wish.force = {1, 1, 1};
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Nothing);
-  ASSERT_EQ(line->sent.size(), 1u);
-  for (const std::uint8_t byte : line->sent[0]) EXPECT_EQ(byte, 0);
+  ASSERT_EQ(hid.written.size(), 1u);
+  for (const std::uint8_t byte : hid.written[0]) EXPECT_EQ(byte, 0);
 }
 
 TEST_F(OpenArmOverAPort, WhatIsNotAWholeReportIsNotBelieved) {
-  line->waiting.push_back(Report(10, 0x7F));
-  line->waiting.push_back(Report(63, 0x7F));
+  hid.reports.push_back(Report(10, 0x7F));
+  hid.reports.push_back(Report(63, 0x7F));
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Nothing);
 }
 
 TEST_F(OpenArmOverAPort, CountsGoOnPastTheEndOfSixteenBits) {
   const auto placeAt = [&](double counts) {
-    line->waiting.push_back(reportAt(std::array<double, 3>{counts, 3000, 6000}));
+    hid.reports.push_back(reportAt({counts, 3000, 6000}));
     EXPECT_EQ(arm->exchange(wish, sample), Exchange::Report);
     return sample.position;
   };
@@ -123,74 +89,75 @@ TEST_F(OpenArmOverAPort, CountsGoOnPastTheEndOfSixteenBits) {
 }
 
 TEST_F(OpenArmOverAPort, TheCalibrationButtonSetsTheEncoders) {
-  line->waiting.push_back(reportAt(std::array<double, 3>{11, 22, 33}, 1));
+  hid.reports.push_back(reportAt({11, 22, 33}, 1));
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Nothing);
-  ASSERT_EQ(line->sent.size(), 1u);
-  EXPECT_EQ(field(line->sent[0], 7), 1);
-  EXPECT_EQ(field(line->sent[0], 13), 6000);
-  line->waiting.push_back(reportAt(std::array<double, 3>{0, 0, 6000}));
+  ASSERT_EQ(hid.written.size(), 1u);
+  EXPECT_EQ(fieldOf(hid.written[0], 7), 1);
+  EXPECT_EQ(fieldOf(hid.written[0], 13), 6000);
+  hid.reports.push_back(reportAt({0, 0, 6000}));
   ASSERT_EQ(arm->exchange(wish, sample), Exchange::Report);
   EXPECT_LT(norm(sample.position - Vec3{0, 0.205, 0.025}), 1e-12) << "the published home";
 }
 
 TEST_F(OpenArmOverAPort, AGoneDeviceIsLostAndComesBack) {
-  line->gone = true;
+  hid.gone = true;
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost);
   EXPECT_THROW(arm->reopen(), ResourceError);
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost);
-  line->gone = false;
+  hid.gone = false;
   EXPECT_TRUE(arm->reopen());
-  line->waiting.push_back(reportOf({}));
+  hid.reports.push_back(reportOf({}));
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Report);
-  line->refuses = true;
-  line->waiting.push_back(reportOf({}));
+  hid.deaf = true;
+  hid.reports.push_back(reportOf({}));
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost) << "a force that cannot be told is a loss";
 }
 
 TEST_F(OpenArmOverAPort, TheLastWordIsZero) {
   wish.force = {2, 0, 0};
-  line->waiting.push_back(reportOf({}));
+  hid.reports.push_back(reportOf({}));
   arm->exchange(wish, sample);
   arm->close();
-  for (const std::uint8_t byte : line->sent.back()) EXPECT_EQ(byte, 0);
+  for (const std::uint8_t byte : hid.written.back()) EXPECT_EQ(byte, 0);
 }
 
 TEST_F(OpenArmOverAPort, WaitsForItsTurnOnceAndTakesWhatHasPiledUpWithoutWaiting) {
-  line->waiting = {reportOf({}), reportOf({})};
+  hid.reports = {reportOf({}), reportOf({})};
   arm->exchange(wish, sample);
-  EXPECT_EQ(line->readings, (std::vector<std::pair<std::size_t, int>>{{64, 10}, {64, 0}, {64, 0}}));
-  line->readings.clear();
-  line->waiting = {Report(3, 0), reportOf({})};
+  EXPECT_EQ(hid.waits, (std::vector<int>{10, 0, 0}));
+  EXPECT_EQ(hid.room, 64u);
+  hid.waits.clear();
+  hid.reports = {Report(3, 0), reportOf({})};
   arm->exchange(wish, sample);
-  EXPECT_EQ(line->readings[1].second, 10) << "garbage is not its turn";
+  EXPECT_EQ(hid.waits[1], 10) << "garbage is not its turn";
 }
 
 TEST_F(OpenArmOverAPort, OneThatNeverStopsSendingIsAnsweredAfterSixtyFour) {
-  for (int i = 0; i < 70; ++i) line->waiting.push_back(reportOf({0.0005 * i, 0, 0}));
+  for (int i = 0; i < 70; ++i) hid.reports.push_back(reportOf({0.0005 * i, 0, 0}));
   ASSERT_EQ(arm->exchange(wish, sample), Exchange::Report);
-  EXPECT_EQ(line->waiting.size(), 6u);
+  EXPECT_EQ(hid.reports.size(), 6u);
   EXPECT_NEAR(sample.position.z, 0.0005 * 63, 2e-4);
 }
 
 TEST_F(OpenArmOverAPort, ItsButtonIsTheFirst) {
   Report pressed = reportAt({0, 0, 6000});
   pressed[6] = 0x10, pressed[7] = 0x27;  // 10000 in encoder d
-  line->waiting.push_back(pressed);
+  hid.reports.push_back(pressed);
   arm->exchange(wish, sample);
   EXPECT_EQ(sample.buttons, 1u);
   EXPECT_FALSE(sample.hasVelocity);
-  line->waiting.push_back(reportAt({0, 0, 6000}));
+  hid.reports.push_back(reportAt({0, 0, 6000}));
   arm->exchange(wish, sample);
   EXPECT_EQ(sample.buttons, 0u);
 }
 
 TEST_F(OpenArmOverAPort, AtItsStartItIsCalibratedOnlyWhereItIsAskedFor) {
-  EXPECT_TRUE(line->sent.empty());
+  EXPECT_TRUE(hid.written.empty());
   options.calibrateAtStart = true;
   open();
-  ASSERT_EQ(line->sent.size(), 1u);
-  EXPECT_EQ(field(line->sent[0], 7), 1);
-  EXPECT_EQ(field(line->sent[0], 13), 6000);
+  ASSERT_EQ(hid.written.size(), 1u);
+  EXPECT_EQ(fieldOf(hid.written[0], 7), 1);
+  EXPECT_EQ(fieldOf(hid.written[0], 13), 6000);
 }
 
 TEST_F(OpenArmOverAPort, OlderFirmwaresHaveReportsOfFourteenBytes) {
@@ -198,21 +165,21 @@ TEST_F(OpenArmOverAPort, OlderFirmwaresHaveReportsOfFourteenBytes) {
   open();
   Report report = reportAt({0, 0, 6000});
   report.resize(14);
-  line->waiting.push_back(report);
+  hid.reports.push_back(report);
   ASSERT_EQ(arm->exchange(wish, sample), Exchange::Report);
   EXPECT_LT(norm(sample.position - Vec3{0, 0.205, 0.025}), 1e-12);
-  EXPECT_EQ(line->sent.at(0).size(), 15u);
-  EXPECT_EQ(line->readings.at(0).first, 14u);
+  EXPECT_EQ(hid.written.at(0).size(), 15u);
+  EXPECT_EQ(hid.room, 14u);
   options.commandBytes = options.reportBytes = 1000;
   open();
-  line->waiting.push_back(Report(64, 0));
+  hid.reports.push_back(Report(64, 0));
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Report) << "no more than a report of USB has";
-  EXPECT_EQ(line->sent.back().size(), 65u);
+  EXPECT_EQ(hid.written.back().size(), 65u);
 }
 
 TEST_F(OpenArmOverAPort, AfterTheCalibrationAndAfterAnUnpluggingItsCountsBeginAnew) {
   const auto place = [&](double counts) {
-    line->waiting.push_back(reportAt({counts, 0, 6000}));
+    hid.reports.push_back(reportAt({counts, 0, 6000}));
     EXPECT_EQ(arm->exchange(wish, sample), Exchange::Report);
     return sample.position;
   };
@@ -234,9 +201,9 @@ TEST_F(OpenArmOverAPort, SaysHowItIsCalibratedAndWhyItIsNot) {
   options.model = findArmModel("polhem_v1");
   open();
   EXPECT_EQ(arm->calibrationHint(), "hold the arm in its calibration pose (encoders 0, 0, -5000)");
-  line->refuses = true;
+  hid.deaf = true;
   EXPECT_EQ(arm->calibrate(), "it does not take the calibration");
-  line->waiting.push_back(reportAt({0, 0, 0}, 1));
+  hid.reports.push_back(reportAt({0, 0, 0}, 1));
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost) << "its own button";
   arm->close();
   EXPECT_EQ(arm->calibrate(), "it is not connected");
@@ -244,9 +211,9 @@ TEST_F(OpenArmOverAPort, SaysHowItIsCalibratedAndWhyItIsNot) {
 
 TEST_F(OpenArmOverAPort, ZeroIsToldWithoutBeingAskedFor) {
   EXPECT_TRUE(arm->tellZero());
-  ASSERT_EQ(line->sent.size(), 1u);
-  EXPECT_EQ(line->sent[0], Report(65, 0));
-  line->refuses = true;
+  ASSERT_EQ(hid.written.size(), 1u);
+  EXPECT_EQ(hid.written[0], Report(65, 0));
+  hid.deaf = true;
   EXPECT_FALSE(arm->tellZero());
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost) << "nothing was read, and nothing can be told";
   arm->close();
@@ -254,10 +221,10 @@ TEST_F(OpenArmOverAPort, ZeroIsToldWithoutBeingAskedFor) {
 }
 
 TEST_F(OpenArmOverAPort, ReportsOfAnOldFirmwareAreNotBelievedAndSaidToBeOld) {
-  line->waiting.push_back(Report(8, 1));
+  hid.reports.push_back(Report(8, 1));
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Nothing);
   EXPECT_TRUE(holds(arm->lossText(), "too old: it sends reports of 8 bytes, and 14 are needed"));
-  line->waiting.push_back(reportAt({0, 0, 6000}));
+  hid.reports.push_back(reportAt({0, 0, 6000}));
   EXPECT_EQ(arm->exchange(wish, sample), Exchange::Report);
   EXPECT_EQ(arm->lossText(), "") << "a short one among whole ones is a fault of the line";
 }

@@ -11,6 +11,7 @@
 #include <thread>
 #include <vector>
 
+#include "base/math/minimum_jerk.h"
 #include "base/system/os.h"
 #include "devices/hid/arm_report.h"
 #include "devices/hid/open_serial_arm.h"
@@ -54,21 +55,16 @@ class ArmFirmware {
       const double t = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
       auto counts = encoderCounts(model, anglesAt(model, {0, place(t), 0}));
       if (turned_) counts[0] += countsPerTurn(model);
-      std::uint8_t report[64] = {};
-      for (std::size_t i = 0; i < 3; ++i) {
-        const auto raw = static_cast<std::uint16_t>(static_cast<std::int64_t>(std::llround(counts[i])));
-        report[2 * i] = static_cast<std::uint8_t>(raw & 0xFF);
-        report[2 * i + 1] = static_cast<std::uint8_t>(raw >> 8);
-      }
+      std::vector<std::uint8_t> report = armReport(counts);
       const auto raw = static_cast<std::int16_t>(report[0] | report[1] << 8);
       if (std::abs(raw - before_) > 30000) ++wraps;
       before_ = raw;
-      if (first_.empty()) first_.assign(report, report + sizeof report);
-      if (replays) std::copy(first_.begin(), first_.end(), report);
+      if (first_.empty()) first_ = report;
+      if (replays) report = first_;
       if (garbles)
         for (std::uint8_t& byte : report) byte = static_cast<std::uint8_t>(random_());
-      const std::size_t size = shortens ? 10 : sizeof report;
-      if (::write(wire, report, size) != static_cast<ssize_t>(size)) return;
+      const std::size_t size = shortens ? 10 : report.size();
+      if (::write(wire, report.data(), size) != static_cast<ssize_t>(size)) return;
       if (!take(stop, wire)) ++silences;
     }
   }
@@ -77,8 +73,7 @@ class ArmFirmware {
     if (!moves) return -0.1;
     const double back = std::clamp((within - 5.0) / 0.9, 0.0, 1.0);
     middle = s > 0.5 && s < 0.8;
-    const auto law = [](double x) { return x * x * x * (10 + x * (6 * x - 15)); };
-    return -0.1 + 0.2 * (law(s) - law(back));
+    return -0.1 + 0.2 * (minimumJerk(s) - minimumJerk(back));
   }
   // False when half a second went by without an answer: the firmware's own watchdog.
   bool take(const std::stop_token& stop, int wire) {
@@ -96,10 +91,8 @@ class ArmFirmware {
       return false;
     }
     ++answers;
-    int largest = 0;
-    for (const int at : {1, 3, 5}) largest = std::max(largest, std::abs(static_cast<std::int16_t>(answer[at] | answer[at + 1] << 8)));
-    last = largest;
-    if (largest > most) most = largest;
+    last = largestCurrent(answer);
+    if (last > most) most = last.load();
     return true;
   }
   static double countsPerTurn(const ArmModel& model) { return encoderCounts(model, {2 * std::numbers::pi, 0, 0})[0]; }

@@ -8,12 +8,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "tests/devices/arm_poses.h"
+
 namespace reachlab::test {
 namespace {
-
-// Vendor page, one collection, 64 bytes in and out without report numbers.
-const HidrawBed::Bytes kVendorPage{0x06, 0xAB, 0xFF, 0x0A, 0x00, 0x02, 0xA1, 0x01, 0x15, 0x00, 0x26, 0xFF, 0x00, 0x75,
-                                   0x08, 0x95, 0x40, 0x09, 0x01, 0x81, 0x02, 0x09, 0x02, 0x95, 0x40, 0x91, 0x02, 0xC0};
 
 std::string hexOf(const HidrawBed::Bytes& bytes) {
   std::string hex;
@@ -49,9 +47,9 @@ void require(GError* error) {
 
 }  // namespace
 
-HidrawBed::HidrawBed(int vendor, int product, const std::string& serial, const std::string& title, Bytes descriptor)
-    : vendor_(vendor), product_(product), serial_(serial), title_(title),
-      descriptor_(descriptor.empty() ? kVendorPage : std::move(descriptor)), bed_(umockdev_testbed_new()) {
+HidrawBed::HidrawBed(int vendor, int product, const std::string& serial, const std::string& title, std::uint8_t reportBytes)
+    : vendor_(vendor), product_(product), serial_(serial), title_(title), descriptor_(devices::vendorPage(reportBytes)),
+      bed_(umockdev_testbed_new()) {
   plug();
 }
 

@@ -13,8 +13,8 @@ namespace reachlab::test {
 class HidrawBed {
  public:
   using Bytes = std::vector<std::uint8_t>;
-  /// `descriptor`: empty for a vendor's page with 64 bytes in and out.
-  HidrawBed(int vendor, int product, const std::string& serial, const std::string& title, Bytes descriptor = {});
+  /// Its reports have so many bytes, in and out.
+  HidrawBed(int vendor, int product, const std::string& serial, const std::string& title, std::uint8_t reportBytes = 64);
   ~HidrawBed();
   HidrawBed(const HidrawBed&) = delete;
   HidrawBed& operator=(const HidrawBed&) = delete;

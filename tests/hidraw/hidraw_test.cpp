@@ -44,11 +44,9 @@ TEST_F(ArmOverHidraw, IsListedByTheNameThatOpensIt) {
   EXPECT_TRUE(holds(listed.out, "hid:SN0001"));
 }
 
-// The same vendor page with 8 bytes in and out: the protocol before that of 14.
+// Reports of 8 bytes: the protocol before that of 14.
 TEST(OldArmOverHidraw, IsListedWithWhatToDoAndRefusedBeforeItIsOpened) {
-  test::HidrawBed bed(0x16C0, 0x0486, "SN0000", "Old arm",
-                      {0x06, 0xAB, 0xFF, 0x0A, 0x00, 0x02, 0xA1, 0x01, 0x15, 0x00, 0x26, 0xFF, 0x00, 0x75,
-                       0x08, 0x95, 0x08, 0x09, 0x01, 0x81, 0x02, 0x09, 0x02, 0x95, 0x08, 0x91, 0x02, 0xC0});
+  test::HidrawBed bed(0x16C0, 0x0486, "SN0000", "Old arm", 8);
   const test::Ended listed = test::reach("list devices");
   EXPECT_EQ(listed.exitCode, 0) << listed.err;
   const std::size_t row = listed.out.find("hid:SN0000");

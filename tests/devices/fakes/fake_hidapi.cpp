@@ -37,6 +37,10 @@ void resetFakeHids(const std::vector<FakeHid>& list) {
   const std::lock_guard lock(hids.mutex);
   hids.list.assign(list.begin(), list.end());
 }
+FakeHid& resetToOneFakeHid() {
+  resetFakeHids({{.path = "/dev/hidraw3", .paces = false}});
+  return hids.list.front();
+}
 
 }  // namespace reachlab::test
 
@@ -95,6 +99,8 @@ int hid_read_timeout(hid_device* device, unsigned char* data, size_t length, int
     const std::lock_guard lock(hids.mutex);
     FakeHid& hid = of(device);
     if (hid.waits.size() < 1000) hid.waits.push_back(milliseconds);
+    hid.room = length;
+    paced = paced && hid.paces;
     if (hid.gone) return -1;
     if (!hid.reports.empty()) {
       report = hid.reports.front();
@@ -112,7 +118,7 @@ int hid_read_timeout(hid_device* device, unsigned char* data, size_t length, int
 int hid_write(hid_device* device, const unsigned char* data, size_t length) {
   const std::lock_guard lock(hids.mutex);
   FakeHid& hid = of(device);
-  if (hid.gone) return -1;
+  if (hid.gone || hid.deaf) return -1;
   hid.written.emplace_back(data, data + length);
   return static_cast<int>(length);
 }

@@ -18,9 +18,12 @@ struct FakeHid {
   std::deque<std::vector<std::uint8_t>> reports = {};  // before it
   int closedBy = 0;                                    // errno of opening it; 0: it can be opened
   bool gone = false;                                   // reading and writing fail
+  bool deaf = false;                                   // writing fails
+  bool paces = true;                                   // one that has no report waits a millisecond for it
   int open = 0, opened = 0;                            // how often it is open, and was opened
   std::vector<std::vector<std::uint8_t>> written = {};
   std::vector<int> waits = {};  // [ms] of each reading
+  std::size_t room = 0;         // [bytes] of the last reading
 };
 
 struct FakeHids {
@@ -29,5 +32,7 @@ struct FakeHids {
 };
 FakeHids& fakeHids();
 void resetFakeHids(const std::vector<FakeHid>& list = {});
+/// The only device from now on. It lets nobody wait.
+FakeHid& resetToOneFakeHid();
 
 }  // namespace reachlab::test
