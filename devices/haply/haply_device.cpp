@@ -15,7 +15,7 @@ namespace reachlab::devices {
 namespace {
 
 constexpr std::int64_t kAskAgainNs = 50'000'000;  // an answer that did not come by then will not
-constexpr int kAnswerMs = 10, kUnaskedMs = 200, kFirstMs = 2000;
+constexpr int kUnaskedMs = 200, kFirstMs = 2000;
 constexpr int kMostGarbled = 20;  // in a row, before it counts as lost
 constexpr std::uint16_t kPort = 10001;
 
@@ -33,11 +33,12 @@ std::string firstMessage(MessageLink& link) {
 
 }  // namespace
 
-HaplyInverse3::HaplyInverse3(const Options& options, OpenLink open) : options_(options), open_(std::move(open)) { connect(); }
+HaplyInverse3::HaplyInverse3(const Options& options, OpenLink open) : AskedDevice(std::move(open), kAskAgainNs), options_(options) {
+  connect();
+}
 
-void HaplyInverse3::connect() {
-  std::unique_ptr<MessageLink> link = open_();
-  const std::string first = firstMessage(*link);
+void HaplyInverse3::greet(MessageLink& link) {
+  const std::string first = firstMessage(link);
   const HaplyService service = readHaplyService(first);
   switch (readHaplyMessage(first, options_.id, state_, options_.grip)) {
     case HaplyAnswer::State: break;
@@ -66,18 +67,15 @@ void HaplyInverse3::connect() {
   info_.resolution = model.resolution;
   info_.secondPath = "the I/O thread tells it zero when the tick leaves no new force for 20 ms";
   options_.id = state_.id;
-  awaiting_ = false;
   garbled_ = 0;
-  link_ = std::move(link);
 }
 
-Exchange HaplyInverse3::lose(std::string why) {
-  loss_ = std::move(why);
-  return Exchange::Lost;
-}
+std::string HaplyInverse3::commandOf(const Vec3& force) const { return haplyForceCommand(options_.id, worldToHaply(force)); }
 
-Exchange HaplyInverse3::take(const std::string& message, haptics::DeviceSample& sample) {
-  switch (readHaplyMessage(message, options_.id, state_, options_.grip)) {
+Exchange HaplyInverse3::take(const std::string* message, haptics::DeviceSample& sample) {
+  if (message == nullptr) return Exchange::Nothing;
+  noteAnswer();
+  switch (readHaplyMessage(*message, options_.id, state_, options_.grip)) {
     case HaplyAnswer::State: break;
     case HaplyAnswer::NoDevice: return lose(fmt::format("the service has no Inverse3 {} any more", options_.id));
     case HaplyAnswer::NotJson:
@@ -91,44 +89,6 @@ Exchange HaplyInverse3::take(const std::string& message, haptics::DeviceSample& 
   if (sample.hasVelocity) sample.velocity = haplyToWorld(*state_.velocity);
   sample.buttons = state_.buttons;
   return Exchange::Report;
-}
-
-Exchange HaplyInverse3::exchange(ForceSource& source, haptics::DeviceSample& sample) {
-  if (!link_) return Exchange::Lost;
-  if (!awaiting_ || source.now() - sentNs_ > kAskAgainNs) {
-    if (!link_->send(haplyForceCommand(options_.id, worldToHaply(source.newest())))) return lose(link_->fault());
-    sentNs_ = source.now();
-    awaiting_ = true;
-  }
-  std::string message, newer;
-  switch (link_->receive(message, kAnswerMs)) {
-    case MessageLink::Got::Gone: return lose(link_->fault());
-    case MessageLink::Got::Nothing: return Exchange::Nothing;
-    case MessageLink::Got::Message: break;
-  }
-  constexpr int kMostDrained = 64;
-  for (int i = 0; i < kMostDrained && link_->receive(newer, 0) == MessageLink::Got::Message; ++i) message.swap(newer);
-  awaiting_ = false;
-  return take(message, sample);
-}
-
-bool HaplyInverse3::reopen() {
-  link_.reset();
-  connect();
-  return true;
-}
-
-bool HaplyInverse3::tellZero() noexcept {
-  try {
-    return !link_ || link_->send(haplyForceCommand(options_.id, {}));
-  } catch (const std::exception&) {  // no memory for a message: closing takes the force as well
-    return false;
-  }
-}
-
-void HaplyInverse3::close() noexcept {
-  tellZero();
-  link_.reset();
 }
 
 namespace {

@@ -16,13 +16,14 @@
 namespace reachlab::devices {
 namespace {
 
-constexpr int kAnswerMs = 10;
 constexpr std::int64_t kAskAgainNs = 10'000'000;
 constexpr int kMostUnanswered = 50;  // half a second: its firmware's own watchdog has then switched it off as well
 
 }  // namespace
 
-PolhemSerial::PolhemSerial(std::string name, OpenPort open) : name_(std::move(name)), open_(std::move(open)), port_(open_()) {}
+PolhemSerial::PolhemSerial(std::string name, OpenLink open) : AskedDevice(std::move(open), kAskAgainNs), name_(std::move(name)) {
+  connect();
+}
 
 haptics::DeviceInfo PolhemSerial::info() const {
   haptics::DeviceInfo info;
@@ -35,48 +36,17 @@ haptics::DeviceInfo PolhemSerial::info() const {
   return info;
 }
 
-Exchange PolhemSerial::exchange(ForceSource& source, haptics::DeviceSample& sample) {
-  if (!port_) return Exchange::Lost;
-  if (!awaiting_ || source.now() - sentNs_ > kAskAgainNs) {
-    if (!port_->send(polhemForceLine(toTowardsRightUp(source.newest())))) return Exchange::Lost;
-    sentNs_ = source.now();
-    awaiting_ = true;
-  }
-  std::string line, newer;
-  const MessageLink::Got got = port_->receive(line, kAnswerMs);
-  if (got == MessageLink::Got::Gone) return Exchange::Lost;
-  constexpr int kMostDrained = 64;
-  for (int i = 0; got == MessageLink::Got::Message && i < kMostDrained && port_->receive(newer, 0) == MessageLink::Got::Message; ++i)
-    line.swap(newer);
-  const auto state = got == MessageLink::Got::Message ? readPolhemLine(line) : std::nullopt;
+std::string PolhemSerial::commandOf(const Vec3& force) const { return polhemForceLine(toTowardsRightUp(force)); }
+
+Exchange PolhemSerial::take(const std::string* message, haptics::DeviceSample& sample) {
+  const auto state = message != nullptr ? readPolhemLine(*message) : std::nullopt;
   if (!state) return ++unanswered_ >= kMostUnanswered ? Exchange::Lost : Exchange::Nothing;
-  awaiting_ = false;
+  noteAnswer();
   unanswered_ = 0;
   sample.position = fromTowardsRightUp(state->place);
   sample.hasVelocity = false;
   sample.buttons = state->info != 0 ? 1 : 0;
   return Exchange::Report;
-}
-
-bool PolhemSerial::reopen() {
-  port_.reset();
-  awaiting_ = false;
-  unanswered_ = 0;
-  port_ = open_();
-  return true;
-}
-
-bool PolhemSerial::tellZero() noexcept {
-  try {
-    return !port_ || port_->send(polhemForceLine({}));
-  } catch (const std::exception&) {  // no memory for a line: its firmware switches off
-    return false;
-  }
-}
-
-void PolhemSerial::close() noexcept {
-  tellZero();
-  port_.reset();
 }
 
 namespace {

@@ -183,14 +183,6 @@ TEST_F(HaplyOverALine, IsAskedAgainWhenAnAnswerDoesNotComeForFiftyMilliseconds) 
   EXPECT_EQ(line->sent.size(), 3u) << "answered it is told at once";
 }
 
-TEST_F(HaplyOverALine, WhatHasPiledUpIsDrainedUpToSixtyFour) {
-  HaplyInverse3 device = open();
-  for (int i = 0; i < 70; ++i) line->waiting.push_back(stateAt(i));
-  EXPECT_EQ(device.exchange(wish, sample), Exchange::Report);
-  EXPECT_EQ(sample.position.x, 64);
-  EXPECT_EQ(line->waits[1], 0);
-}
-
 TEST_F(HaplyOverALine, TwentyMessagesInARowThatAreNoneAreALoss) {
   HaplyInverse3 device = open();
   const auto hear = [&](const std::string& message) {
