@@ -136,7 +136,7 @@ void CoupledCopy::updateLink(Peer& peer, double dt) noexcept {
   if (!link.heard) link.fade = 0;
   const double wanted = std::min(settings_.frequency, synchronisationLimit(settings_, link.roundTrip));
   if (!begun_) link.frequency = wanted;
-  else if (!frozen_) link.frequency += std::clamp(wanted - link.frequency, -kFrequencySlope * dt, kFrequencySlope * dt);
+  else link.frequency += std::clamp(wanted - link.frequency, -kFrequencySlope * dt, kFrequencySlope * dt);
 }
 
 // Over the step the hand goes straight from where it was taken to be to where it is now.

@@ -75,8 +75,6 @@ class CoupledCopy final : public dynamics::Plant {
   void breakOff(int peer) noexcept;
   /// Sets another omega_o [rad/s]. Call it between trials.
   void setFrequency(double frequency) noexcept;
-  /// Keeps omega at its present value, at the end of a trial.
-  void freeze(bool frozen) noexcept { frozen_ = frozen; }
 
   const PeerLink& link(int peer) const noexcept { return peers_[static_cast<std::size_t>(peer)].link; }
   bool anyLost() const noexcept;
@@ -138,8 +136,7 @@ class CoupledCopy final : public dynamics::Plant {
   CopySettings settings_;
   std::unique_ptr<dynamics::SharedPlant> plant_;
   std::vector<Peer> peers_;
-  double now_ = 0;  // [s]
-  bool frozen_ = false;
+  double now_ = 0;      // [s]
   bool begun_ = false;  // a step was made since the object was placed
   double ledger_ = 0;   // [J]
   std::array<double, kMaxCoordinates> push_{}, difference_{};

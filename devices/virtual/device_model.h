@@ -4,7 +4,7 @@
 
 namespace reachlab::devices {
 
-/// A force device as a body, in published numbers. `source` names the source of each number. We measured no device.
+/// A force device as a body, in published numbers. We measured no device.
 struct DeviceModel {
   std::string_view name, title;
   double mass;             // [kg] apparent, at the handle
@@ -14,7 +14,6 @@ struct DeviceModel {
   double maxForce;         // [N] nominal peak
   double continuousForce;  // [N]
   double workspaceRadius;  // [m]
-  std::string_view source;
 };
 
 /// Peak force [N] and radius of the workspace [m] of every omega, as CHAI3D drives it (chai3d/chai3d:src/devices/CDeltaDevices.cpp).

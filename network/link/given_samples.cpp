@@ -67,8 +67,6 @@ GivenRecord readGiven(const record::RunLog& log) {
   return all;
 }
 
-int recordedStation(const record::RunLog& log) { return readGiven(log).own + 1; }
-
 std::vector<GivenSample> givenSamples(const record::RunLog& log) {
   std::vector<GivenSample> given = readGiven(log).samples;
   std::erase_if(given, [](const GivenSample& one) { return one.peer < 0; });

@@ -37,8 +37,6 @@ GivenRecord decodeGiven(std::span<const std::uint8_t> payload);
 bool isOfStation(const record::RunLog& log);
 /// All samples and orders of a log, in the order in which the copy received them. If the log holds no samples, own is -1.
 GivenRecord readGiven(const record::RunLog& log);
-/// The station of the log, from 1. 0 if the log holds no data of other stations.
-int recordedStation(const record::RunLog& log);
 /// The samples of the other stations, without the orders.
 std::vector<GivenSample> givenSamples(const record::RunLog& log);
 

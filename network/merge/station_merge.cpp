@@ -302,7 +302,7 @@ void keepLogs(const std::vector<Station>& stations, const std::string& path) {
 
 }  // namespace
 
-int stationOf(const record::RunLog& log) { return isOfStation(log) ? recordedStation(log) : 0; }
+int stationOf(const record::RunLog& log) { return isOfStation(log) ? readGiven(log).own + 1 : 0; }
 
 bool isMerged(const record::RunLog& log) { return log.configuration().method == kMethod; }
 
