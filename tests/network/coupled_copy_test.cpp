@@ -22,14 +22,16 @@ constexpr double kStart = 0;
 
 /// A copy of the study's chain with one peer, and time.
 struct Station {
-  experiment::Experiment experiment = makeSharedExperiment(SharedObject::Chain);
-  CoupledCopy copy{experiment, constraints::makeConstraint(experiment.constraint), 0, copySettingsFor(experiment)};
-  double now = 0;
-  CopySample peer;
-
-  Station() {
+  explicit Station(const experiment::Experiment& e = makeSharedExperiment(SharedObject::Chain)) : Station(e, copySettingsFor(e)) {}
+  Station(const experiment::Experiment& e, const CopySettings& settings) : copy(e, constraints::makeConstraint(e.constraint), 0, settings) {
     copy.placeAtRest(std::array{kStart});
-    copy.fill(peer, {{}, {}, true});
+    peer = told();
+  }
+  /// What it tells the others.
+  CopySample told(const dynamics::HandSample& hand = {{}, {}, true}) const {
+    CopySample sample;
+    copy.fill(sample, hand);
+    return sample;
   }
   dynamics::StepStatus step() {
     now += kTickSeconds;
@@ -43,6 +45,10 @@ struct Station {
     copy.beginTick(now + kTickSeconds);
     copy.take(0, peer, roundTrip);
   }
+
+  CoupledCopy copy;
+  double now = 0;   // [s]
+  CopySample peer;  // of the first peer, the newest
 };
 
 TEST(CoupledCopy, AnObjectAtRestStaysAtRest) {
@@ -94,9 +100,7 @@ TEST(CoupledCopy, IsDrawnToThePeersPlaceAndSpeedByTheDesignsLaw) {
     for (std::size_t i = 0; i < 5; ++i) s.peer.places[i] += apart, s.peer.rates[i] += faster;
     s.hear(0.01, roundTrip);
     (void)s.step();
-    CopySample after;
-    s.copy.fill(after, {{}, {}, true});
-    return after.rates[2] / kTickSeconds;
+    return s.told().rates[2] / kTickSeconds;
   };
   EXPECT_NEAR(speedAfter(0.01, 0, 3, -1), 3 * 3 * 0.01, 1e-4);
   EXPECT_NEAR(speedAfter(-0.02, 0, 2, -1), 2 * 2 * -0.02, 1e-4);
@@ -108,23 +112,18 @@ TEST(CoupledCopy, IsDrawnToThePeersPlaceAndSpeedByTheDesignsLaw) {
 TEST(CoupledCopy, EveryPeerHasItsShareOfTheSynchronisation) {
   experiment::Experiment three = makeSharedExperiment(SharedObject::Chain);
   three.hands.push_back({1, {600}, {0}, {}});
-  const auto speedAfter = [&](std::vector<double> apart) {
-    CoupledCopy copy(three, constraints::makeConstraint(three.constraint), 0, copySettingsFor(three));
-    copy.placeAtRest(std::array{kStart});
-    EXPECT_EQ(copy.peerCount(), 2);
-    CopySample peer;
-    copy.fill(peer, {{}, {}, true});
-    copy.beginTick(kTickSeconds);
+  const auto speedAfter = [&](const std::vector<double>& apart) {
+    Station s(three);
+    EXPECT_EQ(s.copy.peerCount(), 2);
+    s.copy.beginTick(kTickSeconds);
     for (std::size_t k = 0; k < apart.size(); ++k) {
-      CopySample sample = peer;
+      CopySample sample = s.peer;
       sample.sequence = 1;
       for (std::size_t i = 0; i < 5; ++i) sample.places[i] += apart[k];
-      copy.take(static_cast<int>(k), sample, -1);
+      s.copy.take(static_cast<int>(k), sample, -1);
     }
-    dynamics::HandSegment still;
-    (void)copy.step(still, kTickSeconds);
-    copy.fill(peer, {{}, {}, true});
-    return peer.rates[2] / kTickSeconds;
+    (void)s.step();
+    return s.told().rates[2] / kTickSeconds;
   };
   EXPECT_NEAR(speedAfter({0.01, 0.01}), 9 * 0.01, 1e-4);
   EXPECT_NEAR(speedAfter({0.01, -0.01}), 0, 1e-6);
@@ -134,22 +133,17 @@ TEST(CoupledCopy, EveryPeerHasItsShareOfTheSynchronisation) {
 
 // The copy moves as the peer does, so that nothing but the ledger acts on its middle: 3 kg at 1 m/s are 1.5 J.
 TEST(CoupledCopy, WhatNoHandHasPutInIsTakenOut) {
-  const auto after = [](double peersWork, CopySettings settings, bool heard = true) {
-    const experiment::Experiment chain = makeSharedExperiment(SharedObject::Chain);
-    CoupledCopy copy(chain, constraints::makeConstraint(chain.constraint), 0, settings);
-    copy.place(std::array{kStart}, std::array{1.0});
-    CopySample peer;
-    copy.fill(peer, {{}, {}, true});
-    peer.sequence = 1;
-    peer.work = peersWork;
-    copy.beginTick(kTickSeconds);
-    if (heard) copy.take(0, peer, -1);
-    dynamics::HandSegment still;
-    (void)copy.step(still, kTickSeconds);
-    copy.fill(peer, {{}, {}, true});
-    return std::pair{copy.ledger(), 1 - peer.rates[2]};
+  const experiment::Experiment chain = makeSharedExperiment(SharedObject::Chain);
+  const auto after = [&](double peersWork, const CopySettings& settings, bool heard = true) {
+    Station s(chain, settings);
+    s.copy.place(std::array{kStart}, std::array{1.0});
+    s.peer = s.told();
+    s.peer.work = peersWork;
+    if (heard) s.hear(kTickSeconds, -1);
+    (void)s.step();
+    return std::pair{s.copy.ledger(), 1 - s.told().rates[2]};
   };
-  const CopySettings usual = copySettingsFor(makeSharedExperiment(SharedObject::Chain));
+  const CopySettings usual = copySettingsFor(chain);
   EXPECT_NEAR(after(2, usual).first, 0.5, 1e-9);
   EXPECT_NEAR(after(2, usual).second, 0, 1e-5) << "what they have put in it may have";
   EXPECT_NEAR(after(1.2, usual).first, -0.3, 1e-9);
@@ -275,7 +269,7 @@ TEST(CoupledCopy, IsComparedWithWhatItWasWhenTheSampleWasTaken) {
     if (i >= 20) {
       EXPECT_NEAR(s.copy.link(0).apart, 0, 1e-12) << i;
     }
-    s.copy.fill(past.emplace_back(), {{}, {}, true});
+    past.push_back(s.told());
   }
   EXPECT_GT(std::abs(past[10].places[2] - past[5].places[2]), 1e-3) << "it moves";
 }
@@ -290,8 +284,7 @@ TEST(CoupledCopy, ASampleIsItsOwnHandWorkAndCoordinates) {
     s.copy.beginTick(s.now);
     (void)s.copy.step(hand, kTickSeconds);
   }
-  CopySample sample;
-  s.copy.fill(sample, {{1, 2, 3}, {4, 5, 6}, true});
+  const CopySample sample = s.told({{1, 2, 3}, {4, 5, 6}, true});
   EXPECT_EQ(sample.hand, (Vec3{1, 2, 3}));
   EXPECT_EQ(sample.handVelocity, (Vec3{4, 5, 6}));
   EXPECT_EQ(sample.work, s.copy.ownWork());

@@ -13,22 +13,19 @@ namespace {
 
 constexpr std::int64_t kTick = 1'000'000, kAhead = 5'000'000'000;  // [ns]; the peer's clock is 5 s ahead
 
-/// A peer whose samples come `way` after they left and which heard ours `way` after they left, a millisecond before its own.
-class Peer {
- public:
-  void send(PeerClock& clock, std::int64_t way, std::uint32_t number, bool answers = true) {
-    const std::int64_t left = number * kTick, came = left + way;
-    Echo echo{number, left + kAhead, 0, 0};
-    if (answers) echo.oursLeft = left - kTick - way, echo.oursCame = left - kTick + kAhead;
-    clock.add(echo, came);
-  }
-};
+/// A sample of a peer that comes `way` after it left. The peer heard ours `way` after it left, a millisecond before its own.
+void send(PeerClock& clock, std::int64_t way, std::uint32_t number, bool answers = true) {
+  const std::int64_t left = number * kTick;
+  Echo echo{number, left + kAhead, 0, 0};
+  if (answers) echo.oursLeft = left - kTick - way, echo.oursCame = left - kTick + kAhead;
+  clock.add(echo, left + way);
+}
 
 TEST(PeerClock, KnowsRoundTripAndClockOnceAnEchoHasCome) {
   PeerClock clock;
-  Peer().send(clock, 20 * kTick, 1000, false);
+  send(clock, 20 * kTick, 1000, false);
   EXPECT_LT(clock.roundTrip, 0);
-  Peer().send(clock, 20 * kTick, 1001);
+  send(clock, 20 * kTick, 1001);
   EXPECT_NEAR(clock.roundTrip, 0.04, 1e-9);
   EXPECT_NEAR(clock.offset, 5, 1e-9);
   EXPECT_EQ(clock.jitter, 0);
@@ -48,7 +45,7 @@ TEST(PeerClock, TakesTheClockFromTheFastestExchange) {
 
 TEST(PeerClock, SamplesOfEveryFourthTickAreNoLoss) {
   PeerClock clock;
-  for (std::uint32_t i = 4; i <= 2400; i += 4) Peer().send(clock, 20 * kTick, i);
+  for (std::uint32_t i = 4; i <= 2400; i += 4) send(clock, 20 * kTick, i);
   EXPECT_EQ(clock.missing, 0);
   EXPECT_NEAR(clock.gap, 0.004, 1e-9);
 }
@@ -58,12 +55,12 @@ TEST(PeerClock, CountsEverySecondByItself) {
   PeerClock clock;
   const auto second = [&](std::uint32_t from, std::uint32_t to, std::uint32_t lostFrom, std::uint32_t lostTo) {
     for (std::uint32_t i = from; i <= to; ++i)
-      if (i < lostFrom || i >= lostTo) Peer().send(clock, 20 * kTick, i);
+      if (i < lostFrom || i >= lostTo) send(clock, 20 * kTick, i);
   };
   second(1, 1000, 500, 600);
   EXPECT_EQ(clock.missing, 0) << "not before the second is over";
   EXPECT_EQ(clock.gap, 0);
-  Peer().send(clock, 20 * kTick, 1001);
+  send(clock, 20 * kTick, 1001);
   EXPECT_NEAR(clock.missing, 100.0 / 1001, 1e-12);
   EXPECT_NEAR(clock.gap, 0.101, 1e-12);
   second(1002, 2001, 0, 0);
@@ -77,7 +74,7 @@ TEST(PeerClock, CountsEverySecondByItself) {
 
 TEST(PeerClock, OfAPeerThatBeginsAnewCountsFromItsNewNumber) {
   PeerClock clock;
-  for (std::uint32_t i = 5000; i <= 5400; ++i) Peer().send(clock, 20 * kTick, i);
+  for (std::uint32_t i = 5000; i <= 5400; ++i) send(clock, 20 * kTick, i);
   for (std::uint32_t i = 1; i <= 1001; ++i) clock.add({i, 0, 0, 0}, (5500 + i) * kTick);  // its program was started again
   EXPECT_EQ(clock.missing, 0);
   EXPECT_NEAR(clock.gap, 0.081, 1e-12);

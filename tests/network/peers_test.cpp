@@ -5,7 +5,6 @@
 #include <openssl/pkcs7.h>
 #include <openssl/x509v3.h>
 #include <sys/stat.h>
-#include <unistd.h>
 
 #include <ctime>
 #include <filesystem>
@@ -16,8 +15,8 @@
 
 #include "base/fault.h"
 #include "network/station/station_options.h"
-#include "test_paths.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace reachlab::network {
 namespace {
@@ -26,14 +25,6 @@ namespace fs = std::filesystem;
 
 class Peers : public testing::Test {
  protected:
-  Peers() {
-    fs::remove_all(folder_);
-    fs::create_directories(folder_);
-  }
-  ~Peers() override {
-    std::error_code ignored;
-    fs::remove_all(folder_, ignored);
-  }
   std::string at(const std::string& name) const { return (folder_ / name).string(); }
   void copy(const std::string& from, const fs::path& to) const { fs::copy(at(from), to, fs::copy_options::overwrite_existing); }
   static std::string textOf(const std::string& path) {
@@ -41,7 +32,7 @@ class Peers : public testing::Test {
     text << std::ifstream(path).rdbuf();
     return text.str();
   }
-  fs::path folder_ = fs::path(REACHLAB_BINARY_DIR) / "test-files" / ("peers" + std::to_string(::getpid()));
+  const TemporaryFolder folder_;
 };
 
 TEST_F(Peers, AStationIsAnsweredAndItsKeyStays) {

@@ -15,29 +15,13 @@
 #include "base/system/os.h"
 #include "sim/record/log/atomic_file.h"
 #include "sim/session/session.h"
+#include "tests/haptics/scripted_device.h"
 #include "tests/record/made_run.h"
 #include "tests/refusal.h"
 
 // One station's trials, with the test in the endpoint's place: it writes what the network would have brought.
 namespace reachlab::network {
 namespace {
-
-/// A hand that rests where it is.
-class RestingHand final : public haptics::HapticDevice {
- public:
-  haptics::DeviceInfo info() const override {
-    haptics::DeviceInfo info;
-    info.name = "resting";
-    info.virtualHand = true;
-    return info;
-  }
-  haptics::DeviceSample read() noexcept override {
-    haptics::DeviceSample sample;
-    sample.position = {-0.1, 0, 0};
-    return sample;
-  }
-  void write(const Vec3&) noexcept override {}
-};
 
 class OneStation : public testing::Test {
  protected:
@@ -65,7 +49,7 @@ class OneStation : public testing::Test {
     session::RecordedRunOptions options;
     options.place = request.place;
     station_->prepare(options);
-    run_ = std::make_unique<session::RecordedRun>(block, std::make_unique<RestingHand>(), options);
+    run_ = std::make_unique<session::RecordedRun>(block, std::make_unique<haptics::test::ScriptedDevice>(-0.1, -0.1, 1), options);
     station_->begin(*run_);
     hash_ = sharedHash(block.experiment.experiment());
   }
@@ -84,13 +68,17 @@ class OneStation : public testing::Test {
     station_.reset();
   }
   LinkMemory& memory() { return station_->link().memory(); }
-  void showCard(std::uint32_t number, bool conductor) {
+  StationCard cardOf(std::uint32_t number) const {
     StationCard card;
     card.station = number;
     card.version = LinkMemory::kVersion;
     card.experiment = hash_;
-    card.conductor = conductor;
     std::strcpy(card.software.data(), "reachlab");
+    return card;
+  }
+  void showCard(std::uint32_t number, bool conductor) {
+    StationCard card = cardOf(number);
+    card.conductor = conductor;
     ASSERT_TRUE(memory().cardsIn.tryPush(card));
   }
   void hear(std::uint32_t number, double roundTrip) {
@@ -137,6 +125,10 @@ class OneStation : public testing::Test {
         std::this_thread::sleep_for(std::chrono::milliseconds(1));
       }
     });
+  }
+  StationStatus statusNow() {
+    station_->keep();
+    return station_->link().statuses().at(0);
   }
   static bool never(const StationNews&) { return false; }
   static bool begun(const StationNews& news) { return news.begun; }
@@ -317,8 +309,7 @@ TEST_F(OneStation, ALinkThatLosesMoreThanAFifthStandsInTheWay) {
     link.loss.store(loss), link.overtaken.store(overtaken);
     hear(2, 0.002);
     link.lossBound.store(bound);
-    station_->keep();
-    return station_->link().statuses().at(0);
+    return statusNow();
   };
   EXPECT_EQ(status(0, 0.76, 0.03).light, Light::Good) << "what is overtaken is not lost";
   EXPECT_EQ(status(0.11, 0, 0.16).light, Light::Fair);
@@ -329,37 +320,28 @@ TEST_F(OneStation, ALinkThatLosesMoreThanAFifthStandsInTheWay) {
 TEST_F(OneStation, StatusesSayHowGoodALineIs) {
   using Light = StationStatus::Light;
   open(1, true);
-  const auto now = [&] {
-    station_->keep();
-    return station_->link().statuses().at(0);
-  };
-  EXPECT_EQ(now().light, Light::Absent);
+  EXPECT_EQ(statusNow().light, Light::Absent);
   showCard(2, false);
-  EXPECT_EQ(now().light, Light::Stop) << "it sends nothing";
+  EXPECT_EQ(statusNow().light, Light::Stop) << "it sends nothing";
   hear(2, 0.002);
-  EXPECT_EQ(now().light, Light::Good);
-  EXPECT_TRUE(now().heard);
+  EXPECT_EQ(statusNow().light, Light::Good);
+  EXPECT_TRUE(statusNow().heard);
   hear(2, 0.08);
-  EXPECT_EQ(now().light, Light::Fair);
+  EXPECT_EQ(statusNow().light, Light::Fair);
   hear(2, 0.13);
-  EXPECT_EQ(now().light, Light::Stop);
-  EXPECT_EQ(now().obstacles, (std::vector<std::string>{"a round trip takes 130 ms; allowed: up to 120"}));
+  EXPECT_EQ(statusNow().light, Light::Stop);
+  EXPECT_EQ(statusNow().obstacles, (std::vector<std::string>{"a round trip takes 130 ms; allowed: up to 120"}));
 }
 
 // What stands on a station's card is held against this one's, and each difference is said.
 TEST_F(OneStation, ACardThatDoesNotFitIsSaidWithBothSides) {
   open(1, true);
   const auto obstaclesOf = [&](const std::function<void(StationCard&)>& change) {
-    StationCard card;
-    card.station = 2;
-    card.version = LinkMemory::kVersion;
-    card.experiment = hash_;
-    std::strcpy(card.software.data(), "reachlab");
+    StationCard card = cardOf(2);
     change(card);
     EXPECT_TRUE(memory().cardsIn.tryPush(card));
     hear(2, 0.002);
-    station_->keep();
-    return station_->link().statuses().at(0).obstacles;
+    return statusNow().obstacles;
   };
   using Words = std::vector<std::string>;
   EXPECT_EQ(obstaclesOf([](StationCard&) {}), Words{});
@@ -379,8 +361,7 @@ TEST_F(OneStation, GapsAndClocksThatJumpStandInTheWay) {
   LinkStatus& status = memory().status[1];
   const auto standing = [&] {
     hear(2, 0.002);
-    station_->keep();
-    return station_->link().statuses().at(0);
+    return statusNow();
   };
   status.gap.store(0.026);
   EXPECT_EQ(standing().light, Light::Fair) << "more than half of what is allowed";
