@@ -8,10 +8,8 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/system/os.h"
-#include "devices/driver/registry.h"
-#include "devices/make_device.h"
 #include "devices/vendor/force_dimension.h"
-#include "sim/experiment/experiment.h"
+#include "tests/devices/driver_answers.h"
 #include "tests/devices/fakes/fake_dhd.h"
 #include "tests/devices/fakes/fake_message_line.h"
 #include "tests/until.h"
@@ -24,10 +22,10 @@ namespace {
 using reachlab::test::until;
 using test::fakeDhd;
 
-class ForceDimension : public ::testing::Test {
+class ForceDimension : public ::testing::Test, public DriverAnswers {
  protected:
   ForceDimension() { test::resetFakeDhd(); }
-  std::unique_ptr<haptics::HapticDevice> open(const std::string& spec = "forcedimension:0") { return makeDevice(spec, experiment, 1); }
+  std::unique_ptr<haptics::HapticDevice> open(const std::string& spec = "forcedimension:0") { return make(spec); }
   // Newer samples than those that wait already.
   static haptics::DeviceSample newest(haptics::HapticDevice& device) {
     const std::uint64_t seen = device.read().reports;
@@ -42,7 +40,6 @@ class ForceDimension : public ::testing::Test {
       return fakeDhd().force[1] == 1;
     });
   }
-  experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
   test::StandingForce wish{{1, 2, 3}};
 };
 
@@ -57,7 +54,7 @@ TEST_F(ForceDimension, TurnsItsAxesIntoTheWorlds) {
 }
 
 TEST_F(ForceDimension, IsListedByTheNameThatOpensIt) {
-  for (const FoundDevice& found : findDriver("forcedimension")->find(*findDriver("forcedimension"))) {
+  for (const FoundDevice& found : rows("forcedimension")) {
     EXPECT_TRUE(found.present) << found.whyNot;
     EXPECT_EQ(found.name, "forcedimension:0");
     EXPECT_EQ(found.maxForce, 12) << "CHAI3D's number for an omega.3: the library did not tell";
@@ -74,17 +71,11 @@ TEST_F(ForceDimension, IsNamedWithItsSerialNumberWhereItTellsOne) {
 
 TEST_F(ForceDimension, NoneThereIsSaidInTheLibrarysWords) {
   test::fakeDhdCount() = 0;
-  const auto rows = findDriver("forcedimension")->find(*findDriver("forcedimension"));
-  ASSERT_EQ(rows.size(), 1u);
-  EXPECT_FALSE(rows[0].present);
-  EXPECT_TRUE(holds(rows[0].whyNot, "no device"));
+  const auto found = rows("forcedimension");
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_FALSE(found[0].present);
+  EXPECT_TRUE(holds(found[0].whyNot, "no device"));
   EXPECT_THROW(open(), ResourceError);
-}
-
-TEST_F(ForceDimension, AForceThatIsNotRenewedIsTakenBack) {
-  const auto device = open();
-  ASSERT_TRUE(isFelt(*device));
-  EXPECT_TRUE(until([&] { return fakeDhd().force[1] == 0; })) << "the tick hangs: the I/O thread says zero";
 }
 
 TEST_F(ForceDimension, AnErrorAtEachCallIsARefusalOrPassesAndNothingIsLeftOpen) {
@@ -238,13 +229,13 @@ TEST_F(ForceDimension, AVelocityThatCannotBeReadIsAnError) {
 TEST_F(ForceDimension, OneThatCannotBeOpenedIsListedByItsNameWithTheLibrarysWords) {
   test::fakeDhdCount() = 2;
   fakeDhd(1).error = 2;
-  const auto rows = findDriver("forcedimension")->find(*findDriver("forcedimension"));
-  ASSERT_EQ(rows.size(), 2u);
-  EXPECT_TRUE(rows[0].present);
-  EXPECT_FALSE(rows[1].present);
-  EXPECT_EQ(rows[1].name, "forcedimension:1");
-  EXPECT_TRUE(holds(rows[1].whyNot, "device forcedimension:1: libd"));
-  EXPECT_TRUE(holds(rows[1].whyNot, "communication error (DHD error 2)"));
+  const auto found = rows("forcedimension");
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_TRUE(found[0].present);
+  EXPECT_FALSE(found[1].present);
+  EXPECT_EQ(found[1].name, "forcedimension:1");
+  EXPECT_TRUE(holds(found[1].whyNot, "device forcedimension:1: libd"));
+  EXPECT_TRUE(holds(found[1].whyNot, "communication error (DHD error 2)"));
 }
 
 TEST_F(ForceDimension, AnIndexHasOneOrTwoDigits) {
@@ -254,15 +245,12 @@ TEST_F(ForceDimension, AnIndexHasOneOrTwoDigits) {
   EXPECT_EQ(open("forcedimension")->info().name, "omega.3 4711") << "the first";
 }
 
-class TwoForceDimensions : public ForceDimension {
- protected:
-  TwoForceDimensions() { test::fakeDhdCount() = 2; }
-};
-
-TEST_F(TwoForceDimensions, AreTwoHandsEachWithItsPlaceAndForce) {
+// Each has its place and its force, and the loss of one leaves the other to be told.
+TEST_F(ForceDimension, TwoAreTwoHands) {
+  test::fakeDhdCount() = 2;
   experiment = experiment::readExperiment("chain-two-hands");
   fakeDhd(0).position[1] = 0.01, fakeDhd(1).position[1] = 0.02;
-  const auto left = open("forcedimension:0 + forcedimension:1");
+  auto left = open("forcedimension:0 + forcedimension:1");
   ASSERT_EQ(left->hands().size(), 2u);
   haptics::HapticDevice& right = *left->hands()[1];
   ASSERT_TRUE(until([&] {
@@ -270,11 +258,6 @@ TEST_F(TwoForceDimensions, AreTwoHandsEachWithItsPlaceAndForce) {
     right.write({2, 0, 0});
     return left->read().position.x == 0.01 && right.read().position.x == 0.02 && fakeDhd(0).force[1] == 1 && fakeDhd(1).force[1] == 2;
   }));
-}
-
-TEST_F(TwoForceDimensions, OneThatIsLostLeavesTheOtherToBeTold) {
-  experiment = experiment::readExperiment("chain-two-hands");
-  auto left = open("forcedimension:0 + forcedimension:1");
   fakeDhd(1).error = 2;
   ASSERT_TRUE(until([&] { return left->health() == haptics::DeviceHealth::Lost; }));
   EXPECT_TRUE(holds(left->healthText(), "4712")) << "by its serial number: " << left->healthText();
@@ -284,15 +267,6 @@ TEST_F(TwoForceDimensions, OneThatIsLostLeavesTheOtherToBeTold) {
   EXPECT_EQ(fakeDhd(0).force[1], 0);
   EXPECT_FALSE(fakeDhd(0).open);
   EXPECT_FALSE(fakeDhd(1).open);
-}
-
-TEST_F(TwoForceDimensions, OneTwiceIsRefusedBeforeItIsOpened) {
-  experiment = experiment::readExperiment("chain-two-hands");
-  for (const char* twice :
-       {"forcedimension:1 + forcedimension:1", "forcedimension + forcedimension:1", "hid + hid", "haply:A,port=1 + haply:A"})
-    EXPECT_THROW(open(twice), FaultError) << twice;
-  EXPECT_EQ(fakeDhd(1).forces, 0);
-  EXPECT_NO_THROW(open("virtual:omni + virtual:omni")) << "there are as many as are asked for";
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "base/math/minimum_jerk.h"
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/tick_engine.h"
 #include "sim/haptics/tick_order.h"
@@ -73,10 +74,9 @@ double velocityError(const Drag& drag, double& delay) {
   clockNs = 5'000'000'000;
   MouseDevice mouse({-0.1, 0, 0}, now);
   haptics::TickEngine engine(experiment::readExperiment("chain-slow"), {});
-  const auto law = [](double s) { return s * s * s * (10 + s * (6 * s - 15)); };
   const auto place = [&](double t) {
     const double within = std::fmod(t, 2.0);
-    return -0.1 + 0.2 * (within < 1 ? law(within) : 1 - law(within - 1));
+    return -0.1 + 0.2 * (within < 1 ? minimumJerk(within) : 1 - minimumJerk(within - 1));
   };
   const auto velocity = [&](double t) { return (place(t + 1e-5) - place(t - 1e-5)) / 2e-5; };
   std::vector<std::pair<double, std::int64_t>> waiting;

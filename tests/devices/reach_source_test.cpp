@@ -198,6 +198,10 @@ TEST_F(OthersFiles, CellsMayBeQuotedAndSpacedAndColumnsMayComeInAnyUnit) {
       read(write("named.csv", "clock_ms,hx_cm,hy_mm,hz_m\n0,100,2000,3\n500,400,5000,6\n") + ",time=clock_ms,x=hx_cm,y=hy_mm,z=hz_m")
           .front());
   expectTwoRows(read(write("mixed.csv", "time_s,x_cm,y_mm,z_m\n0,100,2000,3\n0.5,400,5000,6\n")).front());
+  const std::string spreadsheet = "\xef\xbb\xbfz_m, trial, time_s, x_m, y_m\r\n3, a, 0, 1, 2\r\n\r\n6, a, 0.5, 4, 5\r\n";
+  expectTwoRows(read(write("mark.csv", spreadsheet)).front());
+  EXPECT_TRUE(holds(refusalOf(write("nan.csv", "time_s,x_m,y_m,z_m\n0,1,nan,3\n")), "nan.csv:2: y_m: "));
+  EXPECT_TRUE(holds(refusalOf(write("more.csv", "time_s,x_m,y_m,z_m\n0,1,2,3,4\n")), "more.csv:2: has 5 cells"));
   EXPECT_TRUE(holds(refusalOf(write("end.csv", "time_s,x_m,y_m,z_m\n0,1,2,\n")), "end.csv:2: z_m: '' is not a number"));
   EXPECT_TRUE(holds(refusalOf(write("few.csv", "time_s,x_m,y_m,z_m\n0,1,2\n")), "few.csv:2: has 3 cells; allowed: 4, as the header"));
   EXPECT_TRUE(holds(refusalOf(write("back.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n0,4,5,6\n")), "back.csv:3: time_s: does not increase"));

@@ -13,6 +13,7 @@
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 #include "sim/trial/task_places.h"
+#include "tests/devices/driver_answers.h"
 #include "tests/devices/fakes/diary_device.h"
 #include "tests/devices/fakes/fake_dhd.h"
 #include "tests/devices/fakes/fake_hd.h"
@@ -36,19 +37,18 @@ TEST(Registry, EveryDriverIsListedOnceUnderItsNameAndSaysWhyItIsNotThere) {
   EXPECT_EQ(findDriver("nothing"), nullptr);
 }
 
-TEST(Registry, AnUnknownDeviceIsRefusedWithAllThatThereAre) {
-  const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
-  const std::string said = reachlab::refusalOf<FaultError>([&] { makeDevice("joystick", experiment, 1); });
+class MakeDevice : public ::testing::Test, public DriverAnswers {};
+
+TEST_F(MakeDevice, AnUnknownOneIsRefusedWithAllThatThereAreAndTheNearestName) {
+  const std::string said = refusalOf("joystick");
   for (const DeviceDriver& driver : deviceDrivers()) EXPECT_TRUE(holds(said, driver.name)) << driver.name;
+  EXPECT_TRUE(holds(refusalOf("phantm:Left"), "device: is phantm:Left, which is unknown; did you mean phantom?"));
 }
 
 // What is asked for is read before the arm is looked for, which is not connected.
-TEST(HidOptions, TheLargestCurrentIsFromTenMilliamperesToSixAmperes) {
-  const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
-  for (const char* good : {"0.01", "0.012", "6"})
-    EXPECT_THROW(makeDevice(std::string("hid:no-such-arm,max-current=") + good, experiment, 1), ResourceError) << good;
-  for (const char* bad : {"0.0099", "6.01", "0", "-1"})
-    EXPECT_THROW(makeDevice(std::string("hid:no-such-arm,max-current=") + bad, experiment, 1), FaultError) << bad;
+TEST_F(MakeDevice, AnArmsLargestCurrentIsFromTenMilliamperesToSixAmperes) {
+  for (const std::string good : {"0.01", "0.012", "6"}) EXPECT_THROW(make("hid:no-such-arm,max-current=" + good), ResourceError) << good;
+  for (const std::string bad : {"0.0099", "6.01", "0", "-1"}) EXPECT_THROW(make("hid:no-such-arm,max-current=" + bad), FaultError) << bad;
 }
 
 TEST(DeviceOptions, TakeWhatIsKnownAndRefuseTheRest) {
@@ -90,22 +90,13 @@ TEST(Registry, AHandBeginsWhereItsTaskDoes) {
   EXPECT_EQ(trial::startOf(experiment::CompiledExperiment(experiment)), Vec3{});
 }
 
-TEST(Registry, ANameThatIsNearlyOneIsAskedAfter) {
-  const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
-  EXPECT_TRUE(holds(reachlab::refusalOf([&] { makeDevice("phantm:Left", experiment, 1); }),
-                    "device: is phantm:Left, which is unknown; did you mean phantom?"));
-}
-
-TEST(MakeDevice, AResourcesWordsSayWhichDeviceWasAskedFor) {
-  const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
-  EXPECT_TRUE(
-      reachlab::refusalOf([&] { makeDevice("replay:/nowhere", experiment, 1); }).starts_with("device replay: /nowhere: no such file"));
+TEST_F(MakeDevice, AResourcesWordsSayWhichDeviceWasAskedFor) {
+  EXPECT_TRUE(refusalOf("replay:/nowhere").starts_with("device replay: /nowhere: no such file"));
 }
 
 // One of a kind that is not made by the program may be one device twice; those that are made there are as many of as are asked for.
-TEST(MakeDevice, OfSeveralHandsEachHasADeviceOfItsOwn) {
-  const experiment::CompiledExperiment both(experiment::readExperiment("chain-two-hands"));
-  const auto refusalOf = [&](const std::string& spec) { return reachlab::refusalOf([&] { makeDevice(spec, both, 1); }, "made"); };
+TEST_F(MakeDevice, OfSeveralHandsEachHasADeviceOfItsOwn) {
+  experiment = experiment::readExperiment("chain-two-hands");
   EXPECT_EQ(
       refusalOf("hid:A + hid"),
       "device: is hid:A + hid, which may be one device twice; allowed: hid[:SERIAL][,model=NAME,max-current=A,calibrate=start], each by a name "
@@ -121,8 +112,8 @@ TEST(MakeDevice, OfSeveralHandsEachHasADeviceOfItsOwn) {
     for (int i = 0; i < 900; ++i) place = device.read().position;
     return place;
   };
-  const auto device = makeDevice("simulated + simulated + simulated", both, 5);
-  const auto alone = makeDevice("simulated", both, 5);
+  const auto device = makeDevice("simulated + simulated + simulated", experiment, 5);
+  const auto alone = makeDevice("simulated", experiment, 5);
   for (haptics::HapticDevice* one : {device.get(), alone.get()}) one->prepareTrial(0), one->cue(haptics::Cue::Place);
   ASSERT_EQ(device->hands().size(), 3u);
   Vec3 second, third;
@@ -139,7 +130,7 @@ TEST(MakeDevice, OfSeveralHandsEachHasADeviceOfItsOwn) {
   EXPECT_FALSE(third == second);
 }
 
-TEST(MakeDevice, AReplayOffersEachOfItsReachesOnceAndAllElseOneTrial) {
+TEST_F(MakeDevice, AReplayOffersEachOfItsReachesOnceAndAllElseOneTrial) {
   EXPECT_EQ(trialsOnOffer("simulated"), 1);
   EXPECT_EQ(trialsOnOffer("replay"), 1);
   const std::string reaches = "replay:" + experiment::resourceFolder() + "/reaches";
@@ -149,14 +140,13 @@ TEST(MakeDevice, AReplayOffersEachOfItsReachesOnceAndAllElseOneTrial) {
   EXPECT_THROW(trialsOnOffer("replay:/nowhere"), ResourceError);
 }
 
-TEST(MakeDevice, HandSettingsAreOfTheDeviceWithOrWithoutAName) {
+TEST_F(MakeDevice, HandSettingsAreOfTheDeviceWithOrWithoutAName) {
   EXPECT_EQ(handSettingsOf("virtual:omni,scale=2").mapping.scale, 2);
   EXPECT_EQ(handSettingsOf("hid,scale=3").mapping.scale, 3);
   EXPECT_FALSE(handSettingsOf("hid").any());
   EXPECT_FALSE(handSettingsOf("replay:a,scale=2.csv").any()) << "what a file is called is its own business";
-  const experiment::Experiment experiment = experiment::readExperiment("chain-slow");
-  EXPECT_EQ(makeDevice("simulated,scale=2,noise=0", experiment, 1)->info().name, "simulated") << "the rest is the driver's own";
-  EXPECT_THROW(makeDevice("simulated,scale=2,colour=1", experiment, 1), FaultError);
+  EXPECT_EQ(make("simulated,scale=2,noise=0")->info().name, "simulated") << "the rest is the driver's own";
+  EXPECT_THROW(make("simulated,scale=2,colour=1"), FaultError);
 }
 
 using Devices = std::vector<std::unique_ptr<haptics::HapticDevice>>;

@@ -96,31 +96,9 @@ TEST_F(Files, AFolderIsPlayedInNameOrderAndFromTheFirstAgain) {
 
 TEST_F(Files, SaysWhatIsWrongWithAFile) {
   EXPECT_THROW(readReach((folder / "missing.csv").string()), ResourceError);
-  EXPECT_TRUE(holds(reachlab::refusalOf([&] {
-                      makeReplayHand((folder / "missing").string(), {}, {1, 0, 0});
-                    }),
-                    experiment::resourceFolder() + "/reaches"));
+  const auto missing = [&] { makeReplayHand((folder / "missing").string(), {}, {1, 0, 0}); };
+  EXPECT_TRUE(holds(reachlab::refusalOf(missing), experiment::resourceFolder() + "/reaches"));
   EXPECT_THROW(makeReplayHand(folder.path(), {}, {1, 0, 0}), ResourceError) << "an empty folder";
-  const std::string header = "time_s,x_m,y_m,z_m\n";
-  EXPECT_THROW(layOnto(readReach(write("one.csv", header + "0,0,0,0\n")), {}, {1, 0, 0}), FaultError) << "one place is no reach";
-  for (const char* rows : {"", "0,0,0,0\n0,1,0,0\n", "0,0,0,0\n1,1,nan,0\n", "0,0,0,0\n1,1,0\n", "0,0,0,0\n1,1,0,0,5\n", "a,b,c,d\n"})
-    EXPECT_THROW(readReach(write("bad.csv", header + rows)), FaultError) << rows;
-  EXPECT_THROW(readReach(write("bad.csv", "t,x,y,z\n0,0,0,0\n1,1,0,0\n")), FaultError);
-  const std::string still = write("still.csv", header + "0,1,1,1\n1,1,1,1\n");
-  EXPECT_THROW(layOnto(readReach(still), {}, {1, 0, 0}), FaultError);
-}
-
-// Spreadsheets write a byte order mark, spaces and CRLF; recordings have further columns.
-TEST_F(Files, TakesItsFourColumnsFromAnyTableThatNamesThem) {
-  const RecordedReach reach =
-      readReach(write("wide.csv", "\xef\xbb\xbfz_m, trial, time_s, x_m, y_m\r\n3, a, 0, 1, 2\r\n\r\n6, a, 0.5, 4, 5\r\n"));
-  EXPECT_EQ(reach.time, (std::vector<double>{0, 0.5}));
-  EXPECT_EQ(reach.position, (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}}));
-}
-
-TEST_F(Files, NamesFileAndLine) {
-  const std::string file = write("bad.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n1,zero,0,0\n");
-  EXPECT_EQ(reachlab::refusalOf([&] { readReach(file); }).rfind(file + ":3:", 0), 0u);
 }
 
 // A line at constant speed, uneven in time: the spline is the line itself. At rest for 0.3 s, blended onto it over 0.1 s, held at its end.

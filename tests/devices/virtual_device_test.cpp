@@ -14,6 +14,7 @@
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/run_conductor.h"
+#include "tests/devices/driver_answers.h"
 #include "tests/devices/fakes/diary_device.h"
 
 namespace reachlab::devices {
@@ -66,13 +67,12 @@ TEST(VirtualDevice, AWholeRunIsTheSameTwiceAndWithinTheDevicesForce) {
   EXPECT_NE(one.outcome, trial::Outcome::Aborted) << nameOf(one.reason);
 }
 
-TEST(VirtualDevice, ItsOptionsAreChecked) {
-  const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
-  EXPECT_THROW(makeDevice("virtual", experiment, 1), FaultError);
-  EXPECT_THROW(makeDevice("virtual:falcon", experiment, 1), FaultError);
-  EXPECT_THROW(makeDevice("virtual:omni,arm-mass=-1", experiment, 1), FaultError);
-  EXPECT_THROW(makeDevice("virtual:omni,colour=red", experiment, 1), FaultError);
-  EXPECT_NO_THROW(makeDevice("virtual:omni,arm-mass=2,noise=0", experiment, 1));
+class VirtualDevices : public ::testing::Test, public DriverAnswers {};
+
+TEST_F(VirtualDevices, AreMadeByOptionsThatAreChecked) {
+  for (const char* bad : {"virtual", "virtual:falcon", "virtual:omni,arm-mass=-1", "virtual:omni,colour=red"})
+    EXPECT_THROW(make(bad), FaultError) << bad;
+  EXPECT_NO_THROW(make("virtual:omni,arm-mass=2,noise=0"));
 }
 
 LoopSettings passiveArm(int delay) {
