@@ -38,8 +38,8 @@ void fill(const haptics::LatenessHistogram& of, double& p50, double& p99, double
   most = of.max() * 1e-9;
 }
 
-ClockTiming measure(const std::shared_ptr<haptics::HapticDevice>& device, double seconds) {
-  static const experiment::CompiledExperiment experiment = experiment::openExperiment("chain-slow");
+ClockTiming measure(const std::shared_ptr<haptics::HapticDevice>& device, const experiment::CompiledExperiment& experiment,
+                    double seconds) {
   const auto sink = std::make_shared<TickTimes>();
   haptics::HapticLoop loop(std::make_unique<haptics::TickEngine>(experiment, haptics::engineOptions(*device)), device, sink.get());
   loop.start();
@@ -69,7 +69,7 @@ std::vector<ClockTiming> measureLatency(const std::string& spec, double seconds)
     if (device->info().virtualHand)
       throw FaultError(
           Fault{"device", "is " + spec + ", which is simulated and has no latency", "a device as `reach list devices` has it"});
-    rows.push_back(measure(device, seconds));
+    rows.push_back(measure(device, experiment, seconds));
   }
   return rows;
 }

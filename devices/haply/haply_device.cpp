@@ -39,7 +39,7 @@ HaplyInverse3::HaplyInverse3(const Options& options, OpenLink open) : AskedDevic
 
 void HaplyInverse3::greet(MessageLink& link) {
   const std::string first = firstMessage(link);
-  const HaplyService service = readHaplyService(first);
+  const HaplyService service = readHaplyService(first, options_.id);
   switch (readHaplyMessage(first, options_.id, state_, options_.grip)) {
     case HaplyAnswer::State: break;
     case HaplyAnswer::NotJson: throw ResourceError("what answers is no Inverse service (its first message is none of its protocol)");
@@ -56,8 +56,7 @@ void HaplyInverse3::greet(MessageLink& link) {
                                     grips.empty() ? "none" : fmt::format("{}", fmt::join(grips, ", "))));
   const DeviceModel& model = *findDeviceModel("inverse3");
   info_.name = "Haply Inverse3 " + state_.id;
-  const std::string settings = readHaplyService(first, state_.id).settings;
-  info_.version = "Inverse service, websocket" + (settings.empty() ? "" : "; " + settings);
+  info_.version = "Inverse service, websocket" + (service.settings.empty() ? "" : "; " + service.settings);
   info_.maxForce = options_.maxForce > 0 ? options_.maxForce : model.maxForce;
   info_.maxContinuousForce = std::min(model.continuousForce, info_.maxForce);
   info_.rendersForce = true;

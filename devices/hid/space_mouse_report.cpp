@@ -18,17 +18,11 @@ Vec3 axes(std::span<const std::uint8_t> report, std::size_t at) noexcept {
   return {axis(report, at), -axis(report, at + 4), axis(report, at + 2)};
 }
 
-bool takeOne(std::span<const std::uint8_t> report, SpaceMouseState& state) noexcept {
-  switch (report[0]) {
-    case 1: state.push = axes(report, 1); return true;
-    case 2: return true;  // a twist, which steers nothing
-    default: {
-      std::uint32_t buttons = 0;
-      for (std::size_t i = 1; i < std::min<std::size_t>(report.size(), 5); ++i) buttons |= std::uint32_t{report[i]} << 8 * (i - 1);
-      state.buttons = buttons;
-      return true;
-    }
-  }
+void takeOne(std::span<const std::uint8_t> report, SpaceMouseState& state) noexcept {
+  if (report[0] == 1) state.push = axes(report, 1);
+  if (report[0] != 3) return;  // report 2 is a twist, which steers nothing
+  state.buttons = 0;
+  for (std::size_t i = 1; i < report.size(); ++i) state.buttons |= std::uint32_t{report[i]} << 8 * (i - 1);
 }
 
 // How long the report is that these bytes begin with; 0: none of ours.
@@ -46,7 +40,8 @@ bool takeSpaceMouseReport(std::span<const std::uint8_t> bytes, SpaceMouseState& 
   while (!bytes.empty()) {
     const std::size_t length = lengthOf(bytes);
     if (length == 0) break;
-    taken = takeOne(bytes.first(length), state) || taken;
+    takeOne(bytes.first(length), state);
+    taken = true;
     bytes = bytes.subspan(length);
   }
   return taken;

@@ -136,16 +136,11 @@ class SerialLines final : public PulsedLine {
 };
 
 speed_t speedOf(int baud) {
-  switch (baud) {
-    case 9600: return B9600;
-    case 19200: return B19200;
-    case 38400: return B38400;
-    case 57600: return B57600;
-    case 115200: return B115200;
-    case 230400: return B230400;
-    case 1000000: return B1000000;
-    default: throw FaultError(Fault{"instrument", fmt::format("baud={}", baud), "9600, 19200, 38400, 57600, 115200, 230400, 1000000"});
-  }
+  constexpr std::pair<int, speed_t> kSpeeds[]{{9600, B9600},     {19200, B19200},   {38400, B38400},    {57600, B57600},
+                                              {115200, B115200}, {230400, B230400}, {1000000, B1000000}};
+  for (const auto& [known, speed] : kSpeeds)
+    if (known == baud) return speed;
+  throw FaultError(Fault{"instrument", fmt::format("baud={}", baud), "9600, 19200, 38400, 57600, 115200, 230400, 1000000"});
 }
 
 class ByteLine final : public Instrument {

@@ -237,13 +237,9 @@ PreflightLine workspace(const haptics::DeviceInfo& device, const ReachDemand& de
 }  // namespace
 
 std::string_view nameOf(Verdict verdict) {
-  switch (verdict) {
-    case Verdict::Fine: return "fine";
-    case Verdict::Held: return "held";
-    case Verdict::Warning: return "warning";
-    case Verdict::Unknown: break;
-  }
-  return "unknown";
+  constexpr std::string_view kNames[] = {"fine", "held", "warning", "unknown"};
+  static_assert(std::size(kNames) == static_cast<std::size_t>(Verdict::Unknown) + 1);
+  return kNames[static_cast<std::size_t>(verdict)];
 }
 
 std::vector<PreflightLine> checkBeforeBlock(const CompiledExperiment& experiment, const haptics::DeviceInfo& device, std::size_t hand) {
