@@ -8,6 +8,7 @@
 #include <limits>
 #include <optional>
 #include <rapidcheck.h>
+#include <set>
 #include <thread>
 
 #include "base/error.h"
@@ -56,6 +57,8 @@ struct Plan {
 /// One driver on a model of its device.
 class Rig {
  public:
+  /// The device may have these faults of its own. `most`: the most that its motors may be told.
+  Rig(std::set<Fault> own, double most) : toldLimit(most), own_(std::move(own)) {}
   virtual ~Rig() = default;
   virtual std::shared_ptr<haptics::HapticDevice> open() = 0;
   /// One millisecond of the device and its I/O; then `tick`, unless the tick hangs.
@@ -65,20 +68,23 @@ class Rig {
   void moveTo(const Vec3& world) { place = world; }
   void set(Fault kind, bool active) { faults[static_cast<std::size_t>(kind)] = active; }
   bool has(Fault kind) const { return faults[static_cast<std::size_t>(kind)]; }
-  bool knows(Fault kind) const { return kind == Fault::Gap || kind == Fault::Stall || knowsOwn(kind); }
-  virtual bool knowsOwn(Fault kind) const = 0;
-  virtual double toldLimit() const = 0;
+  bool knows(Fault kind) const { return kind == Fault::Gap || kind == Fault::Stall || own_.contains(kind); }
   virtual bool refuses() const { return false; }
+  const double toldLimit;
 
  protected:
   Vec3 seen() const { return place + (has(Fault::Jump) ? Vec3{0.05, 0, 0} : Vec3{}); }
   Vec3 place;
   std::array<bool, 8> faults{};
+
+ private:
+  std::set<Fault> own_;
 };
 
 /// Behind a PolledDevice that is stepped.
 class PolledRig : public Rig {
  public:
+  using Rig::Rig;
   std::shared_ptr<haptics::HapticDevice> open() override {
     polled_ = std::make_shared<PolledDevice>(transport(), now);
     for (int i = 0; i < 3; ++i) advance({});
@@ -99,6 +105,7 @@ class PolledRig : public Rig {
 
 class ArmRig final : public PolledRig {
  public:
+  ArmRig() : PolledRig({Fault::Jump, Fault::Silence, Fault::Garbage, Fault::Unplug, Fault::Refusal}, 2000) {}
   ~ArmRig() override {
     polled_.reset();
     test::resetFakeHids();
@@ -110,9 +117,7 @@ class ArmRig final : public PolledRig {
     answered_ = timeNs;
     hid_.written.clear();
   }
-  bool knowsOwn(Fault kind) const override { return kind != Fault::NotANumber; }
   double told() const override { return told_; }
-  double toldLimit() const override { return 2000; }
 
  protected:
   std::shared_ptr<Transport> transport() override {
@@ -138,7 +143,6 @@ class ArmRig final : public PolledRig {
 /// Behind a link that answers each message once.
 class MessageRig : public PolledRig {
  public:
-  bool knowsOwn(Fault) const override { return true; }
   double told() const override { return told_; }
 
  protected:
@@ -164,7 +168,8 @@ class MessageRig : public PolledRig {
     std::string fault() const override { return "gone"; }
     MessageRig& rig;
   };
-  explicit MessageRig(bool letsGo) : letsGo_(letsGo) {}
+  MessageRig(bool letsGo, double most)
+      : PolledRig({Fault::NotANumber, Fault::Jump, Fault::Silence, Fault::Garbage, Fault::Unplug, Fault::Refusal}, most), letsGo_(letsGo) {}
   std::unique_ptr<MessageLink> link() {
     if (has(Fault::Unplug)) throw ResourceError("gone");
     return std::make_unique<Link>(*this);
@@ -182,9 +187,8 @@ class MessageRig : public PolledRig {
 
 class PolhemRig final : public MessageRig {
  public:
-  PolhemRig() : MessageRig(false) {}
-  ~PolhemRig() override { polled_.reset(); }           // what it sends last goes through this rig
-  double toldLimit() const override { return 5.002; }  // each axis is rounded to a millinewton
+  PolhemRig() : MessageRig(false, 5.002) {}   // each axis is rounded to a millinewton
+  ~PolhemRig() override { polled_.reset(); }  // what it sends last goes through this rig
 
  protected:
   std::optional<Vec3> forceIn(const std::string& line) const override {
@@ -203,9 +207,8 @@ class PolhemRig final : public MessageRig {
 
 class HaplyRig final : public MessageRig {
  public:
-  HaplyRig() : MessageRig(true) {}
+  HaplyRig() : MessageRig(true, 10) {}
   ~HaplyRig() override { polled_.reset(); }
-  double toldLimit() const override { return 10; }
 
  protected:
   std::optional<Vec3> forceIn(const std::string& message) const override {
@@ -229,15 +232,11 @@ class HaplyRig final : public MessageRig {
 
 class ForceDimensionRig final : public PolledRig {
  public:
-  ForceDimensionRig() { test::resetFakeDhd(); }
-  bool knowsOwn(Fault kind) const override {
-    return kind == Fault::NotANumber || kind == Fault::Jump || kind == Fault::Unplug || kind == Fault::Refusal;
-  }
+  ForceDimensionRig() : PolledRig({Fault::NotANumber, Fault::Jump, Fault::Unplug, Fault::Refusal}, 12) { test::resetFakeDhd(); }
   double told() const override {
     const auto& f = test::fakeDhd().force;
     return test::fakeDhd().error != 0 || !test::fakeDhd().open ? 0 : std::hypot(f[0].load(), f[1].load(), f[2].load());
   }
-  double toldLimit() const override { return 12; }
 
  protected:
   std::shared_ptr<Transport> transport() override { return openForceDimension(0, "device forcedimension:0", false); }
@@ -253,10 +252,7 @@ class ForceDimensionRig final : public PolledRig {
 
 class PhantomRig final : public Rig {
  public:
-  PhantomRig() { test::resetFakeHd(); }
-  bool knowsOwn(Fault kind) const override {
-    return kind == Fault::NotANumber || kind == Fault::Jump || kind == Fault::Unplug || kind == Fault::Refusal;
-  }
+  PhantomRig() : Rig({Fault::NotANumber, Fault::Jump, Fault::Unplug, Fault::Refusal}, 3.3) { test::resetFakeHd(); }
   std::shared_ptr<haptics::HapticDevice> open() override {
     device_ = std::make_shared<PhantomDevice>(PhantomDevice::Options{});
     device_->startClock(
@@ -294,7 +290,6 @@ class PhantomRig final : public Rig {
     const auto& f = test::fakeHd().devices[""].force;
     return std::hypot(f[0], f[1], f[2]);
   }
-  double toldLimit() const override { return 3.3; }
 
  private:
   std::shared_ptr<PhantomDevice> device_;
@@ -303,7 +298,7 @@ class PhantomRig final : public Rig {
 
 class VirtualRig final : public Rig {
  public:
-  bool knowsOwn(Fault kind) const override { return kind == Fault::Silence || kind == Fault::Jump; }
+  VirtualRig() : Rig({Fault::Silence, Fault::Jump}, 8.5) {}
   std::shared_ptr<haptics::HapticDevice> open() override {
     VirtualDevice::Options options;
     options.hand = {1, 300, 30};
@@ -317,7 +312,6 @@ class VirtualRig final : public Rig {
     if (tick) tick();
   }
   double told() const override { return 0; }
-  double toldLimit() const override { return 8.5; }
 
  private:
   test::DiaryDevice* hand_ = nullptr;  // what holds the device
@@ -429,7 +423,7 @@ void runPlan(Rig& rig, const Plan& plan, bool guarded = true) {
     RC_ASSERT((norm(force - before) <= haptics::ForceSafety::kSlewPerTick + kRounding || force == Vec3{}));
     if (lostFor >= 20) RC_ASSERT(force == Vec3{});
     if (latchedBefore) RC_ASSERT(device->largest == 0);
-    RC_ASSERT(rig.told() <= rig.toldLimit() + kRounding);
+    RC_ASSERT(rig.told() <= rig.toldLimit + kRounding);
     // A device that is lost but still takes reports is told zero; one that refuses them can only be left to its own watchdog.
     const bool refuses = rig.refuses();
     goneFor = device->health() == haptics::DeviceHealth::Lost && !refuses ? goneFor + 1 : 0;

@@ -201,13 +201,9 @@ TEST_F(HidDevices, AnArmThatComesBackIsTakenUpAgainByItsName) {
   test::resetFakeHids({teensy()});
   const auto device = make("hid:A1");
   ASSERT_TRUE(until([&] { return device->read().reports > 3; }));
-  const auto setGone = [](bool gone) {
-    const std::lock_guard lock(fakeHids().mutex);
-    fakeHids().list[0].gone = gone;
-  };
-  setGone(true);
+  test::setFirstFakeHid(true);
   ASSERT_TRUE(until([&] { return !device->read().valid; }));
-  setGone(false);
+  test::setFirstFakeHid(false);
   EXPECT_TRUE(until([&] { return device->read().valid; }));
   EXPECT_EQ(fakeHids().list[0].opened, 2);
 }
@@ -268,15 +264,10 @@ TEST_F(HidDevices, AnUnpluggedSpaceMouseIsLostAndComesBackWithoutItsPush) {
   test::resetFakeHids({mouse});
   const auto hand = make("spacemouse");
   ASSERT_TRUE(until([&] { return hand->read().velocity.x > 0; }));
-  const auto change = [](bool gone, const std::deque<Bytes>& reports) {
-    const std::lock_guard lock(fakeHids().mutex);
-    fakeHids().list[0].gone = gone;
-    fakeHids().list[0].reports = reports;
-  };
-  change(true, {});
+  test::setFirstFakeHid(true);
   ASSERT_TRUE(until([&] { return !hand->read().valid; }));
   EXPECT_EQ(hand->health(), haptics::DeviceHealth::Lost);
-  change(false, {{3, 1}});  // a button, no push
+  test::setFirstFakeHid(false, {{3, 1}});  // a button, no push
   EXPECT_TRUE(until([&] { return hand->read().valid; }));
   EXPECT_TRUE(until([&] { return hand->read().buttons == 1; }));
   EXPECT_EQ(hand->read().velocity.x, 0);

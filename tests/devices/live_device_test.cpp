@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <mutex>
-
 #include "base/error.h"
 #include "sim/experiment/experiment.h"
 #include "tests/devices/fakes/fake_hidapi.h"
@@ -72,10 +70,7 @@ TEST(LiveDevice, ReportsOfADeviceAreCountedByTheirNumber) {
     EXPECT_EQ(live.info().name, "woodenhaptics_v2015 A1");
     EXPECT_EQ(live.calibrationHint(), "hold the arm in its calibration pose (encoders 0, 0, 6000)");
     EXPECT_NO_THROW(live.calibrate());
-    {
-      const std::lock_guard lock(test::fakeHids().mutex);
-      test::fakeHids().list[0].gone = true;
-    }
+    test::setFirstFakeHid(true);
     ASSERT_TRUE(until([&] { return !(view = live.look()).fault.empty(); }));
     EXPECT_TRUE(holds(view.fault, "woodenhaptics_v2015 A1"));
     EXPECT_TRUE(until([&] { return live.look().fault.ends_with(": no connection any more"); })) << live.look().fault;

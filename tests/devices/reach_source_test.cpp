@@ -134,15 +134,21 @@ TEST_F(OthersFiles, WhatIsWrongWithBidsIsSaid) {
   EXPECT_TRUE(holds(refusal(bids), "the point is never seen"));
 }
 
-TEST_F(OthersFiles, AC3dPointIsReadAndAGapIsRefused) {
+// Without the places of its points, each of which is seen in every frame.
+C3dFile c3dOf(const std::vector<C3dLabel>& points, std::size_t frames, const std::string& unit, double rate = 100) {
   C3dFile c3d;
-  c3d.rate = 100;
-  c3d.pointUnit = "mm";
-  c3d.points = {{"WRIST"}, {"INDEX"}};
-  c3d.frames = 60;
+  c3d.rate = rate;
+  c3d.pointUnit = unit;
+  c3d.points = points;
+  c3d.frames = frames;
+  c3d.seen.assign(frames * points.size(), 1);
+  return c3d;
+}
+
+TEST_F(OthersFiles, AC3dPointIsReadAndAGapIsRefused) {
+  C3dFile c3d = c3dOf({{"WRIST"}, {"INDEX"}}, 60, "mm");
   for (std::size_t i = 0; i < 120; ++i)
     for (const float value : {static_cast<float>(i), 2.0f, 3.0f}) c3d.places.push_back(value);
-  c3d.seen.assign(120, 1);
   c3d.seen[1] = c3d.seen[2 * 20 + 1] = 0;  // the first frame, and one inside
   const std::string file = write("reach.c3d", c3dBytes(c3d));
   const RecordedReach reach = read(file + ",point=INDEX").front();
@@ -162,12 +168,8 @@ TEST_F(OthersFiles, AC3dPointIsReadAndAGapIsRefused) {
 
 // A trial's file begins before the movement and may end after it: what is replayed is the same as from the trial's BIDS files.
 TEST_F(OthersFiles, AC3dReachIsCutByItsEvents) {
-  C3dFile c3d;
-  c3d.pointUnit = "m";
-  c3d.points = {{"hand"}};
-  c3d.frames = 60;
+  C3dFile c3d = c3dOf({{"hand"}}, 60, "m");
   c3d.places.assign(180, 1);
-  c3d.seen.assign(60, 1);
   c3d.events = {{"go", 0.1}, {"onset", 0.17}, {"end", 0.43}};
   const RecordedReach reach = read(write("cut.c3d", c3dBytes(c3d))).front();
   EXPECT_EQ(reach.time.front(), 0.17);
@@ -178,13 +180,8 @@ TEST_F(OthersFiles, AC3dReachIsCutByItsEvents) {
 
 TEST_F(OthersFiles, AFolderMayHoldAllKinds) {
   write("a.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n0.5,4,5,6\n");
-  C3dFile c3d;
-  c3d.pointUnit = "m";
-  c3d.points = {{"hand"}};
-  c3d.frames = 2;
+  C3dFile c3d = c3dOf({{"hand"}}, 2, "m", 2);  // half a second apart is no gap at this rate
   c3d.places = {1, 2, 3, 4, 5, 6};
-  c3d.seen = {1, 1};
-  c3d.rate = 2;  // half a second apart is no gap at this rate
   write("b.c3d", c3dBytes(c3d));
   write("c.txt", "no reach");
   const std::vector<RecordedReach> reaches = read(folder.path());
@@ -279,15 +276,10 @@ TEST_F(OthersFiles, AnEventHoldsTheSamplesFromItsOnsetToItsEnd) {
 }
 
 TEST_F(OthersFiles, AC3dFileMayEndInCapitalsAndGiveItsPlacesPointByPoint) {
-  C3dFile c3d;
-  c3d.rate = 50;
-  c3d.pointUnit = "cm";
-  c3d.points = {{"A"}, {"B"}};
-  c3d.frames = 3;
+  C3dFile c3d = c3dOf({{"A"}, {"B"}}, 3, "cm", 50);
   for (const float value :
        {1.0f, 2.0f, 3.0f, 10.0f, 20.0f, 30.0f, 4.0f, 5.0f, 6.0f, 40.0f, 50.0f, 60.0f, 7.0f, 8.0f, 9.0f, 70.0f, 80.0f, 90.0f})
     c3d.places.push_back(value);
-  c3d.seen.assign(6, 1);
   write("UP.C3D", c3dBytes(c3d));
   const auto reach = read(folder.path() + ",point=B").front();
   EXPECT_EQ(reach.time, (std::vector<double>{0, 0.02, 0.04}));

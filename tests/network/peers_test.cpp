@@ -25,6 +25,7 @@ namespace fs = std::filesystem;
 
 class Peers : public testing::Test {
  protected:
+  Peers() { initConductor(at("lab"), "left"); }
   std::string at(const std::string& name) const { return (folder_ / name).string(); }
   void copy(const std::string& from, const fs::path& to) const { fs::copy(at(from), to, fs::copy_options::overwrite_existing); }
   static std::string textOf(const std::string& path) {
@@ -36,7 +37,6 @@ class Peers : public testing::Test {
 };
 
 TEST_F(Peers, AStationIsAnsweredAndItsKeyStays) {
-  initConductor(at("lab"), "left");
   initStation(at("other"), "right");
   EXPECT_FALSE(listPeers(at("other")).at(0).complete);
   const std::string answer = addStation(at("lab"), at("other/request.pem"));
@@ -51,7 +51,6 @@ TEST_F(Peers, AStationIsAnsweredAndItsKeyStays) {
 }
 
 TEST_F(Peers, KeysAreTheOwnersAlone) {
-  initConductor(at("lab"), "left");
   for (const char* key : {"lab/key.pem", "lab/authority/identity_ca_key.pem", "lab/authority/permissions_ca_key.pem"}) {
     struct stat status {};
     ASSERT_EQ(::stat(at(key).c_str(), &status), 0) << key;
@@ -62,7 +61,6 @@ TEST_F(Peers, KeysAreTheOwnersAlone) {
 }
 
 TEST_F(Peers, WhatIsWrongWithAFolderIsSaid) {
-  initConductor(at("lab"), "left");
   initConductor(at("foreign"), "left");
   copy("foreign/identity.pem", at("lab/identity.pem"));
   EXPECT_FALSE(listPeers(at("lab")).at(0).fault.empty()) << "a certificate of another authority";
@@ -84,7 +82,6 @@ TEST_F(Peers, WhatIsWrongWithAFolderIsSaid) {
 
 // Before a run: the network itself only says that it cannot begin.
 TEST_F(Peers, AStationDoesNotBeginWithAFolderThatHasAFault) {
-  initConductor(at("lab"), "left");
   initConductor(at("foreign"), "left");
   initStation(at("other"), "right");
   StationSetup setup;
@@ -116,7 +113,6 @@ bool isCritical(const X509* certificate, int kind) {
 
 // RFC 5280, 4.2.1.3 and 4.2.1.9: who may sign for others says so, and who may not says that, and no reader may pass over it.
 TEST_F(Peers, AnAuthoritySignsForOthersAndAStationDoesNot) {
-  initConductor(at("lab"), "left");
   for (const char* authority : {"lab/identity_ca.pem", "lab/permissions_ca.pem"}) {
     const Certificate certificate = certificateAt(at(authority));
     EXPECT_EQ(X509_check_ca(certificate.get()), 1) << authority;
@@ -138,10 +134,10 @@ TEST_F(Peers, AnAuthoritySignsForOthersAndAStationDoesNot) {
 // Clocks of two machines may be a day apart.
 TEST_F(Peers, CertificatesAndPermissionsHoldFromTheDayBeforeForAsManyDaysAsAreAsked) {
   std::time_t before = std::time(nullptr);
-  initConductor(at("lab"), "left", {.days = 10});
+  initConductor(at("short"), "left", {.days = 10});
   std::time_t after = std::time(nullptr);
   constexpr std::time_t kDay = 24 * 60 * 60;
-  const Certificate certificate = certificateAt(at("lab/identity.pem"));
+  const Certificate certificate = certificateAt(at("short/identity.pem"));
   const auto isAt = [&](const ASN1_TIME* time, std::time_t days) {
     std::time_t earliest = before + days * kDay - 1, latest = after + days * kDay + 1;
     return X509_cmp_time(time, &earliest) > 0 && X509_cmp_time(time, &latest) < 0;
@@ -149,11 +145,11 @@ TEST_F(Peers, CertificatesAndPermissionsHoldFromTheDayBeforeForAsManyDaysAsAreAs
   EXPECT_TRUE(isAt(X509_get0_notBefore(certificate.get()), -1));
   EXPECT_TRUE(isAt(X509_get0_notAfter(certificate.get()), 10));
   std::smatch found;
-  const std::string permissions = textOf(at("lab/permissions.p7s"));
+  const std::string permissions = textOf(at("short/permissions.p7s"));
   ASSERT_TRUE(std::regex_search(permissions, found, std::regex("<not_before>(.*)</not_before><not_after>(.*)</not_after>")));
   initStation(at("other"), "right");
-  addStation(at("lab"), at("other/request.pem"), {.days = 100});
-  const std::vector<PeerFolder> peers = listPeers(at("lab"));
+  addStation(at("short"), at("other/request.pem"), {.days = 100});
+  const std::vector<PeerFolder> peers = listPeers(at("short"));
   EXPECT_EQ(peers.at(1).validUntil, peers.at(0).validUntil) << "no longer than the authority that signed";
   for (const auto& [text, days] : {std::pair{found[1].str(), -1}, std::pair{found[2].str(), 10}}) {
     std::tm parts{};
@@ -164,7 +160,6 @@ TEST_F(Peers, CertificatesAndPermissionsHoldFromTheDayBeforeForAsManyDaysAsAreAs
 }
 
 TEST_F(Peers, WhatIsPermittedIsSignedByItsOwnAuthorityAlone) {
-  initConductor(at("lab"), "left");
   const auto isSignedBy = [&](const std::string& document, const std::string& authority) {
     const Bio in(BIO_new_mem_buf(document.data(), static_cast<int>(document.size())));
     BIO* raw = nullptr;
@@ -210,14 +205,12 @@ TEST_F(Peers, AFolderIsToldAsItStands) {
   initConductor(at("late"), "left", {.days = -1});
   EXPECT_EQ(listPeers(at("late")).at(0).fault, "the certificate has expired");
   EXPECT_NE(listPeers(at("late")).at(0).validUntil, "");
-  initConductor(at("lab"), "left");
   EXPECT_EQ(listPeers(at("lab")).at(0).fault, "");
   copy("right/key.pem", at("lab/key.pem"));
   EXPECT_EQ(listPeers(at("lab")).at(0).fault, "the certificate is not of this key");
 }
 
 TEST_F(Peers, NothingIsCompleteWithoutAnyOneOfItsFiles) {
-  initConductor(at("lab"), "left");
   for (const char* file : {"identity.pem", "identity_ca.pem", "permissions_ca.pem", "governance.p7s", "permissions.p7s", "key.pem"}) {
     fs::rename(at("lab") + "/" + file, at("aside"));
     EXPECT_FALSE(listPeers(at("lab")).at(0).complete) << file;
@@ -227,7 +220,6 @@ TEST_F(Peers, NothingIsCompleteWithoutAnyOneOfItsFiles) {
 }
 
 TEST_F(Peers, WhoWasAnsweredStandsInTheOrderOfTheNamesAndNeedsNoKeyThere) {
-  initConductor(at("lab"), "left");
   for (const char* name : {"zeta", "alpha"}) {
     initStation(at(name), name);
     EXPECT_EQ(addStation(at("lab"), at(name) + "/request.pem"), at("lab") + "/for-" + name);
@@ -243,7 +235,6 @@ TEST_F(Peers, WhoWasAnsweredStandsInTheOrderOfTheNamesAndNeedsNoKeyThere) {
 
 // Two stations of one name could not be told apart, and one of them conducts.
 TEST_F(Peers, AStationWithTheConductorsNameIsRefused) {
-  initConductor(at("lab"), "left");
   initStation(at("right"), "left");
   EXPECT_EQ(faultsToldBy([&] { addStation(at("lab"), at("right/request.pem")); }).at(0).what,
             "is of a station named \"left\", which is the conductor's name");
@@ -252,7 +243,6 @@ TEST_F(Peers, AStationWithTheConductorsNameIsRefused) {
 
 // Whoever changes the name in a request cannot sign it again.
 TEST_F(Peers, ARequestThatItsOwnKeyDidNotSignIsRefused) {
-  initConductor(at("lab"), "left");
   initStation(at("right"), "right");
   Bio in(BIO_new_file((at("right") + "/request.pem").c_str(), "r"));
   const Owned<X509_REQ, X509_REQ_free> request(PEM_read_bio_X509_REQ(in.get(), nullptr, nullptr, nullptr));

@@ -62,7 +62,7 @@ void resetFakeDhd() {
     for (auto& part : device.velocity) part = 0;
     device.type = 33;
     device.maxForce = -1;
-    device.positions = device.forces = device.error = device.failOnce = 0;
+    device.forces = device.error = device.failOnce = 0;
     device.most = 0;
   }
 }
@@ -103,7 +103,6 @@ int dhdGetPosition(double* x, double* y, double* z, char id) {
   if (answer(id) < 0) return -1;
   if (device.sameAgain) return 1;
   if (std::getenv("FAKE_DHD_ALONE") != nullptr) moveAlone(device);
-  ++device.positions;
   *x = device.position[0], *y = device.position[1], *z = device.position[2];
   return 0;
 }

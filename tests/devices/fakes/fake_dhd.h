@@ -11,7 +11,7 @@ struct FakeDhd {
   std::atomic<double> force[3]{};     // [N] last set
   std::atomic<double> most{0};        // [N] of its norm so far
   std::atomic<bool> open{false}, forceOn{false};
-  std::atomic<int> positions{0}, forces{0};
+  std::atomic<int> forces{0};
   std::atomic<int> error{0};               // != 0: every call from now on fails with it
   std::atomic<int> failOnce{0};            // the next call fails with it
   std::atomic<int> callsUntilFailure{-1};  // how many calls succeed before one fails with a communication error; -1: none fails

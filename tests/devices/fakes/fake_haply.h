@@ -47,8 +47,6 @@ class FakeHaply {
 
   /// Whether the device is in the service's list.
   void setPlugged(bool plugged, const std::string& id = kFirst);
-  std::atomic<bool> garbles{false};  // answers are no JSON from here on
-  std::atomic<bool> silent{false};   // answers no more
   /// The service ends: its connection is closed without a word.
   void end();
 

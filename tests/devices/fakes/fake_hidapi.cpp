@@ -37,6 +37,11 @@ void resetFakeHids(const std::vector<FakeHid>& list) {
   const std::lock_guard lock(hids.mutex);
   hids.list.assign(list.begin(), list.end());
 }
+void setFirstFakeHid(bool gone, const std::deque<std::vector<std::uint8_t>>& reports) {
+  const std::lock_guard lock(hids.mutex);
+  hids.list.front().gone = gone;
+  hids.list.front().reports = reports;
+}
 FakeHid& resetToOneFakeHid() {
   resetFakeHids({{.path = "/dev/hidraw3", .paces = false}});
   return hids.list.front();

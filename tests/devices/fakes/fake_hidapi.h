@@ -32,6 +32,8 @@ struct FakeHids {
 };
 FakeHids& fakeHids();
 void resetFakeHids(const std::vector<FakeHid>& list = {});
+/// The first of them is unplugged, or is there again with these reports.
+void setFirstFakeHid(bool gone, const std::deque<std::vector<std::uint8_t>>& reports = {});
 /// The only device from now on. It lets nobody wait.
 FakeHid& resetToOneFakeHid();
 
