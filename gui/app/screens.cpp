@@ -103,8 +103,8 @@ void Screens::showOverlay(const scene::OverlayState& experimenters, const scene:
   overlay_ = experimenters;
   overlay_.legend = forcesText(main_.plan().forces);
   subjectsOverlay_ = subjects;
-  main_.setOverlay(overlay_);
-  if (subject_) subject_->view().setOverlay(subjects);
+  main_.overlay().setState(overlay_);
+  if (subject_) subject_->view().overlay().setState(subjects);
 }
 
 void Screens::setPlacesMovable(bool movable) { main_.setPlacesMovable(movable); }
@@ -175,7 +175,7 @@ void Screens::openSubject(const QString& screen) {
   subject_->setAttribute(Qt::WA_DeleteOnClose);
   connect(&subject_->view(), &scene::SceneView::handDragged, this, &Screens::handDragged);
   subject_->view().setPlan(subjectsPlan(main_.plan(), experiment_->experiment().subjectScreen));
-  subject_->view().setOverlay(subjectsOverlay_);
+  subject_->view().overlay().setState(subjectsOverlay_);
   subject_->addActions(actions_);
   subject_->view().setFocus();  // Space begins a trial where the scene has the keys
   subject_->showFull(screen);

@@ -92,7 +92,7 @@ QVBoxLayout* ConstraintChooser::makePicture() {
   preview_ = new scene::SceneView;
   scene::OverlayState overlay;
   overlay.semaphoreShown = false;
-  preview_->setOverlay(overlay);
+  preview_->overlay().setState(overlay);
   widgets::addAll(*middle, {title_, sentence_, preview_});
   middle->setStretch(2, 1);
   return middle;

@@ -63,7 +63,7 @@ ReplayView::ReplayView(QWidget* parent) : QWidget(parent) {
   layout->setContentsMargins(0, 0, 0, 0);
   layout->setSpacing(2);
   view_ = new scene::SceneView;
-  view_->setOverlayVisible(false);
+  view_->overlay().setVisible(false);
   view_->setMinimumSize(220, 150);
   layout->addWidget(view_, 1);
   slider_ = widgets::named<QSlider>("replayTime", Qt::Horizontal);

@@ -1,10 +1,8 @@
 #include "gui/scene/cue_actors.h"
 
 #include <vtkActor.h>
-#include <vtkCellArray.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
-#include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
@@ -53,35 +51,31 @@ void CueActors::addGrid(const Box& box, double size) {
   const double left = down(box.low.x), right = up(box.high.x), back = down(box.low.z), front = up(box.high.z);
   const Vec3 middle{0.5 * (left + right), floor_, 0.5 * (back + front)};
   const double width = 0.5 * (right - left), depth = 0.5 * (front - back);
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkCellArray> lines;
-  vtkNew<vtkUnsignedCharArray> colours;
-  colours->SetNumberOfComponents(4);
+  std::vector<std::vector<Vec3>> lines;
+  std::vector<double> opacity;
+  const auto line = [&](const Vec3& from, const Vec3& to) {
+    const int squares = static_cast<int>(std::lround(norm(to - from) / step));
+    lines.emplace_back();
+    for (int i = 0; i <= squares; ++i) {
+      const Vec3& p = lines.back().emplace_back(from + (static_cast<double>(i) / squares) * (to - from));
+      opacity.push_back(0.4 * std::max(0.0, 1 - std::pow((p.x - middle.x) / width, 2) - std::pow((p.z - middle.z) / depth, 2)));
+    }
+  };
+  for (int i = 0; left + i * step <= right + 0.5 * step; ++i) line({left + i * step, floor_, back}, {left + i * step, floor_, front});
+  for (int i = 0; back + i * step <= front + 0.5 * step; ++i) line({left, floor_, back + i * step}, {right, floor_, back + i * step});
   const widgets::Colour& c = look_.colours.rail;
-  const auto corner = [&](double x, double z) {
-    const double out = std::pow((x - middle.x) / width, 2) + std::pow((z - middle.z) / depth, 2);
-    colours->InsertNextTuple4(255 * c.red, 255 * c.green, 255 * c.blue, 255 * 0.4 * std::max(0.0, 1 - out));
-    return points->InsertNextPoint(x, floor_, z);
-  };
-  const auto line = [&](double ax, double az, double bx, double bz) {
-    const int squares = static_cast<int>(std::lround(std::hypot(bx - ax, bz - az) / step));
-    lines->InsertNextCell(squares + 1);
-    for (int i = 0; i <= squares; ++i) lines->InsertCellPoint(corner(ax + (bx - ax) * i / squares, az + (bz - az) * i / squares));
-  };
-  for (int i = 0; left + i * step <= right + 0.5 * step; ++i) line(left + i * step, back, left + i * step, front);
-  for (int i = 0; back + i * step <= front + 0.5 * step; ++i) line(left, back + i * step, right, back + i * step);
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetLines(lines);
-  data->GetPointData()->SetScalars(colours);
-  addSoft(data);
-  const Actor ground = addDisc(c, {{{0.5, 0.13}, {0.8, 0.06}, {1.0, 0}}});
+  addSoft(linesOf(lines), c, opacity);
+  const Actor ground = addDisc(c, {{{0, 0.13}, {0.5, 0.13}, {0.8, 0.06}, {1.0, 0}}});
   ground->SetScale(width, 1, depth);
   ground->SetPosition(middle.x, floor_ - 1e-3 * unit_, middle.z);
 }
 
-// With a colour and an opacity at each point.
-Actor CueActors::addSoft(vtkPolyData* data) {
+// With an opacity at each point.
+Actor CueActors::addSoft(vtkPolyData* data, const widgets::Colour& colour, const std::vector<double>& opacity) {
+  vtkNew<vtkUnsignedCharArray> colours;
+  colours->SetNumberOfComponents(4);
+  for (const double o : opacity) colours->InsertNextTuple4(255 * colour.red, 255 * colour.green, 255 * colour.blue, 255 * o);
+  data->GetPointData()->SetScalars(colours);
   vtkNew<vtkPolyDataMapper> mapper;
   mapper->SetInputData(data);
   const Actor actor = actors_.add(vtkNew<vtkActor>());
@@ -91,34 +85,27 @@ Actor CueActors::addSoft(vtkPolyData* data) {
   return actor;
 }
 
-// A level disc around the origin whose opacity goes from ring to ring.
-Actor CueActors::addDisc(const widgets::Colour& colour, const std::array<Ring, 3>& rings) {
-  constexpr int kSides = 32;
-  vtkNew<vtkPoints> points;
-  vtkNew<vtkUnsignedCharArray> colours;
-  colours->SetNumberOfComponents(4);
-  vtkNew<vtkCellArray> faces;
-  faces->InsertNextCell(kSides);
-  for (int i = 0; i < kSides; ++i) faces->InsertCellPoint(i);
+// A level disc around the origin whose opacity goes from ring to ring. The first ring is its centre.
+Actor CueActors::addDisc(const widgets::Colour& colour, const std::array<Ring, 4>& rings) {
+  constexpr std::uint32_t kSides = 32;
+  SurfaceMesh disc;
+  std::vector<double> opacities;
   for (const auto& [distance, opacity] : rings)
-    for (int i = 0; i < kSides; ++i) {
+    for (std::uint32_t i = 0; i < kSides; ++i) {
       const double angle = 2 * std::numbers::pi * i / kSides;
-      const vtkIdType at = points->InsertNextPoint(distance * std::cos(angle), 0, distance * std::sin(angle));
-      colours->InsertNextTuple4(255 * colour.red, 255 * colour.green, 255 * colour.blue, 255 * opacity);
+      const auto at = static_cast<std::uint32_t>(disc.points.size());
+      disc.points.push_back({distance * std::cos(angle), 0, distance * std::sin(angle)});
+      opacities.push_back(opacity);
       if (at < kSides) continue;
-      const vtkIdType next = i + 1 < kSides ? at + 1 : at + 1 - kSides, corners[] = {at, next, next - kSides, at - kSides};
-      faces->InsertNextCell(4, corners);
+      const std::uint32_t next = i + 1 < kSides ? at + 1 : at + 1 - kSides;
+      disc.quads.push_back({at, next, next - kSides, at - kSides});
     }
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetPolys(faces);
-  data->GetPointData()->SetScalars(colours);
-  return addSoft(data);
+  return addSoft(quadsOf(disc), colour, opacities);
 }
 
 // As under a wide light: the rim fades.
 void CueActors::addShadow(double size) {
-  shadows_.push_back(addDisc({}, {{{0.55, 0.6}, {1.0, 0.3}, {1.45, 0}}}));
+  shadows_.push_back(addDisc({}, {{{0, 0.6}, {0.55, 0.6}, {1.0, 0.3}, {1.45, 0}}}));
   shadows_.back()->SetScale(size, 1, size);
 }
 

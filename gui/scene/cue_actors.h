@@ -24,8 +24,8 @@ class CueActors {
     double distance, opacity;
   };
   void addGrid(const Box& box, double size);
-  Actor addSoft(vtkPolyData* data);
-  Actor addDisc(const widgets::Colour& colour, const std::array<Ring, 3>& rings);
+  Actor addSoft(vtkPolyData* data, const widgets::Colour& colour, const std::vector<double>& opacity);
+  Actor addDisc(const widgets::Colour& colour, const std::array<Ring, 4>& rings);
   void addShadow(double size);
   void showTrace(const SceneFrame& frame);
   void showArrow(const SceneFrame& frame);

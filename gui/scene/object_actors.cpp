@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 namespace reachlab::gui::scene {
 namespace {
@@ -13,10 +14,6 @@ namespace {
 constexpr double kNextVia = 0.6, kLaterVia = 0.3, kPassedVia = 0.1;  // opacity of places on the way
 constexpr double kOtherPlaces = 0.5;                                 // opacity of places that are not of this trial
 constexpr double kFieldArrow = 0.18, kPulseArrow = 0.4;              // of the reach, the longest of each
-
-widgets::Colour colourOf(MassRole role, const PartColours& colours) {
-  return role == MassRole::Driven ? colours.driven : role == MassRole::Last ? colours.last : colours.middle;
-}
 
 void turn(vtkActor& actor, const std::array<double, 4>& quaternion) {
   const auto [w, x, y, z] = quaternion;
@@ -27,7 +24,9 @@ void turn(vtkActor& actor, const std::array<double, 4>& quaternion) {
 }  // namespace
 
 ObjectActors::ObjectActors(vtkRenderer& renderer, const ScenePlan& plan, SurfaceStyle style)
-    : plan_(plan), actors_(renderer), model_(renderer, plan), cues_(renderer, plan) {
+    : plan_(plan), actors_(renderer), massModels_(plan.massRadius.size()) {
+  addModel();
+  cues_.emplace(renderer, plan);
   addConstraint(style);
   addPlaces();
   if (plan.hasTask) addMarks();
@@ -35,6 +34,25 @@ ObjectActors::ObjectActors(vtkRenderer& renderer, const ScenePlan& plan, Surface
   addObject();
   plan_.curve = {};
   plan_.surface = {};
+}
+
+Actor ObjectActors::addBall(const Look& look, double radius) {
+  Actor ball = actors_.add(makeBall(look));
+  ball->SetScale(radius);
+  return ball;
+}
+
+void ObjectActors::addModel() {
+  if (!plan_.model) return;
+  for (const model::ModelPart& part : plan_.model->parts) {
+    std::vector<Actor>* where = part.name == "hand" ? &handModel_ : nullptr;
+    for (std::size_t i = 0; i < massModels_.size(); ++i)
+      if (part.name == "mass" + std::to_string(i + 1)) where = &massModels_[i];
+    if (where == nullptr && !part.name.empty()) continue;  // a mass that there is not, or that is not shown
+    const Actor actor = actors_.add(makeTriangles(part));
+    if (where != nullptr) where->push_back(actor);
+    if (where == &handModel_) actor->SetVisibility(plan_.handShown);
+  }
 }
 
 void ObjectActors::addConstraint(SurfaceStyle style) {
@@ -64,18 +82,16 @@ void ObjectActors::addPlaces() {
 
 void ObjectActors::addMark(bool atTarget, const Vec3& shift, double radius, double opacity) {
   const PartColours& colours = plan_.look.colours;
-  const Actor ball = actors_.add(makeBall({atTarget ? colours.target : colours.start, opacity, 0.2}));
+  const Actor ball = addBall({atTarget ? colours.target : colours.start, opacity, 0.2}, radius);
   if (opacity < 0.5) makeShell(*ball);
-  ball->SetScale(radius);
   place(*ball, (atTarget ? plan_.target : plan_.start) + shift);
   marks_.push_back({ball, atTarget, shift});
 }
 
 void ObjectActors::addMarks() {
   for (const Vec3& at : plan_.via) {
-    via_.push_back(actors_.add(makeBall({plan_.look.colours.surfaceLine, kLaterVia, 0.2})));
+    via_.push_back(addBall({plan_.look.colours.surfaceLine, kLaterVia, 0.2}, plan_.viaRadius));
     makeShell(*via_.back());
-    via_.back()->SetScale(plan_.viaRadius);
     place(*via_.back(), at);
   }
   // Each place where a mass begins and ends, and the hand's own on the constraint. The shell at the target is the tolerance dx.
@@ -113,17 +129,18 @@ void ObjectActors::addObject() {
   const PartColours& colours = plan_.look.colours;
   for (const SpringPlan& spring : plan_.springs)
     springs_.push_back(actors_.add(makeCoil({spring.coupling ? colours.coupling : colours.spring, 1, 0.5}, spring.coupling ? 6 : 9)));
-  for (std::size_t i = 0; i < plan_.massRadius.size(); ++i) {
-    const Look look{colourOf(plan_.massRole[i], colours), 1, 0.55};
+  const std::size_t count = plan_.massRadius.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const Look look{i == 0 ? colours.driven : i + 1 == count ? colours.last : colours.middle, 1, 0.55};
     masses_.push_back(actors_.add(plan_.body ? makeBox(look) : makeBall(look)));
     masses_[i]->SetScale(plan_.body ? 2.2 * plan_.massRadius[i] : plan_.massRadius[i]);
-    masses_[i]->SetVisibility(!model_.hasMass(i));
+    masses_[i]->SetVisibility(massModels_[i].empty());
   }
   const auto own = static_cast<std::size_t>(plan_.ownHand);
   for (std::size_t i = 0; i < std::max<std::size_t>(plan_.hands.size(), 1); ++i) {
-    hands_.push_back(actors_.add(makePen({i == own ? colours.hand : plan_.hands[i].colour, 1, 0.6})));
+    hands_.push_back(actors_.add(makePen({i == own ? colours.hand : plan_.hands[i], 1, 0.6})));
     hands_[i]->SetScale(plan_.handRadius);
-    hands_[i]->SetVisibility(i == own && plan_.handShown && !model_.hasHand());
+    hands_[i]->SetVisibility(i == own && plan_.handShown && handModel_.empty());
   }
 }
 
@@ -132,8 +149,8 @@ void ObjectActors::movePlaces(const Vec3& start, const Vec3& target) {
 }
 
 void ObjectActors::show(const SceneFrame& frame) {
-  model_.show(frame);
-  cues_.show(frame);
+  for (const Actor& actor : handModel_) place(*actor, ownHand(frame));
+  cues_->show(frame);
   showMasses(frame);
   for (std::size_t i = 0; i < via_.size(); ++i) {
     const int ahead = static_cast<int>(i) - frame.viaPassed;
@@ -143,14 +160,35 @@ void ObjectActors::show(const SceneFrame& frame) {
   showSprings(frame);
 }
 
+bool ObjectActors::showGhosts(const std::vector<SceneFrame>& ghosts) {
+  constexpr double kFaint = 0.22;
+  const PartColours& colours = plan_.look.colours;
+  const std::size_t count = plan_.massRadius.size();
+  while (ghosts_.size() < ghosts.size()) {
+    std::vector<Actor>& balls = ghosts_.emplace_back();
+    for (std::size_t i = 0; i < count; ++i)
+      balls.push_back(addBall({i + 1 == count ? colours.last : colours.middle, kFaint, 0.1}, plan_.massRadius[i]));
+    balls.push_back(addBall({colours.hand, kFaint, 0.1}, plan_.handRadius));
+  }
+  for (std::size_t g = 0; g < ghosts_.size(); ++g)
+    for (std::size_t i = 0; i <= count; ++i) {
+      const bool shown = g < ghosts.size() && (i == count || i < ghosts[g].masses.size());
+      ghosts_[g][i]->SetVisibility(shown);
+      if (shown) place(*ghosts_[g][i], i == count ? ownHand(ghosts[g]) : drawnPlace(plan_, ghosts[g], i));
+    }
+  return !ghosts_.empty();
+}
+
 void ObjectActors::showMasses(const SceneFrame& frame) {
-  const std::size_t count = std::min(frame.masses.size(), masses_.size());
-  const auto drawn = [&](std::size_t i) { return frame.masses[i] + plan_.massShift[i]; };
-  for (std::size_t i = 0; i < count; ++i) {
+  if (!massModels_.empty())
+    for (const Actor& actor : massModels_.front()) actor->SetVisibility(frame.cursorShown);
+  const auto drawn = [&](std::size_t i) { return drawnPlace(plan_, frame, i); };
+  for (std::size_t i = 0; i < std::min(frame.masses.size(), masses_.size()); ++i) {
+    for (const Actor& actor : massModels_[i]) place(*actor, drawn(i));
     place(*masses_[i], drawn(i));
     if (plan_.body) turn(*masses_[i], frame.body.orientation);
     // Masses at one position are drawn as one: two skins at one position flicker.
-    bool hidden = model_.hasMass(i) || (i == 0 && !frame.cursorShown);
+    bool hidden = !massModels_[i].empty() || (i == 0 && !frame.cursorShown);
     for (std::size_t k = 0; k < i; ++k)
       hidden = hidden || (isFinite(frame.masses[i]) && plan_.massRadius[k] >= plan_.massRadius[i] &&
                           norm(drawn(i) - drawn(k)) < 0.12 * plan_.massRadius[k]);
@@ -173,7 +211,7 @@ void ObjectActors::showHands(const SceneFrame& frame) {
 
 void ObjectActors::showSprings(const SceneFrame& frame) {
   const std::size_t count = std::min(frame.masses.size(), masses_.size());
-  const auto drawn = [&](std::size_t i) { return frame.masses[i] + plan_.massShift[i]; };
+  const auto drawn = [&](std::size_t i) { return drawnPlace(plan_, frame, i); };
   for (std::size_t i = 0; i < springs_.size(); ++i) {
     const SpringPlan& spring = plan_.springs[i];
     const auto to = static_cast<std::size_t>(spring.to), hand = static_cast<std::size_t>(spring.hand);

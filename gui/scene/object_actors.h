@@ -1,8 +1,8 @@
 #pragma once
+#include <optional>
 #include <vector>
 
 #include "gui/scene/cue_actors.h"
-#include "gui/scene/model_actors.h"
 #include "gui/scene/scene_actors.h"
 #include "gui/scene_plan/scene_plan.h"
 
@@ -16,10 +16,15 @@ class ObjectActors {
   ObjectActors(vtkRenderer& renderer, const ScenePlan& plan, SurfaceStyle style);
 
   void show(const SceneFrame& frame);
+  /// Shows other trials at the same moment: their masses and hands as faint balls, which are kept for the largest number shown so far.
+  /// Returns whether there are any balls.
+  bool showGhosts(const std::vector<SceneFrame>& ghosts);
   /// Moves the marks of start and target.
   void movePlaces(const Vec3& start, const Vec3& target);
 
  private:
+  Actor addBall(const Look& look, double radius);
+  void addModel();
   void addConstraint(SurfaceStyle style);
   void addPlaces();
   void addMarks();
@@ -37,9 +42,12 @@ class ObjectActors {
   };
   ScenePlan plan_;
   ActorGroup actors_;
-  ModelActors model_;
-  CueActors cues_;
+  // Shapes of the model. Where there is one for the hand or for a mass, the usual shape is not drawn.
+  std::vector<Actor> handModel_;
+  std::vector<std::vector<Actor>> massModels_;
+  std::optional<CueActors> cues_;
   std::vector<Actor> masses_, springs_, hands_, via_;
+  std::vector<std::vector<Actor>> ghosts_;  // balls of each: its masses, its hand
   std::vector<Mark> marks_;
   bool handWasValid_ = true;
 };

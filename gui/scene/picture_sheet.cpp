@@ -35,7 +35,7 @@ int drawPictures(const QString& folder) {
   QCoreApplication::processEvents();
   const auto picture = [&](const std::string& name, const ScenePlan& plan) {
     overlay.counter = QString::fromStdString(name);
-    view.setOverlay(overlay);
+    view.overlay().setState(overlay);
     view.setPlan(plan);
     QCoreApplication::processEvents();
     return view.grabScene();

@@ -15,6 +15,7 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 #include <vtkPolyDataMapper.h>
+#include <vtkPolyDataNormals.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
 #include <vtkSmartPointer.h>
@@ -69,6 +70,25 @@ Actor actorOf(vtkPolyData* geometry, const Look& look) {
   return actorOf(mapper, look);
 }
 
+vtkSmartPointer<vtkPoints> pointsOf(const std::vector<Vec3>& places) {
+  auto points = vtkSmartPointer<vtkPoints>::New();
+  for (const Vec3& p : places) points->InsertNextPoint(p.x, p.y, p.z);
+  return points;
+}
+
+template <std::size_t Corners>
+vtkSmartPointer<vtkPolyData> facesOf(const std::vector<Vec3>& points, const std::vector<std::array<std::uint32_t, Corners>>& faces) {
+  vtkNew<vtkCellArray> cells;
+  for (const auto& face : faces) {
+    cells->InsertNextCell(static_cast<int>(Corners));
+    for (const std::uint32_t corner : face) cells->InsertCellPoint(static_cast<vtkIdType>(corner));
+  }
+  auto data = vtkSmartPointer<vtkPolyData>::New();
+  data->SetPoints(pointsOf(points));
+  data->SetPolys(cells);
+  return data;
+}
+
 }  // namespace
 
 ActorGroup::ActorGroup(vtkRenderer& renderer) : renderer_(&renderer) {}
@@ -85,6 +105,8 @@ Actor ActorGroup::add(const Actor& actor) {
 void place(vtkActor& actor, const Vec3& at) {
   if (isFinite(at)) actor.SetPosition(at.x, at.y, at.z);
 }
+
+vtkSmartPointer<vtkPolyData> quadsOf(const SurfaceMesh& mesh) { return facesOf(mesh.points, mesh.quads); }
 
 vtkSmartPointer<vtkPolyData> linesOf(const std::vector<std::vector<Vec3>>& pieces) {
   vtkNew<vtkPoints> points;
@@ -126,15 +148,6 @@ Actor makeBox(const Look& look) {
 
 namespace {
 
-// Four-sided faces with a normal at each point.
-Actor quadActor(vtkPoints* points, vtkCellArray* quads, vtkFloatArray* normals, const Look& look) {
-  vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
-  data->SetPolys(quads);
-  data->GetPointData()->SetNormals(normals);
-  return actorOf(data, look);
-}
-
 // The wire's centre line runs from end to end in the frame of the axis: a hook, the coil, a hook. Lengths in coil radii.
 constexpr int kPerTurn = 16, kHookSamples = 12, kSides = 7;
 constexpr double kHook = 0.55;  // radius of a hook
@@ -159,21 +172,17 @@ Vec3 wirePoint(int i, int turns, double length) {
 }  // namespace
 
 Actor makeCoil(const Look& look, int turns) {
-  const int samples = samplesOf(turns);
-  vtkNew<vtkPoints> points;
-  points->SetNumberOfPoints(static_cast<vtkIdType>(samples) * kSides);
-  vtkNew<vtkFloatArray> normals;
-  normals->SetNumberOfComponents(3);
-  normals->SetNumberOfTuples(points->GetNumberOfPoints());
-  normals->Fill(0);
-  vtkNew<vtkCellArray> quads;
-  for (vtkIdType i = 0; i + 1 < samples; ++i)
-    for (vtkIdType k = 0; k < kSides; ++k) {
-      const vtkIdType next = (k + 1) % kSides,
-                      corners[] = {i * kSides + k, i * kSides + next, (i + 1) * kSides + next, (i + 1) * kSides + k};
-      quads->InsertNextCell(4, corners);
+  constexpr std::uint32_t kAround = kSides;
+  const auto samples = static_cast<std::uint32_t>(samplesOf(turns));
+  SurfaceMesh mesh;
+  mesh.points.resize(samples * kAround);
+  mesh.normals.resize(samples * kAround);
+  for (std::uint32_t i = 0; i + 1 < samples; ++i)
+    for (std::uint32_t k = 0; k < kAround; ++k) {
+      const std::uint32_t next = (k + 1) % kAround, here = i * kAround, after = here + kAround;
+      mesh.quads.push_back({here + k, here + next, after + next, after + k});
     }
-  return quadActor(points, quads, normals, look);
+  return makeSkin(mesh, look);
 }
 
 Vec3 penEnd(const Vec3& hand, double radius) {
@@ -211,20 +220,26 @@ Actor makeRail(const CurveMesh& mesh, double radius, const Look& look) {
 }
 
 Actor makeSkin(const SurfaceMesh& mesh, const Look& look) {
-  vtkNew<vtkPoints> points;
+  const auto data = quadsOf(mesh);
   vtkNew<vtkFloatArray> normals;
   normals->SetNumberOfComponents(3);
-  for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-    const Vec3 &p = mesh.points[i], &n = mesh.normals[i];
-    points->InsertNextPoint(p.x, p.y, p.z);
-    normals->InsertNextTuple3(n.x, n.y, n.z);
-  }
-  vtkNew<vtkCellArray> quads;
-  for (const auto& quad : mesh.quads) {
-    quads->InsertNextCell(4);
-    for (const std::uint32_t corner : quad) quads->InsertCellPoint(static_cast<vtkIdType>(corner));
-  }
-  return quadActor(points, quads, normals, look);
+  for (const Vec3& n : mesh.normals) normals->InsertNextTuple3(n.x, n.y, n.z);
+  data->GetPointData()->SetNormals(normals);
+  return actorOf(data, look);
+}
+
+// Corners beyond the points and numbers that are not finite were refused when the file was read (model::check).
+Actor makeTriangles(const model::ModelPart& part) {
+  constexpr double kEdge = 35;  // [degrees] between two triangles that is an edge, not a bend
+  vtkNew<vtkPolyDataNormals> normals;
+  normals->SetInputData(facesOf(part.points, part.triangles));
+  normals->SetFeatureAngle(kEdge);
+  const auto& [red, green, blue] = part.colour;
+  auto actor = actorOf(normals->GetOutputPort(), {{red, green, blue}, part.opacity, 0.2});
+  actor->GetProperty()->SetAmbient(0.15);
+  actor->GetProperty()->SetDiffuse(0.85);
+  actor->GetProperty()->SetSpecularPower(20);
+  return actor;
 }
 
 Actor makeLines(const std::vector<std::vector<Vec3>>& pieces, const Look& look, double width) {
@@ -235,10 +250,8 @@ Actor makeLines(const std::vector<std::vector<Vec3>>& pieces, const Look& look, 
 }
 
 Actor makeDots(const std::vector<Vec3>& places, double radius, const Look& look) {
-  vtkNew<vtkPoints> points;
-  for (const Vec3& p : places) points->InsertNextPoint(p.x, p.y, p.z);
   vtkNew<vtkPolyData> data;
-  data->SetPoints(points);
+  data->SetPoints(pointsOf(places));
   const auto ball = makeSphere(radius, 12, 9);
   vtkNew<vtkGlyph3D> dots;
   dots->SetInputData(data);

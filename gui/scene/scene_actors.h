@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/math/vec3.h"
+#include "gui/model/model.h"
 #include "gui/scene_plan/constraint_mesh.h"
 #include "gui/scene_plan/force_marks.h"
 #include "gui/widgets/colours.h"
@@ -57,6 +58,10 @@ Vec3 penEnd(const Vec3& hand, double radius);
 Actor makeRail(const CurveMesh& mesh, double radius, const Look& look);
 /// The skin alone, lit from both sides.
 Actor makeSkin(const SurfaceMesh& mesh, const Look& look);
+/// The points and faces of makeSkin, without normals.
+vtkSmartPointer<vtkPolyData> quadsOf(const SurfaceMesh& mesh);
+/// A part of a model.
+Actor makeTriangles(const model::ModelPart& part);
 /// Each piece is a line of that width [pixels].
 Actor makeLines(const std::vector<std::vector<Vec3>>& pieces, const Look& look, double width);
 /// The points and lines of makeLines.

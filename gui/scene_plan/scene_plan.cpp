@@ -60,7 +60,7 @@ void planHands(const experiment::Experiment& experiment, int masses, ScenePlan& 
     return;
   }
   for (std::size_t hand = 0; hand < experiment.hands.size(); ++hand) {
-    plan.hands.push_back({widgets::themed(handColour(hand))});
+    plan.hands.push_back(widgets::themed(handColour(hand)));
     const int mass = experiment.hands[hand].mass;
     if (parallel && mass == 0) toAll(static_cast<int>(hand));
     else plan.springs.push_back({-1, std::clamp(mass - 1, 0, masses - 1), static_cast<int>(hand), true});
@@ -73,11 +73,8 @@ void planMasses(const experiment::Experiment& experiment, ViewOptions::SideBySid
   const std::vector<double> drawn = object.kind == experiment::ObjectKind::None ? std::vector<double>{1} : object.masses;
   const std::size_t count = drawn.size();
   plan.massRadius = radiiOf(drawn, std::max(plan.unit, 0.6 * plan.size));
-  plan.massRole.assign(count, MassRole::Middle);
   plan.massShift.assign(count, Vec3{});
   if (count == 0) return;
-  plan.massRole.back() = MassRole::Last;
-  plan.massRole.front() = MassRole::Driven;
   const bool shifted = isSideBySide(object, wish);
   if (!shifted)  // where all coincide the driven one would hide the rest
     for (std::size_t i = 1; i + 1 < count; ++i) plan.massRadius[i] *= 0.72;
@@ -214,7 +211,7 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
   plan.look = plannedLook(experiment);
   plan.ownHand = std::clamp(options.ownHand, 0, std::max(static_cast<int>(plan.hands.size()) - 1, 0));
   if (!plan.hands.empty() && !experiment::lookOf(experiment).colours.contains("hand"))
-    plan.look.colours.hand = plan.hands.at(static_cast<std::size_t>(plan.ownHand)).colour;
+    plan.look.colours.hand = plan.hands.at(static_cast<std::size_t>(plan.ownHand));
   plan.box = box;
   plan.seen = pointsSeen(plan);
   plan.floor = box.low.y;
@@ -230,7 +227,6 @@ ScenePlan subjectsPlan(ScenePlan plan, const experiment::SubjectScreen& screen) 
   plan.handShown = !plan.bareHand;
   if (!screen.masses && !plan.bareHand) {
     plan.massRadius.clear();
-    plan.massRole.clear();
     plan.massShift.clear();
     plan.springs.clear();
   }
@@ -283,9 +279,8 @@ bool movedBeyond(double distance, const SceneFrame& from, const SceneFrame& to) 
 int massesAtOnePlace(const ScenePlan& plan, const SceneFrame& frame) {
   const std::size_t count = std::min(frame.masses.size(), plan.massRadius.size());
   if (count < 2) return 0;
-  const auto drawn = [&](std::size_t i) { return frame.masses[i] + plan.massShift[i]; };
   for (std::size_t i = 1; i < count; ++i)
-    if (!(norm(drawn(i) - drawn(0)) < 0.5 * plan.massRadius[i])) return 0;
+    if (!(norm(drawnPlace(plan, frame, i) - drawnPlace(plan, frame, 0)) < 0.5 * plan.massRadius[i])) return 0;
   return static_cast<int>(count);
 }
 

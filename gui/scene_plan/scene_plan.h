@@ -16,8 +16,6 @@
 /// The drawn content of an experiment as plain data: sizes, positions and colours. Independent of any graphics library.
 namespace reachlab::gui::scene {
 
-enum class MassRole { Driven, Middle, Last };
-
 struct SpringPlan {
   int from = -1, to = 0;  // masses from 0; -1: a hand
   int hand = 0;           // which, from 0
@@ -40,11 +38,6 @@ struct PlanLook {
   bool trace = false, forceArrow = false;
 };
 
-/// One of several hands on one object.
-struct HandPlan {
-  widgets::Colour colour;
-};
-
 struct ScenePlan {
   constraints::ConstraintKind kind = constraints::ConstraintKind::Free;
   CurveMesh curve;
@@ -62,13 +55,12 @@ struct ScenePlan {
   Vec3 viewFrom{0.1, 0.35, 1};     // direction from the centre to the camera
   std::vector<Vec3> seen;          // [m] points that a view of the whole must hold
   std::vector<double> massRadius;  // [m]
-  std::vector<MassRole> massRole;
-  std::vector<Vec3> massShift;  // [m] added for the eye only
+  std::vector<Vec3> massShift;     // [m] added for the eye only
   std::vector<SpringPlan> springs;
-  std::vector<HandPlan> hands;  // empty: one hand
-  int ownHand = 0;              // which of them the frame's own hand is
-  bool body = false;            // drawn as a box that turns
-  bool bareHand = false;        // there is no object: the first mass is the hand or its cursor
+  std::vector<widgets::Colour> hands;  // colours of several hands on one object; empty: one hand
+  int ownHand = 0;                     // which of them the frame's own hand is
+  bool body = false;                   // drawn as a box that turns
+  bool bareHand = false;               // there is no object: the first mass is the hand or its cursor
   std::optional<experiment::Cursor> cursor;
   bool handShown = true;                                  // by its pen
   double handRadius = 0, markRadius = 0, railRadius = 0;  // [m]
@@ -110,6 +102,10 @@ struct SceneFrame {
 };
 inline const Vec3& ownHand(const SceneFrame& frame) { return *frame.hands[static_cast<std::size_t>(frame.ownHand)]; }
 inline Vec3& ownHand(SceneFrame& frame) { return *frame.hands[static_cast<std::size_t>(frame.ownHand)]; }
+/// Where a mass of the frame is drawn. [m]
+inline Vec3 drawnPlace(const ScenePlan& plan, const SceneFrame& frame, std::size_t mass) {
+  return frame.masses[mass] + plan.massShift[mass];
+}
 /// Whether the plan's picture has its cursor in this phase of a trial. The experimenter always sees it.
 bool isCursorShown(const ScenePlan& plan, trial::Phase phase);
 /// At rest at the start.

@@ -26,7 +26,7 @@ bool PlanPages::resumes() const { return page_->isVisible() && page_->resumes();
 
 void PlanPages::refresh() {
   const bool shown = session_.isPlan() && session_.run() == nullptr;
-  view_.setOverlayVisible(!shown);  // two pages of words over one another are none
+  view_.overlay().setVisible(!shown);  // two pages of words over one another are none
   if (!shown) {
     shown_.reset();
     return page_->hide();

@@ -38,7 +38,7 @@ SubjectWindow::SubjectWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(0, 0, 0, 0);
   view_ = new scene::SceneView;
-  view_->setTextScale(1.8);
+  view_->overlay().setTextScale(1.8);
   layout->addWidget(view_);
   square_ = new QWidget(this);
   square_->setObjectName("photodiode");

@@ -107,7 +107,7 @@ int main(int argc, char** argv) {
   for (const std::string& name : names) {
     const experiment::CompiledExperiment compiled = experiment::openExperiment(name);
     bench.view->setPlan(gui::scene::planScene(compiled.experiment(), compiled.constraint()));
-    bench.view->renderNow();
+    bench.view->draw();
     QCoreApplication::processEvents();
     if (first == 0) first = 1e-3 * static_cast<double>(sinceStart.elapsed());
     const double seconds = bench.measure(compiled.experiment().task ? compiled.experiment().task->duration : 1);

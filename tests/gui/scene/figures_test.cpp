@@ -42,7 +42,7 @@ class Figures : public ::testing::Test {
  protected:
   Figures() {
     view_.resize(480, 360);
-    view_.setOverlayVisible(false);
+    view_.overlay().setVisible(false);
     view_.show();
     EXPECT_TRUE(QTest::qWaitForWindowExposed(&view_));
   }

@@ -39,7 +39,7 @@ class Looks : public ::testing::Test {
  protected:
   Looks() {
     view_.resize(600, 450);
-    view_.setOverlayVisible(false);
+    view_.overlay().setVisible(false);
     view_.show();
     EXPECT_TRUE(QTest::qWaitForWindowExposed(&view_));
   }

@@ -63,10 +63,10 @@ TEST(Picture, EveryShippedExperimentIsInTheFrameWithItsHandAndBelowTheWords) {
   ASSERT_TRUE(QTest::qWaitForWindowExposed(&view));
   for (const std::string& name : experiment::shippedExperiments()) {
     const experiment::CompiledExperiment compiled = experiment::openExperiment(name);
-    view.setOverlay(restingOverlay(QString::fromStdString(name), true));
+    view.overlay().setState(restingOverlay(QString::fromStdString(name), true));
     const ScenePlan plan = planScene(compiled.experiment(), compiled.constraint());
     view.setPlan(plan);
-    const double head = view.findChild<SceneOverlay*>()->headHeight();
+    const double head = view.overlay().headHeight();
     EXPECT_GT(head, 90);
     for (const Vec3& place : {plan.start, plan.target, penEnd(plan.start, plan.handRadius), penEnd(plan.target, plan.handRadius)}) {
       const QPointF at = view.pixelOf(place);

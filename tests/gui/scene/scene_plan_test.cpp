@@ -53,11 +53,8 @@ TEST(ScenePlan, ParallelMassesAreShiftedForTheEyeAndAChainsAreNot) {
   for (const Vec3& shift : chain.massShift) EXPECT_EQ(norm(shift), 0);
 }
 
-TEST(ScenePlan, TheFirstMassIsDrivenAndEverySpringHasItsCoil) {
+TEST(ScenePlan, EverySpringHasItsCoil) {
   const ScenePlan plan = planOf("chain-moderate");
-  ASSERT_EQ(plan.massRole.size(), 5u);
-  EXPECT_EQ(plan.massRole.front(), MassRole::Driven);
-  EXPECT_EQ(plan.massRole.back(), MassRole::Last);
   ASSERT_EQ(plan.springs.size(), 5u);  // the coupling and four of the chain
   EXPECT_TRUE(plan.springs[0].coupling);
 }
@@ -66,8 +63,8 @@ TEST(ScenePlan, EachOfSeveralHandsHasItsColourAndIsCoupledToWhatItHolds) {
   const experiment::Experiment e = experiment::readExperiment("chain-two-hands");
   const ScenePlan plan = planScene(e, constraints::makeConstraint(e.constraint), {.ownHand = 1});
   ASSERT_EQ(plan.hands.size(), 2u);
-  EXPECT_GT(std::abs(plan.hands[0].colour.green - plan.hands[1].colour.green), 0.2);
-  EXPECT_EQ(plan.look.colours.hand.green, plan.hands[1].colour.green) << "the picture's own pen is the second hand's";
+  EXPECT_GT(std::abs(plan.hands[0].green - plan.hands[1].green), 0.2);
+  EXPECT_EQ(plan.look.colours.hand.green, plan.hands[1].green) << "the picture's own pen is the second hand's";
   ASSERT_EQ(plan.springs.size(), 6u);
   EXPECT_EQ(plan.springs[0].to, 0);
   EXPECT_EQ(plan.springs[0].hand, 0);

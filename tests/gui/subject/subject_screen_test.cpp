@@ -47,7 +47,7 @@ class SubjectsScreen : public AtTheWindow {
       if (auto* found = qobject_cast<SubjectWindow*>(top)) return *found;
     throw std::runtime_error("no subject's screen");
   }
-  const scene::OverlayState& said() { return screen().findChild<scene::SceneOverlay*>()->state(); }
+  const scene::OverlayState& said() { return screen().view().overlay().state(); }
 };
 
 TEST_F(SubjectsScreen, ShowsWhatTheExperimentSaysAndNothingElse) {
