@@ -3,10 +3,12 @@
 #include <QHeaderView>
 #include <QTableWidget>
 #include <QVBoxLayout>
+#include <algorithm>
 
 #include "gui/scene_plan/hand_colours.h"
 #include "gui/widgets/inks.h"
 #include "gui/widgets/named.h"
+#include "gui/widgets/text_table.h"
 #include "gui/widgets/theme.h"
 #include "gui/widgets/themes.h"
 
@@ -15,7 +17,7 @@ namespace {
 
 using Light = network::StationStatus::Light;
 
-enum Column { kLight, kNumber, kName, kRoundTrip, kJitter, kLoss, kOvertaken, kOffset, kAge, kDevice, kSoftware, kColumns };
+enum Column { kLight, kNumber, kName, kRoundTrip, kJitter, kLoss, kOvertaken, kOffset, kAge };
 constexpr int kMostLines = 3;
 
 // Told apart by shape and word; the colour only helps.
@@ -45,9 +47,10 @@ QString milliseconds(double seconds, int digits) { return QString::number(1e3 * 
 }  // namespace
 
 StationsDock::StationsDock(QWidget* parent) : Dock(tr("Stations"), "stationsDock", parent) {
-  table_ = widgets::named<QTableWidget>("stations", 0, kColumns);
-  table_->setHorizontalHeaderLabels({tr("link"), tr("no."), tr("name"), tr("round trip\n[ms]"), tr("jitter\n[ms]"), tr("lost\n[%]"),
-                                     tr("overtaken\n[%]"), tr("clock\n[ms]"), tr("age\n[ms]"), tr("device"), tr("software")});
+  table_ = widgets::makeTextTable({tr("link"), tr("no."), tr("name"), tr("round trip\n[ms]"), tr("jitter\n[ms]"), tr("lost\n[%]"),
+                                   tr("overtaken\n[%]"), tr("clock\n[ms]"), tr("age\n[ms]"), tr("device"), tr("software")},
+                                  25);
+  table_->setObjectName("stations");
   const std::pair<Column, QString> tips[] = {
       {kRoundTrip, tr("round trip time; a trial is armed up to 120 ms")},
       {kJitter, tr("standard deviation of the round trip")},
@@ -56,13 +59,7 @@ StationsDock::StationsDock(QWidget* parent) : Dock(tr("Stations"), "stationsDock
       {kOffset, tr("its clock minus the clock of this station")},
       {kAge, tr("time since its newest sample")}};
   for (const auto& [column, tip] : tips) table_->horizontalHeaderItem(column)->setToolTip(tip);
-  table_->verticalHeader()->hide();
-  table_->verticalHeader()->setDefaultSectionSize(25);
-  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table_->setSelectionMode(QAbstractItemView::NoSelection);
   table_->setFocusPolicy(Qt::NoFocus);
-  table_->setShowGrid(false);
-  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setStretchLastSection(true);
   table_->setMinimumSize(240, 100);
   sentence_ = widgets::named<QLabel>("stationsSentence");
@@ -83,25 +80,17 @@ void StationsDock::showStations(const network::StationSetup& here, Stage stage, 
   network::StationStatus own;
   own.station = here.link.station;
   own.name = here.link.name, own.software = here.link.software, own.device = here.link.device, own.conductor = here.link.conductor;
+  std::vector<network::StationStatus> all = others;
+  if (own.station > 0) all.push_back(own);  // else it observes
+  std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.station < b.station; });
+  table_->setRowCount(static_cast<int>(all.size()));
   QStringList obstacles;
-  const int rows = static_cast<int>(others.size()) + (own.station > 0 ? 1 : 0);
-  if (table_->rowCount() != rows) {
-    table_->setRowCount(rows);
-    for (int row = 0; row < table_->rowCount(); ++row)
-      for (int column = 0; column < kColumns; ++column) {
-        auto* item = new QTableWidgetItem;
-        item->setTextAlignment((column >= kRoundTrip && column <= kAge ? Qt::AlignRight : Qt::AlignLeft) | Qt::AlignVCenter);
-        table_->setItem(row, column, item);
-      }
+  for (std::size_t row = 0; row < all.size(); ++row) {
+    const network::StationStatus& station = all[row];
+    fill(static_cast<int>(row), station, station.station == own.station);
+    for (const std::string& what : station.obstacles)
+      obstacles << tr("station %1: %2").arg(station.station).arg(QString::fromStdString(what));
   }
-  int row = 0;
-  bool placed = own.station == 0;  // it observes
-  for (const network::StationStatus& other : others) {
-    if (!placed && other.station > own.station) fill(row++, own, true), placed = true;
-    fill(row++, other, false);
-    for (const std::string& what : other.obstacles) obstacles << tr("station %1: %2").arg(other.station).arg(QString::fromStdString(what));
-  }
-  if (!placed) fill(row, own, true);
   const QString why = obstacles.join("; ");
   const QString next =
       stage == Stage::Observing ? tr("This window only observes. It records nothing, and the stations do not wait for it.") +
@@ -116,27 +105,24 @@ void StationsDock::showStations(const network::StationSetup& here, Stage stage, 
 }
 
 void StationsDock::fill(int row, const network::StationStatus& station, bool isHere) {
-  const auto set = [&](Column column, const QString& text) { table_->item(row, column)->setText(text); };
   const auto text = [](const std::string& from) { return QString::fromStdString(from); };
   const auto number = [&](const QString& value) { return station.heard ? value : QString(); };
-  set(kLight, isHere ? QString() : lightText(station.light));
-  table_->item(row, kLight)->setForeground(lightInk(station.light));
-  set(kNumber, QString::number(station.station));
-  const widgets::Colour& colour = scene::handColour(static_cast<std::size_t>(station.station - 1));
-  table_->item(row, kNumber)->setForeground(widgets::toQColor(widgets::themed(colour)));
+  const auto answer = [&](double seconds, int digits) {  // nobody answers an observer
+    return station.roundTrip >= 0 ? number(milliseconds(seconds, digits)) : QString();
+  };
   QStringList roles;
   if (isHere) roles << tr("here");
   if (station.conductor) roles << tr("conductor");
-  set(kName, roles.isEmpty() ? text(station.name) : QStringLiteral("%1 (%2)").arg(text(station.name), roles.join(", ")));
-  const bool answers = station.roundTrip >= 0;  // nobody answers an observer
-  set(kRoundTrip, answers ? number(milliseconds(station.roundTrip, 1)) : QString());
-  set(kJitter, answers ? number(milliseconds(station.jitter, 1)) : QString());
-  set(kLoss, number(QString::number(100 * station.loss, 'f', 1)));
-  set(kOvertaken, number(QString::number(100 * station.overtaken, 'f', 1)));
-  set(kOffset, answers ? number(milliseconds(station.offset, 3)) : QString());
-  set(kAge, number(milliseconds(station.age, 0)));
-  set(kDevice, text(station.device));
-  set(kSoftware, text(station.software));
+  widgets::setTexts(*table_, row,
+                    {isHere ? QString() : lightText(station.light), QString::number(station.station),
+                     roles.isEmpty() ? text(station.name) : QStringLiteral("%1 (%2)").arg(text(station.name), roles.join(", ")),
+                     answer(station.roundTrip, 1), answer(station.jitter, 1), number(QString::number(100 * station.loss, 'f', 1)),
+                     number(QString::number(100 * station.overtaken, 'f', 1)), answer(station.offset, 3),
+                     number(milliseconds(station.age, 0)), text(station.device), text(station.software)});
+  for (int column = kRoundTrip; column <= kAge; ++column) table_->item(row, column)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  table_->item(row, kLight)->setForeground(lightInk(station.light));
+  const widgets::Colour& colour = scene::handColour(static_cast<std::size_t>(station.station - 1));
+  table_->item(row, kNumber)->setForeground(widgets::toQColor(widgets::themed(colour)));
 }
 
 void StationsDock::tell(const QString& line) {

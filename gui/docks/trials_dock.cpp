@@ -9,11 +9,12 @@
 #include "gui/scene/trial_texts.h"
 #include "gui/widgets/inks.h"
 #include "gui/widgets/named.h"
+#include "gui/widgets/text_table.h"
 
 namespace reachlab::gui::docks {
 namespace {
 
-enum Column { kNumber, kOutcome, kTime, kEpsilon, kMark, kColumns };
+enum Column { kNumber, kOutcome, kTime, kEpsilon, kMark };
 
 QColor inkOf(trial::Outcome outcome) {
   using namespace widgets;
@@ -31,15 +32,10 @@ QString outcomeWords(const trial::TrialResult& result) {
 }  // namespace
 
 TrialsDock::TrialsDock(QWidget* parent) : Dock("Trials", "trialsDock", parent) {
-  table_ = widgets::named<QTableWidget>("trials", 0, kColumns);
-  table_->setHorizontalHeaderLabels({"trial", "outcome", "t [s]", "ε", QString()});
+  table_ = widgets::makeTextTable({"trial", "outcome", "t [s]", "ε", QString()}, 23);
+  table_->setObjectName("trials");
   table_->horizontalHeaderItem(kTime)->setToolTip("from the hand's onset to the end [s]");
-  table_->verticalHeader()->hide();
-  table_->verticalHeader()->setDefaultSectionSize(23);
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
-  table_->setEditTriggers(QAbstractItemView::NoEditTriggers);
-  table_->setShowGrid(false);
-  table_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   table_->horizontalHeader()->setSectionResizeMode(kOutcome, QHeaderView::Stretch);
   table_->setToolTip("double click: a note on this trial");
   table_->setMinimumSize(180, 90);
@@ -67,7 +63,7 @@ TrialsDock::TrialsDock(QWidget* parent) : Dock("Trials", "trialsDock", parent) {
   layout->addLayout(line);
   setBody(body, false);
   connect(table_, &QTableWidget::cellDoubleClicked, this,
-          [this](int row, int) { Q_EMIT noteRequested(rows_[rows_.size() - 1 - static_cast<std::size_t>(row)].number); });
+          [this](int row, int) { Q_EMIT noteRequested(rows_[static_cast<std::size_t>(row)].number); });
 }
 
 void TrialsDock::clear() {
@@ -76,34 +72,29 @@ void TrialsDock::clear() {
 }
 
 void TrialsDock::add(int number, const trial::TrialResult& result) {
-  rows_.push_back({number, result, {}, {}});
+  rows_.push_front({number, result, {}, {}});
   table_->insertRow(0);
-  for (int column = 0; column < kColumns; ++column) {
-    auto* item = new QTableWidgetItem;
-    item->setTextAlignment((column == kOutcome ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
-    table_->setItem(0, column, item);
-  }
   fill(0);
 }
 
-std::optional<std::size_t> TrialsDock::chosen() const {
-  if (rows_.empty()) return std::nullopt;
+const TrialsDock::Row* TrialsDock::chosen() const {
+  if (rows_.empty()) return nullptr;
   const QList<QTableWidgetItem*> items = table_->selectedItems();
-  return rows_.size() - 1 - static_cast<std::size_t>(items.isEmpty() ? 0 : items.front()->row());
+  return &rows_[static_cast<std::size_t>(items.isEmpty() ? 0 : items.front()->row())];
 }
 
 void TrialsDock::flag() {
-  if (const auto at = chosen()) Q_EMIT markRequested(rows_[*at].number, [](record::TrialMark& mark) { mark.flagged = !mark.flagged; });
+  if (const Row* row = chosen()) Q_EMIT markRequested(row->number, [](record::TrialMark& mark) { mark.flagged = !mark.flagged; });
 }
 
 void TrialsDock::exclude() {
-  const auto at = chosen();
-  if (!at) return;
-  const int number = rows_[*at].number;
+  const Row* row = chosen();
+  if (row == nullptr) return;
+  const int number = row->number;
   bool fine = false;
   const QString reason =
       QInputDialog::getText(this, tr("Exclude trial %1").arg(number), tr("Reason for the exclusion (empty: the trial counts):"),
-                            QLineEdit::Normal, QString::fromStdString(rows_[*at].mark.excluded), &fine);
+                            QLineEdit::Normal, QString::fromStdString(row->mark.excluded), &fine);
   if (fine) Q_EMIT markRequested(number, [&](record::TrialMark& mark) { mark.excluded = reason.trimmed().toStdString(); });
 }
 
@@ -111,13 +102,13 @@ void TrialsDock::setMark(int number, const record::TrialMark& mark) {
   for (std::size_t i = 0; i < rows_.size(); ++i) {
     if (rows_[i].number != number) continue;
     rows_[i].mark = mark;
-    fill(static_cast<int>(rows_.size() - 1 - i));
+    fill(static_cast<int>(i));
   }
 }
 
 void TrialsDock::setErrors(const std::vector<std::optional<double>>& errors) {
   if (rows_.empty()) return;
-  rows_.back().errors = errors;
+  rows_.front().errors = errors;
   fill(0);
 }
 
@@ -128,20 +119,21 @@ void TrialsDock::showCriterion(std::size_t index, const QString& title) {
 }
 
 void TrialsDock::fill(int tableRow) {
-  const Row& row = rows_[rows_.size() - 1 - static_cast<std::size_t>(tableRow)];
+  const Row& row = rows_[static_cast<std::size_t>(tableRow)];
   const bool moved = row.result.onsetTick > 0;
   const std::optional<double> error = criterion_ < row.errors.size() ? row.errors[criterion_] : std::nullopt;
-  table_->item(tableRow, kNumber)->setText(QString::number(row.number));
-  table_->item(tableRow, kOutcome)->setText(outcomeWords(row.result));
-  table_->item(tableRow, kOutcome)->setForeground(inkOf(row.result.outcome));
-  table_->item(tableRow, kOutcome)->setToolTip(scene::outcomeText(row.result));
   QStringList marks;
   if (row.mark.flagged) marks << "⚑";
   if (!row.mark.excluded.empty()) marks << tr("excluded");
-  table_->item(tableRow, kMark)->setText(marks.join(QLatin1Char(' ')));
+  widgets::setTexts(
+      *table_, tableRow,
+      {QString::number(row.number), outcomeWords(row.result), moved ? QString::number(row.result.movementTime, 'f', 2) : QString(),
+       error ? QString::number(*error, 'f', 4) : QString(), marks.join(QLatin1Char(' '))});
+  for (const Column column : {kNumber, kTime, kEpsilon, kMark})
+    table_->item(tableRow, column)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
+  table_->item(tableRow, kOutcome)->setForeground(inkOf(row.result.outcome));
+  table_->item(tableRow, kOutcome)->setToolTip(scene::outcomeText(row.result));
   table_->item(tableRow, kMark)->setToolTip(QString::fromStdString(row.mark.excluded));
-  table_->item(tableRow, kTime)->setText(moved ? QString::number(row.result.movementTime, 'f', 2) : QString());
-  table_->item(tableRow, kEpsilon)->setText(error ? QString::number(*error, 'f', 4) : QString());
 }
 
 }  // namespace reachlab::gui::docks

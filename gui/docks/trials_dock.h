@@ -1,4 +1,5 @@
 #pragma once
+#include <deque>
 #include <functional>
 #include <optional>
 #include <vector>
@@ -41,13 +42,13 @@ class TrialsDock : public Dock {
     std::vector<std::optional<double>> errors;
     record::TrialMark mark = {};
   };
-  std::optional<std::size_t> chosen() const;
+  const Row* chosen() const;  // or else the newest; null if there is no trial
   void flag();
   void exclude();
   void fill(int tableRow);
 
   QTableWidget* table_;
-  std::vector<Row> rows_;  // as they were done
+  std::deque<Row> rows_;  // the newest first
   std::size_t criterion_ = 0;
 };
 
