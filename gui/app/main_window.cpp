@@ -21,7 +21,6 @@
 #include "gui/session/remembered_session.h"
 #include "gui/plan/start_page.h"
 #include "gui/plot/criterion_style.h"
-#include "gui/plot/signal_point.h"
 #include "gui/session/session_overlay.h"
 #include "gui/widgets/work_strip.h"
 #include "sim/dynamics/scene.h"
@@ -291,7 +290,6 @@ void MainWindow::runOpened() {
   card_->close();
   strip_->clearTally();
   docks_.signal->clear();
-  lastNs_ = 0;
   score_ = 0;
   succeeded_.clear();
   runFits_.cancel();
@@ -321,10 +319,7 @@ void MainWindow::runClosed() {
 }
 
 void MainWindow::drainTrace() {
-  for (plot::TracePoint point; session_.tryTake(point);) {
-    trace_.add(point, plot());
-    docks_.signal->add(plot::signalPointOf(point, std::exchange(lastNs_, point.measuredNs)));
-  }
+  for (plot::TracePoint point; session_.tryTake(point);) trace_.add(point, plot(), *docks_.signal);
 }
 
 void MainWindow::trialEnded() {

@@ -148,7 +148,6 @@ class MainWindow : public QMainWindow {
   std::vector<int> succeeded_;    // trials of the run, as recorded
   SoundCues sounds_;
   subject::SubjectWords words_;  // of the subject's screen
-  std::int64_t lastNs_ = 0;      // of the trace: when its last point was made
   int score_ = 0;                // successes of the run
   bool gone_ = false;            // the go signal of the trial has been given, and heard
   docks::Docks docks_;

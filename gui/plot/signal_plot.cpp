@@ -19,49 +19,37 @@ namespace reachlab::gui::plot {
 namespace {
 
 constexpr double kSpan = 10;  // [s] that are shown
-constexpr int kLines = 3;
 
 QColor inkOf(int line) {
-  const widgets::Colour inks[kLines] = {widgets::colours::kDriven, widgets::colours::kLast, widgets::colours::kSurfaceLine};
+  const widgets::Colour inks[] = {widgets::colours::kDriven, widgets::colours::kLast, widgets::colours::kSurfaceLine};
   return widgets::toQColor(inks[line]).lighter(115);
 }
 
 }  // namespace
 
-struct SignalPlot::Impl {
-  std::deque<Point> points;  // the newest last
-  bool changed = false;
-  QwtPlot* plot = nullptr;
-  std::array<std::unique_ptr<QwtPlotCurve>, kLines> curves;
-  Zoomer* zoomer = nullptr;
-  QComboBox *quantity = nullptr, *watched = nullptr;
-  QCheckBox* freeze = nullptr;
-};
-
-SignalPlot::SignalPlot(QWidget* parent) : QWidget(parent), impl_(std::make_unique<Impl>()) {
-  Impl& d = *impl_;
-  d.quantity = widgets::named<QComboBox>("signalQuantity");
-  d.quantity->addItems({tr("velocity"), tr("position"), tr("force"), tr("phase plane, along x"), tr("timing")});
-  d.watched = widgets::named<QComboBox>("signalWatched");
-  d.freeze = widgets::named<QCheckBox>("signalFreeze", tr("freeze"));
-  d.quantity->setToolTip(tr("the signal that is drawn, of the last 10 s"));
-  d.watched->setToolTip(tr("the hand or the mass that is drawn"));
-  d.freeze->setToolTip(tr("freezes the plot. Press it again to show the current signal"));
-  std::tie(d.plot, d.zoomer) = addPlot(this, {d.quantity, d.watched, d.freeze}, tr("Export signal"), QStringLiteral("signal.svg"));
+SignalPlot::SignalPlot(QWidget* parent) : QWidget(parent) {
+  quantity_ = widgets::named<QComboBox>("signalQuantity");
+  quantity_->addItems({tr("velocity"), tr("position"), tr("force"), tr("phase plane, along x"), tr("timing")});
+  watched_ = widgets::named<QComboBox>("signalWatched");
+  freeze_ = widgets::named<QCheckBox>("signalFreeze", tr("freeze"));
+  quantity_->setToolTip(tr("the signal that is drawn, of the last 10 s"));
+  watched_->setToolTip(tr("the hand or the mass that is drawn"));
+  freeze_->setToolTip(tr("freezes the plot. Press it again to show the current signal"));
+  std::tie(plot_, zoomer_) = addPlot(this, {quantity_, watched_, freeze_}, tr("Export signal"), QStringLiteral("signal.svg"));
   for (int i = 0; i < kLines; ++i) {
-    auto& curve = d.curves[static_cast<std::size_t>(i)];
+    auto& curve = curves_[static_cast<std::size_t>(i)];
     curve = std::make_unique<QwtPlotCurve>();
     curve->setPen(QPen(inkOf(i), 1.6));
     curve->setRenderHint(QwtPlotItem::RenderAntialiased);
     curve->setPaintAttribute(QwtPlotCurve::ClipPolygons);
-    curve->attach(d.plot);
+    curve->attach(plot_);
   }
   setMasses(0);
-  connect(d.quantity, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
+  connect(quantity_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     fill();
-    impl_->zoomer->setZoomBase(true);
+    zoomer_->setZoomBase(true);
   });
-  connect(d.watched, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
+  connect(watched_, qOverload<int>(&QComboBox::currentIndexChanged), this, [this] {
     clear();  // points of another body are none of this one
     Q_EMIT watchedChanged(watched());
   });
@@ -71,53 +59,52 @@ SignalPlot::SignalPlot(QWidget* parent) : QWidget(parent), impl_(std::make_uniqu
 SignalPlot::~SignalPlot() = default;
 
 void SignalPlot::setMasses(int count) {
-  if (impl_->watched->count() == count + 1) return;
-  const QSignalBlocker quiet(impl_->watched);
-  const int before = std::min(impl_->watched->currentIndex(), count);
-  impl_->watched->clear();
-  impl_->watched->addItem(tr("hand"));
-  for (int i = 1; i <= count; ++i) impl_->watched->addItem(tr("mass %1").arg(i));
-  impl_->watched->setCurrentIndex(std::max(0, before));
+  if (watched_->count() == count + 1) return;
+  const QSignalBlocker quiet(watched_);
+  const int before = std::min(watched_->currentIndex(), count);
+  watched_->clear();
+  watched_->addItem(tr("hand"));
+  for (int i = 1; i <= count; ++i) watched_->addItem(tr("mass %1").arg(i));
+  watched_->setCurrentIndex(std::max(0, before));
   clear();
 }
 
-int SignalPlot::watched() const { return impl_->watched->currentIndex() - 1; }
-SignalPlot::Quantity SignalPlot::quantity() const { return static_cast<Quantity>(impl_->quantity->currentIndex()); }
-int SignalPlot::pointCount() const { return static_cast<int>(impl_->points.size()); }
-bool SignalPlot::frozen() const { return impl_->freeze->isChecked(); }
+int SignalPlot::watched() const { return watched_->currentIndex() - 1; }
+SignalPlot::Quantity SignalPlot::quantity() const { return static_cast<Quantity>(quantity_->currentIndex()); }
+int SignalPlot::pointCount() const { return static_cast<int>(points_.size()); }
+bool SignalPlot::frozen() const { return freeze_->isChecked(); }
 
 void SignalPlot::add(const Point& point) {
   if (frozen()) return;  // what is looked at is what is exported
-  impl_->points.push_back(point);
-  if (pointCount() > kCapacity) impl_->points.pop_front();
-  impl_->changed = true;
+  points_.push_back(point);
+  if (pointCount() > kCapacity) points_.pop_front();
+  changed_ = true;
 }
 
 void SignalPlot::clear() {
-  impl_->points.clear();
+  points_.clear();
   fill();
 }
 
 void SignalPlot::refresh() {
-  if (!impl_->changed || !isVisible() || frozen()) return;
+  if (!changed_ || !isVisible() || frozen()) return;
   fill();
 }
 
 void SignalPlot::fill() {
-  Impl& d = *impl_;
-  d.changed = false;
+  changed_ = false;
   const Quantity what = quantity();
   const bool three = what == Quantity::Velocity || what == Quantity::Position;
   const QString names[kLines] = {three                      ? QStringLiteral("x")
                                  : what == Quantity::Timing ? tr("period")
-                                                            : d.watched->currentText(),
+                                                            : watched_->currentText(),
                                  what == Quantity::Timing ? tr("missed") : QStringLiteral("y"), QStringLiteral("z")};
   const int lines = three ? 3 : what == Quantity::Timing ? 2 : 1;
   for (int line = 0; line < kLines; ++line) {
     const auto k = static_cast<std::size_t>(line);
     QVector<double> x, y;
-    for (const Point& p : d.points) {
-      if (line >= lines || d.points.back().time - p.time > kSpan) continue;
+    for (const Point& p : points_) {
+      if (line >= lines || points_.back().time - p.time > kSpan) continue;
       x.push_back(what == Quantity::PhasePlane ? p.position[0] : p.time);
       switch (what) {
         case Quantity::Velocity: y.push_back(p.velocity[k]); break;
@@ -127,7 +114,7 @@ void SignalPlot::fill() {
         case Quantity::Timing: y.push_back(line == 0 ? p.period : p.missed); break;
       }
     }
-    auto& curve = d.curves[k];
+    auto& curve = curves_[k];
     curve->setSamples(x, y);
     curve->setTitle(names[line]);
     curve->setItemAttribute(QwtPlotItem::Legend, line < lines);
@@ -135,21 +122,21 @@ void SignalPlot::fill() {
   }
   const QString units[] = {tr("velocity [m/s]"), tr("position [m]"), tr("force of the coupling [N]"), tr("velocity along x [m/s]"),
                            tr("a tick [ms], missed ticks")};
-  d.plot->setAxisTitle(QwtPlot::yLeft, axisTitle(units[static_cast<int>(what)]));
-  d.plot->setAxisTitle(QwtPlot::xBottom, axisTitle(what == Quantity::PhasePlane ? tr("position along x [m]") : tr("time of the run [s]")));
-  if (d.zoomer->zoomRectIndex() == 0) {
-    d.plot->setAxisAutoScale(QwtPlot::xBottom, true);
-    d.plot->setAxisAutoScale(QwtPlot::yLeft, true);
-    d.plot->updateAxes();
-    d.zoomer->setZoomBase(false);
+  plot_->setAxisTitle(QwtPlot::yLeft, axisTitle(units[static_cast<int>(what)]));
+  plot_->setAxisTitle(QwtPlot::xBottom, axisTitle(what == Quantity::PhasePlane ? tr("position along x [m]") : tr("time of the run [s]")));
+  if (zoomer_->zoomRectIndex() == 0) {
+    plot_->setAxisAutoScale(QwtPlot::xBottom, true);
+    plot_->setAxisAutoScale(QwtPlot::yLeft, true);
+    plot_->updateAxes();
+    zoomer_->setZoomBase(false);
   }
-  d.plot->replot();
+  plot_->replot();
 }
 
 bool SignalPlot::exportTo(const QString& file) {
-  return exportPlot(*impl_->plot, file, [this](QTextStream& text) {
+  return exportPlot(*plot_, file, [this](QTextStream& text) {
     text << "time_s,x_m,y_m,z_m,vx_m_per_s,vy_m_per_s,vz_m_per_s,coupling_force_n,tick_period_ms,missed_ticks\n";
-    for (const Point& p : impl_->points) {
+    for (const Point& p : points_) {
       text << p.time;
       for (const auto* three : {&p.position, &p.velocity})
         for (const double value : *three) text << ',' << value;

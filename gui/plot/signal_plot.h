@@ -2,9 +2,17 @@
 #include <QString>
 #include <QWidget>
 #include <array>
+#include <deque>
 #include <memory>
 
+class QCheckBox;
+class QComboBox;
+class QwtPlot;
+class QwtPlotCurve;
+
 namespace reachlab::gui::plot {
+
+class Zoomer;
 
 /// The last seconds of one signal of the run. The signal is velocity, position or force of the hand or a mass, its phase plane, or the
 /// timing of the loop. A drag zooms in, a right click zooms back, and the pointer shows values. *freeze* holds the picture. The shown
@@ -43,9 +51,16 @@ class SignalPlot : public QWidget {
   void watchedChanged(int mass);
 
  private:
+  static constexpr int kLines = 3;
   void fill();
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+
+  std::deque<Point> points_;  // the newest last
+  bool changed_ = false;
+  QwtPlot* plot_;
+  Zoomer* zoomer_;
+  std::array<std::unique_ptr<QwtPlotCurve>, kLines> curves_;
+  QComboBox *quantity_, *watched_;
+  QCheckBox* freeze_;
 };
 
 }  // namespace reachlab::gui::plot

@@ -22,150 +22,125 @@ namespace reachlab::gui::plot {
 
 QString libraryVersion() { return QStringLiteral(QWT_VERSION_STR); }
 
-struct VelocityPlot::Impl {
-  QwtPlot* plot = nullptr;
-  std::unique_ptr<QwtPlotZoneItem> band;
-  std::unique_ptr<QwtPlotMarker> goal;
-  std::unique_ptr<QwtPlotCurve> hand, last, handBefore, lastBefore;
-  std::vector<std::unique_ptr<QwtPlotCurve>> predictions;
-  Zoomer* zoomer = nullptr;
-  QCheckBox* freeze = nullptr;
-  struct Trial {
-    QVector<double> times, hands, lasts;
-  };
-  // What is to be drawn next; the curves hold what is drawn.
-  Trial now, before;
-  std::vector<PredictedLine> lines;
-  bool newLines = false, newTask = false;
-  double duration = 1, tolerance = 0.5;
-  bool changed = false;
-
-  void draw() {
-    hand->setSamples(now.times, now.hands);
-    last->setSamples(now.times, now.lasts);
-    handBefore->setSamples(before.times, before.hands);
-    lastBefore->setSamples(before.times, before.lasts);
-    band->setInterval(std::max(0.0, duration - tolerance), duration + tolerance);
-    goal->setXValue(duration);
-    if (std::exchange(newLines, false)) {
-      predictions.clear();
-      for (const PredictedLine& line : lines) predictions.push_back(makePrediction(*plot, line, 24));
-    }
-    if (std::exchange(newTask, false)) zoomer->zoom(0);
-    if (zoomer->zoomRectIndex() == 0) {
-      scale();
-      plot->updateAxes();
-      zoomer->setZoomBase(false);
-    }
-    plot->replot();
-  }
-
-  void scale() {
-    double least = -0.02, most = 0.1;
-    const auto see = [&](double v) { least = std::min(least, v), most = std::max(most, v); };
-    for (const auto* curve : {hand.get(), last.get(), handBefore.get(), lastBefore.get()}) {
-      const QRectF box = curve->boundingRect();
-      if (box.isValid() && curve->dataSize() > 1) see(box.top()), see(box.bottom());
-    }
-    for (const auto& curve : predictions) {
-      const QRectF box = curve->boundingRect();
-      if (box.isValid()) see(box.top()), see(box.bottom());
-    }
-    // Grows in steps, so that the axis does not creep while a trial runs.
-    const double step = most > 0.6 ? 0.2 : 0.05;
-    plot->setAxisScale(QwtPlot::yLeft, std::floor(least * 1.04 / step) * step, std::ceil(most * 1.06 / step) * step);
-    // A window in time that is open at its beginning only says how long to wait: the reach would be a splinter in it.
-    const double span =
-        std::max(tolerance < duration ? duration + tolerance + 0.25 : 2 * duration, now.times.isEmpty() ? 0.0 : now.times.back());
-    plot->setAxisScale(QwtPlot::xBottom, 0, span);
-  }
-};
-
-VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent), impl_(std::make_unique<Impl>()) {
-  impl_->freeze = widgets::named<QCheckBox>("velocityFreeze", tr("freeze"));
-  impl_->freeze->setToolTip(tr("freezes the plot. Press it again to show the current trial"));
-  std::tie(impl_->plot, impl_->zoomer) = addPlot(this, {impl_->freeze}, tr("Export velocities"), QStringLiteral("velocity.svg"));
-  QwtPlot* plot = impl_->plot;
-  plot->setAxisTitle(QwtPlot::xBottom, axisTitle(QStringLiteral("time since onset [s]")));
-  plot->setAxisTitle(QwtPlot::yLeft, axisTitle(QStringLiteral("velocity [m/s]")));
-  setAxisFonts(*plot);
-  impl_->band = std::make_unique<QwtPlotZoneItem>();
-  impl_->band->setOrientation(Qt::Vertical);
+VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent) {
+  freeze_ = widgets::named<QCheckBox>("velocityFreeze", tr("freeze"));
+  freeze_->setToolTip(tr("freezes the plot. Press it again to show the current trial"));
+  std::tie(plot_, zoomer_) = addPlot(this, {freeze_}, tr("Export velocities"), QStringLiteral("velocity.svg"));
+  plot_->setAxisTitle(QwtPlot::xBottom, axisTitle(QStringLiteral("time since onset [s]")));
+  plot_->setAxisTitle(QwtPlot::yLeft, axisTitle(QStringLiteral("velocity [m/s]")));
+  setAxisFonts(*plot_);
+  band_ = std::make_unique<QwtPlotZoneItem>();
+  band_->setOrientation(Qt::Vertical);
   QColor green = widgets::toQColor(widgets::colours::kGreen);
   green.setAlpha(38);
-  impl_->band->setBrush(green);
-  impl_->band->setPen(QPen(Qt::NoPen));
-  impl_->band->attach(plot);
-  impl_->goal = std::make_unique<QwtPlotMarker>();
-  impl_->goal->setLineStyle(QwtPlotMarker::VLine);
+  band_->setBrush(green);
+  band_->setPen(QPen(Qt::NoPen));
+  band_->attach(plot_);
+  goal_ = std::make_unique<QwtPlotMarker>();
+  goal_->setLineStyle(QwtPlotMarker::VLine);
   green.setAlpha(150);
-  impl_->goal->setLinePen(QPen(green, 1, Qt::DotLine));
+  goal_->setLinePen(QPen(green, 1, Qt::DotLine));
   QwtText label(QStringLiteral("T"));
   label.setColor(green);
-  impl_->goal->setLabel(label);
-  impl_->goal->setLabelAlignment(Qt::AlignRight | Qt::AlignTop);
-  impl_->goal->attach(plot);
+  goal_->setLabel(label);
+  goal_->setLabelAlignment(Qt::AlignRight | Qt::AlignTop);
+  goal_->attach(plot_);
 
   const QColor handInk = widgets::toQColor(widgets::colours::kDriven).lighter(120), lastInk = widgets::toQColor(widgets::colours::kLast);
   QColor handFaint = handInk, lastFaint = lastInk;
   handFaint.setAlpha(110);
   lastFaint.setAlpha(110);
-  impl_->handBefore = makeCurve(*plot, {}, QPen(handFaint, 1), 18);
-  impl_->lastBefore = makeCurve(*plot, {}, QPen(lastFaint, 1), 18);
-  impl_->hand = makeCurve(*plot, QStringLiteral("hand"), QPen(handInk, 2.2), 22);
-  impl_->last = makeCurve(*plot, QStringLiteral("last mass"), QPen(lastInk, 2.2), 21);
-  connect(impl_->freeze, &QCheckBox::toggled, this, &VelocityPlot::refresh);
-  impl_->draw();
+  handBefore_ = makeCurve(*plot_, {}, QPen(handFaint, 1), 18);
+  lastBefore_ = makeCurve(*plot_, {}, QPen(lastFaint, 1), 18);
+  hand_ = makeCurve(*plot_, QStringLiteral("hand"), QPen(handInk, 2.2), 22);
+  last_ = makeCurve(*plot_, QStringLiteral("last mass"), QPen(lastInk, 2.2), 21);
+  connect(freeze_, &QCheckBox::toggled, this, &VelocityPlot::refresh);
+  draw();
 }
 
 VelocityPlot::~VelocityPlot() = default;
 
+void VelocityPlot::draw() {
+  hand_->setSamples(now_.times, now_.hands);
+  last_->setSamples(now_.times, now_.lasts);
+  handBefore_->setSamples(before_.times, before_.hands);
+  lastBefore_->setSamples(before_.times, before_.lasts);
+  band_->setInterval(std::max(0.0, duration_ - tolerance_), duration_ + tolerance_);
+  goal_->setXValue(duration_);
+  if (std::exchange(newLines_, false)) {
+    predictions_.clear();
+    for (const PredictedLine& line : lines_) predictions_.push_back(makePrediction(*plot_, line, 24));
+  }
+  if (std::exchange(newTask_, false)) zoomer_->zoom(0);
+  if (zoomer_->zoomRectIndex() == 0) {
+    scale();
+    plot_->updateAxes();
+    zoomer_->setZoomBase(false);
+  }
+  plot_->replot();
+}
+
+void VelocityPlot::scale() {
+  double least = -0.02, most = 0.1;
+  const auto see = [&](double v) { least = std::min(least, v), most = std::max(most, v); };
+  for (const auto* curve : {hand_.get(), last_.get(), handBefore_.get(), lastBefore_.get()}) {
+    const QRectF box = curve->boundingRect();
+    if (box.isValid() && curve->dataSize() > 1) see(box.top()), see(box.bottom());
+  }
+  for (const auto& curve : predictions_) {
+    const QRectF box = curve->boundingRect();
+    if (box.isValid()) see(box.top()), see(box.bottom());
+  }
+  // Grows in steps, so that the axis does not creep while a trial runs.
+  const double step = most > 0.6 ? 0.2 : 0.05;
+  plot_->setAxisScale(QwtPlot::yLeft, std::floor(least * 1.04 / step) * step, std::ceil(most * 1.06 / step) * step);
+  // A window in time that is open at its beginning only says how long to wait: the reach would be a splinter in it.
+  const double span =
+      std::max(tolerance_ < duration_ ? duration_ + tolerance_ + 0.25 : 2 * duration_, now_.times.isEmpty() ? 0.0 : now_.times.back());
+  plot_->setAxisScale(QwtPlot::xBottom, 0, span);
+}
+
 void VelocityPlot::setTask(double duration, double tolerance) {
-  Impl& d = *impl_;
-  d.newTask = d.newTask || duration != d.duration || tolerance != d.tolerance;
-  d.duration = duration;
-  d.tolerance = tolerance;
-  d.changed = true;
+  newTask_ = newTask_ || duration != duration_ || tolerance != tolerance_;
+  duration_ = duration;
+  tolerance_ = tolerance;
+  changed_ = true;
   refresh();
 }
 
 void VelocityPlot::beginTrial() {
-  Impl& d = *impl_;
-  if (d.now.times.size() > 1) d.before = d.now;
-  d.now = {};
-  d.changed = true;
+  if (now_.times.size() > 1) before_ = now_;
+  now_ = {};
+  changed_ = true;
 }
 
 void VelocityPlot::forgetTrials() {
   beginTrial();
-  impl_->before = {};
+  before_ = {};
 }
 
 void VelocityPlot::add(double time, double hand, double last) {
   if (!std::isfinite(time) || !std::isfinite(hand) || !std::isfinite(last)) return;
-  Impl::Trial& now = impl_->now;
-  now.times.push_back(time);
-  now.hands.push_back(hand);
-  now.lasts.push_back(last);
-  impl_->changed = true;
+  now_.times.push_back(time);
+  now_.hands.push_back(hand);
+  now_.lasts.push_back(last);
+  changed_ = true;
 }
 
 void VelocityPlot::refresh() {
-  Impl& d = *impl_;
-  if (!d.changed || d.freeze->isChecked()) return;
-  d.changed = false;
-  d.draw();
+  if (!changed_ || freeze_->isChecked()) return;
+  changed_ = false;
+  draw();
 }
 
 void VelocityPlot::setPredictions(const std::vector<PredictedLine>& lines) {
-  impl_->lines = lines;
-  impl_->newLines = impl_->changed = true;
+  lines_ = lines;
+  newLines_ = changed_ = true;
   refresh();
 }
 
 bool VelocityPlot::exportTo(const QString& file) {
-  Impl& d = *impl_;
-  return exportPlot(*d.plot, file, [&](QTextStream& text) {
+  return exportPlot(*plot_, file, [&](QTextStream& text) {
     text << "line,time_s,velocity_m_per_s\n";
     const auto put = [&](const QString& name, const QwtPlotCurve& curve) {
       for (std::size_t i = 0; i < curve.dataSize(); ++i) {
@@ -173,19 +148,19 @@ bool VelocityPlot::exportTo(const QString& file) {
         text << '"' << name << "\"," << p.x() << ',' << p.y() << '\n';
       }
     };
-    put(d.hand->title().text(), *d.hand);
-    put(d.last->title().text(), *d.last);
-    put(d.hand->title().text() + tr(", trial before"), *d.handBefore);
-    put(d.last->title().text() + tr(", trial before"), *d.lastBefore);
-    for (const auto& prediction : d.predictions) put(prediction->title().text(), *prediction);
+    put(hand_->title().text(), *hand_);
+    put(last_->title().text(), *last_);
+    put(hand_->title().text() + tr(", trial before"), *handBefore_);
+    put(last_->title().text() + tr(", trial before"), *lastBefore_);
+    for (const auto& prediction : predictions_) put(prediction->title().text(), *prediction);
   });
 }
 
 std::pair<double, double> VelocityPlot::shownTimes() const {
-  const QwtInterval shown = impl_->plot->axisInterval(QwtPlot::xBottom);
+  const QwtInterval shown = plot_->axisInterval(QwtPlot::xBottom);
   return {shown.minValue(), shown.maxValue()};
 }
 
-std::size_t VelocityPlot::pointCount() const { return static_cast<std::size_t>(impl_->now.times.size()); }
+std::size_t VelocityPlot::pointCount() const { return static_cast<std::size_t>(now_.times.size()); }
 
 }  // namespace reachlab::gui::plot

@@ -1,5 +1,6 @@
 #pragma once
 #include <QString>
+#include <QVector>
 #include <QWidget>
 #include <memory>
 #include <utility>
@@ -7,7 +8,15 @@
 
 #include "gui/plot/line_style.h"
 
+class QCheckBox;
+class QwtPlot;
+class QwtPlotCurve;
+class QwtPlotMarker;
+class QwtPlotZoneItem;
+
 namespace reachlab::gui::plot {
+
+class Zoomer;
 
 /// Of Qwt, as compiled: "6.1.4".
 QString libraryVersion();
@@ -40,8 +49,24 @@ class VelocityPlot : public QWidget {
   QSize minimumSizeHint() const override { return {300, 150}; }
 
  private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  void draw();
+  void scale();
+
+  QwtPlot* plot_;
+  Zoomer* zoomer_;
+  QCheckBox* freeze_;
+  std::unique_ptr<QwtPlotZoneItem> band_;
+  std::unique_ptr<QwtPlotMarker> goal_;
+  std::unique_ptr<QwtPlotCurve> hand_, last_, handBefore_, lastBefore_;
+  std::vector<std::unique_ptr<QwtPlotCurve>> predictions_;
+  // What is to be drawn next; the curves hold what is drawn.
+  struct Trial {
+    QVector<double> times, hands, lasts;
+  } now_, before_;
+  std::vector<PredictedLine> lines_;
+  bool newLines_ = false, newTask_ = false;
+  double duration_ = 1, tolerance_ = 0.5;
+  bool changed_ = false;
 };
 
 }  // namespace reachlab::gui::plot
