@@ -29,15 +29,13 @@ class SubjectWords {
   /// Texts between blocks and after the last block.
   QString rest() const;
   QString thanks() const;
+
+ private:
   /// Translates an English sentence of the program into the subject's language.
   QString say(const char* english) const;
 
- private:
   QString language_ = "en";
   std::unique_ptr<QTranslator> translator_;
 };
-
-/// Every sentence that a translation needs, in English.
-const std::vector<const char*>& subjectSentences();
 
 }  // namespace reachlab::gui::subject

@@ -3,37 +3,44 @@
 #include <gtest/gtest.h>
 
 #include <QRegularExpression>
-#include <QSet>
+#include <QStringList>
 
 namespace reachlab::gui::subject {
 namespace {
 
-TEST(SubjectWords, EverySentenceIsThereInEveryLanguageAndTellsNoNumber) {
-  for (const Language& language : languages()) {
-    SubjectWords words;
-    words.setLanguage(language.code);
-    ASSERT_EQ(words.language(), language.code) << "its translation is not in the program";
-    QSet<QString> said;
-    for (const char* english : subjectSentences()) {
-      const QString sentence = words.say(english);
-      EXPECT_FALSE(sentence.contains(QRegularExpression(QStringLiteral("[0-9]")))) << sentence.toStdString();
-      const bool own = language.code == QLatin1String("en") || sentence != QString::fromUtf8(english);
-      EXPECT_TRUE(own) << language.code.toStdString() << " lacks " << english;
-      said.insert(sentence);
-    }
-    EXPECT_EQ(said.size(), static_cast<int>(subjectSentences().size())) << "two moments in the same words: " << language.code.toStdString();
-  }
-}
-
-TEST(SubjectWords, TellNoOutcomeByANumber) {
-  const SubjectWords words;
+// Every sentence of every moment, in the same order for every language.
+QStringList everySentence(const QString& language) {
+  SubjectWords words;
+  words.setLanguage(language);
+  EXPECT_EQ(words.language(), language) << "its translation is not in the program";
   haptics::TickState state;
+  QStringList all{words.rest(), words.thanks(), words.outcome({trial::Outcome::Success})};
+  for (const auto phase : {trial::Phase::Idle, trial::Phase::Waiting, trial::Phase::Armed}) {
+    state.phase = phase;
+    all << words.instruction(state, true);
+  }
+  state.gone = true;
+  all << words.instruction(state, true) << words.instruction(state, false);
   state.phase = trial::Phase::Done;
   for (int reason = 0; reason <= static_cast<int>(trial::kLastReason); ++reason) {
     state.result = {trial::Outcome::Failure, static_cast<trial::Reason>(reason), 3, 0.207};
-    const QString sentence = words.instruction(state, true);
-    EXPECT_FALSE(sentence.isEmpty());
-    EXPECT_FALSE(sentence.contains(QRegularExpression(QStringLiteral("\\d")))) << sentence.toStdString();
+    all << words.instruction(state, true);
+  }
+  all.removeDuplicates();
+  return all;
+}
+
+TEST(SubjectWords, EverySentenceIsThereInEveryLanguageAndTellsNoNumber) {
+  const QStringList english = everySentence("en");
+  EXPECT_EQ(english.size(), 15);
+  for (const Language& language : languages()) {
+    const QStringList sentences = everySentence(language.code);
+    ASSERT_EQ(sentences.size(), english.size()) << "two moments in the same words: " << language.code.toStdString();
+    for (int i = 0; i < sentences.size(); ++i) {
+      EXPECT_FALSE(sentences[i].isEmpty());
+      EXPECT_FALSE(sentences[i].contains(QRegularExpression("\\d"))) << sentences[i].toStdString();
+      if (language.code != "en") EXPECT_NE(sentences[i], english[i]) << "not in " << language.code.toStdString();
+    }
   }
 }
 
