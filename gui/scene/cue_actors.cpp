@@ -23,33 +23,33 @@ constexpr double kTraceStep = 0.0015;  // of the reach, between two points
 
 }  // namespace
 
-CueActors::CueActors(vtkRenderer& renderer, const ScenePlan& plan)
-    : actors_(renderer), look_(plan.look), shift_(plan.massShift), unit_(plan.unit), floor_(plan.floor), handShown_(plan.handShown) {
-  if (look_.grid) addGrid(plan.box, plan.size);
-  if (look_.shadow) {
-    for (const double radius : plan.massRadius) addShadow(radius);
-    addShadow(1.6 * plan.handRadius);
-    shadows_.back()->SetVisibility(handShown_);
+CueActors::CueActors(vtkRenderer& renderer, const ScenePlan& plan) : actors_(renderer), plan_(plan) {
+  if (plan_.look.grid) addGrid();
+  if (plan_.look.shadow) {
+    for (const double radius : plan_.massRadius) addShadow(radius);
+    addShadow(1.6 * plan_.handRadius);
+    shadows_.back()->SetVisibility(plan_.handShown);
   }
-  if (look_.trace) {
-    const Actor line = actors_.add(makeLines({}, {look_.colours.trace, 0.85, 0}, 2));
+  if (plan_.look.trace) {
+    const Actor line = actors_.add(makeLines({}, {plan_.look.colours.trace, 0.85, 0}, 2));
     vtkPolyDataMapper::SafeDownCast(line->GetMapper())->SetInputData(trace_);
   }
-  if (look_.forceArrow && handShown_) {
-    arrow_ = actors_.add(makeArrows({{{}, {1, 0, 0}}}, 1, {look_.colours.force, 1, 0}));
+  if (plan_.look.forceArrow && plan_.handShown) {
+    arrow_ = actors_.add(makeArrows({{{}, {1, 0, 0}}}, 1, {plan_.look.colours.force, 1, 0}));
     arrow_->VisibilityOff();
   }
 }
 
 // Squares of a round length, so that they are a measure too, on a faint floor. Both fade towards the rim.
-void CueActors::addGrid(const Box& box, double size) {
-  const double step = roundLength(0.16 * size);
+void CueActors::addGrid() {
+  const Box& box = plan_.box;
+  const double step = roundLength(0.16 * plan_.size);
   if (!(step > 0)) return;
   constexpr double kMargin = 3;  // squares around the scene
   const auto down = [&](double v) { return step * (std::floor(v / step) - kMargin); };
   const auto up = [&](double v) { return step * (std::ceil(v / step) + kMargin); };
   const double left = down(box.low.x), right = up(box.high.x), back = down(box.low.z), front = up(box.high.z);
-  const Vec3 middle{0.5 * (left + right), floor_, 0.5 * (back + front)};
+  const Vec3 middle{0.5 * (left + right), plan_.floor, 0.5 * (back + front)};
   const double width = 0.5 * (right - left), depth = 0.5 * (front - back);
   std::vector<std::vector<Vec3>> lines;
   std::vector<double> opacity;
@@ -61,13 +61,15 @@ void CueActors::addGrid(const Box& box, double size) {
       opacity.push_back(0.4 * std::max(0.0, 1 - std::pow((p.x - middle.x) / width, 2) - std::pow((p.z - middle.z) / depth, 2)));
     }
   };
-  for (int i = 0; left + i * step <= right + 0.5 * step; ++i) line({left + i * step, floor_, back}, {left + i * step, floor_, front});
-  for (int i = 0; back + i * step <= front + 0.5 * step; ++i) line({left, floor_, back + i * step}, {right, floor_, back + i * step});
-  const widgets::Colour& c = look_.colours.rail;
+  for (int i = 0; left + i * step <= right + 0.5 * step; ++i)
+    line({left + i * step, plan_.floor, back}, {left + i * step, plan_.floor, front});
+  for (int i = 0; back + i * step <= front + 0.5 * step; ++i)
+    line({left, plan_.floor, back + i * step}, {right, plan_.floor, back + i * step});
+  const widgets::Colour& c = plan_.look.colours.rail;
   addSoft(linesOf(lines), c, opacity);
   const Actor ground = addDisc(c, {{{0, 0.13}, {0.5, 0.13}, {0.8, 0.06}, {1.0, 0}}});
   ground->SetScale(width, 1, depth);
-  ground->SetPosition(middle.x, floor_ - 1e-3 * unit_, middle.z);
+  ground->SetPosition(middle.x, plan_.floor - 1e-3 * plan_.unit, middle.z);
 }
 
 // With an opacity at each point.
@@ -114,9 +116,9 @@ void CueActors::showTrace(const SceneFrame& frame) {
     tracedTrial_ = frame.trial;
     traced_.clear();
   }
-  if (!frame.traced || !(handShown_ || frame.cursorShown)) return;
-  const Vec3& at = handShown_ || frame.masses.empty() ? ownHand(frame) : frame.masses.front();
-  if (!isFinite(at) || (!traced_.empty() && norm(at - traced_.back()) < kTraceStep * unit_)) return;
+  if (!frame.traced || !(plan_.handShown || frame.cursorShown)) return;
+  const Vec3& at = plan_.handShown || frame.masses.empty() ? ownHand(frame) : frame.masses.front();
+  if (!isFinite(at) || (!traced_.empty() && norm(at - traced_.back()) < kTraceStep * plan_.unit)) return;
   if (tracePointCount() >= kTracePoints) traced_.erase(traced_.begin(), traced_.begin() + kTracePoints / 2);
   traced_.push_back(at);
   trace_->ShallowCopy(linesOf({traced_}));
@@ -127,7 +129,7 @@ void CueActors::showArrow(const SceneFrame& frame) {
   const bool shown = force > kLeastForce && std::isfinite(force) && isFinite(ownHand(frame));
   arrow_->SetVisibility(shown);
   if (!shown) return;
-  const double length = std::min(kReachPerNewton * force, kLongest) * unit_, thick = std::max(length, 0.25 * unit_);
+  const double length = std::min(kReachPerNewton * force, kLongest) * plan_.unit, thick = std::max(length, 0.25 * plan_.unit);
   place(*arrow_, ownHand(frame));
   arrow_->SetScale(length, thick, thick);
   // Half a turn about the middle between x and the force takes x to the force.
@@ -141,10 +143,10 @@ void CueActors::show(const SceneFrame& frame) {
     const bool hand = i + 1 == shadows_.size();
     if (!hand && i >= frame.masses.size()) continue;
     if (i == 0 && !hand) shadows_[i]->SetVisibility(frame.cursorShown);
-    const Vec3 at = hand ? ownHand(frame) : frame.masses[i] + shift_[i];
-    if (isFinite(at)) shadows_[i]->SetPosition(at.x, floor_ + 1e-3 * unit_, at.z);  // above the grid's lines
+    const Vec3 at = hand ? ownHand(frame) : drawnPlace(plan_, frame, i);
+    place(*shadows_[i], {at.x, plan_.floor + 1e-3 * plan_.unit, at.z});  // above the grid's lines
   }
-  if (look_.trace) showTrace(frame);
+  if (plan_.look.trace) showTrace(frame);
   if (arrow_) showArrow(frame);
 }
 

@@ -14,6 +14,7 @@ class CueActors {
   static constexpr double kReachPerNewton = 0.05;  // the arrow's length, of the reach
   static constexpr int kTracePoints = 4096;        // a longer way loses its beginning
 
+  /// `plan` outlives this.
   CueActors(vtkRenderer& renderer, const ScenePlan& plan);
   void show(const SceneFrame& frame);
   /// Points of the trace. For tests.
@@ -23,7 +24,7 @@ class CueActors {
   struct Ring {
     double distance, opacity;
   };
-  void addGrid(const Box& box, double size);
+  void addGrid();
   Actor addSoft(vtkPolyData* data, const widgets::Colour& colour, const std::vector<double>& opacity);
   Actor addDisc(const widgets::Colour& colour, const std::array<Ring, 4>& rings);
   void addShadow(double size);
@@ -31,10 +32,7 @@ class CueActors {
   void showArrow(const SceneFrame& frame);
 
   ActorGroup actors_;
-  PlanLook look_;
-  std::vector<Vec3> shift_;
-  double unit_, floor_;
-  bool handShown_;              // false: the cues are those of the first mass
+  const ScenePlan& plan_;       // without its hand's pen the cues are those of the first mass
   std::vector<Actor> shadows_;  // of the masses, and last the hand's
   Actor arrow_;
   std::vector<Vec3> traced_;

@@ -26,7 +26,7 @@ void turn(vtkActor& actor, const std::array<double, 4>& quaternion) {
 ObjectActors::ObjectActors(vtkRenderer& renderer, const ScenePlan& plan, SurfaceStyle style)
     : plan_(plan), actors_(renderer), massModels_(plan.massRadius.size()) {
   addModel();
-  cues_.emplace(renderer, plan);
+  cues_.emplace(renderer, plan_);
   addConstraint(style);
   addPlaces();
   if (plan.hasTask) addMarks();

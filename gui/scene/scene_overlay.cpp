@@ -73,29 +73,20 @@ void SceneOverlay::setLabel(const QString& text, const QPointF& at) {
   update();
 }
 
-QColor SceneOverlay::colourOf(trial::Semaphore semaphore) {
-  switch (semaphore) {
-    case trial::Semaphore::Green: return widgets::toQColor(widgets::colours::kLampGreen);
-    case trial::Semaphore::Red: return widgets::toQColor(widgets::colours::kLampRed);
-    case trial::Semaphore::Neutral: break;
-  }
-  return widgets::toQColor(widgets::colours::kLampNeutral);
-}
-
 namespace {
 
 // Told by its sign as well as by its colour: empty before the time, a tick inside it, a cross after it.
 void paintLamp(QPainter& painter, trial::Semaphore semaphore, const QRectF& square, double s) {
-  const QColor lamp = SceneOverlay::colourOf(semaphore);
-  const bool lit = semaphore != trial::Semaphore::Neutral;
+  using namespace widgets::colours;
+  const bool lit = semaphore != trial::Semaphore::Neutral, green = semaphore == trial::Semaphore::Green;
+  const QColor lamp = widgets::toQColor(!lit ? kLampNeutral : green ? kLampGreen : kLampRed);
   painter.setPen(QPen(lamp, 4 * s));
   painter.setBrush(lit ? QBrush(lamp) : QBrush(Qt::NoBrush));
   painter.drawRoundedRect(square.adjusted(2 * s, 2 * s, -2 * s, -2 * s), 6 * s, 6 * s);
   const auto at = [&](double x, double y) { return square.topLeft() + QPointF(x * square.width(), y * square.height()); };
   const QColor ink = semaphore == trial::Semaphore::Red ? QColor(Qt::white) : widgets::toQColor(widgets::colours::kBase);
   painter.setPen(QPen(ink, 6 * s, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-  if (semaphore == trial::Semaphore::Green)
-    painter.drawPolyline(QPolygonF(QVector<QPointF>{at(0.26, 0.54), at(0.44, 0.71), at(0.75, 0.31)}));
+  if (green) painter.drawPolyline(QPolygonF(QVector<QPointF>{at(0.26, 0.54), at(0.44, 0.71), at(0.75, 0.31)}));
   if (semaphore == trial::Semaphore::Red) {
     painter.drawLine(at(0.30, 0.30), at(0.70, 0.70));
     painter.drawLine(at(0.70, 0.30), at(0.30, 0.70));

@@ -48,8 +48,6 @@ class SceneOverlay : public QWidget {
   /// "5 masses" beside masses that are drawn over one another. Empty if all masses are visible.
   void setLabel(const QString& text, const QPointF& at);
   const QString& label() const { return label_; }
-  /// The square's colour at this moment, for tests.
-  static QColor colourOf(trial::Semaphore semaphore);
 
  protected:
   void paintEvent(QPaintEvent* event) override;
