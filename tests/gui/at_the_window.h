@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "gui/app/main_window.h"
+#include "tests/gui/child.h"
 
 namespace reachlab::gui {
 
@@ -33,9 +34,7 @@ class AtTheWindow : public ::testing::Test {
   }
   template <typename T>
   T* find(const char* name) const {
-    T* found = window_->findChild<T*>(QLatin1String(name));
-    EXPECT_NE(found, nullptr) << name;
-    return found;
+    return child<T>(*window_, name);
   }
 
   /// A new file of the test's folder.

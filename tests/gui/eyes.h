@@ -24,6 +24,9 @@ inline Light toProtanope(const Light& c) {
           -0.003882 * c[0] - 0.048116 * c[1] + 1.051998 * c[2]};
 }
 
+/// Of everybody, and of those who lack the middle or the long cones.
+inline constexpr Light (*kEyes[])(const Light&) = {[](const Light& c) { return c; }, toDeuteranope, toProtanope};
+
 // WCAG 2.1's contrast ratio.
 inline double contrast(const Light& a, const Light& b) {
   const auto luminance = [](const Light& c) { return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2]; };

@@ -18,6 +18,7 @@
 #include "gui/docks/constraint_dock.h"
 #include "gui/scene/scene_view.h"
 #include "sim/dynamics/scene.h"
+#include "tests/gui/child.h"
 
 namespace reachlab::gui::docks {
 namespace {
@@ -31,9 +32,7 @@ class Chooser : public ::testing::Test {
   }
   template <typename T>
   T* find(const char* name) {
-    T* found = chooser_.findChild<T*>(QLatin1String(name));
-    EXPECT_NE(found, nullptr) << name;
-    return found;
+    return child<T>(chooser_, name);
   }
   void type(const char* field, const char* text) {
     auto* line = find<QLineEdit>(field);
@@ -41,6 +40,11 @@ class Chooser : public ::testing::Test {
     line->selectAll();
     QTest::keyClicks(line, QLatin1String(text));
     if (*text == 0) line->clear();
+  }
+  void typeFormulas(const char* x, const char* y, const char* z) {
+    type("formula_x", x);
+    type("formula_y", y);
+    type("formula_z", z);
   }
 
   ConstraintChooser chooser_;
@@ -75,11 +79,8 @@ TEST_F(Chooser, AFormulasFaultIsToldAtItsCharacter) {
 }
 
 TEST_F(Chooser, ATypedFormulaIsDrawnGetsSlidersAndIsUsed) {
-  type("formula_x", "0");
-  type("formula_y", "a*cos(phi)");
-  type("formula_z", "b*sin(phi)");
+  typeFormulas("0", "a*cos(phi)", "b*sin(phi)");
   ASSERT_TRUE(chooser_.choice().has_value());
-  EXPECT_NE(chooser_.findChild<QSlider*>(QStringLiteral("slider_a")), nullptr);
   const auto* preview = chooser_.findChild<scene::SceneView*>();
   ASSERT_NE(preview, nullptr);
   EXPECT_GT(preview->plan().curve.pointCount(), 32u);
@@ -95,9 +96,7 @@ TEST_F(Chooser, ATypedFormulaIsDrawnGetsSlidersAndIsUsed) {
 }
 
 TEST_F(Chooser, AFormulaThatDegeneratesEverywhereIsRefusedWithAReason) {
-  type("formula_x", "0.1");
-  type("formula_y", "0.2");
-  type("formula_z", "0.3");
+  typeFormulas("0.1", "0.2", "0.3");
   EXPECT_FALSE(chooser_.choice().has_value());
   EXPECT_TRUE(find<QLabel>("fault")->isVisible());
 }
@@ -119,9 +118,7 @@ TEST_F(Chooser, AFormulaWithoutAnyValueIsToldWhileItIsTyped) {
 }
 
 TEST_F(Chooser, ASavedDefinitionIsInTheListAndReadsBack) {
-  type("formula_x", "0");
-  type("formula_y", "0.1*cos(phi)");
-  type("formula_z", "0.05*sin(2*phi)");
+  typeFormulas("0", "0.1*cos(phi)", "0.05*sin(2*phi)");
   type("definitionName", "my-eight");
   QTest::mouseClick(find<QPushButton>("save"), Qt::LeftButton);
   const auto own = constraints::readDefinitionFolder(constraints::userDefinitionFolder());
@@ -132,9 +129,7 @@ TEST_F(Chooser, ASavedDefinitionIsInTheListAndReadsBack) {
 }
 
 TEST_F(Chooser, ASavedDefinitionHasItsSlidersInTheDock) {
-  type("formula_x", "0");
-  type("formula_y", "0.1*cos(phi)");
-  type("formula_z", "depth*sin(2*phi)");
+  typeFormulas("0", "0.1*cos(phi)", "depth*sin(2*phi)");
   type("definitionName", "my-deep-eight");
   QTest::mouseClick(find<QPushButton>("save"), Qt::LeftButton);
   experiment::Experiment onIt;
@@ -150,7 +145,6 @@ TEST_F(Chooser, ASavedDefinitionHasItsSlidersInTheDock) {
 TEST_F(Chooser, ASliderGoesWithItsName) {
   type("formula_x", "R*cos(phi)");
   type("formula_y", "R*sin(phi)");
-  ASSERT_NE(chooser_.findChild<QSlider*>(QStringLiteral("slider_R")), nullptr);
   find<QSlider>("slider_R")->setValue(400);
   const int value = find<QSlider>("slider_R")->value();
   auto* line = find<QLineEdit>("formula_z");
@@ -213,14 +207,14 @@ TEST(ConstraintDock, AChainOnASurfaceIsOfferedAsOneMass) {
   dock.choose();
   ConstraintChooser& chooser = dock.chooser();
   ASSERT_TRUE(QTest::qWaitForWindowExposed(&chooser));
-  auto* list = chooser.findChild<QListWidget*>(QStringLiteral("definitions"));
+  auto* list = child<QListWidget>(chooser, "definitions");
   const auto surfaces = list->findItems(QStringLiteral("torus\nsurface"), Qt::MatchExactly);
   ASSERT_FALSE(surfaces.isEmpty());
   list->setCurrentItem(surfaces.front());
-  chooser.findChild<QPushButton*>(QStringLiteral("use"))->click();
+  child<QPushButton>(chooser, "use")->click();
   EXPECT_TRUE(chooser.isVisible());
-  EXPECT_TRUE(chooser.findChild<QLabel*>(QStringLiteral("refusal"))->isVisible());
-  auto* onePoint = chooser.findChild<QPushButton*>(QStringLiteral("usePoint"));
+  EXPECT_TRUE(child<QLabel>(chooser, "refusal")->isVisible());
+  auto* onePoint = child<QPushButton>(chooser, "usePoint");
   ASSERT_TRUE(onePoint->isVisible());
   onePoint->click();
   EXPECT_FALSE(chooser.isVisible());

@@ -8,6 +8,8 @@
 #include <QTest>
 #include <QTreeWidget>
 
+#include "tests/gui/child.h"
+
 namespace reachlab::gui::docks {
 namespace {
 
@@ -26,6 +28,17 @@ devices::FoundDevice arm(const std::string& whyNot = {}) {
   return row;
 }
 
+// The row of that name, or null.
+QTreeWidgetItem* rowOf(const DeviceDock& dock, const char* name) {
+  return child<QTreeWidget>(dock, "deviceRows")->findItems(QLatin1String(name), Qt::MatchExactly | Qt::MatchRecursive, 0).value(0);
+}
+
+// The heading that it is under. Empty if there is no such row.
+QString headingOf(const DeviceDock& dock, const char* name) {
+  const QTreeWidgetItem* row = rowOf(dock, name);
+  return row == nullptr ? QString() : row->parent()->text(0);
+}
+
 class DeviceDockOnPlugs : public ::testing::Test {
  protected:
   DeviceDockOnPlugs() {
@@ -38,12 +51,7 @@ class DeviceDockOnPlugs : public ::testing::Test {
     dock.show();
     ASSERT_TRUE(QTest::qWaitForWindowExposed(&dock));
   }
-  // The row of that name, and the heading that it stands under.
-  std::pair<QTreeWidgetItem*, QString> rowOf(const QString& name) const {
-    const auto found = rows->findItems(name, Qt::MatchExactly | Qt::MatchRecursive, 0);
-    return found.isEmpty() ? std::pair<QTreeWidgetItem*, QString>() : std::pair(found.front(), found.front()->parent()->text(0));
-  }
-  QPushButton* button(const char* name) const { return dock.findChild<QPushButton*>(QLatin1String(name)); }
+  QPushButton* button(const char* name) const { return child<QPushButton>(dock, name); }
 
   DeviceDock dock{{[] { return nodes; },
                    [] {
@@ -51,26 +59,25 @@ class DeviceDockOnPlugs : public ::testing::Test {
                      return plugged;
                    }},
                   nullptr};
-  QTreeWidget* rows = dock.findChild<QTreeWidget*>(QStringLiteral("deviceRows"));
+  QTreeWidget* rows = child<QTreeWidget>(dock, "deviceRows");
 };
 
 TEST_F(DeviceDockOnPlugs, NobodyIsAskedBeforeItIsSeen) {
   EXPECT_EQ(asked, 0);
   show();
   EXPECT_EQ(asked, 1);
-  EXPECT_EQ(rowOf(QStringLiteral("hid:SN0001")).second, QStringLiteral("Connected"));
+  EXPECT_EQ(headingOf(dock, "hid:SN0001"), QStringLiteral("Connected"));
 }
 
 TEST_F(DeviceDockOnPlugs, WhatIsPluggedInAndOutShowsByItself) {
   show();
   plugged = {arm("/dev/hidraw0: Permission denied")};
   nodes = 2;
-  ASSERT_TRUE(
-      QTest::qWaitFor([&] { return rowOf(QStringLiteral("hid:SN0001")).second == QStringLiteral("Missing devices, and why"); }, 5000));
-  EXPECT_EQ(rowOf(QStringLiteral("hid:SN0001")).first->text(1), QStringLiteral("/dev/hidraw0: Permission denied"));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return headingOf(dock, "hid:SN0001") == QStringLiteral("Missing devices, and why"); }, 5000));
+  EXPECT_EQ(rowOf(dock, "hid:SN0001")->text(1), QStringLiteral("/dev/hidraw0: Permission denied"));
   plugged.clear();
   nodes = 3;
-  ASSERT_TRUE(QTest::qWaitFor([&] { return rowOf(QStringLiteral("hid:SN0001")).first == nullptr; }, 5000));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return rowOf(dock, "hid:SN0001") == nullptr; }, 5000));
   const int before = asked;
   QTest::qWait(2500);
   EXPECT_EQ(asked, before) << "as long as nothing changes nobody is asked";
@@ -92,7 +99,7 @@ TEST_F(DeviceDockOnPlugs, TheChosenOneIsTakenWithTheOptionsThatItHad) {
   show();
   QSignalSpy taken(&dock, &DeviceDock::taken);
   EXPECT_FALSE(button("deviceUse")->isEnabled()) << "no row is chosen";
-  rows->setCurrentItem(rowOf(QStringLiteral("hid:SN0001")).first);
+  rows->setCurrentItem(rowOf(dock, "hid:SN0001"));
   QTest::mouseClick(button("deviceUse"), Qt::LeftButton);
   dock.setHand(QStringLiteral("hid:SN0001,model=polhem_v1"));
   QTest::mouseClick(button("deviceUse"), Qt::LeftButton);
@@ -104,10 +111,10 @@ TEST_F(DeviceDockOnPlugs, TheChosenOneIsTakenWithTheOptionsThatItHad) {
 TEST_F(DeviceDockOnPlugs, WhatIsNotThereCannotBeTaken) {
   plugged = {arm("its firmware is too old")};
   show();
-  rows->setCurrentItem(rowOf(QStringLiteral("hid:SN0001")).first);
+  rows->setCurrentItem(rowOf(dock, "hid:SN0001"));
   EXPECT_FALSE(button("deviceUse")->isEnabled());
   EXPECT_FALSE(button("deviceLook")->isEnabled());
-  EXPECT_EQ(dock.findChild<QLabel*>(QStringLiteral("deviceHint"))->text(), QStringLiteral("its firmware is too old")) << "in full";
+  EXPECT_EQ(child<QLabel>(dock, "deviceHint")->text(), QStringLiteral("its firmware is too old")) << "in full";
 }
 
 TEST(DeviceDock, SaysWhatIsThereWhatIsNotAndWhy) {
@@ -116,16 +123,11 @@ TEST(DeviceDock, SaysWhatIsThereWhatIsNotAndWhy) {
   dock.showExperiment(experiment::openExperiment("chain-slow"), true);
   dock.show();
   ASSERT_TRUE(QTest::qWaitForWindowExposed(&dock));
-  auto* rows = dock.findChild<QTreeWidget*>(QStringLiteral("deviceRows"));
-  const auto rowOf = [&](const QString& name) { return rows->findItems(name, Qt::MatchExactly | Qt::MatchRecursive, 0).value(0); };
-  QTreeWidgetItem* phantom = rowOf(QStringLiteral("phantom"));
+  QTreeWidgetItem* phantom = rowOf(dock, "phantom");
   ASSERT_NE(phantom, nullptr);
   EXPECT_TRUE(phantom->text(1).contains(QStringLiteral("libHD.so"))) << phantom->text(1).toStdString();
-  EXPECT_EQ(phantom->parent()->text(0), QStringLiteral("Missing devices, and why"));
-  QTreeWidgetItem* subject = rowOf(QStringLiteral("simulated"));
-  ASSERT_NE(subject, nullptr);
-  EXPECT_EQ(subject->parent()->text(0), QStringLiteral("Hands without a device"));
-  rows->setCurrentItem(phantom);
+  EXPECT_EQ(headingOf(dock, "phantom"), QStringLiteral("Missing devices, and why"));
+  EXPECT_EQ(headingOf(dock, "simulated"), QStringLiteral("Hands without a device"));
 }
 
 }  // namespace

@@ -8,7 +8,6 @@
 #include <QListWidget>
 #include <QMainWindow>
 #include <QPushButton>
-#include <QVBoxLayout>
 #include <memory>
 
 #include "gui/docks/all_docks.h"
@@ -23,50 +22,6 @@
 
 namespace reachlab::gui::docks {
 namespace {
-
-// All that a dock needs: what to display, and what to tell.
-class NameDock : public Dock {
- public:
-  NameDock() : Dock(QStringLiteral("Name"), QStringLiteral("nameDock"), nullptr) {
-    auto* page = new QWidget;
-    auto* layout = new QVBoxLayout(page);
-    layout->addWidget(label_);
-    layout->addWidget(faults());
-    setBody(page);
-  }
-  void rename(const std::string& name) {
-    experiment::Experiment changed = shown();
-    changed.name = name;
-    Q_EMIT edited(changed, QStringLiteral("name"));
-  }
-  QString text() const { return label_->text(); }
-  QString faultText() const { return faults()->text(); }
-
- protected:
-  void display(const experiment::CompiledExperiment& experiment, bool editable) override {
-    label_->setText(QString::fromStdString(experiment.experiment().name) + (editable ? QString() : QStringLiteral(" (fixed)")));
-  }
-
- private:
-  QLabel* label_ = new QLabel;
-};
-
-TEST(Dock, TakesAnExperimentAndGivesTheEditedOneWithTheRestAsItWas) {
-  const experiment::CompiledExperiment chain = experiment::openExperiment("chain-moderate");
-  NameDock dock;
-  dock.showExperiment(chain, false);
-  EXPECT_EQ(dock.text(), QStringLiteral("chain-moderate (fixed)"));
-  experiment::Experiment told;
-  QString what;
-  QObject::connect(&dock, &Dock::edited, &dock, [&](const experiment::Experiment& e, const QString& change) { told = e, what = change; });
-  dock.rename("other");
-  EXPECT_EQ(what, QStringLiteral("name"));
-  EXPECT_EQ(told.name, "other");
-  told.name = chain.experiment().name;
-  EXPECT_EQ(told, chain.experiment());
-  dock.showFaults({QStringLiteral("no"), QStringLiteral("never")});
-  EXPECT_EQ(dock.faultText(), QStringLiteral("no\nnever"));
-}
 
 TEST(ObjectDock, AnEditLeavesWhatItDoesNotShow) {
   const experiment::CompiledExperiment chain = experiment::openExperiment("chain-moderate");
@@ -100,18 +55,14 @@ class EnvironmentDockTest : public ::testing::Test {
   }
   template <class Widget>
   Widget* child(const char* name) {
-    auto* found = dock_->findChild<Widget*>(QLatin1String(name));
-    EXPECT_NE(found, nullptr) << name;
-    return found;
+    return gui::child<Widget>(*dock_, name);
   }
   void choose(const char* combo, int index) {
     child<QComboBox>(combo)->setCurrentIndex(index);
     Q_EMIT child<QComboBox>(combo)->activated(index);
   }
-  std::vector<widgets::UnitSpinBox*> numbersOf(const char* field) {
-    std::vector<widgets::UnitSpinBox*> found;
-    for (auto* box : child<widgets::KeyField>(field)->findChildren<widgets::UnitSpinBox*>()) found.push_back(box);
-    return found;
+  QList<widgets::UnitSpinBox*> numbersOf(const char* field) {
+    return child<widgets::KeyField>(field)->findChildren<widgets::UnitSpinBox*>();
   }
   std::unique_ptr<Dock> dock_{makeEnvironmentDock()};
   experiment::Experiment told_;

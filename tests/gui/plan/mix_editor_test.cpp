@@ -9,15 +9,10 @@
 #include <QSpinBox>
 #include <QTableWidget>
 
+#include "tests/gui/child.h"
+
 namespace reachlab::gui::plan {
 namespace {
-
-template <class Widget>
-Widget* child(MixEditor& editor, const char* name) {
-  auto* found = editor.findChild<Widget*>(QLatin1String(name));
-  EXPECT_NE(found, nullptr) << name;
-  return found;
-}
 
 TEST(MixEditor, MakesKindsTargetsAndOrderFromItsFields) {
   MixEditor editor;

@@ -26,35 +26,28 @@
 namespace reachlab::gui::plan {
 namespace {
 
-template <typename T>
-T* find(const QWidget& in, const char* name) {
-  T* found = in.findChild<T*>(QLatin1String(name));
-  EXPECT_NE(found, nullptr) << name;
-  return found;
-}
-
 TEST(PlanComposer, ComposesAPlanThatReadsBackEqual) {
   const QTemporaryDir folder;
   PlanComposer dialog;
   dialog.show();
   EXPECT_FALSE(dialog.faults().isEmpty()) << "an empty plan is none";
-  EXPECT_FALSE(find<QPushButton>(dialog, "planUse")->isEnabled());
-  QTest::keyClicks(find<QLineEdit>(dialog, "planName"), QStringLiteral("mine"));
-  QTest::mouseClick(find<QPushButton>(dialog, "planAdd"), Qt::LeftButton);
-  find<QComboBox>(dialog, "planExperiment")->setEditText(QStringLiteral("chain-slow"));
-  QTest::keyClicks(find<QLineEdit>(dialog, "planCondition"), QStringLiteral("slow"));
-  find<QSpinBox>(dialog, "planTrials")->setValue(5);
-  QTest::keyClicks(find<QPlainTextEdit>(dialog, "planInstructions"), QStringLiteral("Slowly."));
-  QTest::mouseClick(find<QPushButton>(dialog, "planCopy"), Qt::LeftButton);
-  auto* condition = find<QLineEdit>(dialog, "planCondition");
+  EXPECT_FALSE(child<QPushButton>(dialog, "planUse")->isEnabled());
+  QTest::keyClicks(child<QLineEdit>(dialog, "planName"), QStringLiteral("mine"));
+  QTest::mouseClick(child<QPushButton>(dialog, "planAdd"), Qt::LeftButton);
+  child<QComboBox>(dialog, "planExperiment")->setEditText(QStringLiteral("chain-slow"));
+  QTest::keyClicks(child<QLineEdit>(dialog, "planCondition"), QStringLiteral("slow"));
+  child<QSpinBox>(dialog, "planTrials")->setValue(5);
+  QTest::keyClicks(child<QPlainTextEdit>(dialog, "planInstructions"), QStringLiteral("Slowly."));
+  QTest::mouseClick(child<QPushButton>(dialog, "planCopy"), Qt::LeftButton);
+  auto* condition = child<QLineEdit>(dialog, "planCondition");
   condition->selectAll();
   QTest::keyClicks(condition, QStringLiteral("fast"));
-  QTest::mouseClick(find<QPushButton>(dialog, "planUp"), Qt::LeftButton);
+  QTest::mouseClick(child<QPushButton>(dialog, "planUp"), Qt::LeftButton);
   ASSERT_EQ(dialog.plan().blocks.size(), 2u);
   EXPECT_EQ(dialog.plan().blocks[0].condition, "fast");
   EXPECT_EQ(dialog.plan().blocks[1].condition, "slow");
   EXPECT_TRUE(dialog.faults().isEmpty()) << dialog.faults().join(QLatin1Char('\n')).toStdString();
-  EXPECT_TRUE(find<QLabel>(dialog, "planPreview")->text().contains(QStringLiteral("fast → slow")));
+  EXPECT_TRUE(child<QLabel>(dialog, "planPreview")->text().contains(QStringLiteral("fast → slow")));
   const QString file = folder.filePath(QStringLiteral("mine.json"));
   dialog.saveTo(file);
   const session::Plan read = session::readPlan(file.toStdString());

@@ -4,9 +4,9 @@
 
 #include <QCheckBox>
 #include <QComboBox>
-#include <QFile>
-#include <QTemporaryDir>
 #include <cmath>
+
+#include "tests/gui/plot/exported.h"
 
 namespace reachlab::gui::plot {
 namespace {
@@ -24,12 +24,7 @@ TEST(SignalPlot, KeepsTheLastPointsInConstantMemory) {
   SignalPlot plot;
   for (int i = 0; i < 3 * SignalPlot::kCapacity; ++i) plot.add(pointAt(0.005 * i));
   EXPECT_EQ(plot.pointCount(), SignalPlot::kCapacity);
-  const QTemporaryDir folder;
-  const QString file = folder.filePath(QStringLiteral("signal.csv"));
-  ASSERT_TRUE(plot.exportTo(file));
-  QFile csv(file);
-  ASSERT_TRUE(csv.open(QIODevice::ReadOnly));
-  const QList<QByteArray> lines = csv.readAll().trimmed().split('\n');
+  const QList<QByteArray> lines = exportedLines(plot);
   ASSERT_EQ(lines.size(), SignalPlot::kCapacity + 1);
   const QList<QByteArray> last = lines.back().split(',');
   EXPECT_DOUBLE_EQ(last[0].toDouble(), 0.005 * (3 * SignalPlot::kCapacity - 1));
@@ -63,13 +58,7 @@ TEST(SignalPlot, IsExportedAsItIsDrawn) {
   plot.resize(600, 300);
   for (int i = 0; i < 400; ++i) plot.add(pointAt(0.005 * i));
   plot.findChild<QComboBox*>(QStringLiteral("signalQuantity"))->setCurrentIndex(static_cast<int>(SignalPlot::Quantity::PhasePlane));
-  const QTemporaryDir folder;
-  for (const char* ending : {"svg", "pdf"}) {
-    const QString file = folder.filePath(QStringLiteral("signal.") + QLatin1String(ending));
-    ASSERT_TRUE(plot.exportTo(file)) << ending;
-    EXPECT_GT(QFile(file).size(), 2000) << ending;
-  }
-  EXPECT_FALSE(plot.exportTo(folder.filePath(QStringLiteral("signal.doc"))));
+  expectDrawings(plot);
 }
 
 }  // namespace

@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <QCheckBox>
-#include <QFile>
-#include <QTemporaryDir>
 #include <QTest>
 #include <algorithm>
 #include <cmath>
+
+#include "tests/gui/plot/exported.h"
 
 namespace reachlab::gui::plot {
 namespace {
@@ -29,15 +29,6 @@ struct Shown {
   }
   QCheckBox& freeze() { return *plot.findChild<QCheckBox*>(QStringLiteral("velocityFreeze")); }
 };
-
-QList<QByteArray> exported(VelocityPlot& plot) {
-  const QTemporaryDir folder;
-  const QString name = folder.filePath(QStringLiteral("velocity.csv"));
-  EXPECT_TRUE(plot.exportTo(name));
-  QFile file(name);
-  EXPECT_TRUE(file.open(QIODevice::ReadOnly));
-  return file.readAll().trimmed().split('\n');
-}
 
 // Columns of the small canvas of a screen of 1366 pixels in which the line has no pixel, from its first to its last.
 TEST(VelocityPlot, APredictionIsDashedHoweverSmallThePlotIs) {
@@ -96,26 +87,20 @@ TEST(VelocityPlot, FreezeHoldsThePictureAndLosesNothing) {
   shown.add(10, 20);
   shown.plot.beginTrial();
   shown.add(0, 5);
-  EXPECT_EQ(exported(shown.plot).size(), 1 + 2 * 10) << "what is looked at";
+  EXPECT_EQ(exportedLines(shown.plot).size(), 1 + 2 * 10) << "what is looked at";
   shown.freeze().setChecked(false);
-  EXPECT_EQ(exported(shown.plot).size(), 1 + 2 * 5 + 2 * 20) << "the trial under way, and the whole one before";
+  EXPECT_EQ(exportedLines(shown.plot).size(), 1 + 2 * 5 + 2 * 20) << "the trial under way, and the whole one before";
 }
 
 TEST(VelocityPlot, IsExportedAsItIsDrawn) {
   Shown shown;
   shown.add(0, 30);
   shown.plot.setPredictions({{QStringLiteral("jerk"), {Qt::red, {5, 3}, 0}, false, {0, 1}, {0, 0.5}}});
-  const QList<QByteArray> lines = exported(shown.plot);
+  const QList<QByteArray> lines = exportedLines(shown.plot);
   EXPECT_EQ(lines[0], "line,time_s,velocity_m_per_s");
   EXPECT_EQ(lines[30], "\"hand\",0.28999999999999998,2.9000000000000004");
   EXPECT_EQ(lines.back(), "\"jerk\",1,0.5");
-  const QTemporaryDir folder;
-  for (const char* ending : {"svg", "pdf"}) {
-    const QString file = folder.filePath(QStringLiteral("velocity.") + QLatin1String(ending));
-    ASSERT_TRUE(shown.plot.exportTo(file)) << ending;
-    EXPECT_GT(QFile(file).size(), 2000) << ending;
-  }
-  EXPECT_FALSE(shown.plot.exportTo(folder.filePath(QStringLiteral("velocity.doc"))));
+  expectDrawings(shown.plot);
 }
 
 }  // namespace

@@ -4,11 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <QDir>
-#include <QTest>
 
-#include "gui/scene/scene_view.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "tests/gui/eyes.h"
+#include "tests/gui/scene/shown_scene.h"
 
 namespace reachlab::gui::scene {
 namespace {
@@ -38,14 +37,9 @@ Difference differenceOf(const QImage& a, const QImage& b) {
   return d;
 }
 
-class Figures : public ::testing::Test {
+class Figures : public ShownScene {
  protected:
-  Figures() {
-    view_.resize(480, 360);
-    view_.overlay().setVisible(false);
-    view_.show();
-    EXPECT_TRUE(QTest::qWaitForWindowExposed(&view_));
-  }
+  Figures() : ShownScene(480, 360) {}
   // In the middle of a reach: each mass a little behind the one before it.
   void show(const std::string& shipped, double share) {
     const experiment::CompiledExperiment compiled = experiment::openExperiment(shipped);
@@ -61,7 +55,6 @@ class Figures : public ::testing::Test {
       frame.masses[i] = plan.start + std::max(0.0, share - 0.04 - step * static_cast<double>(i)) * way;
     view_.showFrame(frame);
   }
-  QImage picture() { return view_.grabScene().convertToFormat(QImage::Format_RGB32); }
   QImage kept(const std::string& name) {
     const QString folder = QStringLiteral(REACHLAB_SOURCE_DIR "/tests/gui/scene/figures/");
     QImage image(folder + QString::fromStdString(name) + QStringLiteral(".png"));
@@ -77,7 +70,6 @@ class Figures : public ::testing::Test {
     EXPECT_FALSE(d.beyond()) << name << ": mean " << d.mean << ", worst cell " << d.worst;
     if (d.beyond()) picture().save(QDir::tempPath() + QStringLiteral("/reachlab-") + QString::fromStdString(name) + QStringLiteral(".png"));
   }
-  SceneView view_;
 };
 
 TEST_F(Figures, Fig2Constraints) {
@@ -125,8 +117,7 @@ TEST_F(Figures, MassesAreToldFromTheGroundAndFromOneAnotherByEveryEye) {
   const Light first = light(frame.masses.front() - 0.4 * view_.plan().massRadius.front() * Vec3{1, 0, 0}),
               last = light(frame.masses.back());
   const Light ground = lightOf(QColor(image.pixel(240, 20)));
-  using Eye = Light (*)(const Light&);
-  for (const Eye eye : {Eye([](const Light& c) { return c; }), Eye(toDeuteranope), Eye(toProtanope)}) {
+  for (const auto eye : kEyes) {
     EXPECT_GE(contrast(eye(first), eye(ground)), 3);
     EXPECT_GE(contrast(eye(last), eye(ground)), 3);
     EXPECT_GE(apart(eye(first), eye(last)), 40) << "blue and orange";

@@ -10,12 +10,14 @@
 #include "gui/app/frame_recorder.h"
 #include "gui/plot/criterion_style.h"
 #include "gui/scene/cue_actors.h"
-#include "gui/scene/scene_view.h"
 #include "gui/scene_plan/late_cursor.h"
+#include "gui/widgets/theme.h"
 #include "gui/widgets/themes.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/scene_look.h"
+#include "tests/gui/eyes.h"
+#include "tests/gui/scene/shown_scene.h"
 
 namespace reachlab::gui::scene {
 namespace {
@@ -35,20 +37,14 @@ int differing(const QImage& a, const QImage& b) {
   return count;
 }
 
-class Looks : public ::testing::Test {
+class Looks : public ShownScene {
  protected:
-  Looks() {
-    view_.resize(600, 450);
-    view_.overlay().setVisible(false);
-    view_.show();
-    EXPECT_TRUE(QTest::qWaitForWindowExposed(&view_));
-  }
+  Looks() : ShownScene(600, 450) {}
   QImage picture(const ScenePlan& plan, const SceneFrame* frame = nullptr) {
     view_.setPlan(plan);
     if (frame != nullptr) view_.showFrame(*frame);
-    return view_.grabScene().convertToFormat(QImage::Format_RGB32);
+    return ShownScene::picture();
   }
-  SceneView view_;
 };
 
 TEST_F(Looks, GridShadowArrowAndColoursAreSeen) {
@@ -195,25 +191,18 @@ TEST(ParallelProjection, KeepsSizesAndFindsItsPointsAgain) {
 
 TEST(LightTheme, KeepsItsContrast) {
   using namespace widgets;
-  const auto luminance = [](const Colour& c) {
-    const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
-    return 0.2126 * linear(c.red) + 0.7152 * linear(c.green) + 0.0722 * linear(c.blue) + 0.05;
-  };
-  const auto contrast = [&](const Colour& a, const Colour& b) {
-    return std::max(luminance(a) / luminance(b), luminance(b) / luminance(a));
-  };
+  const auto apart = [](const Colour& a, const Colour& b) { return contrast(lightOf(toQColor(a)), lightOf(toQColor(b))); };
   for (const Theme theme : {Theme::Dark, Theme::Light}) {
     setTheme(theme);
     for (const Colour& ground : {colours::kWindow, colours::kBase, colours::kSkyTop}) {
-      EXPECT_GE(contrast(themed(colours::kText), themed(ground)), 7);
-      EXPECT_GE(contrast(themed(colours::kFaintText), themed(ground)), 4.5);
+      EXPECT_GE(apart(colours::kText, ground), 7);
+      EXPECT_GE(apart(colours::kFaintText, ground), 4.5);
     }
     for (const Colour& part : {colours::kDriven, colours::kLast, colours::kHand, colours::kRail, colours::kTarget})
-      EXPECT_GE(contrast(themed(part), themed(colours::kSkyTop)), 3) << static_cast<int>(theme) << ": " << part.red << " " << part.green;
+      EXPECT_GE(apart(part, colours::kSkyTop), 3) << static_cast<int>(theme) << ": " << part.red << " " << part.green;
     for (int i = 0; i < predict::kCriterionCount; ++i) {  // lines of a plot, and words of a list
       const QColor ink = plot::colourOf(static_cast<predict::Criterion>(i));
-      EXPECT_GE(contrast({ink.redF(), ink.greenF(), ink.blueF()}, themed(colours::kBase)), 4.5)
-          << static_cast<int>(theme) << ": criterion " << i;
+      EXPECT_GE(contrast(lightOf(ink), lightOf(toQColor(colours::kBase))), 4.5) << static_cast<int>(theme) << ": criterion " << i;
     }
   }
   setTheme(Theme::Dark);

@@ -43,8 +43,7 @@ TEST(Semaphore, IsToldApartWithoutColour) {
   const QImage neutral = lampPicture(trial::Semaphore::Neutral), green = lampPicture(trial::Semaphore::Green),
                red = lampPicture(trial::Semaphore::Red);
   const Light greenLight = lightOf(lampInk(green)), redLight = lightOf(lampInk(red)), ground = lightOf(lampInk(neutral));
-  using Eye = Light (*)(const Light&);
-  for (const Eye eye : {Eye([](const Light& c) { return c; }), Eye(toDeuteranope), Eye(toProtanope)}) {
+  for (const auto eye : kEyes) {
     EXPECT_GE(contrast(eye(greenLight), eye(redLight)), 3);
     EXPECT_GE(contrast(eye(greenLight), eye(ground)), 3) << "before its time the lamp is empty";
   }

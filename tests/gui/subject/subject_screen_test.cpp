@@ -12,7 +12,6 @@
 #include "base/math/minimum_jerk.h"
 #include "gui/app/screens.h"
 #include "gui/app/window_layout.h"
-#include "gui/scene/scene_overlay.h"
 #include "gui/scene/scene_view.h"
 #include "gui/subject/subject_window.h"
 #include "sim/experiment/experiment.h"
@@ -24,6 +23,12 @@ namespace reachlab::gui::subject {
 namespace {
 
 using Patch = SubjectWindow::Patch;
+
+SubjectWindow* subjectWindow() {
+  for (QWidget* top : QApplication::topLevelWidgets())
+    if (auto* found = qobject_cast<SubjectWindow*>(top)) return found;
+  throw std::runtime_error("no subject's screen");
+}
 
 class SubjectsScreen : public AtTheWindow {
  protected:
@@ -42,11 +47,7 @@ class SubjectsScreen : public AtTheWindow {
     request_.timingCheckSeconds = 0;
     request_.trials = 2;
   }
-  SubjectWindow& screen() {
-    for (QWidget* top : QApplication::topLevelWidgets())
-      if (auto* found = qobject_cast<SubjectWindow*>(top)) return *found;
-    throw std::runtime_error("no subject's screen");
-  }
+  SubjectWindow& screen() { return *subjectWindow(); }
   const scene::OverlayState& said() { return screen().view().overlay().state(); }
 };
 
@@ -102,8 +103,7 @@ class SubjectsCursor : public ::testing::Test {
     const experiment::CompiledExperiment compiled(e);
     screens_.showExperiment(compiled, {});
     if (!subject_) screens_.toggleSubject();
-    for (QWidget* top : QApplication::topLevelWidgets())
-      if (auto* found = qobject_cast<SubjectWindow*>(top)) subject_ = found;
+    subject_ = subjectWindow();
     engine_ = std::make_unique<haptics::TickEngine>(compiled, haptics::EngineOptions{});
   }
   ~SubjectsCursor() override { delete subject_; }

@@ -39,7 +39,7 @@ TEST(SubjectWords, EverySentenceIsThereInEveryLanguageAndTellsNoNumber) {
     for (int i = 0; i < sentences.size(); ++i) {
       EXPECT_FALSE(sentences[i].isEmpty());
       EXPECT_FALSE(sentences[i].contains(QRegularExpression("\\d"))) << sentences[i].toStdString();
-      if (language.code != "en") EXPECT_NE(sentences[i], english[i]) << "not in " << language.code.toStdString();
+      EXPECT_EQ(sentences[i] == english[i], language.code == "en") << "not in " << language.code.toStdString() << ": " << i;
     }
   }
 }
