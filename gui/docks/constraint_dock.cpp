@@ -68,9 +68,8 @@ ConstraintDock::ConstraintDock(QWidget* parent) : Dock("Constraint", "constraint
   layout->addStretch();
   setBody(body);
   connect(sliders_, &widgets::ShapeSliders::moved, this, [this] {
-    experiment::Experiment changed = shown();
-    changed.constraint.shape = inSliders_.shape = sliders_->values();
-    Q_EMIT edited(changed, "shape");
+    inSliders_.shape = sliders_->values();
+    edit("shape", [this](experiment::Experiment& e) { e.constraint.shape = inSliders_.shape; });
   });
   connect(another, &QPushButton::clicked, this, &ConstraintDock::choose);
 }
@@ -103,13 +102,13 @@ ConstraintChooser& ConstraintDock::chooser() {
   if (chooser_ != nullptr) return *chooser_;
   chooser_ = new ConstraintChooser(this);
   connect(chooser_, &ConstraintChooser::used, this, [this](const ConstraintChoice& choice) {
-    experiment::Experiment changed = shown();
-    changed.constraint = choice.spec;
-    if (!changed.task) changed.task = experiment::Task{};
-    changed.task->start = choice.start;
-    changed.task->target = choice.target;
-    if (choice.withPoint) becomePoint(changed);
-    Q_EMIT edited(changed, "constraint");
+    edit("constraint", [&](experiment::Experiment& e) {
+      e.constraint = choice.spec;
+      if (!e.task) e.task = experiment::Task{};
+      e.task->start = choice.start;
+      e.task->target = choice.target;
+      if (choice.withPoint) becomePoint(e);
+    });
   });
   return *chooser_;
 }

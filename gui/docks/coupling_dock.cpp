@@ -22,9 +22,7 @@ class CouplingDock : public FormDock {
     coupling_ = coupling.value_or(experiment::Coupling());
   }
   void tell() override {
-    experiment::Experiment changed = shown();
-    changed.coupling = coupling_;
-    Q_EMIT edited(changed, "coupling");
+    edit("coupling", [this](experiment::Experiment& e) { e.coupling = coupling_; });
   }
 
   experiment::Coupling coupling_;  // as entered

@@ -29,6 +29,13 @@ class Dock : public QDockWidget {
   virtual void display(const experiment::CompiledExperiment&, bool /*editable*/) {}
   /// Shows the faults of the entries alone, after another experiment is displayed. For docks that check their entries themselves.
   virtual void showEntryFaults();
+  /// Tells the experiment with this change: `change(experiment)`.
+  template <typename Change>
+  void edit(const QString& what, Change change) {
+    experiment::Experiment changed = shown_;
+    change(changed);
+    Q_EMIT edited(changed, what);
+  }
   /// `scrolls`: on a small screen the dock may be lower than its content.
   void setBody(QWidget* body, bool scrolls = true);
   QWidget* body() const { return body_; }

@@ -19,6 +19,8 @@ namespace {
 
 using experiment::Key;
 
+constexpr char kWhat[] = "environment";
+
 // A force of each kind to begin with. The fields are those of published experiments.
 const std::vector<experiment::HandForce>& beginnings() {
   using namespace experiment;
@@ -158,9 +160,7 @@ class EnvironmentDock : public Dock {
   QWidget* makeCursor();
   void display(const experiment::CompiledExperiment& experiment, bool editable) override;
   void showForce();
-  void tell(experiment::Environment forces, std::optional<experiment::Cursor> cursor);
   void tellForce();
-  void tellCursor();
   std::size_t row() const;  // of the chosen force; their number if no force is chosen
 
   QListWidget* list_;
@@ -225,20 +225,14 @@ QWidget* EnvironmentDock::makeForces() {
   }
   connect(list_, &QListWidget::currentRowChanged, this, &EnvironmentDock::showForce);
   connect(add, &QPushButton::clicked, this, [this] {
-    experiment::Environment forces = shown().environment;
-    forces.push_back(beginnings().front());
-    tell(forces, shown().cursor);
+    edit(kWhat, [](experiment::Experiment& e) { e.environment.push_back(beginnings().front()); });
     list_->setCurrentRow(list_->count() - 1);
   });
   connect(remove_, &QPushButton::clicked, this, [this] {
-    experiment::Environment forces = shown().environment;
-    forces.erase(forces.begin() + static_cast<std::ptrdiff_t>(row()));
-    tell(forces, shown().cursor);
+    edit(kWhat, [this](experiment::Experiment& e) { e.environment.erase(e.environment.begin() + static_cast<std::ptrdiff_t>(row())); });
   });
   connect(kind_, qOverload<int>(&QComboBox::activated), this, [this](int kind) {
-    experiment::Environment forces = shown().environment;
-    forces[row()] = beginnings()[static_cast<std::size_t>(kind)];
-    tell(forces, shown().cursor);
+    edit(kWhat, [&](experiment::Experiment& e) { e.environment[row()] = beginnings()[static_cast<std::size_t>(kind)]; });
     showForce();  // a kind that was refused is not the force's
   });
   return box;
@@ -250,10 +244,12 @@ QWidget* EnvironmentDock::makeCursor() {
   auto* column = new QVBoxLayout(cursorBox_);
   cursor_ = makePage("cursor", experiment::Cursor{});
   column->addWidget(cursor_.widget);
-  for (widgets::KeyField* field : cursor_.fields) connect(field, &widgets::KeyField::edited, this, &EnvironmentDock::tellCursor);
+  for (widgets::KeyField* field : cursor_.fields)
+    connect(field, &widgets::KeyField::edited, this,
+            [this] { edit(kWhat, [this](experiment::Experiment& e) { takeFrom(cursor_.fields, e.cursor.emplace()); }); });
   connect(cursorBox_, &QGroupBox::toggled, this, [this](bool on) {
     cursor_.widget->setVisible(on);
-    tell(shown().environment, on ? std::optional(experiment::Cursor{}) : std::nullopt);
+    edit(kWhat, [on](experiment::Experiment& e) { e.cursor = on ? std::optional(experiment::Cursor{}) : std::nullopt; });
   });
   return cursorBox_;
 }
@@ -299,24 +295,11 @@ void EnvironmentDock::showForce() {
 
 // With every field of the page, because an entry that was refused alone may hold with the next one.
 void EnvironmentDock::tellForce() {
-  experiment::Environment forces = shown().environment;
-  if (row() == forces.size()) return;
-  experiment::HandForce& force = forces[row()];
-  takeFrom(kinds_[force.law.index()].fields, force);
-  tell(forces, shown().cursor);
-}
-
-void EnvironmentDock::tellCursor() {
-  experiment::Cursor cursor;
-  takeFrom(cursor_.fields, cursor);
-  tell(shown().environment, cursor);
-}
-
-void EnvironmentDock::tell(experiment::Environment forces, std::optional<experiment::Cursor> cursor) {
-  experiment::Experiment changed = shown();
-  changed.environment = std::move(forces);
-  changed.cursor = cursor;
-  Q_EMIT edited(changed, "environment");
+  if (row() == shown().environment.size()) return;
+  edit(kWhat, [this](experiment::Experiment& e) {
+    experiment::HandForce& force = e.environment[row()];
+    takeFrom(kinds_[force.law.index()].fields, force);
+  });
 }
 
 }  // namespace

@@ -27,14 +27,16 @@ void FormDock::bind(widgets::UnitSpinBox* box, const QString& name, const QStrin
   });
 }
 
-widgets::NumberListEdit* FormDock::addList(const QString& label, const char* name, const QString& tip,
-                                           std::function<void(const std::vector<double>&)> take) {
+widgets::NumberListEdit* FormDock::addList(const QString& label, const char* name, const QString& tip, std::vector<double>& entry,
+                                           std::function<void()> follow) {
   auto* list = widgets::named<widgets::NumberListEdit>(name);
   list->setToolTip(tip);
   form_->addRow(label, list);
   faults()->watch(list);
-  connect(list, &widgets::NumberListEdit::numbersEdited, this, [this, list, take = std::move(take)] {
-    take(*list->numbers());
+  lists_.emplace_back(list, &entry);
+  connect(list, &widgets::NumberListEdit::numbersEdited, this, [this, list, &entry, follow = std::move(follow)] {
+    entry = *list->numbers();
+    follow();
     tell();
   });
   return list;
@@ -48,6 +50,7 @@ void FormDock::endForm() {
 void FormDock::display(const experiment::CompiledExperiment& experiment, bool editable) {
   body()->setEnabled(editable);
   fill(experiment);
+  for (const auto& [list, entry] : lists_) list->setNumbers(*entry);
   for (const auto& [box, entry] : numbers_) box->show(*entry);
 }
 

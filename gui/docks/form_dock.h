@@ -15,7 +15,7 @@ namespace reachlab::gui::docks {
 class FormDock : public Dock {
  protected:
   FormDock(const QString& title, const QString& name, QWidget* parent);
-  /// Fills the entries and the lists with this experiment. The single numbers follow by themselves.
+  /// Fills the entries with this experiment. The fields follow by themselves.
   virtual void fill(const experiment::CompiledExperiment& experiment) = 0;
   /// Tells the experiment with the entries as they are now.
   virtual void tell() = 0;
@@ -28,9 +28,9 @@ class FormDock : public Dock {
   widgets::UnitSpinBox* addNumber(const NumberRow& row, double& entry);
   /// Makes the box show and edit the entry.
   void bind(widgets::UnitSpinBox* box, const QString& name, const QString& tip, double& entry);
-  /// `take`: takes the edited numbers over into the entries.
-  widgets::NumberListEdit* addList(const QString& label, const char* name, const QString& tip,
-                                   std::function<void(const std::vector<double>&)> take);
+  /// `follow`: fits the other entries to the edited list.
+  widgets::NumberListEdit* addList(
+      const QString& label, const char* name, const QString& tip, std::vector<double>& entry, std::function<void()> follow = [] {});
   /// After the last row: adds the faults, and makes the form the body of the dock.
   void endForm();
   QFormLayout& form() { return *form_; }
@@ -40,6 +40,7 @@ class FormDock : public Dock {
 
   QFormLayout* form_;
   std::vector<std::pair<widgets::UnitSpinBox*, double*>> numbers_;
+  std::vector<std::pair<widgets::NumberListEdit*, std::vector<double>*>> lists_;
 };
 
 }  // namespace reachlab::gui::docks

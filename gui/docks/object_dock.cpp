@@ -30,18 +30,11 @@ class ObjectDock : public FormDock {
         "body: one mass that can turn. none: the hand alone");
     connect(kind_, qOverload<int>(&QComboBox::activated), this, [this](int kind) { choose(static_cast<ObjectKind>(kind)); });
     form().addRow("kind", kind_);
-    masses_ = addList("masses [kg]", "masses", "first: the mass that the hand drives. Example: 0.6 0.6 0.6, or 5 x 0.6",
-                      [this](const std::vector<double>& masses) {
-                        object_.masses = masses;
-                        fitSprings(object_);
-                      });
+    masses_ = addList("masses [kg]", "masses", "first: the mass that the hand drives. Example: 0.6 0.6 0.6, or 5 x 0.6", object_.masses,
+                      [this] { fitSprings(object_); });
     stiffness_ = addList("springs [N/m]", "stiffness", "chain: between neighbours, one fewer than masses; parallel: each mass to the hand",
-                         [this](const std::vector<double>& stiffness) {
-                           object_.stiffness = stiffness;
-                           object_.damping.resize(stiffness.size(), 0);
-                         });
-    damping_ = addList("dampers [N s/m]", "damping", "dampers beside the springs, in the same order",
-                       [this](const std::vector<double>& damping) { object_.damping = damping; });
+                         object_.stiffness, [this] { object_.damping.resize(object_.stiffness.size(), 0); });
+    damping_ = addList("dampers [N s/m]", "damping", "dampers beside the springs, in the same order", object_.damping);
     viscosity_ = addNumber({"viscosity", "viscosity", 0, 1e4, "N s/m", "drag on every mass, per speed of the mass"}, object_.viscosity);
     auto* gravity = new QHBoxLayout;
     for (const auto& [axis, entry] :
@@ -91,18 +84,15 @@ class ObjectDock : public FormDock {
     rule.item = "damper";
     rule.unit = "N s/m";
     damping_->setRule(rule);
-    masses_->setNumbers(object_.masses);
-    stiffness_->setNumbers(object_.stiffness);
-    damping_->setNumbers(object_.damping);
   }
 
   void tell() override {
-    experiment::Experiment changed = shown();
-    changed.object = object_;
-    // The springs of parallel masses are the hand's own.
-    if (object_.kind == ObjectKind::Parallel || object_.kind == ObjectKind::None) changed.coupling.reset();
-    else if (!changed.coupling) changed.coupling = scene::kNewCoupling;
-    Q_EMIT edited(changed, "object");
+    edit("object", [this](experiment::Experiment& e) {
+      e.object = object_;
+      // The springs of parallel masses are the hand's own.
+      if (object_.kind == ObjectKind::Parallel || object_.kind == ObjectKind::None) e.coupling.reset();
+      else if (!e.coupling) e.coupling = scene::kNewCoupling;
+    });
   }
 
   experiment::Object object_;  // as entered

@@ -3,7 +3,6 @@
 #include <QSignalBlocker>
 #include <QTableWidget>
 #include <QVBoxLayout>
-#include <algorithm>
 #include <cmath>
 
 #include "gui/plot/criterion_style.h"
@@ -22,9 +21,7 @@ QString text(std::string_view s) { return QString::fromUtf8(s.data(), static_cas
 
 }  // namespace
 
-PredictionDock::PredictionDock(QWidget* parent)
-    : Dock("Predictions", "predictionDock", parent), latest_(predict::kCriterionCount), succeeded_(predict::kCriterionCount),
-      failed_(predict::kCriterionCount) {
+PredictionDock::PredictionDock(QWidget* parent) : Dock("Predictions", "predictionDock", parent) {
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);
   table_ = plot::makeCriteriaTable({"criterion", "peak", "ε last", "ε run", "ε fit"}, {predict::Criterion::MinHandJerk}, kRowHeight);
@@ -54,26 +51,23 @@ void PredictionDock::setForecasts(const std::vector<plot::CriterionForecast>& fo
   for (int i = 0; i < predict::kCriterionCount; ++i) {
     QTableWidgetItem* peak = table_->item(i, kPeak);
     peak->setText(forecasts.empty() ? "…" : "–");
-    for (const plot::CriterionForecast& forecast : forecasts) {
-      if (static_cast<int>(forecast.criterion) != i) continue;
-      if (forecast.prediction) peak->setText(speed(forecast.prediction->handPeak));
-      QString why = QString::fromStdString(forecast.refusal);
-      if (forecast.prediction)
-        for (const std::string& warning : forecast.prediction->warnings) why += QString::fromStdString(warning) + QLatin1Char('\n');
-      table_->item(i, kName)->setToolTip(text(predict::describe(forecast.criterion)) +
-                                         (why.isEmpty() ? QString() : "\n\n" + why.trimmed()));
-      table_->item(i, kName)->setForeground(forecast.prediction ? plot::colourOf(forecast.criterion)
-                                                                : widgets::toQColor(widgets::colours::kNeutral));
-    }
+    if (static_cast<std::size_t>(i) >= forecasts.size()) continue;
+    const plot::CriterionForecast& forecast = forecasts[static_cast<std::size_t>(i)];
+    if (forecast.prediction) peak->setText(speed(forecast.prediction->handPeak));
+    QString why = QString::fromStdString(forecast.refusal);
+    if (forecast.prediction)
+      for (const std::string& warning : forecast.prediction->warnings) why += QString::fromStdString(warning) + QLatin1Char('\n');
+    QTableWidgetItem* name = table_->item(i, kName);
+    name->setToolTip(text(predict::describe(forecast.criterion)) + (why.isEmpty() ? QString() : "\n\n" + why.trimmed()));
+    name->setForeground(forecast.prediction ? plot::colourOf(forecast.criterion) : widgets::toQColor(widgets::colours::kNeutral));
   }
 }
 
 void PredictionDock::addErrors(const std::vector<std::optional<double>>& errors, bool succeeded) {
-  latest_.assign(predict::kCriterionCount, std::nullopt);
-  for (std::size_t i = 0; i < errors.size() && i < latest_.size(); ++i) {
-    latest_[i] = errors[i];
-    if (!errors[i]) continue;
-    Sum& sum = (succeeded ? succeeded_ : failed_)[i];
+  for (std::size_t i = 0; i < rows_.size(); ++i) {
+    rows_[i].latest = i < errors.size() ? errors[i] : std::nullopt;
+    if (!rows_[i].latest) continue;
+    Sum& sum = succeeded ? rows_[i].succeeded : rows_[i].failed;
     sum.squares += *errors[i] * *errors[i];
     ++sum.count;
   }
@@ -90,28 +84,28 @@ void PredictionDock::setFitted(const std::vector<std::optional<double>>& fitted)
 
 void PredictionDock::clearErrors() {
   setFitted({});
-  latest_.assign(predict::kCriterionCount, std::nullopt);
-  succeeded_.assign(predict::kCriterionCount, {});
-  failed_.assign(predict::kCriterionCount, {});
+  rows_ = {};
   fillErrors();
 }
 
 void PredictionDock::fillErrors() {
   const QSignalBlocker quiet(table_);
   std::optional<double> best;
-  for (const auto& error : latest_)
-    if (error && (!best || *error < *best)) best = error;
+  bool any = false;
+  for (const Row& row : rows_) {
+    if (row.latest && (!best || *row.latest < *best)) best = row.latest;
+    any = any || row.succeeded.count > 0;
+  }
   for (int i = 0; i < predict::kCriterionCount; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    QTableWidgetItem* last = table_->item(i, kLast);
-    last->setText(latest_[k] ? speed(*latest_[k]) : QString());
+    const Row& row = rows_[static_cast<std::size_t>(i)];
+    QTableWidgetItem *last = table_->item(i, kLast), *all = table_->item(i, kAll);
+    last->setText(row.latest ? speed(*row.latest) : QString());
     QFont font = table_->font();
-    font.setBold(latest_[k] && latest_[k] == best);
+    font.setBold(row.latest && row.latest == best);
     last->setFont(font);
-    const bool any = std::any_of(succeeded_.begin(), succeeded_.end(), [](const Sum& s) { return s.count > 0; });
-    const Sum& sum = (any ? succeeded_ : failed_)[k];
-    table_->item(i, kAll)->setText(sum.count > 0 ? speed(std::sqrt(sum.squares / sum.count)) : QString());
-    table_->item(i, kAll)->setForeground(any ? palette().color(QPalette::Text) : widgets::toQColor(widgets::colours::kNeutral));
+    const Sum& sum = any ? row.succeeded : row.failed;
+    all->setText(sum.count > 0 ? speed(std::sqrt(sum.squares / sum.count)) : QString());
+    all->setForeground(any ? palette().color(QPalette::Text) : widgets::toQColor(widgets::colours::kNeutral));
   }
 }
 

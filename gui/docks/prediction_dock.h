@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -31,12 +32,15 @@ class PredictionDock : public Dock {
   void fillErrors();
 
   QTableWidget* table_;
-  std::vector<std::optional<double>> latest_;
   struct Sum {
     double squares = 0;  // so that the root of the mean is the paper's epsilon of the series
     int count = 0;
   };
-  std::vector<Sum> succeeded_, failed_;
+  struct Row {
+    std::optional<double> latest;
+    Sum succeeded, failed;
+  };
+  std::array<Row, predict::kCriterionCount> rows_;
 };
 
 }  // namespace reachlab::gui::docks

@@ -44,18 +44,17 @@ QString lengthOfReach(const constraints::Constraint& constraint, const experimen
 class TaskDock : public FormDock {
  public:
   explicit TaskDock(QWidget* parent) : FormDock("Task", "taskDock", parent), length_(widgets::named<QLabel>("taskLength")) {
-    start_ = addList("start", "taskStart", {}, [this](const std::vector<double>& q) { task_.start = q; });
-    target_ = addList("target", "taskTarget", {}, [this](const std::vector<double>& q) { task_.target = q; });
+    start_ = addList("start", "taskStart", {}, task_.start);
+    target_ = addList("target", "taskTarget", {}, task_.target);
     length_->setProperty("role", "quiet");
     form().addRow(QString(), length_);
-    via_ = addList("via x y z [m]", "taskVia",
-                   "Places that the last mass, or a bare hand, passes in this order before it arrives: x y z of each.",
-                   [this](const std::vector<double>& numbers) {
-                     task_.via.clear();
-                     for (std::size_t i = 0; i + 2 < numbers.size(); i += 3)
-                       task_.via.push_back({numbers[i], numbers[i + 1], numbers[i + 2]});
-                   });
-    via_->setRule({.list = "via", .most = 60, .multipleOf = 3});
+    addList("via x y z [m]", "taskVia", "Places that the last mass, or a bare hand, passes in this order before it arrives: x y z of each.",
+            via_,
+            [this] {
+              task_.via.clear();
+              for (std::size_t i = 0; i + 2 < via_.size(); i += 3) task_.via.push_back({via_[i], via_[i + 1], via_[i + 2]});
+            })
+        ->setRule({.list = "via", .most = 60, .multipleOf = 3});
     viaRadius_ =
         addNumber({"± via", "radius of via", 1e-5, 1, "m", "Distance within which such a place counts as passed."}, task_.viaRadius);
     addNumber({"time T", "time T", 0.05, 60, "s", "duration of the movement that is asked for, from its onset"}, task_.duration)
@@ -82,10 +81,9 @@ class TaskDock : public FormDock {
     const QString length = lengthOfReach(constraint, task_);
     length_->setText(length);
     length_->setVisible(!length.isEmpty());
-    std::vector<double> via;
-    for (const Vec3& place : task_.via) via.insert(via.end(), {place.x, place.y, place.z});
-    via_->setNumbers(via);
-    viaRadius_->setEnabled(!via.empty());
+    via_.clear();
+    for (const Vec3& place : task_.via) via_.insert(via_.end(), {place.x, place.y, place.z});
+    viaRadius_->setEnabled(!via_.empty());
   }
 
   // `other`: the other end of the reach, from which lengths are counted.
@@ -105,17 +103,15 @@ class TaskDock : public FormDock {
     rule.list = name;
     rule.atLength = lengthsFrom(constraint, other, place);
     field.setRule(rule);
-    field.setNumbers(place);
   }
 
   void tell() override {
-    experiment::Experiment changed = shown();
-    changed.task = task_;
-    Q_EMIT edited(changed, "task");
+    edit("task", [this](experiment::Experiment& e) { e.task = task_; });
   }
 
-  experiment::Task task_;  // as entered
-  widgets::NumberListEdit *start_, *target_, *via_;
+  experiment::Task task_;    // as entered
+  std::vector<double> via_;  // its places, as entered
+  widgets::NumberListEdit *start_, *target_;
   widgets::UnitSpinBox* viaRadius_;
   QLabel* length_;
 };
