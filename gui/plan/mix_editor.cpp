@@ -24,10 +24,6 @@ namespace {
 
 enum Targets { kOwn, kRing, kList };
 
-bool holds(const std::vector<std::string>& names, const std::string& name) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 int countOf(const std::string& kind, const std::vector<session::KindCount>& cycle) {
   int count = 0;
   for (const session::KindCount& some : cycle) count += some.kind == kind ? some.count : 0;
@@ -109,10 +105,8 @@ QWidget* MixEditor::makeKinds() {
   column->addLayout(buttons);
   connect(add, &QPushButton::clicked, this, [this] {
     std::string name = "kind1";
-    const auto taken = [&] {
-      return std::any_of(mix_.kinds.begin(), mix_.kinds.end(), [&](const auto& kind) { return kind.name == name; });
-    };
-    for (int number = 2; taken(); ++number) name = "kind" + std::to_string(number);
+    for (int number = 2; std::ranges::count(mix_.kinds, name, &session::TrialKind::name) > 0; ++number)
+      name = "kind" + std::to_string(number);
     if (!mix_.cycle.empty()) mix_.cycle.push_back({name, 1});
     mix_.kinds.push_back({name, {}});
     showKinds();
@@ -176,7 +170,8 @@ void MixEditor::showKinds() {
       if (column == kChanges) item->setText(changesText(kind));
       if (column == kNotFirst || column == kNotTwice) {
         item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
-        item->setCheckState(holds(column == kNotFirst ? mix_.notFirst : mix_.notTwice, kind.name) ? Qt::Checked : Qt::Unchecked);
+        const std::vector<std::string>& names = column == kNotFirst ? mix_.notFirst : mix_.notTwice;
+        item->setCheckState(std::ranges::find(names, kind.name) == names.end() ? Qt::Unchecked : Qt::Checked);
       }
       kinds_->setItem(row, column, item);
     }
