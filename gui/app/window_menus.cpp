@@ -7,7 +7,7 @@
 #include <QUndoStack>
 
 #include "gui/app/menu_entries.h"
-#include "gui/scene/renderer_name.h"
+#include "gui/scene/software_canvas.h"
 #include "gui/session/session_controller.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"

@@ -131,7 +131,9 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
   if (!state_.rulersShown) return;
   paintScale(painter);
   paintAxes(painter);
-  paintLegend(painter);
+  // Between axes and scale.
+  write(painter, QRectF(100, height() - kFootHeight - 14, 0.76 * width() - 140, kFootHeight),
+        Qt::AlignLeft | Qt::AlignBottom | Qt::TextWordWrap, state_.legend, 9.5, faint);
   if (!label_.isEmpty()) paintLabel(painter);
 }
 
@@ -213,12 +215,6 @@ void SceneOverlay::paintAxes(QPainter& painter) const {
     painter.drawLine(origin, origin + arm * axes_[i]);
     write(painter, QRectF(origin + 1.36 * arm * axes_[i] - QPointF(8, 8), QSizeF(16, 16)), Qt::AlignCenter, names[i], 9, ink[i]);
   }
-}
-
-// Between axes and scale.
-void SceneOverlay::paintLegend(QPainter& painter) const {
-  write(painter, QRectF(100, height() - kFootHeight - 14, 0.76 * width() - 140, kFootHeight),
-        Qt::AlignLeft | Qt::AlignBottom | Qt::TextWordWrap, state_.legend, 9.5, widgets::toQColor(widgets::colours::kFaintText));
 }
 
 }  // namespace reachlab::gui::scene

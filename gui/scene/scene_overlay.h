@@ -55,7 +55,6 @@ class SceneOverlay : public QWidget {
  private:
   void paintScale(QPainter& painter) const;
   void paintAxes(QPainter& painter) const;
-  void paintLegend(QPainter& painter) const;
   void paintLabel(QPainter& painter) const;
   void paintRest(QPainter& painter, const RestState& rest) const;
 

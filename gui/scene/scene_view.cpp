@@ -27,7 +27,6 @@
 #include <cmath>
 #include <utility>
 
-#include "gui/scene/renderer_name.h"
 #include "gui/scene/scene_actors.h"
 #include "gui/scene/software_canvas.h"
 #include "gui/widgets/colours.h"

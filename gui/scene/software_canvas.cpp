@@ -12,6 +12,19 @@
 
 namespace reachlab::gui::scene {
 
+const QString& rendererName() {
+  static const QString name = [] {
+    QOffscreenSurface surface;
+    surface.create();
+    QOpenGLContext context;
+    if (!context.create() || !context.makeCurrent(&surface)) return QStringLiteral("unknown");
+    return QString::fromUtf8(reinterpret_cast<const char*>(context.functions()->glGetString(GL_RENDERER)));
+  }();
+  return name;
+}
+
+bool drawsInSoftware() { return rendererName().contains(QLatin1String("llvmpipe")) || rendererName().contains(QLatin1String("softpipe")); }
+
 SoftwareCanvas::SoftwareCanvas(vtkGenericOpenGLRenderWindow& window, QWidget* parent)
     : QWidget(parent), window_(&window), surface_(std::make_unique<QOffscreenSurface>()), context_(std::make_unique<QOpenGLContext>()) {
   setAttribute(Qt::WA_OpaquePaintEvent);

@@ -12,6 +12,11 @@ class vtkObject;
 
 namespace reachlab::gui::scene {
 
+/// The name that the OpenGL renderer gives itself: "llvmpipe (LLVM 15.0.6, 256 bits)". Asked once, in the window's thread.
+const QString& rendererName();
+/// Whether the processor draws.
+bool drawsInSoftware();
+
 /// Shows the pictures of VTK if the processor draws them. They are drawn into memory and painted like any widget. With a QOpenGLWidget, the
 /// processor would compose the whole top-level window from textures, which costs twice as much as the scene.
 class SoftwareCanvas : public QWidget {

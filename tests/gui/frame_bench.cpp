@@ -15,7 +15,7 @@
 
 #include "gui/plot/signal_plot.h"
 #include "gui/plot/velocity_plot.h"
-#include "gui/scene/renderer_name.h"
+#include "gui/scene/software_canvas.h"
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/theme.h"
 #include "sim/experiment/compiled_experiment.h"
