@@ -149,7 +149,7 @@ Actor makeBox(const Look& look) {
 namespace {
 
 // The wire's centre line runs from end to end in the frame of the axis: a hook, the coil, a hook. Lengths in coil radii.
-constexpr int kPerTurn = 16, kHookSamples = 12, kSides = 7;
+constexpr int kPerTurn = 16, kHookSamples = 12;
 constexpr double kHook = 0.55;  // radius of a hook
 
 int samplesOf(int turns) { return turns * kPerTurn + 1 + 2 * kHookSamples; }
@@ -172,17 +172,12 @@ Vec3 wirePoint(int i, int turns, double length) {
 }  // namespace
 
 Actor makeCoil(const Look& look, int turns) {
-  constexpr std::uint32_t kAround = kSides;
-  const auto samples = static_cast<std::uint32_t>(samplesOf(turns));
-  SurfaceMesh mesh;
-  mesh.points.resize(samples * kAround);
-  mesh.normals.resize(samples * kAround);
-  for (std::uint32_t i = 0; i + 1 < samples; ++i)
-    for (std::uint32_t k = 0; k < kAround; ++k) {
-      const std::uint32_t next = (k + 1) % kAround, here = i * kAround, after = here + kAround;
-      mesh.quads.push_back({here + k, here + next, after + next, after + k});
-    }
-  return makeSkin(mesh, look);
+  std::vector<Vec3> wire;
+  for (int i = 0; i < samplesOf(turns); ++i) wire.push_back(wirePoint(i, turns, 10));
+  vtkNew<vtkTubeFilter> tube;
+  tube->SetInputData(linesOf({wire}));
+  tube->SetNumberOfSides(7);
+  return actorOf(tube->GetOutputPort(), look);
 }
 
 Vec3 penEnd(const Vec3& hand, double radius) {
@@ -296,41 +291,15 @@ void stretch(vtkActor& coil, const Vec3& from, const Vec3& to, double radius, do
   Vec3 z = cross(x, helper);
   z = z / norm(z);
   const Vec3 y = cross(z, x);
-  auto* data = vtkPolyData::SafeDownCast(coil.GetMapper()->GetInputDataObject(0, 0));
-  auto* normals = vtkFloatArray::SafeDownCast(data->GetPointData()->GetNormals());
-  const int samples = static_cast<int>(data->GetNumberOfPoints()) / kSides, turns = (samples - 1 - 2 * kHookSamples) / kPerTurn;
-  const auto at = [&](int i) {
-    const Vec3 p = radius * wirePoint(std::clamp(i, 0, samples - 1), turns, length / radius);
-    return from + p.x * x + p.y * y + p.z * z;
-  };
-  Vec3 before = at(-1), here = at(0), side = y;
+  auto* tube = vtkTubeFilter::SafeDownCast(coil.GetMapper()->GetInputAlgorithm());
+  tube->SetRadius(wire);
+  vtkPoints* points = vtkPolyData::SafeDownCast(tube->GetInput())->GetPoints();
+  const int samples = static_cast<int>(points->GetNumberOfPoints()), turns = (samples - 1 - 2 * kHookSamples) / kPerTurn;
   for (int i = 0; i < samples; ++i) {
-    const Vec3 after = at(i + 1);
-    Vec3 along = after - before;
-    along = along / std::max(norm(along), 1e-12);
-    side = side - dot(side, along) * along;  // carried along the wire, so that the tube does not twist
-    side = side / std::max(norm(side), 1e-12);
-    const Vec3 other = cross(along, side);
-    for (int k = 0; k < kSides; ++k) {
-      static const std::array<std::array<double, 2>, kSides> kRing = [] {
-        std::array<std::array<double, 2>, kSides> ring{};
-        for (std::size_t n = 0; n < kSides; ++n) {
-          const double angle = 2 * std::numbers::pi * static_cast<double>(n) / kSides;
-          ring[n] = {std::cos(angle), std::sin(angle)};
-        }
-        return ring;
-      }();
-      const auto& [c, s] = kRing[static_cast<std::size_t>(k)];
-      const Vec3 n = c * side + s * other, p = here + wire * n;
-      data->GetPoints()->SetPoint(i * kSides + k, p.x, p.y, p.z);
-      normals->SetTuple3(i * kSides + k, n.x, n.y, n.z);
-    }
-    before = here;
-    here = after;
+    const Vec3 p = radius * wirePoint(i, turns, length / radius), at = from + p.x * x + p.y * y + p.z * z;
+    points->SetPoint(i, at.x, at.y, at.z);
   }
-  data->GetPoints()->Modified();
-  normals->Modified();
-  data->Modified();
+  points->Modified();
 }
 
 }  // namespace reachlab::gui::scene

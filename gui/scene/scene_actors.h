@@ -73,7 +73,7 @@ Actor makeDots(const std::vector<Vec3>& places, double radius, const Look& look)
 /// Arrows from their places, all one actor. `longest` [m]: the length of the largest force.
 Actor makeArrows(const std::vector<ForceArrow>& arrows, double longest, const Look& look);
 
-/// Lays a coil between two points. The wire keeps its thickness, whatever the length of the coil. Does not allocate. [m]
+/// Lays a coil between two points. The wire keeps its thickness, whatever the length of the coil. [m]
 void stretch(vtkActor& coil, const Vec3& from, const Vec3& to, double radius, double wire);
 
 }  // namespace reachlab::gui::scene
