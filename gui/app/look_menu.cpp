@@ -29,7 +29,7 @@ QString wordsOf(const std::string& part) {
 
 // As it is drawn now, by the theme or by the experiment.
 QColor drawnColour(MainWindow& window, const std::string& part) {
-  const scene::PartColours& drawn = window.view().plan().look.colours;
+  const scene::PartColours& drawn = window.view().plan().colours;
   const widgets::Colour* colour = scene::partNamed(drawn, part);
   return colour == nullptr ? QColor() : QColor::fromRgbF(colour->red, colour->green, colour->blue);
 }

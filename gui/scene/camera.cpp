@@ -42,13 +42,10 @@ Camera lookAtPoints(std::span<const Vec3> points, double margin, const Vec3& dir
   camera.up = axesOf(camera).up;
   // The middle of what is seen, across and up, is the middle of the picture; then as near as the worst point allows.
   const CameraAxes axes = axesOf(camera);
-  double left = 0, right = 0, low = 0, high = 0;
-  for (const Vec3& p : points) {
-    const Vec3 arm = p - camera.focus;
-    left = std::min(left, dot(arm, axes.right)), right = std::max(right, dot(arm, axes.right));
-    low = std::min(low, dot(arm, axes.up)), high = std::max(high, dot(arm, axes.up));
-  }
-  camera.focus += (0.5 * (left + right)) * axes.right + (0.5 * (low + high)) * axes.up;
+  Box seen;
+  seen.add({});
+  for (const Vec3& p : points) seen.add({dot(p - camera.focus, axes.right), dot(p - camera.focus, axes.up), 0});
+  camera.focus += seen.centre().x * axes.right + seen.centre().y * axes.up;
   double distance = 1e-6;
   for (const Vec3& p : points) {
     const Vec3 arm = p - camera.focus;

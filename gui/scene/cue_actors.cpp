@@ -24,18 +24,18 @@ constexpr double kTraceStep = 0.0015;  // of the reach, between two points
 }  // namespace
 
 CueActors::CueActors(vtkRenderer& renderer, const ScenePlan& plan) : actors_(renderer), plan_(plan) {
-  if (plan_.look.grid) addGrid();
-  if (plan_.look.shadow) {
+  if (plan_.look.depthCue != "none") addGrid();
+  if (plan_.look.depthCue == "shadow") {
     for (const double radius : plan_.massRadius) addShadow(radius);
     addShadow(1.6 * plan_.handRadius);
     shadows_.back()->SetVisibility(plan_.handShown);
   }
   if (plan_.look.trace) {
-    const Actor line = actors_.add(makeLines({}, {plan_.look.colours.trace, 0.85, 0}, 2));
+    const Actor line = actors_.add(makeLines({}, {plan_.colours.trace, 0.85, 0}, 2));
     vtkPolyDataMapper::SafeDownCast(line->GetMapper())->SetInputData(trace_);
   }
   if (plan_.look.forceArrow && plan_.handShown) {
-    arrow_ = actors_.add(makeArrows({{{}, {1, 0, 0}}}, 1, {plan_.look.colours.force, 1, 0}));
+    arrow_ = actors_.add(makeArrows({{{}, {1, 0, 0}}}, 1, {plan_.colours.force, 1, 0}));
     arrow_->VisibilityOff();
   }
 }
@@ -65,7 +65,7 @@ void CueActors::addGrid() {
     line({left + i * step, plan_.floor, back}, {left + i * step, plan_.floor, front});
   for (int i = 0; back + i * step <= front + 0.5 * step; ++i)
     line({left, plan_.floor, back + i * step}, {right, plan_.floor, back + i * step});
-  const widgets::Colour& c = plan_.look.colours.rail;
+  const widgets::Colour& c = plan_.colours.rail;
   addSoft(linesOf(lines), c, opacity);
   const Actor ground = addDisc(c, {{{0, 0.13}, {0.5, 0.13}, {0.8, 0.06}, {1.0, 0}}});
   ground->SetScale(width, 1, depth);

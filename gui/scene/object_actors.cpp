@@ -56,7 +56,7 @@ void ObjectActors::addModel() {
 }
 
 void ObjectActors::addConstraint(SurfaceStyle style) {
-  const PartColours& colours = plan_.look.colours;
+  const PartColours& colours = plan_.colours;
   if (plan_.curve.pointCount() > 1) {
     actors_.add(makeRail(plan_.curve, plan_.railRadius, {colours.rail, 1, 0.9, true}));
     // Shifted masses run beside the rail: a faint copy for each.
@@ -76,12 +76,12 @@ void ObjectActors::addPlaces() {
     for (const PlaceMark& mark : plan_.places)
       if (mark.passed == passed) places.push_back(mark.r);
     const double radius = plan_.surface.quads.empty() ? 1.9 * plan_.railRadius : 0.9 * plan_.railRadius;
-    if (!places.empty()) actors_.add(makeDots(places, radius, {passed ? plan_.look.colours.hand : widgets::colours::kRed, 1, 0.2}));
+    if (!places.empty()) actors_.add(makeDots(places, radius, {passed ? plan_.colours.hand : widgets::colours::kRed, 1, 0.2}));
   }
 }
 
 void ObjectActors::addMark(bool atTarget, const Vec3& shift, double radius, double opacity) {
-  const PartColours& colours = plan_.look.colours;
+  const PartColours& colours = plan_.colours;
   const Actor ball = addBall({atTarget ? colours.target : colours.start, opacity, 0.2}, radius);
   if (opacity < 0.5) makeShell(*ball);
   place(*ball, (atTarget ? plan_.target : plan_.start) + shift);
@@ -90,7 +90,7 @@ void ObjectActors::addMark(bool atTarget, const Vec3& shift, double radius, doub
 
 void ObjectActors::addMarks() {
   for (const Vec3& at : plan_.via) {
-    via_.push_back(addBall({plan_.look.colours.surfaceLine, kLaterVia, 0.2}, plan_.viaRadius));
+    via_.push_back(addBall({plan_.colours.surfaceLine, kLaterVia, 0.2}, plan_.viaRadius));
     makeShell(*via_.back());
     place(*via_.back(), at);
   }
@@ -115,7 +115,7 @@ void ObjectActors::addMarks() {
 // The forces on the hand, and the places of the block's other trials.
 void ObjectActors::addForces() {
   const ForceMarks& forces = plan_.forces;
-  const PartColours& colours = plan_.look.colours;
+  const PartColours& colours = plan_.colours;
   if (!plan_.otherPlaces.empty()) actors_.add(makeDots(plan_.otherPlaces, 1.8 * plan_.markRadius, {colours.target, kOtherPlaces, 0}));
   if (!forces.field.empty()) actors_.add(makeArrows(forces.field, kFieldArrow * plan_.unit, {colours.force, 0.6, 0.1}));
   if (!forces.pulses.empty()) actors_.add(makeArrows(forces.pulses, kPulseArrow * plan_.unit, {colours.force, 0.9, 0.1}));
@@ -126,7 +126,7 @@ void ObjectActors::addForces() {
 }
 
 void ObjectActors::addObject() {
-  const PartColours& colours = plan_.look.colours;
+  const PartColours& colours = plan_.colours;
   for (const SpringPlan& spring : plan_.springs)
     springs_.push_back(actors_.add(makeCoil({spring.coupling ? colours.coupling : colours.spring, 1, 0.5}, spring.coupling ? 6 : 9)));
   const std::size_t count = plan_.massRadius.size();
@@ -162,7 +162,7 @@ void ObjectActors::show(const SceneFrame& frame) {
 
 bool ObjectActors::showGhosts(const std::vector<SceneFrame>& ghosts) {
   constexpr double kFaint = 0.22;
-  const PartColours& colours = plan_.look.colours;
+  const PartColours& colours = plan_.colours;
   const std::size_t count = plan_.massRadius.size();
   while (ghosts_.size() < ghosts.size()) {
     std::vector<Actor>& balls = ghosts_.emplace_back();
@@ -205,7 +205,7 @@ void ObjectActors::showHands(const SceneFrame& frame) {
   }
   if (frame.handValid == handWasValid_) return;
   handWasValid_ = frame.handValid;
-  const widgets::Colour c = frame.handValid ? plan_.look.colours.hand : widgets::colours::kHandLost;
+  const widgets::Colour c = frame.handValid ? plan_.colours.hand : widgets::colours::kHandLost;
   hands_[own]->GetProperty()->SetColor(c.red, c.green, c.blue);
 }
 

@@ -118,7 +118,7 @@ void SceneView::setPlan(const ScenePlan& plan, bool resetView) {
   dragged_.reset();
   actors_.reset();
   actors_ = std::make_unique<ObjectActors>(*renderer_, plan, style_);
-  const widgets::Colour &low = plan.look.colours.backgroundBottom, &high = plan.look.colours.backgroundTop;
+  const widgets::Colour &low = plan.colours.backgroundBottom, &high = plan.colours.backgroundTop;
   renderer_->SetBackground(low.red, low.green, low.blue);
   renderer_->SetBackground2(high.red, high.green, high.blue);
   coarse_ = slow_ = 0;
@@ -131,7 +131,7 @@ void SceneView::setPlan(const ScenePlan& plan, bool resetView) {
 
 void SceneView::showFrame(const SceneFrame& frame) {
   // A tenth of a pixel is not seen: what rests costs nothing.
-  const double unseen = 0.1 * metresPerPixel(camera_, plan_.centre, high()) / std::max(1.0, canvas_->devicePixelRatioF());
+  const double unseen = 0.1 * metresPerPixel(camera_, plan_.box.centre(), high()) / std::max(1.0, canvas_->devicePixelRatioF());
   if (!actors_ || (drawn_ && !movedBeyond(unseen, frame_, frame))) return;
   frame_ = frame;
   actors_->show(frame);
@@ -232,7 +232,7 @@ void SceneView::applyCamera() {
   std::array<QPointF, 3> directions;
   const std::array<Vec3, 3> world{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};
   for (std::size_t i = 0; i < 3; ++i) directions[i] = {dot(world[i], axes.right), -dot(world[i], axes.up)};
-  overlay_->setView(directions, metresPerPixel(camera_, plan_.centre, high()));
+  overlay_->setView(directions, metresPerPixel(camera_, plan_.box.centre(), high()));
   label();
 }
 

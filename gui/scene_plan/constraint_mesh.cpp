@@ -16,12 +16,6 @@ double angleBetween(const Vec3& a, const Vec3& b) {
   return scale > 0 ? std::acos(std::clamp(dot(a, b) / scale, -1.0, 1.0)) : 0;
 }
 
-double sizeOf(const std::vector<Vec3>& points) {
-  Box box;
-  for (const Vec3& p : points) box.add(p);
-  return box.diagonal();
-}
-
 std::vector<double> evenly(double from, double to, std::size_t parts) {
   std::vector<double> values;
   for (std::size_t i = 0; i <= parts; ++i) values.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(parts));
@@ -151,13 +145,10 @@ std::array<constraints::Domain, 2> drawnDomain(const constraints::Constraint& co
 
 CurveMesh sampleCurve(const constraints::Curve& curve, double from, double to, const MeshOptions& options) {
   const Probe probe = [&](double phi) { return std::vector<Vec3>{constraints::evaluate(curve, phi).r}; };
-  std::vector<Vec3> rough;
-  for (const double phi : evenly(from, to, 96)) {
-    const Vec3 r = constraints::evaluate(curve, phi).r;
-    if (isFinite(r)) rough.push_back(r);
-  }
+  Box rough;
+  for (const double phi : evenly(from, to, 96)) rough.add(constraints::evaluate(curve, phi).r);
   std::vector<Vec3> points;
-  for (const Knot& knot : refine(probe, from, to, 96, options.maxPoints, options.chordError * sizeOf(rough), options.turn))
+  for (const Knot& knot : refine(probe, from, to, 96, options.maxPoints, options.chordError * rough.diagonal(), options.turn))
     points.push_back(knot.points[0]);
   return {finitePieces(points)};
 }
@@ -165,12 +156,11 @@ CurveMesh sampleCurve(const constraints::Curve& curve, double from, double to, c
 SurfaceMesh sampleSurface(const constraints::Surface& surface, const std::array<constraints::Domain, 2>& domain,
                           const MeshOptions& options) {
   const std::vector<double> probesU = evenly(domain[0].lo, domain[0].hi, 10), probesV = evenly(domain[1].lo, domain[1].hi, 10);
-  std::vector<Vec3> rough;
+  Box rough;
   for (const double u : probesU)
-    for (const double v : probesV)
-      if (const Vec3 r = constraints::evaluate(surface, u, v).r; isFinite(r)) rough.push_back(r);
+    for (const double v : probesV) rough.add(constraints::evaluate(surface, u, v).r);
   // A quad shows its bend less than a line does.
-  const double error = 3 * options.chordError * sizeOf(rough), turn = 1.5 * options.turn;
+  const double error = 3 * options.chordError * rough.diagonal(), turn = 1.5 * options.turn;
   const auto along = [&](std::size_t which) {
     const Probe probe = [&](double at) {
       std::vector<Vec3> points;

@@ -9,7 +9,6 @@
 #include "gui/scene_plan/hand_colours.h"
 #include "gui/widgets/themes.h"
 #include "sim/experiment/experiment.h"
-#include "sim/experiment/scene_look.h"
 #include "sim/trial/protocol.h"
 
 namespace reachlab::gui::scene {
@@ -67,7 +66,7 @@ void planHands(const experiment::Experiment& experiment, int masses, ScenePlan& 
   }
 }
 
-void planMasses(const experiment::Experiment& experiment, ViewOptions::SideBySide wish, ScenePlan& plan) {
+void planMasses(const experiment::Experiment& experiment, constraints::ConstraintKind kind, ViewOptions::SideBySide wish, ScenePlan& plan) {
   const experiment::Object& object = experiment.object;
   // Without an object the hand, or its cursor, is drawn as a mass.
   const std::vector<double> drawn = object.kind == experiment::ObjectKind::None ? std::vector<double>{1} : object.masses;
@@ -79,7 +78,7 @@ void planMasses(const experiment::Experiment& experiment, ViewOptions::SideBySid
   if (!shifted)  // where all coincide the driven one would hide the rest
     for (std::size_t i = 1; i + 1 < count; ++i) plan.massRadius[i] *= 0.72;
   if (shifted) {
-    const Vec3 across = plan.kind == constraints::ConstraintKind::Curve && std::abs(plan.target.y - plan.start.y) < 0.7 * plan.unit
+    const Vec3 across = kind == constraints::ConstraintKind::Curve && std::abs(plan.target.y - plan.start.y) < 0.7 * plan.unit
                             ? Vec3{0, -1, 0}
                             : Vec3{0.7, -0.7, 0};
     const double step = std::min(0.22, 0.5 / static_cast<double>(count)) * plan.unit;
@@ -118,23 +117,17 @@ std::span<const Part> parts() {
   return kParts;
 }
 
-PlanLook plannedLook(const experiment::Experiment& experiment) {
-  const experiment::SceneLook look = experiment::lookOf(experiment);
-  PlanLook plan;
+PartColours coloursOf(const experiment::SceneLook& look) {
+  PartColours colours;
   for (const Part& part : parts()) {
     const auto own = look.colours.find(part.name);
-    plan.colours.*part.colour = own == look.colours.end() ? widgets::themed(part.usual) : widgets::colourOf(own->second);
+    colours.*part.colour = own == look.colours.end() ? widgets::themed(part.usual) : widgets::colourOf(own->second);
   }
-  plan.surfaceOpacity = look.surfaceOpacity;
-  plan.shadow = look.depthCue == "shadow";
-  plan.grid = plan.shadow || look.depthCue == "grid";
-  plan.trace = look.trace;
-  plan.forceArrow = look.forceArrow;
-  return plan;
+  return colours;
 }
 
 // Some hundreds of the constraint's points, and the task's places with the shifts of their masses.
-std::vector<Vec3> pointsSeen(const ScenePlan& plan) {
+std::vector<Vec3> pointsSeen(const ScenePlan& plan, const std::vector<Vec3>& blockPlaces) {
   std::vector<Vec3> seen;
   const std::size_t skip = 1 + plan.curve.pointCount() / 400;
   for (const auto& piece : plan.curve.pieces) {
@@ -144,12 +137,12 @@ std::vector<Vec3> pointsSeen(const ScenePlan& plan) {
   const std::size_t skipQuads = 1 + plan.surface.quads.size() / 800;
   for (std::size_t i = 0; i < plan.surface.quads.size(); i += skipQuads) seen.push_back(plan.surface.points[plan.surface.quads[i][0]]);
   if (plan.hasTask)
-    for (const Vec3& place : plan.blockPlaces.empty() ? std::vector<Vec3>{plan.start, plan.target} : plan.blockPlaces) {
+    for (const Vec3& place : blockPlaces.empty() ? std::vector<Vec3>{plan.start, plan.target} : blockPlaces) {
       seen.push_back(place);
       for (const Vec3& shift : plan.massShift) seen.push_back(place + shift);
     }
   seen.insert(seen.end(), plan.via.begin(), plan.via.end());
-  if (seen.empty()) seen = {plan.centre - Vec3{0.5 * plan.size, 0, 0}, plan.centre + Vec3{0.5 * plan.size, 0, 0}};
+  if (seen.empty()) seen = {plan.box.centre() - Vec3{0.5 * plan.size, 0, 0}, plan.box.centre() + Vec3{0.5 * plan.size, 0, 0}};
   return seen;
 }
 
@@ -163,7 +156,6 @@ const widgets::Colour* partNamed(const PartColours& colours, const std::string& 
 
 ScenePlan planScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const ViewOptions& options) {
   ScenePlan plan;
-  plan.kind = constraint.kind;
   plan.body = experiment.object.kind == experiment::ObjectKind::Body;
   const std::vector<double> none;
   const auto& from = experiment.task ? experiment.task->start : none;
@@ -188,17 +180,15 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
     box.add(plan.start);
     box.add(plan.target);
   }
-  plan.blockPlaces = options.blockPlaces;
-  for (const Vec3& place : plan.blockPlaces) {
+  for (const Vec3& place : options.blockPlaces) {
     box.add(place);
     if (norm(place - plan.start) > kSamePlace && norm(place - plan.target) > kSamePlace) plan.otherPlaces.push_back(place);
   }
   if (!box.valid() || box.diagonal() <= 0) box.add({-0.1, -0.05, 0}), box.add({0.1, 0.05, 0});
-  plan.centre = box.centre();
   plan.size = box.diagonal();
   const double reach = norm(plan.target - plan.start);
   plan.unit = plan.hasTask && reach > 0.3 * plan.size ? reach : std::max(0.5 * plan.size, reach);
-  plan.viewFrom = viewDirection(box, plan.kind);
+  plan.viewFrom = viewDirection(box, constraint.kind);
   plan.bareHand = experiment.object.kind == experiment::ObjectKind::None;
   plan.cursor = experiment.cursor;
   if (plan.bareHand && plan.hasTask)  // onto the plane, with the subject's right to the right
@@ -207,13 +197,13 @@ ScenePlan planScene(const experiment::Experiment& experiment, const constraints:
   plan.handRadius = 0.016 * plan.unit;
   plan.markRadius = 0.014 * plan.unit;
   plan.railRadius = std::max(0.0045 * plan.unit, 0.0028 * plan.size);
-  planMasses(experiment, options.sideBySide, plan);
-  plan.look = plannedLook(experiment);
+  planMasses(experiment, constraint.kind, options.sideBySide, plan);
+  plan.look = experiment::lookOf(experiment);
+  plan.colours = coloursOf(plan.look);
   plan.ownHand = std::clamp(options.ownHand, 0, std::max(static_cast<int>(plan.hands.size()) - 1, 0));
-  if (!plan.hands.empty() && !experiment::lookOf(experiment).colours.contains("hand"))
-    plan.look.colours.hand = plan.hands.at(static_cast<std::size_t>(plan.ownHand));
+  if (!plan.hands.empty() && !plan.look.colours.contains("hand")) plan.colours.hand = plan.hands.at(static_cast<std::size_t>(plan.ownHand));
   plan.box = box;
-  plan.seen = pointsSeen(plan);
+  plan.seen = pointsSeen(plan, options.blockPlaces);
   plan.floor = box.low.y;
   for (const Vec3& point : plan.seen) plan.floor = std::min(plan.floor, point.y);
   plan.floor -= 0.12 * plan.size;

@@ -11,6 +11,7 @@
 #include "gui/widgets/colours.h"
 #include "sim/experiment/cursor.h"
 #include "sim/experiment/experiment_fwd.h"
+#include "sim/experiment/scene_look.h"
 #include "sim/haptics/tick_state.h"
 
 /// The drawn content of an experiment as plain data: sizes, positions and colours. Independent of any graphics library.
@@ -30,16 +31,7 @@ struct PartColours {
 /// The colour of the part that an experiment's `look` calls by this name. Null for an unknown name.
 const widgets::Colour* partNamed(const PartColours& colours, const std::string& name);
 
-/// How it is drawn.
-struct PlanLook {
-  PartColours colours;
-  double surfaceOpacity = 0.42;
-  bool grid = false, shadow = false;  // at the height `floor`
-  bool trace = false, forceArrow = false;
-};
-
 struct ScenePlan {
-  constraints::ConstraintKind kind = constraints::ConstraintKind::Free;
   CurveMesh curve;
   SurfaceMesh surface;
   std::vector<PlaceMark> places;  // where the formula is not smooth
@@ -49,7 +41,6 @@ struct ScenePlan {
   std::vector<Vec3> via;           // [m] places to pass on the way
   double viaRadius = 0;            // [m]
   double tolerance = 0;            // [m] dx, drawn as a faint shell around the target
-  Vec3 centre{};                   // [m] what the camera looks at
   double size = 0.2;               // [m] diagonal of what is seen
   double unit = 0.2;               // [m] what bodies are sized by
   Vec3 viewFrom{0.1, 0.35, 1};     // direction from the centre to the camera
@@ -64,12 +55,12 @@ struct ScenePlan {
   std::optional<experiment::Cursor> cursor;
   bool handShown = true;                                  // by its pen
   double handRadius = 0, markRadius = 0, railRadius = 0;  // [m]
-  PlanLook look;
-  Box box;                                    // [m] of constraint and task
+  experiment::SceneLook look;
+  PartColours colours;
+  Box box;                                    // [m] of constraint and task; the camera looks at its centre
   double floor = 0;                           // [m] height of the grid, below all of it
   ForceMarks forces;                          // on the hand
-  std::vector<Vec3> blockPlaces;              // [m] ViewOptions::blockPlaces
-  std::vector<Vec3> otherPlaces;              // [m] of them, neither start nor target of this trial; drawn faintly
+  std::vector<Vec3> otherPlaces;              // [m] of the block, neither start nor target of this trial; drawn faintly
   std::shared_ptr<const model::Model> model;  // scenery, and what stands for hand and masses; null: none
 };
 

@@ -58,7 +58,7 @@ TEST(ScenePlan, EachOfSeveralHandsHasItsColourAndIsCoupledToWhatItHolds) {
   const ScenePlan plan = planScene(e, constraints::makeConstraint(e.constraint), {.ownHand = 1});
   ASSERT_EQ(plan.hands.size(), 2u);
   EXPECT_GT(std::abs(plan.hands[0].green - plan.hands[1].green), 0.2);
-  EXPECT_EQ(plan.look.colours.hand.green, plan.hands[1].green) << "the picture's own pen is the second hand's";
+  EXPECT_EQ(plan.colours.hand.green, plan.hands[1].green) << "the picture's own pen is the second hand's";
   ASSERT_EQ(plan.springs.size(), 6u);
   EXPECT_EQ(plan.springs[0].to, 0);
   EXPECT_EQ(plan.springs[0].hand, 0);
