@@ -17,6 +17,7 @@
 #include "base/json/json_reader.h"
 #include "gui/widgets/fault_words.h"
 #include "gui/widgets/named.h"
+#include "gui/widgets/text_table.h"
 #include "gui/widgets/unit_spin_box.h"
 
 namespace reachlab::gui::plan {
@@ -163,17 +164,12 @@ void MixEditor::showKinds() {
   const std::vector<session::KindCount> cycle = session::cycleOf(mix_);
   for (int row = 0; row < kinds_->rowCount(); ++row) {
     const session::TrialKind& kind = mix_.kinds[static_cast<std::size_t>(row)];
-    for (int column = 0; column < kColumns; ++column) {
-      auto* item = new QTableWidgetItem;
-      if (column == kName) item->setText(QString::fromStdString(kind.name));
-      if (column == kCount) item->setText(QString::number(countOf(kind.name, cycle)));
-      if (column == kChanges) item->setText(changesText(kind));
-      if (column == kNotFirst || column == kNotTwice) {
-        item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
-        const std::vector<std::string>& names = column == kNotFirst ? mix_.notFirst : mix_.notTwice;
-        item->setCheckState(std::ranges::find(names, kind.name) == names.end() ? Qt::Unchecked : Qt::Checked);
-      }
-      kinds_->setItem(row, column, item);
+    widgets::setTexts(*kinds_, row,
+                      {QString::fromStdString(kind.name), QString::number(countOf(kind.name, cycle)), {}, {}, changesText(kind)});
+    for (const auto& [column, names] : {std::pair{kNotFirst, &mix_.notFirst}, {kNotTwice, &mix_.notTwice}}) {
+      QTableWidgetItem* item = kinds_->item(row, column);
+      item->setFlags(Qt::ItemIsEnabled | Qt::ItemIsSelectable | Qt::ItemIsUserCheckable);
+      item->setCheckState(std::ranges::find(*names, kind.name) == names->end() ? Qt::Unchecked : Qt::Checked);
     }
   }
   remove_->setEnabled(kinds_->currentRow() >= 0 && kinds_->rowCount() > 0);
