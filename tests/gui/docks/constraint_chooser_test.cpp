@@ -117,29 +117,23 @@ TEST_F(Chooser, AFormulaWithoutAnyValueIsToldWhileItIsTyped) {
   EXPECT_FALSE(fault().contains(QStringLiteral("no value at any"))) << "it has one beyond 1: " << fault().toStdString();
 }
 
-TEST_F(Chooser, ASavedDefinitionIsInTheListAndReadsBack) {
-  typeFormulas("0", "0.1*cos(phi)", "0.05*sin(2*phi)");
+TEST_F(Chooser, ASavedDefinitionIsInTheListReadsBackAndHasItsSlidersInTheDock) {
+  typeFormulas("0", "0.1*cos(phi)", "depth*sin(2*phi)");
   type("definitionName", "my-eight");
   QTest::mouseClick(find<QPushButton>("save"), Qt::LeftButton);
   const auto own = constraints::readDefinitionFolder(constraints::userDefinitionFolder());
   ASSERT_EQ(own.size(), 1u) << find<QLabel>("saved")->text().toStdString();
   EXPECT_EQ(own[0].name, "my-eight");
-  EXPECT_EQ(own[0].coordinates[2], "0.05*sin(2*phi)");
+  EXPECT_EQ(own[0].coordinates[2], "depth*sin(2*phi)");
   EXPECT_EQ(find<QListWidget>("definitions")->count(), static_cast<int>(constraints::catalogue().size()) + 1);
-}
-
-TEST_F(Chooser, ASavedDefinitionHasItsSlidersInTheDock) {
-  typeFormulas("0", "0.1*cos(phi)", "depth*sin(2*phi)");
-  type("definitionName", "my-deep-eight");
-  QTest::mouseClick(find<QPushButton>("save"), Qt::LeftButton);
   experiment::Experiment onIt;
-  onIt.constraint.name = "my-deep-eight";
+  onIt.constraint.name = "my-eight";
   onIt.object.masses = {1};
   onIt.coupling = experiment::Coupling{600, 0};
   ConstraintDock dock;
   dock.showExperiment(experiment::CompiledExperiment(onIt), true);
-  EXPECT_NE(dock.findChild<QSlider*>(QStringLiteral("slider_depth")), nullptr);
-  std::filesystem::remove(constraints::userDefinitionFolder() + "/my-deep-eight.json");
+  child<QSlider>(dock, "slider_depth");
+  std::filesystem::remove(constraints::userDefinitionFolder() + "/my-eight.json");
 }
 
 TEST_F(Chooser, ASliderGoesWithItsName) {

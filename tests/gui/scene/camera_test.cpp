@@ -10,15 +10,18 @@ namespace {
 constexpr double kWidth = 900, kHeight = 600;
 constexpr double kRounding = 1e-9;  // a dozen operations on numbers of order 1 to 1000
 
-Camera lookAt(const Vec3& centre, const Vec3& direction) { return lookAtPoints(std::array{centre}, 0.2, direction, 1.5); }
+Camera lookAt(const Vec3& centre, const Vec3& direction, bool parallel = false) {
+  return lookAtPoints(std::array{centre}, 0.2, direction, 1.5, parallel);
+}
 
 TEST(Camera, APixelsPointIsDrawnAtThatPixel) {
   std::mt19937 random(7);
   std::uniform_real_distribution<double> any(-1, 1);
   for (int i = 0; i < 200; ++i) {
-    const Camera camera = lookAt({any(random), any(random), any(random)}, {any(random), any(random), 1.2});
+    const Camera camera = lookAt({any(random), any(random), any(random)}, {any(random), any(random), 1.2}, i % 2 == 0);
     const double x = 450 + 400 * any(random), y = 300 + 250 * any(random);
     const Vec3 point = pointUnder(camera, camera.focus, x, y, kWidth, kHeight);
+    EXPECT_EQ(metresPerPixel(camera, {1, 2, 3}, kHeight) == metresPerPixel(camera, camera.focus, kHeight), camera.parallel);
     const auto pixel = pixelOf(camera, point, kWidth, kHeight);
     EXPECT_NEAR(pixel[0], x, 1e3 * kRounding);
     EXPECT_NEAR(pixel[1], y, 1e3 * kRounding);
@@ -48,15 +51,17 @@ TEST(Camera, AViewOfPointsHoldsThemAllAndFillsThePicture) {
   std::uniform_real_distribution<double> any(-1, 1);
   std::vector<Vec3> points;
   for (int i = 0; i < 50; ++i) points.push_back({0.3 * any(random), 0.1 * any(random), 0.2 * any(random)});
-  const Camera camera = lookAtPoints(points, 0, {0.4, 0.3, 1}, kWidth / kHeight);
-  double nearest = kWidth;
-  for (const Vec3& p : points) {
-    const auto [x, y] = pixelOf(camera, p, kWidth, kHeight);
-    const double room = std::min({x, kWidth - x, y, kHeight - y});
-    EXPECT_GT(room, -1e-6);
-    nearest = std::min(nearest, room);
+  for (const bool parallel : {false, true}) {
+    const Camera camera = lookAtPoints(points, 0, {0.4, 0.3, 1}, kWidth / kHeight, parallel);
+    double nearest = kWidth;
+    for (const Vec3& p : points) {
+      const auto [x, y] = pixelOf(camera, p, kWidth, kHeight);
+      const double room = std::min({x, kWidth - x, y, kHeight - y});
+      EXPECT_GT(room, -1e-6);
+      nearest = std::min(nearest, room);
+    }
+    EXPECT_LT(nearest, 1);  // one of them touches the edge
   }
-  EXPECT_LT(nearest, 1);  // one of them touches the edge
 }
 
 TEST(Camera, LookingStraightDownStillHasARightAndAnUp) {

@@ -177,18 +177,6 @@ TEST_F(Looks, PicturesOfAFilmHaveOneEvenSize) {
   for (const QString& file : files) EXPECT_EQ(QImage(folder.filePath(file)).size(), QSize(600, 450)) << file.toStdString();
 }
 
-TEST(ParallelProjection, KeepsSizesAndFindsItsPointsAgain) {
-  const ScenePlan plan = planWith({}, "torus");
-  Camera camera = lookAtPoints(plan.seen, 0.1 * plan.size, plan.viewFrom, 1.5, true);
-  EXPECT_TRUE(camera.parallel);
-  EXPECT_DOUBLE_EQ(metresPerPixel(camera, plan.start, 600), metresPerPixel(camera, plan.target, 600));
-  for (const Vec3& p : plan.seen) {
-    const auto [x, y] = pixelOf(camera, p, 900, 600);
-    EXPECT_TRUE(x > 0 && x < 900 && y > 0 && y < 600) << x << ", " << y;
-    EXPECT_NEAR(norm(pointUnder(camera, p, x, y, 900, 600) - p), 0, 1e-9);
-  }
-}
-
 TEST(LightTheme, KeepsItsContrast) {
   using namespace widgets;
   const auto apart = [](const Colour& a, const Colour& b) { return contrast(lightOf(toQColor(a)), lightOf(toQColor(b))); };

@@ -33,6 +33,23 @@ struct Shown {
   std::array<double, 2> pixelOf(const std::vector<double>& q) const {
     return scene::pixelOf(camera, placeOn(constraint, q), kWidth, kHeight);
   }
+  struct Sample {
+    float x, y, depth;
+  };
+  // Where very many points of the shape are drawn.
+  std::vector<Sample> samples() const {
+    const bool surface = constraint.kind == constraints::ConstraintKind::Surface;
+    const int along = surface ? 450 : 50'000, across = surface ? 450 : 0;
+    std::vector<Sample> all;
+    for (int i = 0; i <= along; ++i)
+      for (int j = 0; j <= across; ++j) {
+        const std::vector<double> q = at(double(i) / along, across == 0 ? 0 : double(j) / across);
+        if (!isFinite(placeOn(constraint, q))) continue;
+        const auto [x, y] = pixelOf(q);
+        all.push_back({float(x), float(y), float(depthOf(q))});
+      }
+    return all;
+  }
   double depthOf(const std::vector<double>& q) const { return dot(placeOn(constraint, q) - camera.position, axesOf(camera).forward); }
 
   constraints::Constraint constraint;
@@ -47,18 +64,7 @@ TEST(PlaceUnder, IsDrawnAtThePixelAndInFrontOnEveryShippedShape) {
   for (const constraints::Definition& definition : constraints::catalogue()) {
     const Shown shown(definition);
     const bool surface = shown.constraint.kind == constraints::ConstraintKind::Surface;
-    const int along = surface ? 450 : 50'000, across = surface ? 450 : 0;
-    struct Sample {
-      float x, y, depth;
-    };
-    std::vector<Sample> samples;
-    for (int i = 0; i <= along; ++i)
-      for (int j = 0; j <= across; ++j) {
-        const std::vector<double> q = shown.at(double(i) / along, across == 0 ? 0 : double(j) / across);
-        if (!isFinite(placeOn(shown.constraint, q))) continue;
-        const auto [x, y] = shown.pixelOf(q);
-        samples.push_back({float(x), float(y), float(shown.depthOf(q))});
-      }
+    const std::vector<Shown::Sample> samples = shown.samples();
     for (int trial = 0; trial < (surface ? 12 : 20); ++trial) {
       const std::vector<double> q = shown.at(part(random), part(random));
       if (!isFinite(placeOn(shown.constraint, q))) continue;
@@ -69,7 +75,7 @@ TEST(PlaceUnder, IsDrawnAtThePixelAndInFrontOnEveryShippedShape) {
       const auto [foundX, foundY] = shown.pixelOf(*found);
       EXPECT_LE(std::hypot(foundX - x, foundY - y), kNear) << definition.name << " at " << q[0] << (surface ? q[1] : 0);
       double front = shown.depthOf(q);
-      for (const Sample& s : samples)
+      for (const Shown::Sample& s : samples)
         if (std::hypot(s.x - x, s.y - y) < 0.75) front = std::min(front, double(s.depth));
       EXPECT_LE(shown.depthOf(*found), front + kOneSheet * shown.plan.size)
           << definition.name << " shows another sheet at " << x << ' ' << y;
@@ -83,20 +89,15 @@ TEST(PlaceUnder, IsTheNearestThatIsDrawnWhereThePixelIsBeside) {
   std::uniform_real_distribution<double> part(0, 1);
   for (const char* name : {"ellipse", "trefoil", "cycloid", "line", "torus", "sphere", "moebius-strip", "helicoid", "monkey-saddle"}) {
     const Shown shown(*constraints::findInCatalogue(name));
-    const bool surface = shown.constraint.kind == constraints::ConstraintKind::Surface;
+    const std::vector<Shown::Sample> samples = shown.samples();
     for (int trial = 0; trial < 8; ++trial) {
       const double x = kWidth * part(random), y = kHeight * part(random);
       const auto found = placeUnder({shown.camera, x, y, kWidth, kHeight}, shown.constraint, shown.drawn, {});
       ASSERT_TRUE(found.has_value()) << name;
-      const auto apart = [&](const std::vector<double>& q) {
-        const auto [qx, qy] = shown.pixelOf(q);
-        return std::hypot(qx - x, qy - y);
-      };
       double least = 1e9;
-      const int along = surface ? 300 : 50'000, across = surface ? 300 : 0;
-      for (int i = 0; i <= along; ++i)
-        for (int j = 0; j <= across; ++j) least = std::min(least, apart(shown.at(double(i) / along, across == 0 ? 0 : double(j) / across)));
-      EXPECT_LE(apart(*found), least + 0.05) << name << " at " << x << ' ' << y;
+      for (const Shown::Sample& s : samples) least = std::min(least, std::hypot(s.x - x, s.y - y));
+      const auto [foundX, foundY] = shown.pixelOf(*found);
+      EXPECT_LE(std::hypot(foundX - x, foundY - y), least + 0.05) << name << " at " << x << ' ' << y;
     }
   }
 }
