@@ -81,7 +81,8 @@ class Scene {
 
   Model read() {
     if (model_.scenes.empty()) throw Refused("there is no scene");
-    for (const int node : at(model_.scenes, model_.defaultScene < 0 ? 0 : model_.defaultScene, "scene").nodes) addNode(node, {}, {}, 0);
+    for (const int node : at(model_.scenes, model_.defaultScene < 0 ? 0 : model_.defaultScene, "scene").nodes)
+      addNode(node, Transform::Identity(), {}, 0);
     return std::move(out_);
   }
 
@@ -95,10 +96,11 @@ class Scene {
   static Transform frameOf(const tinygltf::Node& node) {
     if (!node.matrix.empty()) {
       if (node.matrix.size() != 16) throw Refused("a matrix has " + std::to_string(node.matrix.size()) + " numbers");
-      const auto& m = node.matrix;
-      return {{Vec3{m[0], m[1], m[2]}, Vec3{m[4], m[5], m[6]}, Vec3{m[8], m[9], m[10]}}, Vec3{m[12], m[13], m[14]}};
+      Transform frame = Transform::Identity();
+      frame.affine() = Eigen::Map<const Eigen::Matrix4d>(node.matrix.data()).topRows<3>();
+      return frame;
     }
-    Transform turn;
+    Transform turn = Transform::Identity();
     if (!node.rotation.empty()) {
       if (node.rotation.size() != 4) throw Refused("a rotation has " + std::to_string(node.rotation.size()) + " numbers");
       const Vec3 axis{node.rotation[0], node.rotation[1], node.rotation[2]};
@@ -112,7 +114,7 @@ class Scene {
     const tinygltf::Node& node = at(model_.nodes, index, "node");
     const bool named = isMoving(node.name);
     Transform own = frameOf(node);
-    if (named) own.shift = {};
+    if (named) own.translation().setZero();
     const Transform frame = named ? own : outer * own;
     const std::string& name = named ? node.name : moving;
     if (node.mesh >= 0)
@@ -130,7 +132,7 @@ class Scene {
     part.name = name;
     for (std::size_t i = 0; i < places.count; ++i) {
       const auto [x, y, z] = places.at<std::array<float, 3>>(i);
-      part.points.push_back(frame({x, y, z}));
+      part.points.push_back(mapped(frame, {x, y, z}));
     }
     std::vector<std::uint32_t> corners;
     if (primitive.indices >= 0) {

@@ -2,11 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 
 #include "gui/model/shapes.h"
+#include "gui/model/transform.h"
 #include "gui/model/vrml_words.h"
 
 namespace reachlab::gui::model {
@@ -23,8 +25,8 @@ struct Look {
 // A node as it was read; DEF names it, USE means it again.
 struct Node {
   std::string name;
-  Transform frame;    // of a Transform
-  Transform unmoved;  // the same without its shift
+  Transform frame = Transform::Identity();    // of a Transform
+  Transform unmoved = Transform::Identity();  // the same without its shift
   std::vector<std::shared_ptr<const Node>> children;
   std::shared_ptr<const Node> appearance, geometry;  // of a Shape
   std::optional<Look> look;                          // of an Appearance or Material
@@ -34,6 +36,12 @@ struct Node {
 };
 
 using NodePtr = std::shared_ptr<const Node>;
+
+// About an axis. [rad]
+struct Turn {
+  Vec3 axis{0, 0, 1};
+  double angle = 0;
+};
 
 const char* const kKnown =
     "Group, Transform, Shape, Appearance, Material, Box, Sphere, Cylinder, Cone, IndexedFaceSet, Coordinate, Anchor, Billboard, Collision";
@@ -151,158 +159,157 @@ class Reader {
     }
   }
 
-  // Field after field up to the node's end; `take` says whether it knew the field.
-  template <typename Take>
-  void readFields(const std::string& type, Take take) {
+  // Takes the value of the field of that name.
+  using TakeField = std::function<void(const std::string& field)>;
+
+  // Field after field up to the node's end. The value of a field that is not known is passed over.
+  void readFields(const std::string& type, const std::map<std::string, TakeField>& known) {
     while (!words_.tryTake("}")) {
       if (words_.ended()) words_.fail(type, "ends in the middle", "}");
       if (words_.isQuoted() || words_.isBracket() || isNumber(words_.word()))
         words_.fail(type, fmt::format("has {} where a field begins", words_.shown()));
       if (skipRoute()) continue;
       const std::string field = words_.take();
-      if (!take(field)) skipValue(field);
+      const auto take = known.find(field);
+      if (take != known.end()) take->second(field);
+      else skipValue(field);
     }
   }
 
-  Vec3 readVector(const std::string& key) {
-    const double x = words_.number(key), y = words_.number(key), z = words_.number(key);
-    return {x, y, z};
+  void read(const std::string& field, Vec3& vector) {
+    for (double* const part : {&vector.x, &vector.y, &vector.z}) *part = words_.number(field);
+  }
+  void read(const std::string& field, Turn& turn) {
+    read(field, turn.axis);
+    turn.angle = words_.number(field);
+  }
+  void read(const std::string& field, bool& value) {
+    value = words_.tryTake("TRUE");
+    if (!value && !words_.tryTake("FALSE")) words_.fail(field, "has " + words_.shown(), "TRUE, FALSE");
+  }
+  void readLength(const std::string& field, double& value) {
+    value = words_.number(field);
+    if (!(value > 0)) words_.fail(field, fmt::format("is {}", value), "more than 0");
+  }
+  double readShare(const std::string& field) {
+    const double value = words_.number(field);
+    if (value < 0 || value > 1) words_.fail(field, fmt::format("is {}", value), "0 to 1");
+    return value;
+  }
+  // One value, or several in brackets.
+  template <typename ReadOne>
+  void readList(ReadOne readOne) {
+    if (!words_.tryTake("[")) return readOne();
+    while (!words_.tryTake("]")) readOne();
   }
 
-  void readChildren(std::vector<NodePtr>& children, int depth) {
-    if (!words_.tryTake("[")) return readStatement(children, depth + 1);
-    while (!words_.tryTake("]")) {
-      if (words_.ended()) words_.fail("children", "ends in the middle", "]");
-      readStatement(children, depth + 1);
-    }
+  template <typename Value>
+  TakeField into(Value& value) {
+    return [this, &value](const std::string& field) { read(field, value); };
+  }
+  TakeField lengthInto(double& value) {
+    return [this, &value](const std::string& field) { readLength(field, value); };
+  }
+  TakeField childrenInto(Node& node, int depth) {
+    return [this, &node, depth](const std::string& field) {
+      if (!words_.tryTake("[")) return readStatement(node.children, depth + 1);
+      while (!words_.tryTake("]")) {
+        if (words_.ended()) words_.fail(field, "ends in the middle", "]");
+        readStatement(node.children, depth + 1);
+      }
+    };
   }
 
-  void readGroup(Node& node, int depth) {
-    readFields("Group", [&](const std::string& field) { return field == "children" && (readChildren(node.children, depth), true); });
-  }
+  void readGroup(Node& node, int depth) { readFields("Group", {{"children", childrenInto(node, depth)}}); }
 
   void readTransform(Node& node, int depth) {
-    Vec3 shift, centre, scale{1, 1, 1}, axis{0, 0, 1}, scaleAxis{0, 0, 1};
-    double angle = 0, scaleAngle = 0;
-    readFields("Transform", [&](const std::string& field) {
-      if (field == "translation") shift = readVector(field);
-      else if (field == "center") centre = readVector(field);
-      else if (field == "scale") scale = readVector(field);
-      else if (field == "rotation") axis = readVector(field), angle = words_.number(field);
-      else if (field == "scaleOrientation") scaleAxis = readVector(field), scaleAngle = words_.number(field);
-      else if (field == "children") readChildren(node.children, depth);
-      else return false;
-      return true;
-    });
-    const Transform inner = turned(axis, angle) * turned(scaleAxis, scaleAngle) * scaled(scale) * turned(scaleAxis, -scaleAngle);
-    node.unmoved = inner;
-    node.frame = shifted(shift + centre) * inner * shifted(-centre);
+    Vec3 shift, centre, scale{1, 1, 1};
+    Turn turn, scaleTurn;
+    readFields("Transform", {{"translation", into(shift)},
+                             {"center", into(centre)},
+                             {"scale", into(scale)},
+                             {"rotation", into(turn)},
+                             {"scaleOrientation", into(scaleTurn)},
+                             {"children", childrenInto(node, depth)}});
+    node.unmoved =
+        turned(turn.axis, turn.angle) * turned(scaleTurn.axis, scaleTurn.angle) * scaled(scale) * turned(scaleTurn.axis, -scaleTurn.angle);
+    node.frame = shifted(shift + centre) * node.unmoved * shifted(-centre);
   }
 
   void readShape(Node& node, int depth) {
-    readFields("Shape", [&](const std::string& field) {
-      const bool appearance = field == "appearance";
-      if (!appearance && field != "geometry") return false;
-      if (words_.tryTake("NULL")) return true;
-      NodePtr read = readNode(depth + 1);
-      if (!(appearance ? read->look.has_value() : read->solid.has_value()) && !read->passedOver)
-        words_.fail(field, appearance ? "is no Appearance" : "is no geometry",
-                    appearance ? "Appearance" : "Box, Sphere, Cylinder, Cone, IndexedFaceSet");
-      (appearance ? node.appearance : node.geometry) = std::move(read);
-      return true;
-    });
+    const auto partInto = [&](NodePtr& part, auto has, const char* refusal, const char* allowed) {
+      return [this, &part, depth, has, refusal, allowed](const std::string& field) {
+        if (words_.tryTake("NULL")) return;
+        part = readNode(depth + 1);
+        if (!(*part.*has) && !part->passedOver) words_.fail(field, refusal, allowed);
+      };
+    };
+    readFields("Shape",
+               {{"appearance", partInto(node.appearance, &Node::look, "is no Appearance", "Appearance")},
+                {"geometry", partInto(node.geometry, &Node::solid, "is no geometry", "Box, Sphere, Cylinder, Cone, IndexedFaceSet")}});
   }
 
   void readAppearance(Node& node, int depth) {
     node.look = Look{};
-    readFields("Appearance", [&](const std::string& field) {
-      if (field != "material") return false;
-      if (words_.tryTake("NULL")) return true;
-      const NodePtr read = readNode(depth + 1);
-      if (!read->look) words_.fail(field, "is no Material", "Material");
-      node.look = read->look;
-      return true;
-    });
+    readFields("Appearance", {{"material", [&](const std::string& field) {
+                                 if (words_.tryTake("NULL")) return;
+                                 node.look = readNode(depth + 1)->look;
+                                 if (!node.look) words_.fail(field, "is no Material", "Material");
+                               }}});
   }
 
   void readMaterial(Node& node, int) {
-    Look look;
-    const auto share = [&](const std::string& field) {
-      const double value = words_.number(field);
-      if (value < 0 || value > 1) words_.fail(field, fmt::format("is {}", value), "0 to 1");
-      return value;
+    Look& look = node.look.emplace();
+    const auto readColour = [&](const std::string& field) {
+      for (double& part : look.colour) part = readShare(field);
     };
-    readFields("Material", [&](const std::string& field) {
-      if (field == "diffuseColor") {
-        for (double& part : look.colour) part = share(field);
-      } else if (field == "transparency") {
-        look.opacity = 1 - share(field);
-      } else {
-        return false;
-      }
-      return true;
-    });
-    node.look = look;
-  }
-
-  double length(const std::string& field) {
-    const double value = words_.number(field);
-    if (!(value > 0)) words_.fail(field, fmt::format("is {}", value), "more than 0");
-    return value;
-  }
-  bool boolean(const std::string& field) {
-    if (words_.tryTake("TRUE")) return true;
-    if (words_.tryTake("FALSE")) return false;
-    words_.fail(field, "has " + words_.shown(), "TRUE, FALSE");
+    const auto readOpacity = [&](const std::string& field) { look.opacity = 1 - readShare(field); };
+    readFields("Material", {{"diffuseColor", readColour}, {"transparency", readOpacity}});
   }
 
   void readBox(Node& node, int) {
     Vec3 size{2, 2, 2};
-    readFields("Box", [&](const std::string& field) {
-      if (field != "size") return false;
-      size.x = length(field), size.y = length(field), size.z = length(field);
-      return true;
-    });
-    addBox(node.solid.emplace(), {}, size);
+    const auto readSize = [&](const std::string& field) {
+      for (double* const side : {&size.x, &size.y, &size.z}) readLength(field, *side);
+    };
+    readFields("Box", {{"size", readSize}});
+    addBox(node.solid.emplace(), size);
   }
 
   void readSphere(Node& node, int) {
     double radius = 1;
-    readFields("Sphere", [&](const std::string& field) { return field == "radius" && (radius = length(field), true); });
-    addSphere(node.solid.emplace(), {}, radius);
+    readFields("Sphere", {{"radius", lengthInto(radius)}});
+    addSphere(node.solid.emplace(), radius);
   }
 
-  void readCylinder(Node& node, int) { readRound(node, "Cylinder", "radius"); }
-  void readCone(Node& node, int) { readRound(node, "Cone", "bottomRadius"); }
-
-  // A cone has no top.
-  void readRound(Node& node, const std::string& type, const std::string& radiusField) {
-    const bool cone = type == "Cone";
+  void readCylinder(Node& node, int) {
     double radius = 1, height = 2;
-    bool side = true, top = !cone, bottom = true;
-    readFields(type, [&](const std::string& field) {
-      if (field == radiusField) radius = length(field);
-      else if (field == "height") height = length(field);
-      else if (field == "side") side = boolean(field);
-      else if (field == "top" && !cone) top = boolean(field);
-      else if (field == "bottom") bottom = boolean(field);
-      else return false;
-      return true;
-    });
-    addFrustum(node.solid.emplace(), {}, radius, cone ? 0 : radius, height, bottom, top, side);
+    bool side = true, top = true, bottom = true;
+    readFields("Cylinder", {{"radius", lengthInto(radius)},
+                            {"height", lengthInto(height)},
+                            {"side", into(side)},
+                            {"top", into(top)},
+                            {"bottom", into(bottom)}});
+    addFrustum(node.solid.emplace(), radius, radius, height, bottom, top, side);
+  }
+
+  void readCone(Node& node, int) {
+    double radius = 1, height = 2;
+    bool side = true, bottom = true;
+    readFields("Cone",
+               {{"bottomRadius", lengthInto(radius)}, {"height", lengthInto(height)}, {"side", into(side)}, {"bottom", into(bottom)}});
+    addFrustum(node.solid.emplace(), radius, 0, height, bottom, false, side);
   }
 
   void readCoordinate(Node& node, int) {
     std::vector<Vec3>& points = node.points.emplace();
-    readFields("Coordinate", [&](const std::string& field) {
-      if (field != "point") return false;
-      if (!words_.tryTake("[")) return points.push_back(readVector(field)), true;
-      while (!words_.tryTake("]")) {
-        if (points.size() >= kMostPoints) words_.fail(field, fmt::format("has more than {} points", kMostPoints), "fewer");
-        points.push_back(readVector(field));
-      }
-      return true;
-    });
+    readFields("Coordinate", {{"point", [&](const std::string& field) {
+                                 readList([&] {
+                                   if (points.size() >= kMostPoints)
+                                     words_.fail(field, fmt::format("has more than {} points", kMostPoints), "fewer");
+                                   read(field, points.emplace_back());
+                                 });
+                               }}});
   }
 
   // A face that turns back at a corner is cut wrongly by a fan: such a face is to be written as several.
@@ -310,24 +317,19 @@ class Reader {
     NodePtr points;
     std::vector<int> corners;
     bool counterClockwise = true, convex = true;
-    readFields("IndexedFaceSet", [&](const std::string& field) {
-      if (field == "ccw") counterClockwise = boolean(field);
-      else if (field == "convex") convex = boolean(field);
-      else if (field == "coord") {
-        if (words_.tryTake("NULL")) return true;
-        points = readNode(depth + 1);
-        if (!points->points) words_.fail(field, "is no Coordinate", "Coordinate");
-      } else if (field == "coordIndex") {
-        if (!words_.tryTake("[")) return corners.push_back(words_.whole(field)), true;
-        while (!words_.tryTake("]")) {
-          if (corners.size() >= 4 * kMostPoints) words_.fail(field, "has too many corners", "fewer");
-          corners.push_back(words_.whole(field));
-        }
-      } else {
-        return false;
-      }
-      return true;
-    });
+    const auto readPoints = [&](const std::string& field) {
+      if (words_.tryTake("NULL")) return;
+      points = readNode(depth + 1);
+      if (!points->points) words_.fail(field, "is no Coordinate", "Coordinate");
+    };
+    const auto readCorners = [&](const std::string& field) {
+      readList([&] {
+        if (corners.size() >= 4 * kMostPoints) words_.fail(field, "has too many corners", "fewer");
+        corners.push_back(words_.whole(field));
+      });
+    };
+    readFields("IndexedFaceSet",
+               {{"ccw", into(counterClockwise)}, {"convex", into(convex)}, {"coord", readPoints}, {"coordIndex", readCorners}});
     ModelPart& solid = node.solid.emplace();
     if (points) solid.points = *points->points;
     std::vector<std::uint32_t> face;
@@ -373,8 +375,8 @@ void collect(const Node& node, const Transform& frame, const std::string& moving
     work.triangles += part.triangles.size();
     if (work.triangles > kMostTriangles)
       throw FaultError(Fault{{}, fmt::format("has more than {} triangles", kMostTriangles), "a smaller scene", FilePlace{file}});
-    const Transform own = named ? Transform{} : frame;
-    for (Vec3& p : part.points) p = own(p);
+    const Transform own = named ? Transform::Identity() : frame;
+    for (Vec3& p : part.points) p = mapped(own, p);
     part.name = name;
     if (node.appearance && node.appearance->look)
       part.colour = node.appearance->look->colour, part.opacity = node.appearance->look->opacity;
@@ -392,7 +394,7 @@ Model readVrml(std::string_view text, const std::string& file, const Watch& watc
     throw FaultError(Fault{{}, "does not begin as a VRML 2.0 file", std::string(kHead), FilePlace{file, 1, 1}});
   Model model;
   Work work;
-  for (const NodePtr& node : Reader(text, file, watch).readAll()) collect(*node, {}, {}, file, work, model);
+  for (const NodePtr& node : Reader(text, file, watch).readAll()) collect(*node, Transform::Identity(), {}, file, work, model);
   if (model.parts.empty()) throw FaultError(Fault{{}, "has nothing to draw", "a Shape with a geometry", FilePlace{file}});
   check(model, file);
   return model;
