@@ -16,6 +16,9 @@ void refuseEmptyWords(int argc, const char* const* argv) {
   }
 }
 
+namespace {
+
+// "nan" and "inf" would read like defaults and would be recorded.
 std::string finiteNumberFault(const std::string& text) {
   std::string word;
   for (const char c : text)
@@ -23,12 +26,30 @@ std::string finiteNumberFault(const std::string& text) {
   return word.starts_with("nan") || word.starts_with("inf") ? "is " + text + "; allowed: a finite number" : std::string();
 }
 
+// By zeros in front a library would take 010 for eight.
 std::string withoutLeadingZeros(const std::string& text) {
   const std::size_t sign = text.starts_with('-') || text.starts_with('+') ? 1 : 0;
   if (!std::all_of(text.begin() + static_cast<std::ptrdiff_t>(sign), text.end(), [](unsigned char c) { return std::isdigit(c) != 0; }))
     return text;
   const std::size_t first = text.find_first_not_of('0', sign);
   return text.substr(0, sign) + (first == std::string::npos ? (text.size() > sign ? "0" : "") : text.substr(first));
+}
+
+}  // namespace
+
+void checkEveryNumber(CLI::App& command) {
+  for (CLI::Option* option : command.get_options()) {
+    const std::string type = option->get_type_name();
+    if (type.find("FLOAT") != std::string::npos)
+      option->check(CLI::Validator([](std::string& text) { return finiteNumberFault(text); }, ""));
+    if (type.find("INT") == std::string::npos) continue;
+    const auto toDecimal = [](std::string& text) {
+      text = withoutLeadingZeros(text);
+      return std::string();
+    };
+    option->transform(CLI::Validator(toDecimal, ""));
+  }
+  for (CLI::App* sub : command.get_subcommands({})) checkEveryNumber(*sub);
 }
 
 }  // namespace reachlab

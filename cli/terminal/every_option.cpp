@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "base/fault.h"
-#include "base/terminal/command_words.h"
 #include "sim/experiment/resources.h"
 #include "sim/record/log/log.h"
 #include "sim/record/log/logs_folder.h"
@@ -64,21 +63,6 @@ bool isSameFile(const std::string& output, const std::string& input) {
 }
 
 }  // namespace
-
-void checkEveryNumber(CLI::App& command) {
-  for (CLI::Option* option : command.get_options()) {
-    const std::string type = option->get_type_name();
-    if (type.find("FLOAT") != std::string::npos)
-      option->check(CLI::Validator([](std::string& text) { return finiteNumberFault(text); }, ""));
-    if (type.find("INT") == std::string::npos) continue;
-    const auto toDecimal = [](std::string& text) {
-      text = withoutLeadingZeros(text);
-      return std::string();
-    };
-    option->transform(CLI::Validator(toDecimal, ""));
-  }
-  for (CLI::App* sub : command.get_subcommands({})) checkEveryNumber(*sub);
-}
 
 void checkOutputs(const CLI::App& app) {
   const std::vector<Value> values = givenValues(app);

@@ -4,9 +4,6 @@
 /// Rules for the options of every command, so that no command can forget them.
 namespace reachlab::cli {
 
-/// Adds to every option of `command` and its commands: a number is finite, and a whole number is read in decimal (010 is ten).
-void checkEveryNumber(CLI::App& command);
-
 /// To be called after parsing, before the command works. Throws FaultError where `--out` or `--figure` names an input of the command or a
 /// recording. Throws it too where `--out`, `--figure`, `--data` or `--backup` lies in a dataset's `sourcedata`.
 void checkOutputs(const CLI::App& app);

@@ -101,14 +101,7 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
   app.footer(
       "Examples:\n  reachlab chain-moderate\n  reachlab paper --subject 03 --session 01\n  reachlab data\n  reachlab parallel --device simulated --trials "
       "5\n  reachlab chain-two-hands --station 1 --conductor --peers lab");
-  for (CLI::Option* option : app.get_options())
-    if (option->get_type_name().find("INT") != std::string::npos)
-      option->transform(CLI::Validator(
-          [](std::string& text) {
-            text = withoutLeadingZeros(text);
-            return std::string();
-          },
-          ""));
+  checkEveryNumber(app);
   refuseEmptyWords(argc, argv);
   app.parse(argc, argv);
   parseStation(app, number, observes, *station, setup, a);
