@@ -13,7 +13,6 @@
 #include "base/system/helper_program.h"
 #include "base/text_file.h"
 #include "gui/model/model_stream.h"
-#include "gui/model/vrml.h"
 
 namespace reachlab::gui::model {
 namespace {

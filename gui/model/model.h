@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/math/vec3.h"
@@ -38,6 +39,12 @@ void check(const Model& model, const std::string& file);
 
 /// Called now and then with the finished share [0, 1], or NaN if it is not known. It throws to stop the work.
 using Watch = std::function<void(double share)>;
+
+/// Reads a scene in VRML 2.0 (ISO/IEC 14772): groups, transforms, DEF and USE, boxes, balls, cylinders, cones and faces with a material.
+/// Lights, views and scripts of the file are ignored. Prototypes and inlined files are refused. A node with a name of isMoving() is a part
+/// of that name. It keeps the frame of its node without its shift, so that its origin follows the mass. Throws FaultError with position,
+/// found text and allowed text.
+Model readVrml(std::string_view text, const std::string& file, const Watch& watch = {});
 
 /// Reads a scene file by its ending: wrl (VRML 2.0), gltf or glb (read by a separate process). Throws FaultError, ResourceError.
 Model readModel(const std::string& file, const Watch& watch = {});

@@ -1,5 +1,3 @@
-#include "gui/model/vrml.h"
-
 #include <fmt/format.h>
 
 #include <functional>

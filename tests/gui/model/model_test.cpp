@@ -12,7 +12,6 @@
 #include "gui/model/model.h"
 #include "gui/model/model_reader.h"
 #include "gui/model/model_stream.h"
-#include "gui/model/vrml.h"
 #include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 
