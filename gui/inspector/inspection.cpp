@@ -44,7 +44,7 @@ void Inspector::tellProgress(const Turn& turn, const QString& what, std::size_t 
 
 void Inspector::open(const QString& path) {
   start([this, path = path.toStdString()](const Turn& turn) {
-    const QString cache = QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation) + QStringLiteral("/reachlab");
+    const QString cache = QStandardPaths::writableLocation(QStandardPaths::GenericCacheLocation) + "/reachlab";
     const record::IndexProgress progress = [&](std::size_t done, std::size_t of) {
       tellProgress(turn, tr("indexing"), done, of);
       return !turn.stop.stop_requested();
@@ -60,14 +60,14 @@ void Inspector::begin(std::vector<analysis::ChosenTrials> chosen) {
   start([this, chosen = std::move(chosen)](const Turn& turn) {
     const auto found = std::make_shared<Inspection>(measure(analysis::readChosen(chosen, [&] { return !turn.stop.stop_requested(); })));
     turn.goOn();
-    turn.tell([this, read = std::make_shared<const Inspection>(*found)] { Q_EMIT this->read(read); });
+    turn.tell([this, read = std::make_shared<const Inspection>(*found)] { Q_EMIT inspected(read); });
     if (found->input.trials.empty()) return;
     found->analysis = std::make_shared<analysis::Analysis>(analysis::analyzeTrials(found->input, {}, [&](std::size_t done, std::size_t) {
       turn.goOn();
       tellProgress(turn, tr("fitting"), done, found->input.trials.size());
     }));
     turn.goOn();
-    turn.tell([this, found] { Q_EMIT judged(found); });
+    turn.tell([this, found] { Q_EMIT inspected(found); });
   });
 }
 

@@ -24,7 +24,7 @@ class Inspector : public QObject {
  public:
   /// Lists the trials of a dataset, a session or a log. `indexed` follows, with what was listed if it is cancelled.
   void open(const QString& path);
-  /// `read` follows, then `judged`. The numbers are `reach analyze`'s for a dataset of just these trials.
+  /// `inspected` follows when the trials are read, and once more when they are judged. The numbers are `reach analyze`'s for a dataset of just these trials.
   void begin(std::vector<analysis::ChosenTrials> chosen);
   /// `fitted` follows, if the trials can be fitted. No sample of them stays in memory.
   void fit(std::vector<analysis::ChosenTrials> chosen);
@@ -36,8 +36,7 @@ class Inspector : public QObject {
 
  Q_SIGNALS:
   void indexed(const reachlab::record::TrialIndex& index);
-  void read(const std::shared_ptr<const reachlab::gui::inspector::Inspection>& inspection);
-  void judged(const std::shared_ptr<const reachlab::gui::inspector::Inspection>& inspection);
+  void inspected(const std::shared_ptr<const reachlab::gui::inspector::Inspection>& inspection);
   /// The fitted epsilon of each criterion over the chosen trials. [m/s]
   void fitted(const std::vector<std::optional<double>>& epsilons);
   void reported(const QString& file);

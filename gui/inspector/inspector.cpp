@@ -45,12 +45,11 @@ void InspectorPage::fitColumns() {
     int width = heading.horizontalAdvance(table_->headerData(column, Qt::Horizontal, Qt::DisplayRole).toString());
     for (int row = 0; row < std::min(table_->rowCount(), kMostRows); ++row)
       width = std::max(width, words.horizontalAdvance(table_->index(row, column).data().toString()));
-    if (column == TrialTable::kPaper || column == TrialTable::kFitted)
-      width = std::max(width, words.horizontalAdvance(QStringLiteral("0.0000")));
+    if (column == TrialTable::kPaper || column == TrialTable::kFitted) width = std::max(width, words.horizontalAdvance("0.0000"));
     view_->setColumnWidth(column, width + kMargins);
     if (column == TrialTable::kOutcome) outcomeWidth_ = width + kMargins;
   }
-  view_->setColumnWidth(TrialTable::kMark, words.horizontalAdvance(QStringLiteral("marks")) + kMargins);  // stretched where there is room
+  view_->setColumnWidth(TrialTable::kMark, words.horizontalAdvance("marks") + kMargins);  // stretched where there is room
   fitHalves();
 }
 
@@ -58,12 +57,11 @@ void InspectorPage::fitColumns() {
 void InspectorPage::fitHalves() {
   if (halvesMoved_ || table_->rowCount() == 0) return;
   const QFontMetrics words(view_->font());
-  int others =
-      words.horizontalAdvance(QStringLiteral("marks")) + view_->verticalScrollBar()->sizeHint().width() + 2 * view_->frameWidth() + 14;
+  int others = words.horizontalAdvance("marks") + view_->verticalScrollBar()->sizeHint().width() + 2 * view_->frameWidth() + 14;
   for (int column = 0; column < TrialTable::kMark; ++column)
     if (column != TrialTable::kOutcome) others += view_->columnWidth(column);
   const int room = halves_->width() - halves_->handleWidth() - halves_->widget(1)->minimumSizeHint().width();
-  const int outcome = std::clamp(room - others, std::min(outcomeWidth_, words.horizontalAdvance(QStringLiteral("✗ …"))), outcomeWidth_);
+  const int outcome = std::clamp(room - others, std::min(outcomeWidth_, words.horizontalAdvance("✗ …")), outcomeWidth_);
   view_->setColumnWidth(TrialTable::kOutcome, outcome);
   halves_->setSizes({others + outcome, std::max(1, halves_->width() - others - outcome)});
 }
@@ -112,7 +110,7 @@ void InspectorPage::wire() {
     connect(work, &Inspector::progressed, this, [this](const QString& what, int done, int of) {
       progress_->setRange(0, of);
       progress_->setValue(done);
-      progress_->setFormat(what + QStringLiteral(" %v / %m"));
+      progress_->setFormat(what + " %v / %m");
       progress_->show();
       cancel_->show();
     });
@@ -123,13 +121,10 @@ void InspectorPage::wire() {
     });
   }
   connect(&opener_, &Inspector::indexed, this, &InspectorPage::opened);
-  connect(&inspector_, &Inspector::read, this, [this](const std::shared_ptr<const Inspection>& found) {
+  connect(&inspector_, &Inspector::inspected, this, [this](const std::shared_ptr<const Inspection>& found) {
     inspection_ = found;
-    showRead();
-  });
-  connect(&inspector_, &Inspector::judged, this, [this](const std::shared_ptr<const Inspection>& found) {
-    inspection_ = found;
-    showJudged();
+    if (found->analysis) showJudged();
+    else showRead();
   });
   connect(&inspector_, &Inspector::reported, this, [this](const QString& file) {
     Q_EMIT told(tr("The report is in %1.").arg(file));
@@ -146,7 +141,7 @@ void InspectorPage::addKeys() {
   key(Qt::Key_P, [this] { replay_->togglePlaying(); });
   key(Qt::Key_Comma, [this] { replay_->step(-1); });
   key(Qt::Key_Period, [this] { replay_->step(1); });
-  key(QKeySequence(QStringLiteral("Ctrl+F")), [this] { words_->setFocus(), words_->selectAll(); });
+  key(QKeySequence("Ctrl+F"), [this] { words_->setFocus(), words_->selectAll(); });
 }
 
 std::vector<int> InspectorPage::chosenRows() const {
@@ -390,7 +385,7 @@ void InspectorPage::save(const QString& title, const QString& proposed, const QS
                          const std::function<void(const QString&)>& write) {
   QString file = QFileDialog::getSaveFileName(this, title, proposed, kinds);
   if (file.isEmpty()) return;
-  const bool oneKind = !kinds.contains(QStringLiteral(";;"));
+  const bool oneKind = !kinds.contains(";;");
   if (oneKind && QFileInfo(file).suffix().isEmpty()) file += QLatin1Char('.') + QFileInfo(proposed).suffix();
   attempt([&] {
     write(file);

@@ -34,7 +34,6 @@ void TrialTable::setIndex(record::TrialIndex index) {
   }
   marks_.assign(index_.runs.size(), std::nullopt);
   errors_.clear();
-  errors_.resize(places_.size());
   endResetModel();
 }
 
@@ -58,10 +57,9 @@ const record::RunMarks& TrialTable::marksOf(std::size_t run) const {
 }
 
 record::TrialMark TrialTable::mark(int row) const {
-  record::TrialMark none;
-  none.trial = trial(row).trial;
-  const record::TrialMark* found = marksOf(places_[static_cast<std::size_t>(row)].run).find(none.trial);
-  return found == nullptr ? none : *found;
+  const int number = trial(row).trial;
+  const record::TrialMark* found = marksOf(places_[static_cast<std::size_t>(row)].run).find(number);
+  return found == nullptr ? record::TrialMark{.trial = number} : *found;
 }
 
 void TrialTable::setMark(int row, const record::TrialMark& mark) {
@@ -74,7 +72,7 @@ void TrialTable::setMark(int row, const record::TrialMark& mark) {
 }
 
 void TrialTable::setErrors(int row, const TrialErrors& errors) {
-  errors_[static_cast<std::size_t>(row)] = std::make_unique<TrialErrors>(errors);
+  errors_[row] = errors;
   Q_EMIT dataChanged(index(row, kPaper), index(row, kFitted));
 }
 
@@ -86,9 +84,9 @@ void TrialTable::showCriterion(predict::Criterion criterion) {
 }
 
 std::optional<double> TrialTable::error(int row, bool fitted) const {
-  const TrialErrors* errors = errors_[static_cast<std::size_t>(row)].get();
-  if (errors == nullptr) return std::nullopt;
-  return (fitted ? errors->fitted : errors->paper)[static_cast<std::size_t>(criterion_)];
+  const auto errors = errors_.find(row);
+  if (errors == errors_.end()) return std::nullopt;
+  return (fitted ? errors->second.fitted : errors->second.paper)[static_cast<std::size_t>(criterion_)];
 }
 
 QString TrialTable::text(int row, int column) const {
@@ -102,8 +100,7 @@ QString TrialTable::text(int row, int column) const {
     case kCondition: return from(r.conditionOf(t)) + (r.practice ? tr(" (practice)") : QString());
     case kRun: return QString::number(r.run);
     case kTrial: return QString::number(t.trial);
-    case kOutcome:
-      return t.result.outcome == trial::Outcome::Success ? QStringLiteral("✓") : QStringLiteral("✗ ") + scene::reasonText(t.result.reason);
+    case kOutcome: return t.result.outcome == trial::Outcome::Success ? "✓" : QStringLiteral("✗ ") + scene::reasonText(t.result.reason);
     case kTime: return number(kMovementTime.of(t), 3);
     case kPeak: return t.result.onsetTick > 0 ? number(kPeakSpeed.of(t), 3) : QString();
     case kPaper: return optional(error(row, false));
@@ -117,14 +114,14 @@ QString TrialTable::markWords(int row) const {
   QStringList words;
   try {
     const record::TrialMark own = mark(row);
-    if (own.flagged) words << QStringLiteral("⚑");
+    if (own.flagged) words << "⚑";
     if (!own.excluded.empty()) words << tr("excluded: %1").arg(from(own.excluded));
     if (own.onset || own.offset) words << tr("moved");
     if (!own.note.empty()) words << from(own.note);
   } catch (const Error&) {
     return tr("marks cannot be read");
   }
-  return words.join(QStringLiteral("  "));
+  return words.join("  ");
 }
 
 QVariant TrialTable::sortKey(int row, int column) const {
@@ -189,7 +186,7 @@ QString TrialTable::words(int row) const {
              .arg(trial(row).trial);
   const std::string_view outcome = trial::nameOf(trial(row).result.outcome);
   all << QString::fromUtf8(outcome.data(), static_cast<int>(outcome.size()));
-  if (all.at(4).contains(QStringLiteral("⚑"))) all << QStringLiteral("flagged");
+  if (all.at(4).contains("⚑")) all << "flagged";
   return all.join(QLatin1Char(' ')).toLower();
 }
 

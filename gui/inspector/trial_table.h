@@ -2,6 +2,7 @@
 #include <QAbstractTableModel>
 #include <QSortFilterProxyModel>
 #include <array>
+#include <map>
 #include <optional>
 #include <vector>
 
@@ -61,7 +62,7 @@ class TrialTable : public QAbstractTableModel {
   std::vector<Place> places_;
   std::vector<std::size_t> firstRow_;                           // of each run
   mutable std::vector<std::optional<record::RunMarks>> marks_;  // one a run
-  std::vector<std::unique_ptr<TrialErrors>> errors_;            // one a row; null: not computed
+  std::map<int, TrialErrors> errors_;                           // of the rows for which they are computed
   predict::Criterion criterion_ = predict::Criterion::MinHandJerk;
 };
 
