@@ -2,9 +2,11 @@
 #include <gtest/gtest.h>
 
 #include <QApplication>
+#include <QProcess>
 #include <QTemporaryDir>
 #include <QTest>
 #include <fstream>
+#include <map>
 #include <memory>
 
 #include "gui/app/main_window.h"
@@ -12,14 +14,30 @@
 
 namespace reachlab::gui {
 
+/// Starts this program once more, for tests that are not run by themselves.
+inline void startAgain(QProcess& process, const QString& tests, const std::map<QString, QString>& variables) {
+  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
+  for (const auto& [name, value] : variables) environment.insert(name, value);
+  process.setProcessEnvironment(environment);
+  process.start(QCoreApplication::applicationFilePath(), {"--gtest_filter=" + tests, "--gtest_also_run_disabled_tests"});
+}
+
+/// The subject's screen, if it is open.
+inline subject::SubjectWindow* subjectsScreen() {
+  for (QWidget* top : QApplication::topLevelWidgets())
+    if (auto* found = qobject_cast<subject::SubjectWindow*>(top)) return found;
+  return nullptr;
+}
+
 /// Whoever sits at a window whose data lie in a folder of the test's own.
 class AtTheWindow : public ::testing::Test {
  protected:
   AtTheWindow() {
-    request_.place.data = folder_.filePath(QStringLiteral("data")).toStdString();
+    request_.place.data = folder_.filePath("data").toStdString();
     request_.device = "mouse";
     request_.seed = 1;
   }
+  ~AtTheWindow() override { app::forgetLayout(); }
   /// As its program makes it, on no screen.
   app::MainWindow& make() {
     window_ = std::make_unique<app::MainWindow>(request_);
@@ -27,7 +45,11 @@ class AtTheWindow : public ::testing::Test {
   }
   /// On the screen, with the keys.
   app::MainWindow& open() {
-    make().show();
+    make();
+    return show();
+  }
+  app::MainWindow& show() {
+    window_->show();
     EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
     QApplication::setActiveWindow(window_.get());  // there may be no window manager to do it, and shortcuts ask for it
     return *window_;

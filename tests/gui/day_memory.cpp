@@ -7,9 +7,9 @@
 #include <QTest>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <ctime>
-#include <unistd.h>
+#include <fstream>
+#include <string>
 
 #include "base/ticks.h"
 #include "gui/app/main_window.h"
@@ -23,12 +23,12 @@ using namespace reachlab;
 constexpr double kMostMegabytes = 20, kMostKilobytes = 10;
 constexpr int kLongRun = 500;  // trials: what is taken once, by the first picture or the first fit, counts little
 
-double residentMegabytes() {
-  long pages = 0, resident = 0;
-  std::FILE* file = std::fopen("/proc/self/statm", "r");
-  if (file == nullptr || std::fscanf(file, "%ld %ld", &pages, &resident) != 2) std::abort();
-  std::fclose(file);
-  return 1e-6 * static_cast<double>(resident) * static_cast<double>(sysconf(_SC_PAGESIZE));
+// What this program has of a kind of memory.
+double kilobytesOf(const std::string& kind) {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.starts_with(kind)) return 1.024 * std::stod(line.substr(kind.size()));
+  std::abort();
 }
 
 // The fits after a trial go on beside the window, and give back what they took when they are done.
@@ -43,14 +43,7 @@ void awaitRest() {
 // What no file backs.
 double anonymousKilobytes() {
   awaitRest();
-  std::FILE* file = std::fopen("/proc/self/status", "r");
-  char line[256];
-  double found = -1;
-  while (file != nullptr && std::fgets(line, sizeof line, file) != nullptr)
-    if (std::strncmp(line, "RssAnon:", 8) == 0) found = 1.024 * std::atof(line + 8);
-  if (file == nullptr || found < 0) std::abort();
-  std::fclose(file);
-  return found;
+  return kilobytesOf("RssAnon:");
 }
 
 }  // namespace
@@ -69,7 +62,7 @@ int main(int argc, char** argv) {
   request.fast = true;
   request.seed = 1;
   request.trials = perRun;
-  request.place.data = folder.filePath(QStringLiteral("data")).toStdString();
+  request.place.data = folder.filePath("data").toStdString();
   gui::app::MainWindow window(request);
   window.show();
   if (!QTest::qWaitForWindowExposed(&window)) return 1;
@@ -90,7 +83,7 @@ int main(int argc, char** argv) {
     if (perRun >= kLongRun) perTrial = std::max(perTrial, growth);
     seconds += secondsOf(window.session().run()->latest().tick);
     window.endRun();
-    const double now = residentMegabytes();
+    const double now = 1e-3 * kilobytesOf("VmRSS:");
     if (seconds >= 3600 && firstHour == 0) firstHour = now;
     largest = std::max(largest, now);
     if (seconds < 3600 * (told + 1)) continue;

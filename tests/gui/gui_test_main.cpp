@@ -22,8 +22,8 @@ int main(int argc, char** argv) {
   qputenv("XDG_CONFIG_HOME", qEnvironmentVariable("REACHLAB_TEST_CONFIG", own.path()).toUtf8());
   reachlab::gui::scene::applySurfaceFormat();
   QApplication application(argc, argv);
-  QApplication::setOrganizationName(QStringLiteral("reachlab"));
-  QApplication::setApplicationName(QStringLiteral("test"));
+  QApplication::setOrganizationName("reachlab");
+  QApplication::setApplicationName("test");
   reachlab::gui::widgets::applyTheme(application);
   return RUN_ALL_TESTS();
 }

@@ -47,7 +47,7 @@ TEST_F(Compilations, OfATypedFormulaThatIsAcceptedAreOne) {
 
   // Accepted: checked as a value, and compiled with that; the scene that must not be refused later, the picture, the path and the seven
   // predictions take it from there.
-  QTest::mouseClick(chooser.findChild<QPushButton*>(QStringLiteral("use")), Qt::LeftButton);
+  QTest::mouseClick(chooser.findChild<QPushButton*>("use"), Qt::LeftButton);
   ASSERT_EQ(window.session().experiment().constraint.curve.at(2), last);
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.predictionsReady(); }, 60000));
   EXPECT_EQ(test::takeCompilations(), std::vector<std::string>{kTyped});

@@ -56,7 +56,7 @@ TEST_P(Contrast, OfEveryWordIsEnough) {
   auto* masses = find<widgets::NumberListEdit>("masses");
   masses->setFocus();
   masses->clear();
-  QTest::keyClicks(masses, QStringLiteral("abc"));
+  QTest::keyClicks(masses, "abc");
   find<QWidget>("note")->setFocus();
   for (const QSize& size : {QSize(1900, 1050), QSize(1366, 740)}) {
     window_->resize(size);

@@ -7,6 +7,7 @@
 #include <QTemporaryDir>
 
 #include "test_paths.h"
+#include "tests/analysis/recorded.h"
 
 namespace reachlab::gui::app {
 namespace {
@@ -18,12 +19,8 @@ QString lastOf(const QSignalSpy& spy) { return spy.isEmpty() ? QString() : spy.l
 
 TEST(DatasetAnalysis, WritesTheReportAndSaysWhereItIs) {
   const QTemporaryDir folder;
-  const QString data = folder.filePath(QStringLiteral("data"));
-  ASSERT_EQ(
-      QProcess::execute(kReach, {QStringLiteral("run"), QStringLiteral("dingwell"), QStringLiteral("--device"), QStringLiteral("simulated"),
-                                 QStringLiteral("--trials"), QStringLiteral("2"), QStringLiteral("--seed"), QStringLiteral("1"),
-                                 QStringLiteral("--fast"), QStringLiteral("--data"), data}),
-      0);
+  const QString data = folder.filePath("data");
+  analysis::recordRun(data.toStdString(), {.experiment = "dingwell", .trials = 2});
   DatasetAnalysis analysis(kReach);
   QSignalSpy reported(&analysis, &DatasetAnalysis::reported), told(&analysis, &DatasetAnalysis::told),
       said(&analysis, &DatasetAnalysis::said);
@@ -42,14 +39,14 @@ TEST(DatasetAnalysis, SaysWhyThereIsNone) {
   analysis.begin(empty.path());
   ASSERT_EQ(told.count(), 1) << "that it has begun";
   ASSERT_TRUE(said.wait(kPatienceMs));
-  EXPECT_TRUE(lastOf(said).contains(QStringLiteral("failed: "))) << lastOf(said).toStdString();
+  EXPECT_TRUE(lastOf(said).contains("failed: ")) << lastOf(said).toStdString();
   EXPECT_EQ(reported.count(), 0);
 
-  DatasetAnalysis none(QStringLiteral("/no/such/reach"));
+  DatasetAnalysis none("/no/such/reach");
   QSignalSpy noneSaid(&none, &DatasetAnalysis::said);
   none.begin(empty.path());
   if (noneSaid.isEmpty()) noneSaid.wait(kPatienceMs);
-  EXPECT_TRUE(lastOf(noneSaid).contains(QStringLiteral("/no/such/reach"))) << lastOf(noneSaid).toStdString();
+  EXPECT_TRUE(lastOf(noneSaid).contains("/no/such/reach")) << lastOf(noneSaid).toStdString();
 }
 
 }  // namespace

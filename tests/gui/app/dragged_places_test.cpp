@@ -76,8 +76,7 @@ TEST_F(DraggedPlaces, AreShownWhileTheyAreDraggedAndGoBackWithEscape) {
   const QPointF shown = view().pixelOf(view().plan().target);
   EXPECT_LE(std::hypot(shown.x() - at.x(), shown.y() - at.y()), kNear);
   EXPECT_EQ(task().target, target) << "not taken over yet";
-  EXPECT_TRUE(find<scene::SceneOverlay>("")->label().startsWith(QStringLiteral("phi = 2.19")))
-      << find<scene::SceneOverlay>("")->label().toStdString();
+  EXPECT_TRUE(find<scene::SceneOverlay>("")->label().startsWith("phi = 2.19")) << find<scene::SceneOverlay>("")->label().toStdString();
   QTest::keyClick(view().focusProxy(), Qt::Key_Escape);
   drop(at);
   EXPECT_EQ(task().target, target);
@@ -119,10 +118,7 @@ class TypedPlaces : public DraggedPlaces {
     auto* edit = find<widgets::NumberListEdit>(field);
     edit->setFocus();
     edit->selectAll();
-    edit->clear();
-    for (const QChar letter : text)  // QTest has no key for every letter
-      if (letter.unicode() < 128) QTest::keyClick(edit, letter.toLatin1());
-      else edit->insert(letter);
+    edit->insert(text);  // QTest has no key for every letter
     QTest::keyClick(edit, Qt::Key_Return);
   }
   QString faults() { return find<QLabel>("taskFaults")->isVisibleTo(window_.get()) ? find<QLabel>("taskFaults")->text() : QString(); }
@@ -135,19 +131,17 @@ TEST_F(TypedPlaces, AreFractionsOfPi) {
   for (const auto& [text, value] : entries) {
     type("taskTarget", QString::fromUtf8(text));
     if (value != 0) EXPECT_DOUBLE_EQ(task().target.at(0), value) << text << faults().toStdString();
-    else
-      EXPECT_TRUE(faults().contains(QStringLiteral("no number")) || faults().contains(QStringLiteral("3 numbers")))
-          << faults().toStdString();
+    else EXPECT_TRUE(faults().contains("no number") || faults().contains("3 numbers")) << faults().toStdString();
   }
-  type("taskTarget", QStringLiteral("3*pi/4"));
-  EXPECT_EQ(find<widgets::NumberListEdit>("taskTarget")->text(), QStringLiteral("3*pi/4")) << "shown as it was typed";
+  type("taskTarget", "3*pi/4");
+  EXPECT_EQ(find<widgets::NumberListEdit>("taskTarget")->text(), "3*pi/4") << "shown as it was typed";
   EXPECT_EQ(faults(), QString());
   window_->edits().setClean();
 }
 
 TEST_F(TypedPlaces, AreLengthsAlongTheCurve) {
   begin("ellipse");
-  type("taskTarget", QStringLiteral("0.1 m"));
+  type("taskTarget", "0.1 m");
   // Against a sum of many short chords.
   const auto lengthBetween = [&](double from, double to) {
     double sum = 0;
@@ -159,43 +153,43 @@ TEST_F(TypedPlaces, AreLengthsAlongTheCurve) {
   };
   EXPECT_NEAR(lengthBetween(task().start.at(0), task().target.at(0)), 0.1, 1e-6) << faults().toStdString();
   EXPECT_GT(task().target[0], task().start[0]);
-  EXPECT_EQ(find<QLabel>("taskLength")->text(), QStringLiteral("0.1 m along the curve"));
-  type("taskTarget", QStringLiteral("-0.05 m"));
+  EXPECT_EQ(find<QLabel>("taskLength")->text(), "0.1 m along the curve");
+  type("taskTarget", "-0.05 m");
   EXPECT_LT(task().target[0], task().start[0]) << "the other way";
   EXPECT_NEAR(lengthBetween(task().start[0], task().target[0]), 0.05, 1e-6);
-  type("taskStart", QStringLiteral("0.15m"));
+  type("taskStart", "0.15m");
   EXPECT_NEAR(lengthBetween(task().start[0], task().target[0]), 0.15, 1e-6);
   window_->edits().setClean();
 }
 
 TEST_F(TypedPlaces, LengthsBeyondTheEndAndOnSurfacesAreRefused) {
   begin("torus");
-  type("taskTarget", QStringLiteral("0.1 m"));
-  EXPECT_TRUE(faults().contains(QStringLiteral("no number"))) << faults().toStdString();
-  EXPECT_FALSE(faults().contains(QStringLiteral("a length")));
+  type("taskTarget", "0.1 m");
+  EXPECT_TRUE(faults().contains("no number")) << faults().toStdString();
+  EXPECT_FALSE(faults().contains("a length"));
   window_->edits().setClean();
 }
 
 TEST_F(TypedPlaces, AFaultGoesWithItsCause) {
   begin("torus");
-  type("taskTarget", QStringLiteral("abc"));
-  EXPECT_TRUE(faults().contains(QStringLiteral("\"abc\" is no number"))) << faults().toStdString();
-  type("taskTarget", QStringLiteral("0.5 0.1"));
+  type("taskTarget", "abc");
+  EXPECT_TRUE(faults().contains("\"abc\" is no number")) << faults().toStdString();
+  type("taskTarget", "0.5 0.1");
   EXPECT_EQ(faults(), QString()) << "mended";
   const std::vector<double> kept = task().target;
   type("taskTarget", find<widgets::NumberListEdit>("taskStart")->text());
-  EXPECT_TRUE(faults().contains(QStringLiteral("start and target are the same position"))) << faults().toStdString();
+  EXPECT_TRUE(faults().contains("start and target are the same position")) << faults().toStdString();
   EXPECT_EQ(task().target, kept);
-  type("taskTarget", QStringLiteral("0.5 0.1"));
+  type("taskTarget", "0.5 0.1");
   // Of an entry that was refused as a whole: an older state of the experiment takes its place, and has no fault.
   auto* kind = find<QComboBox>("objectKind");
   const auto refusal = [&] { return find<QLabel>("objectFaults")->isHidden() ? QString() : find<QLabel>("objectFaults")->text(); };
-  kind->setCurrentText(QStringLiteral("body"));
+  kind->setCurrentText("body");
   Q_EMIT kind->activated(kind->currentIndex());  // it moves free
   EXPECT_NE(refusal(), QString());
   window_->edits().undo();
   EXPECT_EQ(refusal(), QString());
-  EXPECT_EQ(kind->currentText(), QStringLiteral("point"));
+  EXPECT_EQ(kind->currentText(), "point");
 }
 
 }  // namespace

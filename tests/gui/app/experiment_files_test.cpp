@@ -42,8 +42,8 @@ TEST(RecentFiles, AreTheNewestThatAreStillThere) {
   rememberFile(file(5));
   const QStringList recent = recentFiles();
   EXPECT_EQ(recent.size(), 8);
-  EXPECT_EQ(QFileInfo(recent[0]).fileName(), QStringLiteral("5.json"));
-  EXPECT_EQ(QFileInfo(recent[1]).fileName(), QStringLiteral("9.json"));
+  EXPECT_EQ(QFileInfo(recent[0]).fileName(), "5.json");
+  EXPECT_EQ(QFileInfo(recent[1]).fileName(), "9.json");
   EXPECT_EQ(recent.count(recent[0]), 1);
   QFile::remove(recent[1]);
   EXPECT_EQ(recentFiles().size(), 7);
@@ -53,18 +53,18 @@ TEST(ManualPage, IsThereInTheSources) { EXPECT_TRUE(QFileInfo::exists(manualPage
 
 TEST(WritingAnExperiment, ThatCannotBeWrittenIsAFaultWithTheFilesName) {
   const experiment::Experiment e = experiment::openExperiment("ellipse").experiment();
-  EXPECT_NE(refusalOf([&] { writeExperiment(e, QStringLiteral("/dev/null/e.json")); }).find("/dev/null/e.json"), std::string::npos);
+  EXPECT_NE(refusalOf([&] { writeExperiment(e, "/dev/null/e.json"); }).find("/dev/null/e.json"), std::string::npos);
 }
 
 class Files : public AtTheWindow {
  protected:
   Files() {
-    path_ = folder_.filePath(QStringLiteral("mine.json"));
+    path_ = folder_.filePath("mine.json");
     writeExperiment(experiment::openExperiment("ellipse").experiment(), path_);
     request_.what = path_.toStdString();
   }
   void changeMasses(const char* to) {
-    auto* masses = window_->findChild<QLineEdit*>(QStringLiteral("masses"));
+    auto* masses = window_->findChild<QLineEdit*>("masses");
     masses->setText(QLatin1String(to));
     Q_EMIT masses->editingFinished();
   }
@@ -103,7 +103,7 @@ TEST_F(Files, ARecordingIsInspectedAndWhatIsWrongWithItIsSaid) {
   MainWindow& window = open();
   window.openExperiment(QString::fromStdString(write("sub-01_log.reach", "RCHLOG")));
   EXPECT_TRUE(window.inspecting());
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.message().contains(QStringLiteral("sub-01_log.reach")); }, 5000));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.message().contains("sub-01_log.reach"); }, 5000));
   EXPECT_EQ(window.session().experiment().name, "ellipse");
 }
 
@@ -113,7 +113,7 @@ TEST_F(Files, ALayoutIsFoundAgainAsItWasLeft) {
   QTest::keyClick(&window, Qt::Key_2, Qt::AltModifier);
   EXPECT_TRUE(shown("sessionDock") && shown("plotDock"));
   EXPECT_FALSE(shown("objectDock") || shown("taskDock"));
-  window.findChild<QDockWidget*>(QStringLiteral("taskDock"))->show();
+  window.findChild<QDockWidget*>("taskDock")->show();
   QTest::keyClick(&window, Qt::Key_1, Qt::AltModifier);
   EXPECT_TRUE(shown("objectDock"));
   QTest::keyClick(&window, Qt::Key_2, Qt::AltModifier);

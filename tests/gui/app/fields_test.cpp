@@ -52,16 +52,16 @@ TEST_F(Fields, HaveToolTips) {
   }
   EXPECT_GT(seen, 40);
   for (const char* word : {"late", "missed", "clamped"})
-    EXPECT_TRUE(find<QLabel>("ticks")->toolTip().contains(QLatin1String(word) + QStringLiteral(": "))) << word;
+    EXPECT_TRUE(find<QLabel>("ticks")->toolTip().contains(QLatin1String(word) + ": ")) << word;
 }
 
 TEST_F(Fields, AToolTipComesBackWhenItsFaultIsGone) {
   openAll();
   auto* subject = find<QLineEdit>("subject");
   const QString usual = subject->toolTip();
-  subject->setText(QStringLiteral("0 1"));
+  subject->setText("0 1");
   EXPECT_NE(subject->toolTip(), usual) << "the fault";
-  subject->setText(QStringLiteral("03"));
+  subject->setText("03");
   EXPECT_EQ(subject->toolTip(), usual);
 }
 
@@ -69,13 +69,13 @@ TEST_F(Fields, AToolTipComesBackWhenItsFaultIsGone) {
 TEST_F(Fields, AFaultStaysWhileItsEntryStays) {
   openAll();
   auto* subject = find<QLineEdit>("subject");
-  subject->setText(QStringLiteral("0 1"));
+  subject->setText("0 1");
   const QString fault = find<QLabel>("sessionFaults")->text();
   EXPECT_FALSE(fault.isEmpty());
-  window_->openExperiment(QStringLiteral("ellipse"));
+  window_->openExperiment("ellipse");
   EXPECT_EQ(find<QLabel>("sessionFaults")->text(), fault);
   EXPECT_TRUE(find<QLabel>("sessionFaults")->isVisible());
-  subject->setText(QStringLiteral("03"));
+  subject->setText("03");
   EXPECT_EQ(find<QLabel>("sessionFaults")->text(), QString());
 }
 

@@ -103,11 +103,11 @@ TEST_F(Window, AReachByThePointerTurnsTheSemaphoreGreenSucceedsAndIsRecorded) {
   EXPECT_TRUE(seen.contains(trial::Semaphore::Neutral));
   EXPECT_TRUE(seen.contains(trial::Semaphore::Green));
   EXPECT_GT(window.plot().pointCount(), 20u);
-  EXPECT_TRUE(find<QLabel>("tally")->text().contains(QStringLiteral("1 of 1"))) << find<QLabel>("tally")->text().toStdString();
+  EXPECT_TRUE(find<QLabel>("tally")->text().contains("1 of 1")) << find<QLabel>("tally")->text().toStdString();
 
   // What the screen shows is what the record holds.
   const std::string log = window.session().run()->logPath();
-  window.session().note(QStringLiteral("ärgerlich laut"));
+  window.session().note("ärgerlich laut");
   window.session().endRun();
   EXPECT_EQ(window.message().toStdString(), "");
   const record::RunLog read = record::RunLog::open(log);
@@ -126,9 +126,9 @@ TEST_F(Window, TheTaskIsToldBeforeTheFirstTrialAndGoesWhenItRuns) {
   EXPECT_EQ(window.overlay().task.section(QLatin1Char('\n'), 0, 0).toStdString(),
             "Bring both masses to the small yellow sphere (within 12 mm) and to rest there (below 30 mm/s), 0.3 to 20.1 s after your hand "
             "starts to move.");
-  EXPECT_TRUE(window.overlay().task.contains(QStringLiteral("F puts them side by side")));
+  EXPECT_TRUE(window.overlay().task.contains("F puts them side by side"));
   QTest::keyClick(&window, Qt::Key_F);
-  EXPECT_FALSE(window.overlay().task.contains(QStringLiteral("hide")));
+  EXPECT_FALSE(window.overlay().task.contains("hide"));
   window.nextTrial();
   ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.overlay().task.isEmpty(); }, 5000));
@@ -169,17 +169,17 @@ TEST_F(Window, FieldsSpeakPlainWordsAndUnits) {
   QStringList labels;
   for (const auto* label : window.findChildren<QLabel*>()) labels << label->text();
   for (const char* text : {"length", "start phi [1]", "target phi [1]"}) EXPECT_TRUE(labels.contains(QLatin1String(text))) << text;
-  EXPECT_FALSE(labels.contains(QStringLiteral("length_m")));
+  EXPECT_FALSE(labels.contains("length_m"));
   request_.what = "free-point";
   MainWindow& free = open();
   labels.clear();
   for (const auto* label : free.findChildren<QLabel*>()) labels << label->text();
-  EXPECT_TRUE(labels.contains(QStringLiteral("start x y z [m]")));
+  EXPECT_TRUE(labels.contains("start x y z [m]"));
   trial::TrialResult result;
   result.outcome = trial::Outcome::Failure;
   result.reason = trial::Reason::TimeShort;
   find<SessionStrip>("sessionStrip")->count(result);
-  EXPECT_TRUE(find<QLabel>("tally")->text().contains(QStringLiteral("1 × too fast")));
+  EXPECT_TRUE(find<QLabel>("tally")->text().contains("1 × too fast"));
 }
 
 TEST_F(Window, AWindowInTimeWithoutABeginningLeavesThePlotToTheReach) {
@@ -230,7 +230,7 @@ TEST_F(Window, AnEditIsCheckedAppliedAndUndone) {
   EXPECT_FALSE(find<QLabel>("objectFaults")->isVisible());
   EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.4, 0.1, 0.1}));
   EXPECT_EQ(window.view().plan().massRadius.size(), 3u);
-  EXPECT_EQ(masses->text(), QStringLiteral("0.4 0.1 0.1"));  // a point, also for a German user
+  EXPECT_EQ(masses->text(), "0.4 0.1 0.1");  // a point, also for a German user
   window.edits().undo();
   EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
 }
@@ -259,7 +259,7 @@ TEST_F(Window, AWrongEntryIsNamedWhileItIsTypedAndClearsWhenItIsRight) {
   EXPECT_FALSE(faults->isVisible());
   EXPECT_EQ(masses->styleSheet(), QString());
   type(find<QLineEdit>("stiffness"), "900 900", false);
-  EXPECT_TRUE(faults->text().startsWith(QStringLiteral("springs: 2 numbers; allowed: 1"))) << faults->text().toStdString();
+  EXPECT_TRUE(faults->text().startsWith("springs: 2 numbers; allowed: 1")) << faults->text().toStdString();
   auto* via = find<QLineEdit>("taskVia");
   type(via, "0.1 0", false);
   EXPECT_EQ(find<QLabel>("taskFaults")->text().toStdString(), "via: 2 numbers; allowed: 0 to 60, in groups of 3");
@@ -271,23 +271,23 @@ TEST_F(Window, AWrongEntryIsNamedWhileItIsTypedAndClearsWhenItIsRight) {
   EXPECT_EQ(find<QLabel>("taskFaults")->text().toStdString(), "start: 2 numbers; allowed: 1 (phi)");
   auto* duration = find<QDoubleSpinBox>("taskDuration");
   type(duration, "-3", false);
-  EXPECT_TRUE(find<QLabel>("taskFaults")->text().contains(QStringLiteral("time T: -3 s; allowed: 0.05 to 60 s")));
+  EXPECT_TRUE(find<QLabel>("taskFaults")->text().contains("time T: -3 s; allowed: 0.05 to 60 s"));
   QTest::keyClick(duration, Qt::Key_Return);
-  EXPECT_TRUE(find<QLabel>("taskFaults")->text().contains(QStringLiteral("; 10.2 s is kept")));
+  EXPECT_TRUE(find<QLabel>("taskFaults")->text().contains("; 10.2 s is kept"));
   EXPECT_EQ(duration->value(), 10.2);
   type(start, "0", false);
-  EXPECT_FALSE(find<QLabel>("taskFaults")->text().contains(QStringLiteral("start")));
+  EXPECT_FALSE(find<QLabel>("taskFaults")->text().contains("start"));
 }
 
 TEST_F(Window, MassesOverOneAnotherAreCountedInTheScene) {
   MainWindow& window = open();
   const auto* overlay = window.view().findChild<scene::SceneOverlay*>();
   ASSERT_NE(overlay, nullptr);
-  EXPECT_EQ(overlay->label(), QStringLiteral("2 masses"));
+  EXPECT_EQ(overlay->label(), "2 masses");
   QTest::keyClick(&window, Qt::Key_F);
   EXPECT_EQ(overlay->label(), QString());  // side by side each is seen
   QTest::keyClick(&window, Qt::Key_F);
-  EXPECT_EQ(overlay->label(), QStringLiteral("2 masses"));
+  EXPECT_EQ(overlay->label(), "2 masses");
 }
 
 TEST_F(Window, AKindThatIsRefusedLeavesTheMassesAlone) {
@@ -331,7 +331,7 @@ TEST_F(Window, AGermanUsersExperimentHasTheSameBytes) {
   MainWindow& window = open();
   auto* stiffness = find<QDoubleSpinBox>("couplingStiffness");
   stiffness->setValue(612.5);
-  EXPECT_TRUE(stiffness->text().startsWith(QStringLiteral("612.5")));
+  EXPECT_TRUE(stiffness->text().startsWith("612.5"));
   const std::string text = experiment::toJson(window.session().experiment());
   EXPECT_NE(text.find("612.5"), std::string::npos);
   EXPECT_EQ(experiment::parseExperiment(text, "edited").coupling->stiffness, 612.5);
@@ -344,7 +344,7 @@ TEST_F(Window, PredictionsStandOnThePlotAndAreComparedWithASimulatedTrial) {
   request_.device = "simulated:noise=0";
   MainWindow& window = open();
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.predictionsReady(); }, 20000));
-  auto* criteria = window.predictions().findChild<QTableWidget*>(QStringLiteral("criteria"));
+  auto* criteria = window.predictions().findChild<QTableWidget*>("criteria");
   ASSERT_NE(criteria, nullptr);
   for (int i = 0; i < predict::kCriterionCount; ++i) {
     const auto criterion = static_cast<predict::Criterion>(i);
@@ -372,15 +372,15 @@ TEST_F(Window, WhatAnyHandsDeviceCannotGiveIsSaidWhenARunBegins) {
   MainWindow& window = open();
   window.nextTrial();
   ASSERT_NE(window.session().run(), nullptr) << window.message().toStdString();
-  EXPECT_TRUE(window.message().contains(QStringLiteral("hand 2: workspace"))) << window.message().toStdString();
-  EXPECT_TRUE(window.message().contains(QStringLiteral("hand 2: continuous force"))) << "all of them: " << window.message().toStdString();
-  EXPECT_FALSE(window.message().contains(QStringLiteral("hand 1"))) << window.message().toStdString();
+  EXPECT_TRUE(window.message().contains("hand 2: workspace")) << window.message().toStdString();
+  EXPECT_TRUE(window.message().contains("hand 2: continuous force")) << "all of them: " << window.message().toStdString();
+  EXPECT_FALSE(window.message().contains("hand 1")) << window.message().toStdString();
 }
 
 TEST_F(Window, AMappingThatIsKeptForTheSubjectIsTakenAndSaid) {
   request_.device = "virtual:premium15";
-  request_.place.data = (folder_.path() + QStringLiteral("/data")).toStdString();
-  const QString file = folder_.path() + QStringLiteral("/data/sourcedata/mappings/sub-01_virtual-premium15.json");
+  request_.place.data = (folder_.path() + "/data").toStdString();
+  const QString file = folder_.path() + "/data/sourcedata/mappings/sub-01_virtual-premium15.json";
   devices::Mapping kept;
   kept.scale = 1.5;
   devices::saveMapping(kept, file.toStdString());
@@ -396,7 +396,7 @@ TEST_F(Window, ADeviceThatIsChosenInItsDockIsTheHandUntilARunHasIt) {
   find<QPushButton>("devicesButton")->click();
   auto* rows = find<QTreeWidget>("deviceRows");
   ASSERT_TRUE(QTest::qWaitFor([&] { return rows->isVisible() && rows->topLevelItemCount() > 0; }, 5000));
-  const auto omni = rows->findItems(QStringLiteral("virtual:omni"), Qt::MatchExactly | Qt::MatchRecursive, 0);
+  const auto omni = rows->findItems("virtual:omni", Qt::MatchExactly | Qt::MatchRecursive, 0);
   ASSERT_EQ(omni.size(), 1);
   rows->setCurrentItem(omni.front());
   find<QPushButton>("deviceUse")->click();
@@ -412,9 +412,9 @@ TEST_F(Window, ADiskThatRefusesIsOneSentenceAndTheWindowGoesOn) {
   request_.place.data = "/dev/null/data";
   MainWindow& window = open();
   window.nextTrial();
-  EXPECT_TRUE(window.message().contains(QStringLiteral("/dev/null/data"))) << window.message().toStdString();
+  EXPECT_TRUE(window.message().contains("/dev/null/data")) << window.message().toStdString();
   EXPECT_EQ(window.session().run(), nullptr);
-  find<QLineEdit>("data")->setText(folder_.path() + QStringLiteral("/good"));
+  find<QLineEdit>("data")->setText(folder_.path() + "/good");
   window.nextTrial();
   EXPECT_EQ(window.message().toStdString(), "");
   EXPECT_NE(window.session().run(), nullptr);

@@ -19,7 +19,6 @@
 
 #include "gui/app/experiment_files.h"
 #include "gui/app/screens.h"
-#include "gui/app/window_layout.h"
 #include "gui/choosers/constraint_chooser.h"
 #include "gui/docks/session_dock.h"
 #include "gui/inspector/inspector.h"
@@ -34,34 +33,6 @@ namespace {
 
 QString plain(QString words) { return words.remove(QLatin1Char('&')); }
 
-// Answers the next dialog of a kind.
-class Answer {
- public:
-  explicit Answer(std::function<bool(QWidget*)> how) : how_(std::move(how)) {
-    QObject::connect(&timer_, &QTimer::timeout, [this] {
-      QWidget* box = QApplication::activeModalWidget();
-      if (box != nullptr && how_(box)) timer_.stop(), answered_ = true;
-    });
-    timer_.start(20);
-  }
-  ~Answer() { EXPECT_TRUE(answered_) << "no dialog was opened"; }
-
- private:
-  std::function<bool(QWidget*)> how_;
-  QTimer timer_;
-  bool answered_ = false;
-};
-
-std::function<bool(QWidget*)> file(const QString& path) {
-  return [path](QWidget* box) {
-    auto* dialog = qobject_cast<QFileDialog*>(box);
-    if (dialog == nullptr) return false;
-    if (auto* name = dialog->findChild<QLineEdit*>(QStringLiteral("fileNameEdit"))) name->setText(path);
-    static_cast<QDialog*>(dialog)->accept();
-    return true;
-  };
-}
-
 class MenuActions : public AtTheWindow {
  protected:
   MenuActions() {
@@ -71,7 +42,6 @@ class MenuActions : public AtTheWindow {
     request_.timingCheckSeconds = 0;
   }
   ~MenuActions() override {
-    forgetLayout();
     if (window_) window_->session().endRun();
   }
 
@@ -105,12 +75,17 @@ class MenuActions : public AtTheWindow {
     return &none;
   }
   void trigger(const char* path) { at(QString::fromUtf8(path))->trigger(); }
-  QString written(const char* name) const { return folder_.filePath(QLatin1String(name)); }
-  subject::SubjectWindow* subjects() const {
-    for (QWidget* top : QApplication::topLevelWidgets())
-      if (auto* found = qobject_cast<subject::SubjectWindow*>(top); found != nullptr && found->isVisible()) return found;
-    return nullptr;
+  void triggerWithFile(const char* path, const QString& chosen) {
+    const Answer answer([&chosen](QWidget* box) {
+      auto* dialog = qobject_cast<QFileDialog*>(box);
+      if (dialog == nullptr) return false;
+      if (auto* name = dialog->findChild<QLineEdit*>("fileNameEdit")) name->setText(chosen);
+      static_cast<QDialog*>(dialog)->accept();
+      return true;
+    });
+    trigger(path);
   }
+  QString written(const char* name) const { return folder_.filePath(QLatin1String(name)); }
   bool waits(const std::function<bool()>& what) { return QTest::qWaitFor(what, 20000); }
 
   // What each test below triggers.
@@ -157,10 +132,7 @@ TEST_F(MenuActions, OfFilesReadAndWrite) {
     EXPECT_TRUE(window.isWindowModified()) << "it is not saved yet";
     window.edits().setClean();
   }
-  {
-    const Answer answer(file(written("mine.json")));
-    trigger("Experiment/Save as…");
-  }
+  triggerWithFile("Experiment/Save as…", written("mine.json"));
   EXPECT_TRUE(QFileInfo::exists(written("mine.json")));
   EXPECT_EQ(window.session().experiment().name, "mine");
   QFile::remove(written("mine.json"));
@@ -168,31 +140,22 @@ TEST_F(MenuActions, OfFilesReadAndWrite) {
   EXPECT_TRUE(QFileInfo::exists(written("mine.json")));
   trigger("Experiment/Shipped/ellipse");
   EXPECT_EQ(window.session().experiment().name, "ellipse");
-  EXPECT_EQ(plain(at(QStringLiteral("Edit/Undo*"))->text()), QStringLiteral("Undo open ellipse"));
-  at(QStringLiteral("Edit/Undo*"))->trigger();
+  EXPECT_EQ(plain(at("Edit/Undo*")->text()), "Undo open ellipse");
+  trigger("Edit/Undo*");
   EXPECT_EQ(window.session().experiment().name, "mine");
-  at(QStringLiteral("Edit/Redo*"))->trigger();
+  trigger("Edit/Redo*");
   EXPECT_EQ(window.session().experiment().name, "ellipse");
   window.edits().setClean();
-  at(QStringLiteral("Experiment/Open recent/*"))->trigger();
+  trigger("Experiment/Open recent/*");
   EXPECT_EQ(window.session().experiment().name, "mine") << "the newest file";
   trigger("Experiment/Shipped/torus");
-  {
-    const Answer answer(file(written("mine.json")));
-    trigger("Experiment/Open…");
-  }
+  triggerWithFile("Experiment/Open…", written("mine.json"));
   EXPECT_EQ(window.session().experiment().name, "mine");
-  QDir(folder_.path()).mkdir(QStringLiteral("set"));
-  {
-    const Answer answer(file(written("set")));
-    trigger("Experiment/Inspect a dataset…");
-  }
+  QDir(folder_.path()).mkdir("set");
+  triggerWithFile("Experiment/Inspect a dataset…", written("set"));
   EXPECT_TRUE(window.inspecting());
-  EXPECT_EQ(QFileInfo(window.inspector().path()).fileName(), QStringLiteral("set"));
-  {
-    const Answer answer(file(written("set")));
-    trigger("Experiment/Analyse a dataset…");
-  }
+  EXPECT_EQ(QFileInfo(window.inspector().path()).fileName(), "set");
+  triggerWithFile("Experiment/Analyse a dataset…", written("set"));
   EXPECT_TRUE(waits([&] { return !window.message().isEmpty(); })) << "an empty dataset has no report, and that is said";
   trigger("Experiment/Session plan…");
   EXPECT_TRUE(window.findChild<plan::PlanComposer*>()->isVisible());
@@ -206,7 +169,7 @@ TEST_F(MenuActions, OfFilesReadAndWrite) {
 
 TEST_F(MenuActions, OfTrialsConductARun) {
   MainWindow& window = open();
-  window.sessionDock().setDevice(QStringLiteral("simulated:noise=0"));
+  window.sessionDock().setDevice("simulated:noise=0");
   trigger("Trial/Next subject");
   EXPECT_EQ(window.sessionDock().request().place.subject, "02");
   trigger("Trial/Start");
@@ -219,7 +182,7 @@ TEST_F(MenuActions, OfTrialsConductARun) {
   trigger("Trial/Repeat");
   EXPECT_EQ(window.session().run()->trialCount(), trials + 1);
   {
-    const AnswerBox box(QStringLiteral("End the run"));
+    const AnswerBox box("End the run");
     trigger("Trial/End run");
   }
   EXPECT_EQ(window.session().run(), nullptr);
@@ -265,7 +228,7 @@ TEST_F(MenuActions, OfTheViewMoveTheCameraAndChangeTheDrawing) {
     const Answer answer([](QWidget* box) {
       auto* dialog = qobject_cast<QInputDialog*>(box);
       if (dialog == nullptr) return false;
-      dialog->setTextValue(QStringLiteral("side"));
+      dialog->setTextValue("side");
       dialog->accept();
       return true;
     });
@@ -277,22 +240,16 @@ TEST_F(MenuActions, OfTheViewMoveTheCameraAndChangeTheDrawing) {
   EXPECT_LT(norm(view.camera().position - window.look().cameras[0].position), 1e-9);
   trigger("View/View from/Forget/side");
   EXPECT_TRUE(window.look().cameras.empty());
-  {
-    const Answer answer(file(written("scene.png")));
-    trigger("View/Save picture…");
-  }
+  triggerWithFile("View/Save picture…", written("scene.png"));
   EXPECT_FALSE(QImage(written("scene.png")).isNull());
-  QDir(folder_.path()).mkdir(QStringLiteral("film"));
-  {
-    const Answer answer(file(written("film")));
-    trigger("View/Record pictures for a film…");
-  }
+  QDir(folder_.path()).mkdir("film");
+  triggerWithFile("View/Record pictures for a film…", written("film"));
   EXPECT_TRUE(waits([&] { return QFileInfo::exists(written("film/frame-000001.png")); }));
   trigger("View/Record pictures for a film…");
   trigger("View/Light theme");
-  EXPECT_EQ(QSettings().value(QStringLiteral("window/theme")).toString(), QStringLiteral("light"));
+  EXPECT_EQ(QSettings().value("window/theme").toString(), "light");
   trigger("View/Light theme");
-  EXPECT_EQ(QSettings().value(QStringLiteral("window/theme")).toString(), QStringLiteral("dark"));
+  EXPECT_EQ(QSettings().value("window/theme").toString(), "dark");
 }
 
 TEST_F(MenuActions, OfTheLookReachTheExperiment) {
@@ -314,14 +271,14 @@ TEST_F(MenuActions, OfTheLookReachTheExperiment) {
     const Answer answer([](QWidget* box) {
       auto* dialog = qobject_cast<QColorDialog*>(box);
       if (dialog == nullptr) return false;
-      dialog->setCurrentColor(QColor(QStringLiteral("#123456")));
+      dialog->setCurrentColor(QColor("#123456"));
       dialog->accept();
       return true;
     });
     Q_EMIT find<QMenu>("look")->aboutToShow();
     QAction* entry = nullptr;
     for (const auto& [path, action] : actions())
-      if (path.startsWith(QStringLiteral("View/Look of the scene/Colours/")) && !path.endsWith(QStringLiteral("own")) &&
+      if (path.startsWith("View/Look of the scene/Colours/") && !path.endsWith("own") &&
           action->property("part").toString().toStdString() == part)
         entry = action;
     ASSERT_NE(entry, nullptr) << part;
@@ -330,12 +287,9 @@ TEST_F(MenuActions, OfTheLookReachTheExperiment) {
   }
   trigger("View/Look of the scene/Colours/The theme's own");
   EXPECT_TRUE(window.look().colours.empty());
-  {
-    const Answer answer(file(QStringLiteral(REACHLAB_SOURCE_DIR "/README.md")));
-    trigger("View/Look of the scene/Scene from a file…");
-  }
-  EXPECT_TRUE(QString::fromStdString(window.look().sceneFile).endsWith(QStringLiteral("README.md")));
-  EXPECT_TRUE(waits([&] { return window.message().contains(QStringLiteral("README.md")); })) << "which is no scene";
+  triggerWithFile("View/Look of the scene/Scene from a file…", QStringLiteral(REACHLAB_SOURCE_DIR "/README.md"));
+  EXPECT_TRUE(QString::fromStdString(window.look().sceneFile).endsWith("README.md"));
+  EXPECT_TRUE(waits([&] { return window.message().contains("README.md"); })) << "which is no scene";
   trigger("View/Look of the scene/Remove the scene from a file");
   EXPECT_EQ(window.look().sceneFile, "");
 }
@@ -343,11 +297,11 @@ TEST_F(MenuActions, OfTheLookReachTheExperiment) {
 TEST_F(MenuActions, OfTheSubjectsScreenOpenItAndChangeIt) {
   MainWindow& window = open();
   trigger("View/Subject's screen");
-  ASSERT_TRUE(waits([&] { return subjects() != nullptr; }));
+  ASSERT_TRUE(waits([&] { return subjectsScreen() != nullptr; }));
   trigger("View/Subject's screen");
-  ASSERT_TRUE(waits([&] { return subjects() == nullptr; }));
-  at(QStringLiteral("View/Subject's screen on/*"))->trigger();
-  ASSERT_TRUE(waits([&] { return subjects() != nullptr; }));
+  ASSERT_TRUE(waits([&] { return subjectsScreen() == nullptr; }));
+  trigger("View/Subject's screen on/*");
+  ASSERT_TRUE(waits([&] { return subjectsScreen() != nullptr; }));
   window.screens().toggleSubject();
   using Screen = experiment::SubjectScreen;
   const std::pair<const char*, bool Screen::*> parts[] = {
@@ -401,10 +355,10 @@ class Pages : public QObject {
 TEST_F(MenuActions, OfHelpOpenTheManualAndTheBoxes) {
   MainWindow& window = open();
   Pages pages;
-  QDesktopServices::setUrlHandler(QStringLiteral("file"), &pages, "open");
+  QDesktopServices::setUrlHandler("file", &pages, "open");
   trigger("Help/Manual");
-  QDesktopServices::unsetUrlHandler(QStringLiteral("file"));
-  if (manualPage().isEmpty()) EXPECT_TRUE(window.message().contains(QStringLiteral("manual")));
+  QDesktopServices::unsetUrlHandler("file");
+  if (manualPage().isEmpty()) EXPECT_TRUE(window.message().contains("manual"));
   else ASSERT_EQ(pages.opened.size(), 1);
   const auto box = [&](const char* title) -> QMessageBox* {
     for (QMessageBox* found : window.findChildren<QMessageBox*>())

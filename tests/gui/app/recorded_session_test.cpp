@@ -3,7 +3,6 @@
 
 #include <QAction>
 #include <QLabel>
-#include <QProcess>
 #include <QPushButton>
 #include <QTableWidget>
 #include <QTest>
@@ -24,8 +23,8 @@
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
 #include "sim/record/log/run_log.h"
-#include "test_paths.h"
 #include "tests/analysis/whole_dataset.h"
+#include "tests/cli/program.h"
 #include "tests/gui/answer_box.h"
 #include "tests/gui/at_the_window.h"
 #include "tests/record/configuration_keys.h"
@@ -124,10 +123,9 @@ TEST_F(RecordingWindow, APlanIsOpenedFromTheMenuAndLeftForAnExperiment) {
   open();
   doTrial();
   {
-    const AnswerBox box(QStringLiteral("End the run"));
+    const AnswerBox box("End the run");
     window_->openExperiment(QString::fromStdString(file));
-    EXPECT_TRUE(box.text().startsWith(QStringLiteral("1 of 2 trials are done. Opening another experiment ends the run")))
-        << box.text().toStdString();
+    EXPECT_TRUE(box.text().startsWith("1 of 2 trials are done. Opening another experiment ends the run")) << box.text().toStdString();
   }
   EXPECT_TRUE(session().isPlan());
   EXPECT_FALSE(window_->sessionDock().request().trials.has_value());
@@ -140,15 +138,15 @@ TEST_F(RecordingWindow, APlanIsOpenedFromTheMenuAndLeftForAnExperiment) {
   EXPECT_EQ(between.rest->blocksDone, 1);
   EXPECT_EQ(between.rest->blocks, 2);
   ASSERT_TRUE(subjectsOverlayOf(session(), {}, 0).rest.has_value());
-  EXPECT_EQ(subjectsOverlayOf(session(), {}, 0).rest->title, QStringLiteral("Rest a little"));
+  EXPECT_EQ(subjectsOverlayOf(session(), {}, 0).rest->title, "Rest a little");
   doTrial();
   EXPECT_EQ(overlayOf(session(), false, false).counter.toStdString(), "Block 2 of 2, trial 1 of 1");
-  EXPECT_EQ(overlayOf(session(), false, false).detail, QStringLiteral("The session is complete"));
+  EXPECT_EQ(overlayOf(session(), false, false).detail, "The session is complete");
   EXPECT_EQ(session().experiment().name, "dingwell");
   window_->nextTrial();
-  EXPECT_EQ(window_->message(), QStringLiteral("The session is complete."));
+  EXPECT_EQ(window_->message(), "The session is complete.");
   window_->nextTrial();
-  EXPECT_EQ(window_->message(), QStringLiteral("The session is complete.")) << "it is not begun again by accident";
+  EXPECT_EQ(window_->message(), "The session is complete.") << "it is not begun again by accident";
   choose("ellipse");
   EXPECT_FALSE(session().isPlan());
   doTrial();
@@ -163,8 +161,8 @@ TEST_F(RecordingWindow, APlanIsOpenedFromTheMenuAndLeftForAnExperiment) {
 
 TEST_F(RecordingWindow, AFileThatCannotBeReadIsOneSentenceAndNothingChanges) {
   open();
-  window_->openExperiment(folder_.path() + QStringLiteral("/none.json"));
-  EXPECT_TRUE(window_->message().contains(QStringLiteral("none.json"))) << window_->message().toStdString();
+  window_->openExperiment(folder_.path() + "/none.json");
+  EXPECT_TRUE(window_->message().contains("none.json")) << window_->message().toStdString();
   EXPECT_EQ(session().experiment().name, "chain-moderate");
   EXPECT_EQ(window_->edits().count(), 0);
 }
@@ -182,12 +180,9 @@ TEST_F(RecordingWindow, DISABLED_DiesInTheSecondBlockOfThePapersPlan) {
 
 TEST_F(RecordingWindow, ThePapersPlanIsDoneBlockByBlockAndResumedAfterAKill) {
   QProcess victim;
-  QProcessEnvironment environment = QProcessEnvironment::systemEnvironment();
-  environment.insert(QStringLiteral("REACHLAB_TEST_DATA"), QString::fromStdString(request_.place.data));
-  environment.insert(QStringLiteral("REACHLAB_TEST_CONFIG"), qEnvironmentVariable("XDG_CONFIG_HOME"));
-  victim.setProcessEnvironment(environment);
-  victim.start(QCoreApplication::applicationFilePath(),
-               {QStringLiteral("--gtest_filter=RecordingWindow.DISABLED_*"), QStringLiteral("--gtest_also_run_disabled_tests")});
+  startAgain(victim, "RecordingWindow.DISABLED_*",
+             {{"REACHLAB_TEST_DATA", QString::fromStdString(request_.place.data)},
+              {"REACHLAB_TEST_CONFIG", qEnvironmentVariable("XDG_CONFIG_HOME")}});
   ASSERT_TRUE(victim.waitForFinished(300000));
   ASSERT_EQ(victim.exitStatus(), QProcess::CrashExit);
   request_.place.subject = "03";
@@ -203,21 +198,21 @@ TEST_F(RecordingWindow, ThePapersPlanIsDoneBlockByBlockAndResumedAfterAKill) {
   open();
   window_->offerResume();
   EXPECT_EQ(find<QLabel>("cardTitle")->text().toStdString(), "Resume session 01 of subject 03 at trial 8 of 100?");
-  EXPECT_TRUE(find<QLabel>("cardText")->text().contains(QStringLiteral("Device simulated:noise=0, seed 1.")))
+  EXPECT_TRUE(find<QLabel>("cardText")->text().contains("Device simulated:noise=0, seed 1."))
       << find<QLabel>("cardText")->text().toStdString();
   find<QPushButton>("resumeYes")->click();
   EXPECT_EQ(session().run(), nullptr) << "the first trial waits for Space";
   EXPECT_EQ(window_->sessionDock().request().place.subject, "03");
   request_.place.subject = "03";
   // Another device asks, and nothing begins when the answer is no.
-  window_->sessionDock().setDevice(QStringLiteral("mouse"));
+  window_->sessionDock().setDevice("mouse");
   {
-    const AnswerBox box(QStringLiteral("Cancel"));
+    const AnswerBox box("Cancel");
     window_->nextTrial();
-    EXPECT_TRUE(box.text().contains(QStringLiteral("recorded with the device simulated:noise=0"))) << box.text().toStdString();
+    EXPECT_TRUE(box.text().contains("recorded with the device simulated:noise=0")) << box.text().toStdString();
   }
   EXPECT_EQ(session().run(), nullptr);
-  window_->sessionDock().setDevice(QStringLiteral("simulated:noise=0"));
+  window_->sessionDock().setDevice("simulated:noise=0");
   EXPECT_EQ(session().experiment().name, before[1].configuration().experimentName);
   for (int trial = 0; trial < 193; ++trial) {
     doTrial();
@@ -226,7 +221,7 @@ TEST_F(RecordingWindow, ThePapersPlanIsDoneBlockByBlockAndResumedAfterAKill) {
     }
   }
   window_->nextTrial();
-  EXPECT_EQ(window_->message(), QStringLiteral("The session is complete."));
+  EXPECT_EQ(window_->message(), "The session is complete.");
   std::set<std::pair<int, int>> done;
   const std::vector<record::RunLog> found = logs();
   ASSERT_EQ(found.size(), 4u) << "block 1, block 2 cut short, the rest of block 2, block 3";
@@ -276,14 +271,9 @@ TEST_F(RecordingWindow, RecordsByteForByteWhatTheCommandLineRecords) {
   for (int trial = 0; trial < 6; ++trial) doTrial();
   session().endRun();
   session::SessionRequest other = request_;
-  other.place.data = (folder_.path() + QStringLiteral("/other")).toStdString();
-  QProcess reach;
-  reach.start(QStringLiteral(REACH_PROGRAM),
-              {QStringLiteral("run"), QString::fromStdString(plan), QStringLiteral("--device"), QStringLiteral("simulated"),
-               QStringLiteral("--seed"), QStringLiteral("1"), QStringLiteral("--fast"), QStringLiteral("--data"),
-               QString::fromStdString(other.place.data)});
-  ASSERT_TRUE(reach.waitForFinished(120000));
-  ASSERT_EQ(reach.exitCode(), 0) << reach.readAllStandardError().toStdString();
+  other.place.data = (folder_.path() + "/other").toStdString();
+  const test::Ended reach = test::reach("run " + plan + " --device simulated --seed 1 --fast --data " + other.place.data);
+  ASSERT_EQ(reach.exitCode, 0) << reach.err;
 
   const std::vector<session::RunOnDisk> ours = session::recordedRuns(request_.place), theirs = session::recordedRuns(other.place);
   ASSERT_EQ(ours.size(), 2u);
@@ -310,7 +300,7 @@ TEST_F(RecordingWindow, TheFittedEpsilonOfTheRunIsThatOfTheAnalysis) {
   request_.trials = 16;
   open();
   for (int i = 0; i < 16; ++i) doTrial();
-  const auto* table = window_->findChild<QTableWidget*>(QStringLiteral("criteria"));
+  const auto* table = window_->findChild<QTableWidget*>("criteria");
   ASSERT_NE(table, nullptr);
   const auto analysed = analysis::analyzeTrials(analysis::openDataset(session().run()->logPath()).input, {});
   const auto rows = analysis::fitRows(analysed);

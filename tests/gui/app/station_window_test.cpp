@@ -1,6 +1,6 @@
-#include <QFile>
 #include <QLabel>
 #include <QTableWidget>
+#include <filesystem>
 
 #include "gui/docks/session_dock.h"
 #include "gui/docks/stations_dock.h"
@@ -14,12 +14,8 @@ namespace {
 class StationWindow : public AtTheWindow {
  protected:
   MainWindow& openStation(int number, bool conductor) {
-    const QString endpoint = folder_.filePath(QStringLiteral("endpoint"));
-    QFile script(endpoint);
-    EXPECT_TRUE(script.open(QIODevice::WriteOnly));
-    script.write("#!/bin/sh\nexec sleep 60\n");
-    script.close();
-    EXPECT_TRUE(script.setPermissions(QFile::ReadOwner | QFile::WriteOwner | QFile::ExeOwner));
+    const std::string endpoint = write("endpoint", "#!/bin/sh\nexec sleep 60\n");
+    std::filesystem::permissions(endpoint, std::filesystem::perms::owner_all);
     request_.what = "chain-two-hands";
     request_.device = "simulated";
     network::StationSetup setup;
@@ -27,13 +23,11 @@ class StationWindow : public AtTheWindow {
     setup.link.conductor = conductor;
     setup.link.name = "here";
     setup.link.software = "reachlab";
-    setup.link.endpoint = endpoint.toStdString();
+    setup.link.endpoint = endpoint;
     setup.wait = 1;
     setup.insecure = true;
     window_ = std::make_unique<MainWindow>(request_, setup);
-    window_->show();
-    EXPECT_TRUE(QTest::qWaitForWindowExposed(window_.get()));
-    QApplication::setActiveWindow(window_.get());
+    show();
     window_->joinStations();
     return *window_;
   }
@@ -43,15 +37,14 @@ TEST_F(StationWindow, TheConductorsArmsNothingWhileAStationIsMissingAndSaysSo) {
   MainWindow& window = openStation(1, true);
   ASSERT_NE(window.session().run(), nullptr) << "the others hear of it from the start";
   const auto* sentence = find<QLabel>("stationsSentence");
-  ASSERT_NE(sentence, nullptr);
-  EXPECT_TRUE(sentence->text().contains(QStringLiteral("station 2: is not there"))) << sentence->text().toStdString();
+  EXPECT_TRUE(sentence->text().contains("station 2: is not there")) << sentence->text().toStdString();
   EXPECT_EQ(find<QTableWidget>("stations")->rowCount(), 2);
   EXPECT_EQ(window.view().plan().hands.size(), 2u);
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.overlay().instruction.startsWith(QStringLiteral("Station 2 is missing")); }, 5000))
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.overlay().instruction.startsWith("Station 2 is missing"); }, 5000))
       << "it is the headline";
   QTest::keyClick(&window, Qt::Key_Space);
   EXPECT_TRUE(window.session().isArming());
-  EXPECT_TRUE(QTest::qWaitFor([&] { return window.message().startsWith(QStringLiteral("no trial was armed: station 2")); }, 5000))
+  EXPECT_TRUE(QTest::qWaitFor([&] { return window.message().startsWith("no trial was armed: station 2"); }, 5000))
       << window.message().toStdString();
   EXPECT_FALSE(window.session().isArming());
   QTest::keyClick(&window, Qt::Key_Space);
@@ -68,7 +61,7 @@ TEST_F(StationWindow, AFollowersWaitsForTheConductor) {
   QTest::keyClick(&window, Qt::Key_Space);
   QTest::qWait(100);
   EXPECT_FALSE(window.session().underWay());
-  EXPECT_EQ(window.overlay().instruction, QStringLiteral("Station 1 is missing. The window waits for it."));
+  EXPECT_EQ(window.overlay().instruction, "Station 1 is missing. The window waits for it.");
 }
 
 TEST_F(StationWindow, AnObserverHasNoHandAndRecordsNothing) {
@@ -78,12 +71,11 @@ TEST_F(StationWindow, AnObserverHasNoHandAndRecordsNothing) {
   QTest::keyClick(&window, Qt::Key_Space);
   QTest::qWait(100);
   EXPECT_EQ(window.session().run(), nullptr);
-  EXPECT_TRUE(window.windowTitle().contains(QStringLiteral("observing")));
+  EXPECT_TRUE(window.windowTitle().contains("observing"));
   const auto* sentence = find<QLabel>("stationsSentence");
-  ASSERT_NE(sentence, nullptr);
-  EXPECT_TRUE(sentence->text().startsWith(QStringLiteral("This window only observes"))) << sentence->text().toStdString();
+  EXPECT_TRUE(sentence->text().startsWith("This window only observes")) << sentence->text().toStdString();
   EXPECT_EQ(find<QTableWidget>("stations")->rowCount(), 2) << "both stations, and no row of its own";
-  EXPECT_FALSE(QFile::exists(QString::fromStdString(request_.place.data)));
+  EXPECT_FALSE(std::filesystem::exists(request_.place.data));
 }
 
 TEST_F(StationWindow, APlanIsRefused) {

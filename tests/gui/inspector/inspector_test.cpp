@@ -6,7 +6,6 @@
 #include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
-#include <QFile>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
@@ -23,8 +22,6 @@
 
 #include "analysis/tables.h"
 #include "base/ticks.h"
-#include "gui/app/main_window.h"
-#include "gui/app/window_layout.h"
 #include "gui/inspector/profile_plot.h"
 #include "gui/inspector/replay_view.h"
 #include "gui/scene/scene_view.h"
@@ -33,6 +30,7 @@
 #include "sim/record/log/whole_file.h"
 #include "tests/analysis/recorded.h"
 #include "tests/analysis/whole_dataset.h"
+#include "tests/gui/at_the_window.h"
 
 namespace reachlab::gui::inspector {
 namespace {
@@ -226,16 +224,15 @@ TEST_F(Inspecting, ATrialIsExcludedOnlyWithAReason) {
   QTest::mouseClick(find<QCheckBox>("exclude"), Qt::LeftButton, {}, QPoint(8, 8));
   EXPECT_TRUE(record::readMarks(log()).trials.empty());
   auto* reason = find<QLineEdit>("excludeReason");
-  QTest::keyClicks(reason, QStringLiteral("talked"));
+  QTest::keyClicks(reason, "talked");
   QTest::keyClick(reason, Qt::Key_Return);
   settle();
   const record::RunMarks marks = record::readMarks(log());
   ASSERT_EQ(marks.trials.size(), 1u);
   EXPECT_EQ(marks.trials[0].excluded, "talked");
-  EXPECT_TRUE(find<QLabel>("inspectedWords")->text().contains(QStringLiteral("excluded: talked")))
-      << find<QLabel>("inspectedWords")->text().toStdString();
+  EXPECT_TRUE(find<QLabel>("inspectedWords")->text().contains("excluded: talked")) << find<QLabel>("inspectedWords")->text().toStdString();
   auto* filter = find<QLineEdit>("inspectorFilter");
-  QTest::keyClicks(filter, QStringLiteral("excluded sub-01"));
+  QTest::keyClicks(filter, "excluded sub-01");
   ASSERT_EQ(page_.view().model()->rowCount(), 1);
   EXPECT_EQ(page_.view().model()->index(0, TrialTable::kTrial).data().toInt(), marks.trials[0].trial);
 }
@@ -256,21 +253,21 @@ TEST_F(Inspecting, TheTableSortsByNumber) {
 
 TEST_F(Inspecting, FiguresAndTablesAreWritten) {
   choose(0, 11);
-  const QString base = QString::fromStdString(folder_->path()) + QStringLiteral("/out");
-  page_.exportTo(base + QStringLiteral(".svg"));
-  page_.exportTo(base + QStringLiteral(".pdf"));
-  page_.exportTo(base + QStringLiteral(".csv"));
-  const std::string svg = record::readWholeFile((base + QStringLiteral(".svg")).toStdString());
+  const QString base = QString::fromStdString(folder_->path()) + "/out";
+  page_.exportTo(base + ".svg");
+  page_.exportTo(base + ".pdf");
+  page_.exportTo(base + ".csv");
+  const std::string svg = record::readWholeFile((base + ".svg").toStdString());
   EXPECT_NE(svg.find("<svg"), std::string::npos);
-  EXPECT_TRUE(record::readWholeFile((base + QStringLiteral(".pdf")).toStdString()).starts_with("%PDF"));
-  const std::string csv = record::readWholeFile((base + QStringLiteral(".csv")).toStdString());
+  EXPECT_TRUE(record::readWholeFile((base + ".pdf").toStdString()).starts_with("%PDF"));
+  const std::string csv = record::readWholeFile((base + ".csv").toStdString());
   std::size_t samples = 0;
   for (const analysis::TrialSignals& s : page_.inspection()->signals) samples += s.handVelocity.size();
   EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), samples + 1);
-  page_.exportTable(base + QStringLiteral("-table.csv"));
-  const std::string table = record::readWholeFile((base + QStringLiteral("-table.csv")).toStdString());
+  page_.exportTable(base + "-table.csv");
+  const std::string table = record::readWholeFile((base + "-table.csv").toStdString());
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 27);
-  EXPECT_THROW(page_.exportTo(base + QStringLiteral(".doc")), Error);
+  EXPECT_THROW(page_.exportTo(base + ".doc"), Error);
 }
 
 TEST_F(Inspecting, TheReportIsTheOneOfTheAnalysis) {
@@ -288,7 +285,7 @@ TEST_F(Inspecting, WhatIsNoRecordingIsSaid) {
   page_.open(QString::fromStdString(folder_->path() + "/cache"));
   ASSERT_TRUE(QTest::qWaitFor([this] { return !page_.busy(); }, 10000));
   QTest::qWait(40);
-  EXPECT_TRUE(said_.contains(QStringLiteral("neither logs"))) << said_.toStdString();
+  EXPECT_TRUE(said_.contains("neither logs")) << said_.toStdString();
 }
 
 TEST_F(Inspecting, ADatasetWithoutLogsShowsItsMotionFiles) {
@@ -299,7 +296,7 @@ TEST_F(Inspecting, ADatasetWithoutLogsShowsItsMotionFiles) {
   page_.open(QString::fromStdString(copy));
   ASSERT_TRUE(QTest::qWaitFor([this] { return !page_.busy() && page_.table().rowCount() == 26; }, 20000)) << said_.toStdString();
   settle();
-  EXPECT_TRUE(said_.contains(QStringLiteral("no logs"))) << said_.toStdString();
+  EXPECT_TRUE(said_.contains("no logs")) << said_.toStdString();
   choose(0, 4);
   ASSERT_NE(page_.inspection(), nullptr) << said_.toStdString();
   EXPECT_EQ(page_.plot().lineCount(), 5);
@@ -308,7 +305,7 @@ TEST_F(Inspecting, ADatasetWithoutLogsShowsItsMotionFiles) {
   const Vec3 hand = ownHand(page_.replay().view().frame());
   EXPECT_GT(norm(hand - page_.replay().view().plan().start), 1e-3) << "it moves";
   QTest::mouseClick(find<QCheckBox>("flag"), Qt::LeftButton, {}, QPoint(8, 8));
-  EXPECT_TRUE(said_.contains(QStringLiteral("Marks are kept beside a recording's log"))) << said_.toStdString();
+  EXPECT_TRUE(said_.contains("Marks are kept beside a recording's log")) << said_.toStdString();
   EXPECT_FALSE(find<QCheckBox>("flag")->isChecked());
 }
 
@@ -320,8 +317,8 @@ TEST_F(Inspecting, ALogThatIsCutOffNamesWhatItLost) {
   std::filesystem::resize_file(copy, (trials[6].offset + trials[7].offset) / 2);
   page_.open(QString::fromStdString(folder_->path() + "/cut"));
   ASSERT_TRUE(QTest::qWaitFor([this] { return !page_.busy() && page_.table().rowCount() == 7; }, 20000)) << said_.toStdString();
-  EXPECT_TRUE(said_.contains(QStringLiteral("Trial 7 broke off. The planned trials 8 to 24 are not in it."))) << said_.toStdString();
-  EXPECT_TRUE(find<QLabel>("inspectorCount")->text().contains(QStringLiteral("1 with losses")));
+  EXPECT_TRUE(said_.contains("Trial 7 broke off. The planned trials 8 to 24 are not in it.")) << said_.toStdString();
+  EXPECT_TRUE(find<QLabel>("inspectorCount")->text().contains("1 with losses"));
   settle();
 }
 
@@ -348,7 +345,7 @@ TEST_F(Inspecting, ColumnsAndProgressFit) {
     auto* progress = find<QProgressBar>("inspectorProgress");
     progress->setRange(0, 88'888);
     progress->setValue(88'888);
-    progress->setFormat(QStringLiteral("fitting trial %v / %m"));
+    progress->setFormat("fitting trial %v / %m");
     progress->show();
     find<QPushButton>("inspectorCancel")->show();
     QTest::qWait(50);
@@ -365,11 +362,8 @@ TEST_F(Inspecting, ColumnsAndProgressFit) {
 }
 
 TEST(Replay, ShowsTheSceneFileOfItsExperiment) {
-  const QTemporaryDir folder;
-  QFile file(folder.filePath(QStringLiteral("ball.wrl")));
-  ASSERT_TRUE(file.open(QIODevice::WriteOnly));
-  file.write("#VRML V2.0 utf8\nDEF mass1 Shape { geometry Sphere { radius 0.02 } }\n");
-  file.close();
+  const TemporaryFolder folder;
+  folder.write("ball.wrl", "#VRML V2.0 utf8\nDEF mass1 Shape { geometry Sphere { radius 0.02 } }\n");
   const auto openWith = [](const std::string& scene) {
     experiment::SceneLook look;
     look.sceneFile = scene;
@@ -378,25 +372,20 @@ TEST(Replay, ShowsTheSceneFileOfItsExperiment) {
   ReplayView replay;
   QString said;
   QObject::connect(&replay, &ReplayView::said, [&](const QString& words) { said = words; });
-  replay.show(openWith("ball.wrl"), folder.path(), {}, {});
+  replay.show(openWith("ball.wrl"), QString::fromStdString(folder.path()), {}, {});
   ASSERT_TRUE(QTest::qWaitFor([&] { return replay.view().plan().model != nullptr; }, 10'000)) << said.toStdString();
   EXPECT_EQ(replay.view().plan().model->parts.front().name, "mass1");
-  replay.show(openWith("gone.wrl"), folder.path(), {}, {});
+  replay.show(openWith("gone.wrl"), QString::fromStdString(folder.path()), {}, {});
   ASSERT_TRUE(QTest::qWaitFor([&] { return !said.isEmpty(); }, 10'000));
   EXPECT_EQ(replay.view().plan().model, nullptr) << "the usual shapes";
 }
 
-TEST(InspectPage, BelongsToTheWindowAndKeepsTheTrialsKeysOff) {
-  const TemporaryFolder folder;
-  analysis::recordRun(folder.path() + "/data", {.experiment = "chain-moderate", .trials = 2});
-  session::SessionRequest request;
-  request.what = "chain-moderate";
-  request.device = "mouse";
-  request.place.data = folder.path() + "/data";
-  app::MainWindow window(request);
-  window.show();
-  ASSERT_TRUE(QTest::qWaitForWindowExposed(&window));
-  QApplication::setActiveWindow(&window);
+class InspectPage : public AtTheWindow {};
+
+TEST_F(InspectPage, BelongsToTheWindowAndKeepsTheTrialsKeysOff) {
+  analysis::recordRun(request_.place.data, {.experiment = "chain-moderate", .trials = 2});
+  request_.what = "chain-moderate";
+  app::MainWindow& window = open();
   QTest::keyClick(&window, Qt::Key_3, Qt::AltModifier);
   EXPECT_TRUE(window.inspecting());
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.inspector().table().rowCount() == 2; }, 10000)) << "what this session records";
@@ -405,9 +394,8 @@ TEST(InspectPage, BelongsToTheWindowAndKeepsTheTrialsKeysOff) {
   QTest::keyClick(&window, Qt::Key_1, Qt::AltModifier);
   EXPECT_FALSE(window.inspecting());
   EXPECT_TRUE(window.view().isVisible());
-  window.openExperiment(QString::fromStdString(folder.path() + "/data"));
+  window.openExperiment(QString::fromStdString(request_.place.data));
   EXPECT_TRUE(window.inspecting()) << "a folder that is opened is looked at";
-  app::forgetLayout();
 }
 
 }  // namespace

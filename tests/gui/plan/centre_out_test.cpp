@@ -9,7 +9,6 @@
 #include <map>
 #include <numbers>
 
-#include "gui/app/window_layout.h"
 #include "gui/inspector/inspector.h"
 #include "gui/plan/plan_composer.h"
 #include "gui/scene/scene_view.h"
@@ -27,7 +26,6 @@ class CentreOut : public AtTheWindow {
     request_.device = "simulated:kind=ofc";
     request_.fast = true;
   }
-  ~CentreOut() override { app::forgetLayout(); }
   QString compose() {
     window_->composePlan();
     auto* dialog = window_->findChild<PlanComposer*>();

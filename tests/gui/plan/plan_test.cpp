@@ -14,7 +14,6 @@
 #include <fstream>
 
 #include "gui/app/main_window.h"
-#include "gui/app/window_layout.h"
 #include "gui/docks/session_dock.h"
 #include "gui/plan/plan_composer.h"
 #include "gui/plan/start_page.h"
@@ -80,7 +79,6 @@ class PlannedSession : public AtTheWindow {
     open();
     EXPECT_TRUE(QTest::qWaitFor([&] { return page().isVisible(); }, 3000));
   }
-  ~PlannedSession() override { app::forgetLayout(); }
   StartPage& page() { return *window_->findChild<StartPage*>(); }
   QString summary() { return find<QLabel>("startSummary")->text(); }
   QString next() { return find<QLabel>("startNext")->text(); }

@@ -11,7 +11,7 @@
 
 #include "base/math/minimum_jerk.h"
 #include "gui/app/screens.h"
-#include "gui/app/window_layout.h"
+#include "gui/scene/scene_overlay.h"
 #include "gui/scene/scene_view.h"
 #include "gui/subject/subject_window.h"
 #include "sim/experiment/experiment.h"
@@ -24,17 +24,10 @@ namespace {
 
 using Patch = SubjectWindow::Patch;
 
-SubjectWindow* subjectWindow() {
-  for (QWidget* top : QApplication::topLevelWidgets())
-    if (auto* found = qobject_cast<SubjectWindow*>(top)) return found;
-  throw std::runtime_error("no subject's screen");
-}
-
 class SubjectsScreen : public AtTheWindow {
  protected:
   ~SubjectsScreen() override {
     if (window_) window_->setSubjectsLanguage(QStringLiteral("en"));
-    app::forgetLayout();
   }
   // chain-moderate with this screen, and whatever the machine misses.
   void showing(const std::string& screen) {
@@ -47,7 +40,10 @@ class SubjectsScreen : public AtTheWindow {
     request_.timingCheckSeconds = 0;
     request_.trials = 2;
   }
-  SubjectWindow& screen() { return *subjectWindow(); }
+  SubjectWindow& screen() {
+    if (SubjectWindow* found = subjectsScreen()) return *found;
+    throw std::runtime_error("no subject's screen");
+  }
   const scene::OverlayState& said() { return screen().view().overlay().state(); }
 };
 
@@ -103,7 +99,7 @@ class SubjectsCursor : public ::testing::Test {
     const experiment::CompiledExperiment compiled(e);
     screens_.showExperiment(compiled, {});
     if (!subject_) screens_.toggleSubject();
-    subject_ = subjectWindow();
+    subject_ = subjectsScreen();
     engine_ = std::make_unique<haptics::TickEngine>(compiled, haptics::EngineOptions{});
   }
   ~SubjectsCursor() override { delete subject_; }
