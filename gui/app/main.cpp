@@ -26,7 +26,6 @@
 #include "gui/session/remembered_session.h"
 #include "gui/scene/picture_sheet.h"
 #include "gui/widgets/theme.h"
-#include "gui/widgets/themes.h"
 #include "network/station/station_options.h"
 #include "sim/experiment/resources.h"
 #include "sim/record/configuration/limits.h"

@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "devices/driver/registry.h"
-#include "gui/widgets/inks.h"
+#include "gui/widgets/theme.h"
 #include "gui/widgets/named.h"
 #include "gui/widgets/wait_cursor.h"
 

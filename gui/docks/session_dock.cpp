@@ -16,7 +16,7 @@
 #include "devices/driver/registry.h"
 #include "devices/hot_plug.h"
 #include "gui/widgets/fault_words.h"
-#include "gui/widgets/inks.h"
+#include "gui/widgets/theme.h"
 #include "gui/widgets/named.h"
 #include "sim/record/configuration/run_configuration.h"
 

@@ -6,11 +6,9 @@
 #include <algorithm>
 
 #include "gui/scene_plan/hand_colours.h"
-#include "gui/widgets/inks.h"
 #include "gui/widgets/named.h"
 #include "gui/widgets/text_table.h"
 #include "gui/widgets/theme.h"
-#include "gui/widgets/themes.h"
 
 namespace reachlab::gui::docks {
 namespace {

@@ -7,7 +7,7 @@
 #include <QVBoxLayout>
 
 #include "gui/scene/trial_texts.h"
-#include "gui/widgets/inks.h"
+#include "gui/widgets/theme.h"
 #include "gui/widgets/named.h"
 #include "gui/widgets/text_table.h"
 

@@ -18,7 +18,6 @@
 #include <cmath>
 
 #include "gui/plot/plot_tools.h"
-#include "gui/widgets/inks.h"
 #include "gui/widgets/theme.h"
 
 namespace reachlab::gui::inspector {

@@ -6,7 +6,7 @@
 
 #include "base/table_text.h"
 #include "gui/scene/trial_texts.h"
-#include "gui/widgets/inks.h"
+#include "gui/widgets/theme.h"
 #include "sim/record/log/trial_measures.h"
 
 namespace reachlab::gui::inspector {

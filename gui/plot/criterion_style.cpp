@@ -6,7 +6,7 @@
 
 #include "analysis/report/figures.h"
 #include "gui/widgets/text_table.h"
-#include "gui/widgets/themes.h"
+#include "gui/widgets/colours.h"
 
 namespace reachlab::gui::plot {
 

@@ -27,7 +27,6 @@
 #include <vector>
 
 #include "gui/plot/line_style.h"
-#include "gui/widgets/inks.h"
 #include "gui/widgets/theme.h"
 
 namespace reachlab::gui::plot {

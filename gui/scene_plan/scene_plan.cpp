@@ -7,7 +7,7 @@
 #include "constraints/constraint.h"
 #include "constraints/geometry/task_path.h"
 #include "gui/scene_plan/hand_colours.h"
-#include "gui/widgets/themes.h"
+#include "gui/widgets/colours.h"
 #include "sim/experiment/experiment.h"
 #include "sim/trial/protocol.h"
 

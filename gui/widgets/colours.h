@@ -1,4 +1,5 @@
 #pragma once
+#include <string>
 
 /// The window's palette: dark, legible from a distance, and distinct for colour-blind eyes (blue, orange and sky of Okabe and Ito).
 /// Components in [0, 1]. toQColor is with the widgets.
@@ -23,5 +24,15 @@ inline constexpr Colour kLampNeutral{0.50, 0.54, 0.60}, kLampGreen{0.30, 0.95, 0
 inline constexpr Colour kText{0.93, 0.95, 0.98}, kFaintText{0.66, 0.71, 0.78}, kBadText{1.00, 0.62, 0.55};
 inline constexpr Colour kWindow{0.115, 0.130, 0.160}, kBase{0.075, 0.086, 0.108}, kButton{0.175, 0.198, 0.240}, kAccent{0.24, 0.60, 0.96};
 }  // namespace colours
+
+enum class Theme { Dark, Light };
+
+/// Call it before the first widget is made. Widgets that are already drawn keep their colours.
+void setTheme(Theme theme);
+Theme theme();
+/// A colour of the dark palette as the theme has it. Other colours are unchanged.
+Colour themed(const Colour& colour);
+/// Of "#rrggbb".
+Colour colourOf(const std::string& hex);
 
 }  // namespace reachlab::gui::widgets

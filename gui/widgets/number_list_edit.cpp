@@ -9,7 +9,7 @@
 
 #include "constraints/formula/expression.h"
 #include "constraints/formula/parser.h"
-#include "gui/widgets/inks.h"
+#include "gui/widgets/theme.h"
 
 namespace reachlab::gui::widgets {
 namespace {

@@ -6,8 +6,6 @@
 #include <QStyleFactory>
 #include <clocale>
 
-#include "gui/widgets/inks.h"
-#include "gui/widgets/themes.h"
 
 namespace reachlab::gui::widgets {
 

@@ -5,7 +5,7 @@
 #include <QSignalBlocker>
 #include <utility>
 
-#include "gui/widgets/inks.h"
+#include "gui/widgets/theme.h"
 
 namespace reachlab::gui::widgets {
 

@@ -7,7 +7,6 @@
 
 #include "gui/widgets/number_list_edit.h"
 #include "gui/widgets/theme.h"
-#include "gui/widgets/themes.h"
 #include "tests/gui/at_the_window.h"
 #include "tests/gui/eyes.h"
 
