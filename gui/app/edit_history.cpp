@@ -34,11 +34,14 @@ class Change : public QUndoCommand {
 
 }  // namespace
 
+bool EditHistory::isSameScene(experiment::Experiment changed) const {
+  changed.text = session_.experiment().text;
+  return changed == session_.experiment();
+}
+
 QStringList EditHistory::tryEdit(const experiment::Experiment& changed, const QString& what) {
-  experiment::Experiment same = changed;
-  same.text = session_.experiment().text;
   const bool sameLook = experiment::lookOf(changed) == experiment::lookOf(session_.experiment());
-  if (same == session_.experiment() && sameLook) return {};  // back to what holds: the run goes on
+  if (isSameScene(changed) && sameLook) return {};  // back to what holds: the run goes on
   const session::Programme before = session_.programme();
   try {
     const QStringList faults = widgets::inWords(session_.tryEdit(changed));

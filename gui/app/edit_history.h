@@ -14,6 +14,8 @@ class EditHistory {
 
   /// Takes the experiment over if it has no fault. Returns the faults as sentences, and an empty list if the experiment holds.
   QStringList tryEdit(const experiment::Experiment& changed, const QString& what);
+  /// Whether nothing but the look of the scene differs from the present experiment.
+  bool isSameScene(experiment::Experiment changed) const;
   /// Takes over a programme that was opened.
   void open(const session::Programme& programme, const QString& what);
   QUndoStack& stack() { return stack_; }

@@ -45,17 +45,6 @@ void rememberFile(const QString& file) {
   QSettings().setValue(recentKey(), files);
 }
 
-const std::vector<Template>& templates() {
-  static const std::vector<Template> all{{"Chain of masses on a line", "chain-moderate"},
-                                         {"Chain of masses on a curve", "chain-on-ellipse"},
-                                         {"Masses side by side", "parallel"},
-                                         {"One mass on a curve", "ellipse"},
-                                         {"One mass on a surface", "torus"},
-                                         {"One mass in free space", "free-point"},
-                                         {"A body in free space", "free-body"}};
-  return all;
-}
-
 experiment::CompiledExperiment newExperiment(const Template& from) {
   experiment::Experiment experiment = experiment::openExperiment(from.shipped).experiment();
   experiment.name = "untitled";

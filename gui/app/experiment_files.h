@@ -22,7 +22,13 @@ struct Template {
   const char* title;  // "Chain on a line"
   const char* shipped;
 };
-const std::vector<Template>& templates();
+inline constexpr Template kTemplates[] = {{"Chain of masses on a line", "chain-moderate"},
+                                          {"Chain of masses on a curve", "chain-on-ellipse"},
+                                          {"Masses side by side", "parallel"},
+                                          {"One mass on a curve", "ellipse"},
+                                          {"One mass on a surface", "torus"},
+                                          {"One mass in free space", "free-point"},
+                                          {"A body in free space", "free-body"}};
 /// A new experiment from that template, with a new name. Throws FaultError.
 experiment::CompiledExperiment newExperiment(const Template& from);
 

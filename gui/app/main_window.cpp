@@ -22,6 +22,7 @@
 #include "gui/plan/start_page.h"
 #include "gui/plot/criterion_style.h"
 #include "gui/session/session_overlay.h"
+#include "gui/widgets/named.h"
 #include "gui/widgets/work_strip.h"
 #include "sim/dynamics/scene.h"
 #include "sim/experiment/experiment.h"
@@ -106,9 +107,7 @@ MainWindow::~MainWindow() {
 
 void MainWindow::addCentre() {
   auto* middle = new QWidget;
-  auto* layout = new QVBoxLayout(middle);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(0);
+  auto* layout = widgets::filling<QVBoxLayout>(middle, 0);
   view_ = new scene::SceneView;
   view_->setObjectName("scene");
   pages_ = new QTabWidget;
@@ -117,7 +116,7 @@ void MainWindow::addCentre() {
   pages_->tabBar()->setExpanding(false);
   pages_->addTab(view_, tr("Reach"));
   auto* page = new QWidget;
-  (new QVBoxLayout(page))->setContentsMargins(0, 0, 0, 0);
+  widgets::filling<QVBoxLayout>(page);
   pages_->addTab(page, tr("Inspect"));
   layout->addWidget(pages_, 1);
   setCentralWidget(middle);
@@ -256,7 +255,7 @@ void MainWindow::showStage() {
     action->setEnabled(stage != Stage::UnderWay && stage != Stage::Closed && !inspecting());
   if (stage == Stage::Following) actions_.repeat->setEnabled(false);
   actions_.nextSubject->setEnabled(stage == Stage::Closed && !inspecting());
-  screens_->setPlacesMovable(stage == Stage::Closed && !session_.isPlan());
+  view_->setPlacesMovable(stage == Stage::Closed && !session_.isPlan());
 }
 
 // What a run ends with: its counts, its folder, and what can follow.
@@ -390,10 +389,7 @@ void MainWindow::playGo(const haptics::TickState& state) {
   gone_ = gone;
 }
 
-plot::VelocityPlot& MainWindow::plot() { return *docks_.velocity; }
 docks::ConstraintChooser& MainWindow::chooser() { return docks_.constraint->chooser(); }
-const scene::OverlayState& MainWindow::overlay() const { return screens_->overlay(); }
-QString MainWindow::message() const { return messages_->newest(); }
 
 void MainWindow::nextTrial() {
   if (session_.run() == nullptr && plans_->resumes()) session_.resume();

@@ -41,7 +41,7 @@ class MainWindow : public QMainWindow {
   SessionController& session() { return session_; }
   scene::SceneView& view() { return *view_; }
   Screens& screens() { return *screens_; }
-  plot::VelocityPlot& plot();
+  plot::VelocityPlot& plot() { return *docks_.velocity; }
   docks::PredictionDock& predictions() { return *docks_.predictions; }
   docks::SessionDock& sessionDock() { return *docks_.session; }
   docks::ConstraintChooser& chooser();    // made when first asked for
@@ -50,7 +50,7 @@ class MainWindow : public QMainWindow {
   SoundCues& sounds() { return sounds_; }
   const QString& subjectsLanguage() const { return words_.language(); }
   QUndoStack& edits() { return edits_.stack(); }
-  const scene::OverlayState& overlay() const;
+  const scene::OverlayState& overlay() const { return screens_->overlay(); }
   /// How the scene is drawn, as the experiment has it.
   experiment::SceneLook look() const { return experiment::lookOf(session_.experiment()); }
   /// Shows a message over the scene: `say` for an error, `warn` for a remark that needs attention, `tell` for a success.
@@ -58,7 +58,7 @@ class MainWindow : public QMainWindow {
   void warn(const QString& sentence);
   void tell(const QString& sentence);
   /// The newest message. Empty if there is no message.
-  QString message() const;
+  QString message() const { return messages_->newest(); }
   /// True once the criteria have been computed for the present experiment. Never waits.
   bool predictionsReady() const { return forecast_.isReady(); }
 
@@ -102,8 +102,8 @@ class MainWindow : public QMainWindow {
 
  protected:
   void closeEvent(QCloseEvent* event) override;
-  void resizeEvent(QResizeEvent* event) override;
-  void moveEvent(QMoveEvent* event) override;
+  /// A changed layout is remembered a little later.
+  bool event(QEvent* event) override;
   /// A file that is dropped onto the window is opened.
   void dragEnterEvent(QDragEnterEvent* event) override;
   void dropEvent(QDropEvent* event) override;

@@ -110,9 +110,7 @@ bool MainWindow::saveTo(const QString& file, const experiment::Experiment& exper
 }
 
 void MainWindow::tryEdit(docks::Dock& dock, const experiment::Experiment& changed, const QString& what) {
-  experiment::Experiment same = changed;
-  same.text = session_.experiment().text;
-  if (!(same == session_.experiment()) && !mayEndRun("A change")) return dock.showExperiment(session_.compiled(), !session_.isPlan());
+  if (!edits_.isSameScene(changed) && !mayEndRun("A change")) return dock.showExperiment(session_.compiled(), !session_.isPlan());
   dock.showFaults(edits_.tryEdit(changed, what));
 }
 
@@ -174,8 +172,7 @@ void MainWindow::markTrial(int number, const std::function<void(record::TrialMar
   try {
     const std::string& log = session_.run()->logPath();
     record::RunMarks marks = record::readMarks(log);
-    record::TrialMark mark;
-    mark.trial = number;
+    record::TrialMark mark{.trial = number};
     if (const record::TrialMark* known = marks.find(number)) mark = *known;
     change(mark);
     marks.set(mark);
@@ -209,14 +206,9 @@ void MainWindow::edit(const experiment::Experiment& changed, const QString& doin
   if (const QStringList faults = edits_.tryEdit(changed, what); !faults.isEmpty()) say(faults.join(QLatin1Char('\n')));
 }
 
-void MainWindow::resizeEvent(QResizeEvent* event) {
-  QMainWindow::resizeEvent(event);
-  if (layoutTimer_ != nullptr) layoutTimer_->start();
-}
-
-void MainWindow::moveEvent(QMoveEvent* event) {
-  QMainWindow::moveEvent(event);
-  if (layoutTimer_ != nullptr) layoutTimer_->start();
+bool MainWindow::event(QEvent* event) {
+  if (layoutTimer_ != nullptr && (event->type() == QEvent::Resize || event->type() == QEvent::Move)) layoutTimer_->start();
+  return QMainWindow::event(event);
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {

@@ -107,8 +107,6 @@ void Screens::showOverlay(const scene::OverlayState& experimenters, const scene:
   if (subject_) subject_->view().overlay().setState(subjects);
 }
 
-void Screens::setPlacesMovable(bool movable) { main_.setPlacesMovable(movable); }
-
 // The point of the constraint under the pointer, shown at once with its numbers. The drawn range stays as it was when the drag began.
 void Screens::dragPlace(scene::TaskPlace place, const QPointF& pixel) {
   const experiment::Task& task = *experiment_->experiment().task;

@@ -41,8 +41,6 @@ class Screens : public QObject {
   void showOverlay(const scene::OverlayState& experimenters, const scene::OverlayState& subjects);
   /// The keys that work on the subject's screen as they do in the main window.
   void setSubjectsActions(const QList<QAction*>& actions) { actions_ = actions; }
-  /// Whether start and target can be dragged in the experimenter's picture.
-  void setPlacesMovable(bool movable);
   /// Draws masses beside one another, for the eye only, as seen from the present camera.
   void setSideBySide(bool on);
   /// Draws the forces on the hand for the experimenter. On by default.

@@ -61,7 +61,7 @@ void listRecent(MainWindow& window, QMenu& menu) {
 void addExperimentMenu(MainWindow& window) {
   QMenu& menu = *window.menuBar()->addMenu("&Experiment");
   QMenu* fresh = menu.addMenu("&New");
-  for (const Template& from : templates()) addEntry(window, *fresh, QLatin1String(from.title), [&window, from] { window.beginNew(from); });
+  for (const Template& from : kTemplates) addEntry(window, *fresh, QLatin1String(from.title), [&window, from] { window.beginNew(from); });
   addEntry(window, menu, "&Open…", &MainWindow::openFile, QKeySequence::Open);
   const auto inspect = [&window] {
     const QString folder = QFileDialog::getExistingDirectory(&window, "Inspect a dataset or a session");

@@ -13,6 +13,7 @@
 #include "base/fault.h"
 #include "base/system/error_report.h"
 #include "constraints/constraint.h"
+#include "constraints/geometry/task_path.h"
 #include "constraints/regularity/undefined.h"
 #include "gui/scene/thumbnail.h"
 #include "gui/scene_plan/definition_reach.h"
@@ -40,14 +41,7 @@ void givePlaces(constraints::Definition& definition) {
 
 // Start and target are the same place, or one of them is none.
 bool coincide(const constraints::Constraint& constraint, const ConstraintChoice& choice) {
-  const auto place = [&](const std::vector<double>& q) {
-    if (constraint.kind == constraints::ConstraintKind::Curve && q.size() == 1) return constraints::evaluate(constraint.curve, q[0]).r;
-    if (constraint.kind == constraints::ConstraintKind::Surface && q.size() == 2)
-      return constraints::evaluate(constraint.surface, q[0], q[1]).r;
-    return Vec3{};
-  };
-  const double apart = norm(place(choice.target) - place(choice.start));
-  return !(apart > 1e-6);
+  return !(norm(placeOn(constraint, choice.target) - placeOn(constraint, choice.start)) > 1e-6);
 }
 
 }  // namespace
@@ -115,8 +109,7 @@ QWidget* ConstraintChooser::makeSide() {
   for (QPushButton* button : {save_, use_, usePoint_}) button->setAutoDefault(false);
   auto* side = new QWidget;
   side->setFixedWidth(350);
-  auto* column = new QVBoxLayout(side);
-  column->setContentsMargins(0, 0, 0, 0);
+  auto* column = widgets::filling<QVBoxLayout>(side);
   widgets::addAll(*column, {new QLabel("<b>Formula</b>"), formula_});
   column->addSpacing(8);
   widgets::addAll(*column, {new QLabel("<b>Shape</b>"), sliders_});

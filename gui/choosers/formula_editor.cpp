@@ -54,8 +54,7 @@ std::string variableMeant(constraints::ConstraintKind kind, const std::string& n
 }
 
 FormulaEditor::FormulaEditor(QWidget* parent) : QWidget(parent) {
-  auto* grid = new QGridLayout(this);
-  grid->setContentsMargins(0, 0, 0, 0);
+  auto* grid = widgets::filling<QGridLayout>(this);
   grid->setVerticalSpacing(2);
   kind_ = widgets::named<QComboBox>("formulaKind");
   kind_->addItems({"curve in phi", "surface in u, v"});

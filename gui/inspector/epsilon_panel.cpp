@@ -31,12 +31,10 @@ std::optional<double> fittedEpsilon(const analysis::Analysis& analysis, std::siz
 }
 
 EpsilonPanel::EpsilonPanel(QWidget* parent) : QWidget(parent) {
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(3);
+  auto* layout = widgets::filling<QVBoxLayout>(this, 3);
   table_ = plot::makeCriteriaTable({tr("criterion"), tr("ε paper"), tr("ε fitted")},
                                    {predict::Criterion::MinHandJerk, predict::Criterion::MinCrackle}, 22);
-  table_->setObjectName(QStringLiteral("inspectedCriteria"));
+  table_->setObjectName("inspectedCriteria");
   table_->horizontalHeaderItem(kPaper)->setToolTip(
       tr("the paper's epsilon of the hand over the chosen trials that count, as in the report's tables [m/s]"));
   table_->horizontalHeaderItem(kFitted)->setToolTip(tr(
@@ -45,7 +43,7 @@ EpsilonPanel::EpsilonPanel(QWidget* parent) : QWidget(parent) {
   table_->setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);
   layout->addWidget(table_, 1);
   told_ = widgets::roleLabel("quiet");
-  told_->setObjectName(QStringLiteral("inspectedWords"));
+  told_->setObjectName("inspectedWords");
   layout->addWidget(told_);
   connect(table_, &QTableWidget::itemChanged, this, [this](QTableWidgetItem* item) {
     if (item->column() == kName) Q_EMIT chosenChanged();
@@ -64,7 +62,7 @@ void EpsilonPanel::show(const analysis::Analysis& analysis, std::size_t conditio
     for (const analysis::EpsilonPlace& place : r.handEpsilon)
       if (r.signals[place.criterion].criterion == criterion) paper = place.epsilon;
     const auto put = [&](int column, const std::optional<double>& value) {
-      table_->item(i, column)->setText(value && std::isfinite(*value) ? QString::number(*value, 'f', 4) : QStringLiteral("–"));
+      table_->item(i, column)->setText(value && std::isfinite(*value) ? QString::number(*value, 'f', 4) : "–");
       if (value && *value < least[column]) least[column] = *value, best[column] = i;
     };
     put(kPaper, paper);
@@ -79,7 +77,7 @@ void EpsilonPanel::show(const analysis::Analysis& analysis, std::size_t conditio
   QString words = tr("%1: %2 of the chosen trials count").arg(QString::fromStdString(analysis.conditions[condition].name)).arg(r.used);
   QStringList out;
   for (const auto& [why, count] : r.exclusions) out << tr("%1 × %2").arg(count).arg(QString::fromStdString(why));
-  if (!out.isEmpty()) words += tr("; not: %1").arg(out.join(QStringLiteral(", ")));
+  if (!out.isEmpty()) words += tr("; not: %1").arg(out.join(", "));
   const bool anyFitted = best[kFitted] >= 0;
   if (!anyFitted) words += tr(". ε is fitted when a person has at least %1 counted trials").arg(analysis::kFewestTrials);
   if (r.onlyFailures) words += tr(". No trial succeeded, so the failed trials are described");

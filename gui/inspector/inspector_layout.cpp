@@ -52,7 +52,7 @@ QToolButton* makeMenuButton(const QString& words, QMenu*& menu) {
 }  // namespace
 
 InspectorPage::InspectorPage(QWidget* parent) : QWidget(parent) {
-  setObjectName(QStringLiteral("inspector"));
+  setObjectName("inspector");
   auto* layout = new QVBoxLayout(this);
   layout->setContentsMargins(6, 6, 6, 4);
   layout->setSpacing(5);
@@ -60,7 +60,7 @@ InspectorPage::InspectorPage(QWidget* parent) : QWidget(parent) {
   table_ = new TrialTable(this);
   filter_ = new TrialFilter(table_);
   halves_ = split(Qt::Horizontal, makeLeft(), makeRight(), {4, 6}, {700, 860});
-  halves_->setObjectName(QStringLiteral("inspectorHalves"));
+  halves_->setObjectName("inspectorHalves");
   connect(halves_, &QSplitter::splitterMoved, this, [this] { halvesMoved_ = true; });
   layout->addWidget(halves_, 1);
   soon_ = new QTimer(this);
@@ -87,9 +87,7 @@ QWidget* InspectorPage::makeLeft() {
   view_->horizontalHeader()->setStretchLastSection(true);
   view_->setWordWrap(false);
   auto* left = new QWidget;
-  auto* column = new QVBoxLayout(left);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(4);
+  auto* column = widgets::filling<QVBoxLayout>(left, 4);
   column->addWidget(view_, 1);
   marks_ = new MarksPanel;
   column->addWidget(marks_);
@@ -100,7 +98,7 @@ void InspectorPage::addTop(QVBoxLayout& layout) {
   auto* top = new QHBoxLayout;
   QMenu *menu = nullptr, *exports = nullptr;
   auto *openButton = makeMenuButton(tr("Open"), menu), *exportButton = makeMenuButton(tr("Export"), exports);
-  openButton->setObjectName(QStringLiteral("inspectorOpen"));
+  openButton->setObjectName("inspectorOpen");
   menu->addAction(tr("Dataset…"), this, [this] {
     const QString folder = QFileDialog::getExistingDirectory(this, tr("Open a dataset or a session"), path_);
     if (!folder.isEmpty()) open(folder);
@@ -114,7 +112,7 @@ void InspectorPage::addTop(QVBoxLayout& layout) {
   });
   title_ = new widgets::ElidedLabel;
   title_->setText(tr("No recording is open. Use File, Inspect to open a dataset or a session."));
-  title_->setStyleSheet(QStringLiteral("font-weight: 600;"));
+  title_->setStyleSheet("font-weight: 600;");
   words_ = widgets::named<QLineEdit>("inspectorFilter");
   words_->setPlaceholderText(tr("filter: words of a row, e.g. sub-03 fast success"));
   words_->setClearButtonEnabled(true);
@@ -122,17 +120,17 @@ void InspectorPage::addTop(QVBoxLayout& layout) {
   count_ = widgets::named<QLabel>("inspectorCount");
   count_->setProperty("role", "quiet");
   progress_ = widgets::named<QProgressBar>("inspectorProgress");
-  progress_->setFixedWidth(progress_->fontMetrics().horizontalAdvance(tr("fitting trial") + QStringLiteral(" 88888 / 88888")) + 24);
+  progress_->setFixedWidth(progress_->fontMetrics().horizontalAdvance(tr("fitting trial") + " 88888 / 88888") + 24);
   progress_->hide();
   cancel_ = widgets::named<QPushButton>("inspectorCancel", tr("Cancel"));
   cancel_->hide();
   exports->addAction(tr("Figure or lines of the chosen trials…"), this, [this] {
-    save(tr("Export figure or lines"), QStringLiteral("trials.svg"),
+    save(tr("Export figure or lines"), "trials.svg",
          tr("Figure as SVG (*.svg);;Figure as PDF (*.pdf);;Figure as PNG (*.png);;Lines as CSV (*.csv)"),
          [this](const QString& file) { exportTo(file); });
   });
   exports->addAction(tr("Table as it is shown…"), this, [this] {
-    save(tr("Export table"), QStringLiteral("trials.csv"), tr("CSV (*.csv)"), [this](const QString& file) { exportTable(file); });
+    save(tr("Export table"), "trials.csv", tr("CSV (*.csv)"), [this](const QString& file) { exportTable(file); });
   });
   report_ = widgets::named<QPushButton>("inspectorReport", tr("Report"));
   report_->setToolTip(tr("analyses all open recordings, as `reach analyze` does, and shows the report"));
@@ -144,9 +142,7 @@ void InspectorPage::addTop(QVBoxLayout& layout) {
 
 QWidget* InspectorPage::makeRight() {
   auto* right = new QWidget;
-  auto* column = new QVBoxLayout(right);
-  column->setContentsMargins(0, 0, 0, 0);
-  column->setSpacing(3);
+  auto* column = widgets::filling<QVBoxLayout>(right, 3);
   auto* row = new QHBoxLayout;
   signal_ = widgets::named<QComboBox>("inspectorSignal");
   signal_->addItems({tr("velocity of the hand"), tr("velocity of the last mass")});

@@ -16,11 +16,10 @@ MarksPanel::MarksPanel(QWidget* parent) : QWidget(parent) {
   form->setContentsMargins(6, 4, 6, 4);
   form->setVerticalSpacing(4);
   title_ = new QLabel;
-  title_->setStyleSheet(QStringLiteral("font-weight: 600;"));
+  title_->setStyleSheet("font-weight: 600;");
   form->addRow(title_);
   times_ = widgets::tipped(new QLabel, tr("drag the dashed lines of the picked trial to move its onset and end"));
-  byRule_ = widgets::named<QPushButton>("marksByRule", tr("by the rule"));
-  byRule_->setToolTip(tr("onset and end as the analysis finds them"));
+  byRule_ = widgets::tipped(widgets::named<QPushButton>("marksByRule", tr("by the rule")), tr("onset and end as the analysis finds them"));
   QHBoxLayout* times = widgets::rowOf({times_, byRule_});
   times->setStretchFactor(times_, 1);
   form->addRow(tr("moves"), times);

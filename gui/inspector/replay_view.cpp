@@ -59,9 +59,7 @@ QToolButton* makeButton(const char* name, Sign sign, const QString& tip) {
 }  // namespace
 
 ReplayView::ReplayView(QWidget* parent) : QWidget(parent) {
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(2);
+  auto* layout = widgets::filling<QVBoxLayout>(this, 2);
   view_ = new scene::SceneView;
   view_->overlay().setVisible(false);
   view_->setMinimumSize(220, 150);

@@ -67,22 +67,22 @@ void forgetOpenRun() { QSettings().remove("openRun"); }
 
 std::optional<InterruptedRun> findInterruptedRun() {
   const QSettings settings;
+  const auto text = [&settings](const char* key) { return textOf(settings, key).toStdString(); };
   InterruptedRun found;
   found.run = textOf(settings, "openRun/run").toInt();
   if (found.run == 0) return std::nullopt;
   session::SessionRequest& r = found.request;
-  r.place = {textOf(settings, "openRun/data").toStdString(), textOf(settings, "openRun/subject").toStdString(),
-             textOf(settings, "openRun/session").toStdString()};
+  r.place = {text("openRun/data"), text("openRun/subject"), text("openRun/session")};
   for (const session::RunOnDisk& run : session::recordedRuns(r.place))
     if (record::isBeingWritten(run.path)) return std::nullopt;
   if (const int day = textOf(settings, "openRun/day").toInt(); day > 0) r.day = day;
-  r.device = textOf(settings, "openRun/device").toStdString();
+  r.device = text("openRun/device");
   found.seed = textOf(settings, "openRun/seed");
   r.resume = true;
-  r.what = textOf(settings, "openRun/plan").toStdString();
+  r.what = text("openRun/plan");
   if (r.what.empty()) {
-    found.programme = session::programmeOf(experiment::openExperimentText(
-        textOf(settings, "openRun/experiment").toStdString(), "the interrupted run", textOf(settings, "openRun/definition").toStdString()));
+    found.programme =
+        session::programmeOf(experiment::openExperimentText(text("openRun/experiment"), "the interrupted run", text("openRun/definition")));
     r.trials = textOf(settings, "openRun/trials").toInt();
   } else {
     found.programme = session::readProgramme(r.what);

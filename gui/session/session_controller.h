@@ -135,7 +135,6 @@ class SessionController : public QObject {
   void observe();
   void tellOpened();
   void showScene();
-  void showBlock(const session::SessionRequest& request);
   std::unique_ptr<haptics::HapticDevice> makeDeviceHere(const std::string& spec, std::span<const experiment::CompiledExperiment> scenes,
                                                         std::uint64_t seed);
   void fail(const std::exception& fault);

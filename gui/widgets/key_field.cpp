@@ -6,11 +6,12 @@
 #include <QHBoxLayout>
 #include <QSignalBlocker>
 
+#include "gui/widgets/named.h"
+
 namespace reachlab::gui::widgets {
 
 KeyField::KeyField(const QString& name, const QString& unit, const NumberRange& range, const KeyForm& form) {
-  auto* row = new QHBoxLayout(this);
-  row->setContentsMargins(0, 0, 0, 0);
+  auto* row = filling<QHBoxLayout>(this);
   if (form.optional) {
     given_ = new QCheckBox;
     given_->setAccessibleName(name);

@@ -32,6 +32,15 @@ inline QLabel* roleLabel(const char* role, const QString& text = {}) {
   return label;
 }
 
+/// A layout that fills the widget to its edges.
+template <typename Layout>
+Layout* filling(QWidget* widget, int spacing = -1) {
+  auto* layout = new Layout(widget);
+  layout->setContentsMargins(0, 0, 0, 0);
+  if (spacing >= 0) layout->setSpacing(spacing);
+  return layout;
+}
+
 /// Adds the widgets to the layout in this order.
 inline void addAll(QBoxLayout& layout, std::initializer_list<QWidget*> widgets) {
   for (QWidget* widget : widgets) layout.addWidget(widget);

@@ -31,18 +31,14 @@ QString plainName(const constraints::ShapeParameter& p) {
   return name.replace(QLatin1Char('_'), QLatin1Char(' '));
 }
 
-ShapeSliders::ShapeSliders(QWidget* parent) : QWidget(parent) {
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
-}
+ShapeSliders::ShapeSliders(QWidget* parent) : QWidget(parent) { filling<QVBoxLayout>(this); }
 
 void ShapeSliders::setParameters(const std::vector<constraints::ShapeParameter>& parameters, const std::map<std::string, double>& values) {
   rows_.clear();
   delete body_;
   body_ = new QWidget;
   layout()->addWidget(body_);
-  form_ = new QFormLayout(body_);
-  form_->setContentsMargins(0, 0, 0, 0);
+  form_ = filling<QFormLayout>(body_);
   for (const constraints::ShapeParameter& p : parameters) {
     const auto given = values.find(p.name);
     addRow(p, given == values.end() ? p.defaultValue : given->second);

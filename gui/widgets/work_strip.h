@@ -11,8 +11,7 @@ class WorkStrip : public QWidget {
  public:
   WorkStrip(const QString& name, const QString& button) : what_(new QLabel), bar_(new QProgressBar), stop_(new QToolButton) {
     setObjectName(name);
-    auto* row = new QHBoxLayout(this);
-    row->setContentsMargins(0, 0, 0, 0);
+    auto* row = filling<QHBoxLayout>(this);
     bar_->setFixedWidth(120);
     stop_->setText(button);
     addAll(*row, {what_, bar_, stop_});

@@ -23,7 +23,7 @@ namespace reachlab::gui::app {
 namespace {
 
 TEST(Templates, EachIsAnExperimentThatCanBeRunUnderANameOfItsOwn) {
-  for (const Template& from : templates()) {
+  for (const Template& from : kTemplates) {
     const experiment::CompiledExperiment made = newExperiment(from);
     EXPECT_EQ(made.experiment().name, "untitled") << from.title;
     EXPECT_NO_THROW((void)dynamics::compileScene(made)) << from.title;

@@ -126,7 +126,7 @@ TEST_F(MenuActions, EachHasATest) {
 
 TEST_F(MenuActions, OfFilesReadAndWrite) {
   MainWindow& window = open();
-  for (const Template& from : templates()) {
+  for (const Template& from : kTemplates) {
     trigger((QStringLiteral("Experiment/New/") + QLatin1String(from.title)).toUtf8());
     EXPECT_EQ(window.session().experiment(), newExperiment(from).experiment()) << from.title;
     EXPECT_TRUE(window.isWindowModified()) << "it is not saved yet";
