@@ -226,12 +226,15 @@ constraints::Definition ConstraintChooser::typedDefinition() const {
 void ConstraintChooser::formulaChanged() {
   use_->setEnabled(formula_->fine());
   save_->setEnabled(formula_->fine());
+  constraints::Definition typed = typedDefinition();
+  const auto values = sliders_->values();
   if (!formula_->fine()) {
     choice_.reset();
-    dropVanishedSliders();
+    // Of "sin" typed letter by letter, "s" and "si" were names of sliders for a moment.
+    std::erase_if(typed.shape, [&](const constraints::ShapeParameter& p) { return !values.contains(p.name); });
+    if (typed.shape.size() < values.size()) sliders_->setParameters(typed.shape, values);
     return;
   }
-  constraints::Definition typed = typedDefinition();
   const std::string before = current_.name;
   if (!before.empty() && isTyped()) {
     typed.name.clear();
@@ -243,23 +246,12 @@ void ConstraintChooser::formulaChanged() {
     const QSignalBlocker quiet(list_);
     list_->setCurrentRow(-1);
   }
-  const auto values = sliders_->values();
   const bool sameNames =
       typed.shape.size() == values.size() &&
       std::all_of(typed.shape.begin(), typed.shape.end(), [&](const constraints::ShapeParameter& p) { return values.contains(p.name); });
   current_ = typed;
   if (!sameNames) sliders_->setParameters(typed.shape, values);
   rebuild(true);
-}
-
-// Of "sin" typed letter by letter, "s" and "si" were names of sliders for a moment.
-void ConstraintChooser::dropVanishedSliders() {
-  const std::vector<std::string> names = parameterNames(formula_->kind(), formula_->coordinates());
-  const auto values = sliders_->values();
-  std::vector<constraints::ShapeParameter> kept;
-  for (const constraints::ShapeParameter& p : current_.shape)
-    if (values.contains(p.name) && std::find(names.begin(), names.end(), p.name) != names.end()) kept.push_back(p);
-  if (kept.size() < values.size()) sliders_->setParameters(kept, values);
 }
 
 void ConstraintChooser::rebuild(bool resetCamera) {

@@ -52,7 +52,6 @@ class ConstraintChooser : public QDialog {
   void filter(const QString& words);
   void show(const constraints::Definition& definition, const std::map<std::string, double>& shape);
   void formulaChanged();
-  void dropVanishedSliders();
   void rebuild(bool resetCamera);
   void save();
   constraints::Definition typedDefinition() const;
