@@ -8,12 +8,9 @@
 #include <tuple>
 
 #include "gui/app/frame_recorder.h"
-#include "gui/app/main_window.h"
 #include "gui/app/menu_entries.h"
-#include "gui/scene/scene_view.h"
 #include "gui/widgets/theme.h"
 #include "gui/widgets/work_strip.h"
-#include "sim/experiment/scene_look.h"
 
 namespace reachlab::gui::app {
 namespace {

@@ -21,7 +21,6 @@
 #include "base/terminal/message.h"
 #include "base/terminal/parse_fault.h"
 #include "gui/app/display.h"
-#include "gui/app/experiment_files.h"
 #include "gui/app/main_window.h"
 #include "gui/session/remembered_session.h"
 #include "gui/scene/picture_sheet.h"

@@ -23,7 +23,9 @@ constexpr int kMirrorMs = 250, kMirrorWidth = 220;  // no wider than a fifth of 
 Screens::Screens(scene::SceneView& main) : main_(main), mirror_(new QLabel(&main)), mirrorTimer_(new QTimer(this)) {
   connect(&main, &scene::SceneView::handDragged, this, &Screens::handDragged);
   connect(&main, &scene::SceneView::placeDragged, this, &Screens::dragPlace);
-  connect(&main, &scene::SceneView::placeDropped, this, &Screens::dropPlace);
+  connect(&main, &scene::SceneView::placeDropped, this, [this](scene::TaskPlace place) {
+    if (const auto q = std::exchange(dragged_, {})) Q_EMIT placeChosen(place, *q);
+  });
   connect(&main, &scene::SceneView::placeLeft, this, &Screens::leavePlace);
   mirror_->setObjectName("subjectMirror");
   mirror_->setStyleSheet("border: 1px solid #6b7788; background: black;");
@@ -122,10 +124,6 @@ void Screens::dragPlace(scene::TaskPlace place, const QPointF& pixel) {
   for (std::size_t i = 0; i < q->size(); ++i)
     words << QStringLiteral("%1 = %2").arg(QString::fromStdString(names[i])).arg((*q)[i], 0, 'g', 5);
   main_.showPlace(place, placeOn(constraint, *q), words.join(", "));
-}
-
-void Screens::dropPlace(scene::TaskPlace place) {
-  if (const auto q = std::exchange(dragged_, {})) Q_EMIT placeChosen(place, *q);
 }
 
 void Screens::leavePlace(scene::TaskPlace place) {

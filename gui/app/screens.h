@@ -72,7 +72,6 @@ class Screens : public QObject {
   void openSubject(const QString& screen);
   void mirror();
   void dragPlace(scene::TaskPlace place, const QPointF& pixel);
-  void dropPlace(scene::TaskPlace place);
   void leavePlace(scene::TaskPlace place);
 
   scene::SceneView& main_;

@@ -4,8 +4,6 @@
 #include <QSlider>
 
 #include "gui/app/menu_entries.h"
-#include "gui/subject/subject_window.h"
-#include "gui/subject/subject_words.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::app {

@@ -27,7 +27,7 @@ class ReplayView : public QWidget {
  public:
   explicit ReplayView(QWidget* parent = nullptr);
 
-  /// `zero`: the replay's time at which the plot's time is 0, which is the onset. `moment`: the first time shown, on the plot's clock. [s]
+  /// `zero`: the replay's time at which the plot's time is 0, which is the onset. [s]
   struct Track {
     TrialReplay replay;
     double zero = 0;

@@ -1,5 +1,4 @@
 #pragma once
-#include <bit>
 #include <cstdio>
 #include <cstring>
 #include <string_view>

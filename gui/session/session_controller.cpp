@@ -157,15 +157,6 @@ void SessionController::openRun(const session::SessionRequest& request) {
   last_.reset();
 }
 
-void SessionController::tellOpened() {
-  if (run() == nullptr) return;
-  if (isPlan()) {
-    shown_ = run()->experimentNow();
-    Q_EMIT experimentChanged();
-  }
-  Q_EMIT runOpened();
-}
-
 void SessionController::planAnew(bool resume) {
   const std::scoped_lock lock(changing_);
   if (run() == nullptr) recorded_.reset();  // planned from what is on the disk
@@ -201,7 +192,12 @@ void SessionController::join(const session::SessionRequest& request) {
     return;
   }
   openRun(request);
-  tellOpened();
+  if (run() == nullptr) return;
+  if (isPlan()) {
+    shown_ = run()->experimentNow();
+    Q_EMIT experimentChanged();
+  }
+  Q_EMIT runOpened();
 }
 
 bool SessionController::next(const session::SessionRequest& request) {

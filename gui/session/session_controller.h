@@ -133,7 +133,6 @@ class SessionController : public QObject {
   void planRuns(const session::SessionRequest& request);
   void tellStation(const network::StationNews& news);
   void observe();
-  void tellOpened();
   void showScene();
   std::unique_ptr<haptics::HapticDevice> makeDeviceHere(const std::string& spec, std::span<const experiment::CompiledExperiment> scenes,
                                                         std::uint64_t seed);
