@@ -34,6 +34,7 @@ class AtTheWindow : public ::testing::Test {
  protected:
   AtTheWindow() {
     request_.place.data = folder_.filePath("data").toStdString();
+    request_.what = "chain-moderate";
     request_.device = "mouse";
     request_.seed = 1;
   }

@@ -1,9 +1,4 @@
-#include <gtest/gtest.h>
-
-#include <QTest>
-
 #include "base/system/os.h"
-#include "gui/session/session_controller.h"
 #include "sim/record/log/run_log.h"
 #include "tests/gui/at_the_window.h"
 

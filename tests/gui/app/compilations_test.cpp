@@ -1,15 +1,9 @@
 // How often the window compiles the formula that was typed, counted where it is compiled (tests/constraints/count_compilations.h).
-#include <gtest/gtest.h>
-
 #include <QLineEdit>
 #include <QPushButton>
-#include <QTemporaryDir>
-#include <QTest>
 #include <algorithm>
 
-#include "gui/app/main_window.h"
 #include "gui/choosers/constraint_chooser.h"
-#include "gui/session/session_controller.h"
 #include "tests/constraints/count_compilations.h"
 #include "tests/gui/at_the_window.h"
 

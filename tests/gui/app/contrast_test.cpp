@@ -3,7 +3,6 @@
 #include <QComboBox>
 #include <QLabel>
 #include <QLineEdit>
-#include <map>
 
 #include "gui/widgets/number_list_edit.h"
 #include "gui/widgets/theme.h"
@@ -50,7 +49,6 @@ class Contrast : public AtTheWindow, public ::testing::WithParamInterface<Theme>
 };
 
 TEST_P(Contrast, OfEveryWordIsEnough) {
-  request_.what = "chain-moderate";
   open();
   auto* masses = find<widgets::NumberListEdit>("masses");
   masses->setFocus();

@@ -1,8 +1,5 @@
 // What an experimenter and a subject meet in a day: keys, fields, the subject's screen, questions, the layout.
-#include <gtest/gtest.h>
-
 #include <QAction>
-#include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDockWidget>
@@ -13,17 +10,11 @@
 #include <QScrollArea>
 #include <QSpinBox>
 #include <QTableWidget>
-#include <QTest>
 #include <QToolButton>
 
 #include "analysis/analysis.h"
-#include "gui/app/main_window.h"
 #include "gui/session/remembered_session.h"
-#include "gui/app/screens.h"
-#include "gui/docks/prediction_dock.h"
-#include "gui/docks/session_dock.h"
 #include "gui/scene/scene_overlay.h"
-#include "gui/scene/scene_view.h"
 #include "gui/subject/subject_window.h"
 #include "sim/experiment/experiment.h"
 #include "test_paths.h"
@@ -36,10 +27,7 @@ namespace {
 
 class Day : public AtTheWindow {
  protected:
-  Day() {
-    request_.what = "chain-moderate";
-    request_.trials = 3;
-  }
+  Day() { request_.trials = 3; }
   void key(Qt::Key key, Qt::KeyboardModifiers with = {}) const { QTest::keyClick(window_->windowHandle(), key, with); }
   void clickIntoScene() const {
     const QPoint at = window_->view().mapTo(window_.get(), QPoint(500, 300));

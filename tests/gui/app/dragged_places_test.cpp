@@ -5,7 +5,6 @@
 
 #include "constraints/constraint.h"
 #include "constraints/geometry/task_path.h"
-#include "gui/scene/scene_view.h"
 #include "gui/widgets/number_list_edit.h"
 #include "sim/experiment/experiment.h"
 #include "tests/gui/at_the_window.h"

@@ -1,19 +1,12 @@
 #include "gui/app/experiment_files.h"
 
-#include <gtest/gtest.h>
-
-#include <QApplication>
 #include <QDockWidget>
 #include <QDropEvent>
 #include <QFileInfo>
 #include <QLineEdit>
 #include <QMimeData>
-#include <QTemporaryDir>
-#include <QTest>
 #include <QUrl>
-#include <fstream>
 
-#include "gui/app/main_window.h"
 #include "sim/dynamics/scene.h"
 #include "sim/experiment/experiment.h"
 #include "tests/gui/at_the_window.h"

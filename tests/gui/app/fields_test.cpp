@@ -15,7 +15,6 @@ namespace {
 class Fields : public AtTheWindow {
  protected:
   void openAll() {
-    request_.what = "chain-moderate";
     open().resize(1900, 1050);
     QTest::qWait(50);
     for (QDockWidget* dock : window_->findChildren<QDockWidget*>()) {

@@ -1,8 +1,5 @@
 #include "gui/app/main_window.h"
 
-#include <gtest/gtest.h>
-
-#include <QApplication>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
@@ -11,23 +8,14 @@
 #include <QPushButton>
 #include <QSet>
 #include <QTableWidget>
-#include <QTest>
 #include <QTreeWidget>
-#include <cmath>
-#include <fstream>
 #include <regex>
 #include <set>
 
 #include "devices/mapping/mapping.h"
-#include "gui/session/session_strip.h"
-#include "gui/docks/prediction_dock.h"
-#include "gui/docks/session_dock.h"
-#include "gui/plot/velocity_plot.h"
 #include "gui/scene/scene_actors.h"
 #include "gui/scene/scene_overlay.h"
-#include "gui/scene/scene_view.h"
 #include "gui/scene/trial_texts.h"
-#include "gui/session/session_controller.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/log/run_log.h"
 #include "tests/gui/answer_box.h"

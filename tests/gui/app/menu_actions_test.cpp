@@ -1,6 +1,4 @@
 // Every action of every menu has a test that goes through the window and sees its effect. The first test lists the actions without one.
-#include <gtest/gtest.h>
-
 #include <QAction>
 #include <QColorDialog>
 #include <QDesktopServices>
@@ -15,15 +13,9 @@
 #include <QSlider>
 #include <QWidgetAction>
 #include <functional>
-#include <map>
 
-#include "gui/app/experiment_files.h"
-#include "gui/app/screens.h"
 #include "gui/choosers/constraint_chooser.h"
-#include "gui/docks/session_dock.h"
-#include "gui/inspector/inspector.h"
 #include "gui/plan/plan_composer.h"
-#include "gui/scene/scene_view.h"
 #include "gui/subject/subject_window.h"
 #include "tests/gui/answer_box.h"
 #include "tests/gui/at_the_window.h"
@@ -75,15 +67,22 @@ class MenuActions : public AtTheWindow {
     return &none;
   }
   void trigger(const char* path) { at(QString::fromUtf8(path))->trigger(); }
-  void triggerWithFile(const char* path, const QString& chosen) {
-    const Answer answer([&chosen](QWidget* box) {
-      auto* dialog = qobject_cast<QFileDialog*>(box);
+  // The dialog that the action opens is filled in and accepted.
+  template <typename Dialog, typename FillIn>
+  static void triggerWith(QAction* action, FillIn fillIn) {
+    const Answer answer([&](QWidget* box) {
+      auto* dialog = qobject_cast<Dialog*>(box);
       if (dialog == nullptr) return false;
-      if (auto* name = dialog->findChild<QLineEdit*>("fileNameEdit")) name->setText(chosen);
+      fillIn(*dialog);
       static_cast<QDialog*>(dialog)->accept();
       return true;
     });
-    trigger(path);
+    action->trigger();
+  }
+  void triggerWithFile(const char* path, const QString& chosen) {
+    triggerWith<QFileDialog>(at(path), [&](QFileDialog& dialog) {
+      if (auto* name = dialog.findChild<QLineEdit*>("fileNameEdit")) name->setText(chosen);
+    });
   }
   QString written(const char* name) const { return folder_.filePath(QLatin1String(name)); }
   bool waits(const std::function<bool()>& what) { return QTest::qWaitFor(what, 20000); }
@@ -224,16 +223,7 @@ TEST_F(MenuActions, OfTheViewMoveTheCameraAndChangeTheDrawing) {
   EXPECT_FALSE(view.plan().forces.field.empty());
   trigger("Experiment/Shipped/torus");
   window.edits().setClean();
-  {
-    const Answer answer([](QWidget* box) {
-      auto* dialog = qobject_cast<QInputDialog*>(box);
-      if (dialog == nullptr) return false;
-      dialog->setTextValue("side");
-      dialog->accept();
-      return true;
-    });
-    trigger("View/View from/Remember this view…");
-  }
+  triggerWith<QInputDialog>(at("View/View from/Remember this view…"), [](QInputDialog& dialog) { dialog.setTextValue("side"); });
   ASSERT_EQ(window.look().cameras.size(), 1u);
   trigger("View/Along z");
   trigger("View/View from/side");
@@ -268,13 +258,6 @@ TEST_F(MenuActions, OfTheLookReachTheExperiment) {
   Q_EMIT slider->sliderReleased();
   EXPECT_NEAR(window.look().surfaceOpacity, 0.9, 1e-12);
   for (const std::string& part : experiment::colouredParts()) {
-    const Answer answer([](QWidget* box) {
-      auto* dialog = qobject_cast<QColorDialog*>(box);
-      if (dialog == nullptr) return false;
-      dialog->setCurrentColor(QColor("#123456"));
-      dialog->accept();
-      return true;
-    });
     Q_EMIT find<QMenu>("look")->aboutToShow();
     QAction* entry = nullptr;
     for (const auto& [path, action] : actions())
@@ -282,7 +265,7 @@ TEST_F(MenuActions, OfTheLookReachTheExperiment) {
           action->property("part").toString().toStdString() == part)
         entry = action;
     ASSERT_NE(entry, nullptr) << part;
-    entry->trigger();
+    triggerWith<QColorDialog>(entry, [](QColorDialog& dialog) { dialog.setCurrentColor(QColor("#123456")); });
     EXPECT_EQ(window.look().colours[part], "#123456");
   }
   trigger("View/Look of the scene/Colours/The theme's own");

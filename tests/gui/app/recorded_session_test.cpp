@@ -1,14 +1,10 @@
 // What the window records: under whose name, of which plan, and that it is what the command line records.
-#include <gtest/gtest.h>
-
 #include <QAction>
 #include <QLabel>
 #include <QPushButton>
 #include <QTableWidget>
-#include <QTest>
 #include <csignal>
 #include <filesystem>
-#include <fstream>
 #include <regex>
 #include <set>
 
@@ -16,9 +12,6 @@
 #include "analysis/tables.h"
 #include "base/json/json_tree.h"
 #include "base/text_file.h"
-#include "gui/app/main_window.h"
-#include "gui/docks/session_dock.h"
-#include "gui/session/session_controller.h"
 #include "gui/session/session_overlay.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
@@ -37,7 +30,6 @@ namespace fs = std::filesystem;
 class RecordingWindow : public AtTheWindow {
  protected:
   RecordingWindow() {
-    request_.what = "chain-moderate";
     request_.device = "simulated:noise=0";
     request_.fast = true;  // a trial is computed when it is looked for
   }

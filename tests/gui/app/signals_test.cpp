@@ -2,7 +2,6 @@
 #include <signal.h>
 
 #include <QThread>
-#include <fstream>
 
 #include "base/system/stop_signals.h"
 #include "sim/experiment/experiment.h"

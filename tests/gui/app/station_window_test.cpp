@@ -2,9 +2,6 @@
 #include <QTableWidget>
 #include <filesystem>
 
-#include "gui/docks/session_dock.h"
-#include "gui/docks/stations_dock.h"
-#include "gui/scene/scene_view.h"
 #include "tests/gui/at_the_window.h"
 
 // The window of one of several stations, beside an endpoint that brings nothing.

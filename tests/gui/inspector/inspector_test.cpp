@@ -1,9 +1,6 @@
 // A recording looked at: by the mouse and the keys, as somebody does who has never seen it.
 #include "gui/inspector/inspector.h"
 
-#include <gtest/gtest.h>
-
-#include <QApplication>
 #include <QCheckBox>
 #include <QComboBox>
 #include <QHeaderView>
@@ -15,8 +12,6 @@
 #include <QScrollBar>
 #include <QSlider>
 #include <QTableWidget>
-#include <QTemporaryDir>
-#include <QTest>
 #include <QToolButton>
 #include <cmath>
 
@@ -24,8 +19,6 @@
 #include "base/ticks.h"
 #include "gui/inspector/profile_plot.h"
 #include "gui/inspector/replay_view.h"
-#include "gui/scene/scene_view.h"
-#include "sim/experiment/scene_look.h"
 #include "sim/record/export/bids.h"
 #include "sim/record/log/whole_file.h"
 #include "tests/analysis/recorded.h"
@@ -384,7 +377,6 @@ class InspectPage : public AtTheWindow {};
 
 TEST_F(InspectPage, BelongsToTheWindowAndKeepsTheTrialsKeysOff) {
   analysis::recordRun(request_.place.data, {.experiment = "chain-moderate", .trials = 2});
-  request_.what = "chain-moderate";
   app::MainWindow& window = open();
   QTest::keyClick(&window, Qt::Key_3, Qt::AltModifier);
   EXPECT_TRUE(window.inspecting());
