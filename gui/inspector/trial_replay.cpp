@@ -1,7 +1,7 @@
 #include "gui/inspector/trial_replay.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
+#include <cmath>
 
 #include "base/ticks.h"
 
@@ -54,11 +54,14 @@ scene::SceneFrame TrialReplay::frameAt(double time) const {
   frame.handValid = rows_.at(a, valid_) != 0;
   for (std::size_t i = 0; i < massCount_; ++i) frame.masses.push_back(vector(mass_ + i * massStep_));
   if (isBody_) {
-    const auto turnOf = [&](std::size_t row) {
-      return Eigen::Quaterniond(rows_.at(row, body_), rows_.at(row, body_ + 1), rows_.at(row, body_ + 2), rows_.at(row, body_ + 3));
-    };
-    const Eigen::Quaterniond turn = turnOf(a).slerp(part, turnOf(b));
-    frame.body.orientation = {turn.w(), turn.x(), turn.y(), turn.z()};
+    // Between two rows it turns by little: the chord, made a unit again, is the arc.
+    double length = 0, same = 0;
+    for (std::size_t k = 0; k < 4; ++k) same += rows_.at(a, body_ + k) * rows_.at(b, body_ + k);
+    for (std::size_t k = 0; k < 4; ++k) {
+      frame.body.orientation[k] = (1 - part) * rows_.at(a, body_ + k) + (same < 0 ? -part : part) * rows_.at(b, body_ + k);
+      length += frame.body.orientation[k] * frame.body.orientation[k];
+    }
+    for (double& q : frame.body.orientation) q /= std::sqrt(length);
   }
   return frame;
 }

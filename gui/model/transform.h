@@ -1,6 +1,5 @@
 #pragma once
-#include <Eigen/Geometry>
-
+#include "base/math/matrix.h"
 #include "base/math/vec3.h"
 
 namespace reachlab::gui::model {
