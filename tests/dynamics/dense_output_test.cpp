@@ -35,7 +35,7 @@ TEST(DenseOutput, FollowsTheMotionWithinAStepToOrderSeven) {
 
 TEST(Ends, AreMetAtTheirMomentForAFewRightHandSides) {
   // Thrown up a cylinder whose ends are elastic, v goes up and down at constant speed: a triangle between -1 and 1.
-  experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {0.5}, {});
+  experiment::Experiment e = makePoint(0.5);
   e.constraint.name = "cylinder";
   const double rate = 7.3;
   const Scene scene = freeScene(e, {0.2, 0.4}, {3, rate});

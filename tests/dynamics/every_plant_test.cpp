@@ -20,7 +20,7 @@ struct Case {
   Vec3 hand;
 };
 
-Experiment point() { return makeExperiment(ObjectKind::Point, {0.7}, {}, {300, 0}); }
+Experiment point() { return makePoint(0.7, {300, 0}); }
 Experiment chain(int n) {
   Experiment e = makeChain(n, 0.5, 250, {300, 0});
   for (int i = 0; i < n; ++i) e.object.masses[i] = 0.4 + 0.2 * (i % 3);
@@ -265,7 +265,7 @@ TEST(EveryPlant, AMassOfAParallelObjectMovesAsAPointOnItsOwnSpring) {
     scene.plant->place(std::array{0.6}, std::array{3.0});
     for (int tick = 0; tick < 150; ++tick) ASSERT_EQ(scene.plant->step(heldSegment(hand.position), 1e-3), StepStatus::Ok) << name;
     for (std::size_t i = 0; i < 3; ++i) {
-      Experiment alone = on(makeExperiment(ObjectKind::Point, {together.object.masses[i]}, {}, {together.object.stiffness[i], 0}));
+      Experiment alone = on(makePoint(together.object.masses[i], {together.object.stiffness[i], 0}));
       alone.object.gravity = together.object.gravity;
       const Scene one = compileScene(alone);
       one.plant->place(std::array{0.6}, std::array{3.0});
@@ -277,10 +277,7 @@ TEST(EveryPlant, AMassOfAParallelObjectMovesAsAPointOnItsOwnSpring) {
 }
 
 TEST(EveryPlant, ForgetsWhatStoppedItWhereItIsPutUpAgain) {
-  experiment::Experiment e = onCurve(makeExperiment(experiment::ObjectKind::Point, {1}, {}), "phi", "sqrt(phi)", "0");
-  e.task.emplace().start = {0.1};
-  e.task->target = {0.2};
-  const Scene scene = freeScene(e, {0.1}, {-1});
+  const Scene scene = freeScene(from(onCurve(makePoint(), "phi", "sqrt(phi)", "0"), {0.1}, {0.2}), {0.1}, {-1});
   ASSERT_EQ(run(*scene.plant, noHand, 1), StepStatus::AtEnd);
   EXPECT_LT(scene.plant->lastStepFraction(), 1);
   EXPECT_NE(scene.plant->stopReason(), "");

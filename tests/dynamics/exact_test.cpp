@@ -11,7 +11,7 @@ namespace {
 /// One mass at the end of a spring whose hand moves with constant velocity from rest at the mass: x - h = -(v/w) sin w t.
 TEST(ExactPlant, AgreesWithTheClosedFormOfAMassPulledAtConstantSpeed) {
   const double k = 600, m = 2, speed = 0.1, w = std::sqrt(k / m);
-  const Scene scene = compileScene(makeExperiment(experiment::ObjectKind::Point, {m}, {}, {k, 0}));
+  const Scene scene = compileScene(makePoint(m, {k, 0}));
   scene.plant->placeAtRest(std::array{0.0});
   for (int i = 0; i < 1000; ++i) {
     const HandSegment hand = makeSegment(

@@ -46,7 +46,7 @@ inline FreeRun runFree(constraints::Definition definition, std::uint64_t seed, b
     result.rate = {kFreeRunSpeed * a / speed, kFreeRunSpeed * b / speed};
   }
 
-  experiment::Experiment experiment = makeExperiment(experiment::ObjectKind::Point, {1}, {});
+  experiment::Experiment experiment = makePoint();
   experiment.constraint.name = definition.name;
   experiment.constraint.definition = constraints::toJson(definition);
   experiment::Task task;

@@ -58,7 +58,7 @@ struct UndampedScene {
 };
 
 std::vector<UndampedScene> undampedScenes() {
-  experiment::Experiment torus = makeExperiment(experiment::ObjectKind::Point, {1}, {}), sphere = torus;
+  experiment::Experiment torus = makePoint(), sphere = torus;
   torus.coupling = sphere.coupling = experiment::Coupling{600, 0};
   torus.constraint.name = "torus";
   sphere.constraint.name = "sphere";

@@ -213,11 +213,8 @@ TEST(HeldObject, ANumberThatIsNoneEndsTheStepAndNotTheState) {
 
 TEST(HeldObject, AtAnEndTheStateIsTheLastOneOnTheCurve) {
   for (const double side : {1.0, -1.0}) {
-    Experiment e = chainOfThree();
+    Experiment e = onDefinition(chainOfThree(), "curve", R"(["0.1*phi", "0.1*phi^2", "0"])", "[-1, 1]", "stop");
     e.object.gravity = {};
-    e.constraint.name = "own";
-    e.constraint.definition = R"({"schema_version": 1, "name": "own", "kind": "curve", "curve": ["0.1*phi", "0.1*phi^2", "0"], "shape": {},
-      "domain": [-1, 1], "periodic": false, "at_end": "stop", "start": [0], "target": [0.5], "sentence": "s", "source": "s"})";
     const Scene scene = compileScene(e);
     scene.plant->place(std::array{0.0}, std::array{20 * side});
     scene.plant->setCoupled(false);

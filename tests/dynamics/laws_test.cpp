@@ -11,12 +11,9 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kEnergyDrift = 1e-10;  // relative, over 10 s without friction
 
-experiment::Experiment bead() { return makeExperiment(experiment::ObjectKind::Point, {1}, {}); }
-
 // RK4's global error is O(dt^4): half the step leaves a sixteenth. Bead on a circle pulled by a spring.
 TEST(Rk4, ErrorFallsSixteenfoldWhenTheStepIsHalved) {
-  const experiment::Experiment e =
-      onCurve(makeExperiment(experiment::ObjectKind::Point, {0.2}, {}, {600, 0}), "0.1*cos(phi)", "0.1*sin(phi)", "0");
+  const experiment::Experiment e = onCurve(makePoint(0.2, {600, 0}), "0.1*cos(phi)", "0.1*sin(phi)", "0");
   const auto at = [&](const char* method, double dt) {
     const Scene scene = compileScene(e, {method, dt, 0});
     scene.plant->place(std::array{0.3}, std::array{1.0});
@@ -145,15 +142,11 @@ TEST(Poles, AConesApexAndAPinchHaveNoContinuation) {
 }
 
 TEST(Cusps, AStartAtRestOnOneIsRefused) {
-  experiment::Experiment e = onCurve(bead(), "0.1*cos(phi)^3", "0.1*sin(phi)^3", "0");
-  e.task = experiment::Task{};
-  e.task->start = {0};
-  e.task->target = {1};
-  EXPECT_THROW((void)compileScene(e), RefusedError);
+  EXPECT_THROW((void)compileScene(from(onCurve(makePoint(), "0.1*cos(phi)^3", "0.1*sin(phi)^3", "0"), {0}, {1})), RefusedError);
 }
 
 TEST(Cusps, APointAtRestOnOneSaysThatNothingTellsWhereItGoes) {
-  const Scene scene = compileScene(onCurve(bead(), "0.1*cos(phi)^3", "0.1*sin(phi)^3", "0"));
+  const Scene scene = compileScene(onCurve(makePoint(), "0.1*cos(phi)^3", "0.1*sin(phi)^3", "0"));
   scene.plant->placeAtRest(std::array{0.0});
   const HandSample hand{{0.05, 0.02, 0}, {}, true};  // it pulls along the tangent of the tip and across
   EXPECT_EQ(run(*scene.plant, hand, 0.1), StepStatus::NoContinuation);
@@ -167,7 +160,7 @@ TEST(Cusps, APointAtRestOnOneSaysThatNothingTellsWhereItGoes) {
 TEST(Laws, TheCycloidIsATautochrone) {
   const double a = 0.05, g = 9.81, quarter = kPi * std::sqrt(a / g);
   for (const double amplitude : {0.1, 1.0, 2.0}) {
-    experiment::Experiment e = onCurve(bead(), "0.05*(phi+sin(phi))", "-0.05*cos(phi)", "0");
+    experiment::Experiment e = onCurve(makePoint(), "0.05*(phi+sin(phi))", "-0.05*cos(phi)", "0");
     e.object.gravity = {0, -g, 0};
     const int steps = 1000;
     const Scene scene = freeScene(e, {amplitude}, {0});
@@ -180,7 +173,7 @@ TEST(Laws, TheCycloidIsATautochrone) {
 // A pendulum's quarter period is sqrt(l/g) K(sin(amplitude/2)).
 TEST(Laws, ThePendulumsPeriodIsTheEllipticIntegral) {
   const double l = 0.1, g = 9.81, amplitude = 2.5;
-  experiment::Experiment e = onCurve(bead(), "0.1*sin(phi)", "-0.1*cos(phi)", "0");
+  experiment::Experiment e = onCurve(makePoint(), "0.1*sin(phi)", "-0.1*cos(phi)", "0");
   e.object.gravity = {0, -g, 0};
   const double quarter = std::sqrt(l / g) * std::comp_ellint_1(std::sin(amplitude / 2));
   const Scene scene = freeScene(e, {amplitude}, {0});
@@ -215,28 +208,19 @@ TEST(Laws, AChainOnAHugeCircleAgreesWithTheLine) {
 }
 
 TEST(Ends, AnOpenCurveStopsOrBouncesAsItsDefinitionSays) {
-  experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {1}, {});
-  e.constraint.name = "catenary";
-  Scene scene = freeScene(e, {0.2}, {3});
-  const constraints::Domain domain = scene.constraint->domain[0];
-  ASSERT_TRUE(std::isfinite(domain.hi));
-  const double before = scene.plant->energy({});
-  const StepStatus status = run(*scene.plant, noHand, 5);
-  if (domain.atEnd == constraints::AtEnd::Stop) {
-    EXPECT_EQ(status, StepStatus::AtEnd);
-    EXPECT_EQ(observed(*scene.plant)[0].q[0], domain.hi);
-  } else {
-    EXPECT_EQ(status, StepStatus::Ok);
+  for (const bool bounce : {false, true}) {
+    const auto e = onDefinition(makePoint(), "curve", R"(["0.1*phi", "0.1*phi^2", "0"])", "[-1.5, 1.5]", bounce ? "bounce" : "stop");
+    const Scene scene = freeScene(e, {0.2}, {3});
+    const double before = scene.plant->energy({});
+    EXPECT_EQ(run(*scene.plant, noHand, 5), bounce ? StepStatus::Ok : StepStatus::AtEnd);
+    EXPECT_TRUE(bounce || observed(*scene.plant)[0].q[0] == 1.5);
+    EXPECT_NEAR(scene.plant->energy({}) / before, 1, 1e-10);
   }
-  EXPECT_NEAR(scene.plant->energy({}) / before, 1, 1e-10);
 }
 
 // A straight curve with ends goes by the propagator: where the masses of a chain meet one, they have the speeds they came with.
 TEST(Ends, AChainOnALineMeetsItsEndWithItsSpeed) {
-  experiment::Experiment e = makeChain(3, 0.5, 400);
-  e.constraint.name = "rail";
-  e.constraint.definition = R"j({"schema_version": 1, "name": "rail", "kind": "curve", "curve": ["0.1*phi", "0", "0"], "shape": {},
-    "domain": [0, 2], "at_end": "stop", "start": [0.5], "target": [1.5], "sentence": "s", "source": "s"})j";
+  const auto e = onDefinition(makeChain(3, 0.5, 400), "curve", R"(["0.1*phi", "0", "0"])", "[0, 2]", "stop");
   const Scene scene = freeScene(e, {1}, {3});
   EXPECT_EQ(scene.choice.method, "exact");
   EXPECT_EQ(run(*scene.plant, noHand, 1), StepStatus::AtEnd);
@@ -250,7 +234,7 @@ TEST(Ends, AChainOnALineMeetsItsEndWithItsSpeed) {
 TEST(Corners, AMassThatIsPutOnOneLeavesItTheWayItMoves) {
   for (const double rate : {-1.0, 1.0})
     for (const double at : {0.0, 1.0}) {
-      const Scene scene = freeScene(onCurve(bead(), "phi/10", "0.05*abs(phi) + 0.03*abs(phi - 1)", "0"), {at}, {rate});
+      const Scene scene = freeScene(onCurve(makePoint(), "phi/10", "0.05*abs(phi) + 0.03*abs(phi - 1)", "0"), {at}, {rate});
       ASSERT_EQ(run(*scene.plant, noHand, 0.1), StepStatus::Ok);
       const MassState mass = observed(*scene.plant)[0];
       EXPECT_NEAR(mass.q[0], at + 0.1 * rate, 1e-10);
@@ -281,10 +265,7 @@ TEST(Corners, AChainBesideOneMovesAsOnTheStraightLine) {
 
 // The exact step is taken back to the moment at which the mass meets the end: hand and mass keep between them what they had.
 TEST(Ends, OfALineStopAMassThatAHandPullsWithItsSpeed) {
-  experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {1}, {});
-  e.constraint.name = "rod";
-  e.constraint.definition = R"j({"schema_version": 1, "name": "rod", "kind": "curve", "curve": ["0.1*phi", "0", "0"], "shape": {},
-      "domain": [-1, 1], "periodic": false, "at_end": "stop", "start": [0], "target": [0.5], "sentence": "s", "source": "s"})j";
+  const auto e = onDefinition(makePoint(), "curve", R"(["0.1*phi", "0", "0"])", "[-1, 1]", "stop");
   const Scene scene = compileScene(e, {"exact", 1e-3, 0});
   scene.plant->placeAtRest(std::array{0.0});
   const HandSample hand{observed(*scene.plant)[0].r + Vec3{1, 0, 0}, {}, true};
@@ -305,9 +286,7 @@ TEST(Ends, AreMetFromEitherSideAlike) {
     std::vector<StepStatus> status;
     std::vector<double> fraction;
     for (const double side : {1.0, -1.0}) {
-      experiment::Experiment e = onCurve(makeExperiment(experiment::ObjectKind::Point, {1}, {}), "phi/10", side > 0 ? y : mirrored, "0");
-      e.task.emplace().start = {0.2 * side};
-      e.task->target = {0.4 * side};
+      const auto e = from(onCurve(makePoint(), "phi/10", side > 0 ? y : mirrored, "0"), {0.2 * side}, {0.4 * side});
       const Scene scene = freeScene(e, {0.2 * side}, {-2 * side});
       status.push_back(run(*scene.plant, noHand, 0.5));
       met.push_back(observed(*scene.plant)[0]);
@@ -322,11 +301,7 @@ TEST(Ends, AreMetFromEitherSideAlike) {
 
 // On a surface of second degree, whose lines of u and v meet aslant: only the speed through the edge turns round.
 TEST(Ends, AnElasticEdgeLeavesTheSpeedAlongIt) {
-  experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {1}, {});
-  e.constraint.name = "bowl";
-  e.constraint.definition = R"j({"schema_version": 1, "name": "bowl", "kind": "surface", "surface": ["0.1*u", "0.1*v", "0.05*(u^2 + v^2)"],
-      "shape": {}, "domain": [[-1, 1], [-1, 1]], "periodic": false, "at_end": "bounce", "start": [0, 0], "target": [0.5, 0.5],
-      "sentence": "s", "source": "s"})j";
+  const auto e = onDefinition(makePoint(), "surface", R"j(["0.1*u", "0.1*v", "0.05*(u^2 + v^2)"])j", "[[-1, 1], [-1, 1]]", "bounce");
   const Scene scene = freeScene(e, {0.5, 0.5}, {3, 0.5});
   EXPECT_NE(scene.choice.form.find("second degree"), std::string::npos) << scene.choice.form;
   MassState before = observed(*scene.plant)[0], after = before;
@@ -346,12 +321,8 @@ TEST(Ends, AnElasticEdgeLeavesTheSpeedAlongIt) {
 // A period joins what is one place; the two sides of a jump are two, and no `at_end` carries a mass across.
 TEST(Ends, AJumpInAPeriodIsMetLikeAnEnd) {
   for (const bool bounce : {false, true}) {
-    experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {1}, {});
-    e.constraint.name = "slotted-ring";
-    e.constraint.definition = std::string(R"j({"schema_version": 1, "name": "slotted-ring", "kind": "curve",
-      "curve": ["0.1*cos(phi)", "0.1*sin(phi)", "0.01*atan2(sin(phi), cos(phi))"], "shape": {}, "domain": ["-pi", "pi"], "periodic": true,
-      "at_end": ")j") + (bounce ? "bounce" : "stop") +
-                              R"j(", "start": [0.1], "target": [1], "sentence": "s", "source": "s"})j";
+    const auto e = onDefinition(makePoint(), "curve", R"j(["0.1*cos(phi)", "0.1*sin(phi)", "0.01*atan2(sin(phi), cos(phi))"])j",
+                                R"(["-pi", "pi"])", bounce ? "bounce" : "stop", true);
     const Scene scene = freeScene(e, {3}, {1});
     const double before = scene.plant->energy({});
     const StepStatus status = run(*scene.plant, noHand, 0.3);

@@ -1,4 +1,6 @@
 #pragma once
+#include <fmt/format.h>
+
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -24,6 +26,9 @@ inline experiment::Experiment makeExperiment(experiment::ObjectKind kind, std::v
   if (kind != experiment::ObjectKind::Parallel) e.coupling = coupling;
   return e;
 }
+inline experiment::Experiment makePoint(double mass = 1, experiment::Coupling coupling = {600, 0}) {
+  return makeExperiment(experiment::ObjectKind::Point, {mass}, {}, coupling);
+}
 inline experiment::Experiment makeChain(int n, double mass, double stiffness, experiment::Coupling coupling = {600, 0}) {
   return makeExperiment(experiment::ObjectKind::Chain, std::vector<double>(n, mass), std::vector<double>(n - 1, stiffness), coupling);
 }
@@ -46,8 +51,25 @@ inline experiment::Experiment makeBody(const std::array<std::array<double, 3>, 3
   return e;
 }
 inline experiment::Experiment onSurface(const std::string& x, const std::string& y, const std::string& z) {
-  experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {1}, {});
+  experiment::Experiment e = makePoint();
   e.constraint.surface = {x, y, z};
+  return e;
+}
+/// On a definition with a domain. `formulas` and `domain` are as in its file.
+inline experiment::Experiment onDefinition(experiment::Experiment e, const std::string& kind, const std::string& formulas,
+                                           const std::string& domain, const std::string& atEnd, bool periodic = false) {
+  const bool curve = kind == "curve";
+  e.constraint.name = "own";
+  e.constraint.definition = fmt::format(
+      R"({{"schema_version": 1, "name": "own", "kind": "{0}", "{0}": {1}, "domain": {2}, "periodic": {3}, "at_end": "{4}", "start": {5},
+         "target": {6}, "sentence": "s", "source": "s"}})",
+      kind, formulas, domain, periodic, atEnd, curve ? "[0]" : "[0, 0]", curve ? "[0.5]" : "[0.5, 0.5]");
+  return e;
+}
+/// With a reach.
+inline experiment::Experiment from(experiment::Experiment e, std::vector<double> start, std::vector<double> target) {
+  e.task.emplace().start = std::move(start);
+  e.task->target = std::move(target);
   return e;
 }
 

@@ -88,7 +88,7 @@ struct Tally {
 void tryOne(std::uint64_t seed, Tally& tally) {
   const bool surface = seed % 3 == 0;
   Writer writer(seed, surface, seed % 2 == 0);
-  experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {1}, {});
+  experiment::Experiment e = makePoint();
   std::vector<std::string>& lines = surface ? e.constraint.surface : e.constraint.curve;
   e.constraint.name.clear();
   for (int k = 0; k < 3; ++k) lines.push_back(writer.coordinate());

@@ -40,7 +40,7 @@ double trueError(const experiment::Experiment& e) {
 TEST(Rk4Error, IsForetoldToAFactorOfThreeOnTheCatalogue) {
   int judged = 0;
   for (const constraints::Definition& d : constraints::catalogue()) {
-    experiment::Experiment e = makeExperiment(experiment::ObjectKind::Point, {1}, {}, {600, 5});
+    experiment::Experiment e = makePoint(1, {600, 5});
     e.constraint.name = d.name;
     experiment::Task task;
     task.start = d.start;

@@ -13,26 +13,11 @@ namespace {
 using experiment::Experiment;
 using experiment::ObjectKind;
 
-Experiment bead() { return makeExperiment(ObjectKind::Point, {1}, {}, {600, 5}); }
-Experiment from(Experiment e, std::vector<double> start, std::vector<double> target) {
-  e.task.emplace().start = std::move(start);
-  e.task->target = std::move(target);
-  return e;
-}
+Experiment bead() { return makePoint(1, {600, 5}); }
 std::string refused(const Experiment& e, const SceneOptions& options = {}) {
   return refusalOf([&] { (void)compileScene(e, options); });
 }
 Experiment ellipse(double a, double b) { return onCurve(bead(), std::to_string(a) + "*cos(phi)", std::to_string(b) + "*sin(phi)", "0"); }
-/// A definition of its own, with a domain.
-Experiment defined(const std::string& kind, const std::string& formula, const std::string& domain, const std::string& atEnd,
-                   const std::string& start, const std::string& target) {
-  Experiment e = bead();
-  e.constraint.name = "own";
-  e.constraint.definition = R"({"schema_version": 1, "name": "own", "kind": ")" + kind + R"(", ")" + kind + R"(": )" + formula +
-                            R"(, "shape": {}, "domain": )" + domain + R"(, "periodic": false, "at_end": ")" + atEnd + R"(", "start": )" +
-                            start + R"(, "target": )" + target + R"(, "sentence": "s", "source": "s"})";
-  return e;
-}
 
 TEST(Scene, AStepIsAboveNothingAndFinite) {
   for (const double step : {0.0, -1e-3, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
@@ -54,11 +39,11 @@ TEST(Scene, AStartHasAsManyNumbersAsTheConstraint) {
 }
 
 TEST(Scene, AStartLiesWithinTheDomainOrOnItsEnds) {
-  const Experiment curve = defined("curve", R"(["0.1*phi", "0.1*phi^2", "0"])", "[-1, 2]", "stop", "[0]", "[1]");
+  const Experiment curve = onDefinition(bead(), "curve", R"(["0.1*phi", "0.1*phi^2", "0"])", "[-1, 2]", "stop");
   for (const double start : {-1.0, 0.3, 2.0}) EXPECT_EQ(refused(from(curve, {start}, {1})), "") << start;
   for (const double start : {-1.01, 2.01})
     EXPECT_TRUE(has(refused(from(curve, {start}, {1})), "lies outside the constraint's domain, -1 to 2")) << start;
-  const Experiment patch = defined("surface", R"(["0.1*u", "0.1*v", "0.05*u*v^2"])", "[[-1, 1], [-2, 2]]", "stop", "[0, 0]", "[0.5, 0.5]");
+  const Experiment patch = onDefinition(bead(), "surface", R"(["0.1*u", "0.1*v", "0.05*u*v^2"])", "[[-1, 1], [-2, 2]]", "stop");
   EXPECT_EQ(refused(from(patch, {1, -2}, {0, 0})), "");
   EXPECT_TRUE(has(refused(from(patch, {0, 2.1}, {0, 0})), "the start 2.1 lies outside the constraint's domain, -2 to 2"));
   EXPECT_TRUE(has(refused(from(patch, {1.1, 0}, {0, 0})), "the start 1.1 lies outside"));
@@ -111,7 +96,7 @@ TEST(Scene, ItsFormTellsWhatIsComputed) {
 
 TEST(Scene, AStraightLineWithElasticEndsIsLeftToSubSteps) {
   const auto chosen = [](const char* domain, const char* atEnd) {
-    return compileScene(defined("curve", R"(["0.1*phi", "0.2*phi", "0.3"])", domain, atEnd, "[0]", "[1]")).choice;
+    return compileScene(onDefinition(bead(), "curve", R"(["0.1*phi", "0.2*phi", "0.3"])", domain, atEnd)).choice;
   };
   EXPECT_EQ(chosen("[-1, 2]", "bounce").method, "adaptive");
   EXPECT_TRUE(has(chosen("[-1, 2]", "bounce").reason, "the ends are elastic"));
@@ -148,7 +133,7 @@ TEST(Scene, ANarrowDipOfTheSpeedIsFoundBetweenTheLooks) {
 // From e^-3 to e^3 of what it is in the middle: more than eight times that is steep and not what is usual.
 TEST(Scene, TheLargestSpeedCountsUpToEightTimesTheUsualOne) {
   const auto form = [](const char* along, double start) {
-    const Experiment e = defined("curve", std::string("[\"0.01*") + along + "\", \"1e-6*phi^2\", \"0\"]", "[-3, 3]", "stop", "[0]", "[1]");
+    const Experiment e = onDefinition(bead(), "curve", std::string("[\"0.01*") + along + "\", \"1e-6*phi^2\", \"0\"]", "[-3, 3]", "stop");
     return compileScene(from(e, {start}, {1})).choice.form;
   };
   EXPECT_EQ(form("exp(phi)", 0), "curve, speed along it (|r_phi| falls to 0.0062 of its largest), 2 states") << "e^-3/8";
@@ -213,7 +198,7 @@ TEST(Scene, SeveralHandsNeedASmoothCurveThatMovesOnEvenly) {
   EXPECT_TRUE(
       has(refused(twoHands(onCurve(bead(), "phi/10", "0.05*abs(phi - 2)", "0"))), "several hands need a curve that is smooth throughout"));
   const auto ended = [](const char* atEnd) {
-    return refused(twoHands(defined("curve", R"(["0.1*phi", "0.1*phi^2", "0"])", "[-1, 2]", atEnd, "[0]", "[1]")));
+    return refused(twoHands(onDefinition(bead(), "curve", R"(["0.1*phi", "0.1*phi^2", "0"])", "[-1, 2]", atEnd)));
   };
   EXPECT_TRUE(has(ended("bounce"), "several hands need a curve without elastic ends"));
   EXPECT_EQ(ended("stop"), "");

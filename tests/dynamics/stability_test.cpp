@@ -150,8 +150,8 @@ TEST(Stability, OfManyMassesAStrongDamperIsSeenAsWell) {
 }
 
 TEST(Stability, TheFastestModeIsOfTheObjectOnItsCoupling) {
-  EXPECT_NEAR(compileScene(makeExperiment(experiment::ObjectKind::Point, {1}, {}, {0.25, 0})).choice.fastestMode, 0.5, 1e-12);
-  EXPECT_NEAR(compileScene(makeExperiment(experiment::ObjectKind::Point, {4}, {}, {900, 0})).choice.fastestMode, 15, 1e-12);
+  EXPECT_NEAR(compileScene(makePoint(1, {0.25, 0})).choice.fastestMode, 0.5, 1e-12);
+  EXPECT_NEAR(compileScene(makePoint(4, {900, 0})).choice.fastestMode, 15, 1e-12);
 }
 
 }  // namespace

@@ -238,7 +238,7 @@ TEST(Surface, TheBranchIsThatOfThePlaceOrOfTheWayFromALine) {
 // --- RK4's error over a reach
 
 TEST(Rk4Error, IsMeasuredOnlyWhereThereIsAReach) {
-  Experiment e = makeExperiment(ObjectKind::Point, {1}, {}, {600, 5});
+  Experiment e = makePoint(1, {600, 5});
   const Scene scene = compileScene(e, {"rk4", 1e-2, 0});
   experiment::Task task;
   task.start = {1}, task.target = {2}, task.duration = 1;

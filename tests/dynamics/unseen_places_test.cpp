@@ -69,8 +69,7 @@ TEST(UnseenPlaces, AMassOnACurveKeepsItsSpeedThroughNeedlesAndRoundedCorners) {
   for (const Spot& spot : spots())
     for (const double start : {-0.3, -0.30037}) {
       SCOPED_TRACE(fmt::format("{} from {}", spot.y, start));
-      Scene scene = freeScene(onCurve(makeExperiment(experiment::ObjectKind::Point, {1}, {}), "0.1*phi", inTermsOf(spot.y, "phi"), "0"),
-                              {start}, {1.3});
+      Scene scene = freeScene(onCurve(makePoint(), "0.1*phi", inTermsOf(spot.y, "phi"), "0"), {start}, {1.3});
       const double speed = norm(observed(*scene.plant)[0].v);
       ASSERT_EQ(run(*scene.plant, noHand, 1.2, kShort), StepStatus::Ok) << scene.plant->stopReason();
       const long double way = lengthOf(spot.slope, start, observed(*scene.plant)[0].q[0], spot.at, spot.width);
@@ -100,8 +99,7 @@ TEST(UnseenPlaces, AMassOnASurfaceKeepsItsSpeedAcrossRidges) {
 TEST(UnseenPlaces, AMassOnRipplesKeepsItsSpeed) {
   const Slope slope = [](long double p) { return std::cos(1e5L * p); };
   for (const double rate : {0.1296, 0.02}) {
-    Scene scene =
-        freeScene(onCurve(makeExperiment(experiment::ObjectKind::Point, {1}, {}), "0.1*phi", "1e-5*sin(1e5*phi)", "0"), {7e-6}, {rate});
+    Scene scene = freeScene(onCurve(makePoint(), "0.1*phi", "1e-5*sin(1e5*phi)", "0"), {7e-6}, {rate});
     const double speed = norm(observed(*scene.plant)[0].v);
     ASSERT_EQ(run(*scene.plant, noHand, 0.04, kShort), StepStatus::Ok) << scene.plant->stopReason();
     const double end = observed(*scene.plant)[0].q[0];
