@@ -2,50 +2,34 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "base/error.h"
-#include "sim/dynamics/scene.h"
 #include "sim/experiment/compiled_experiment.h"
-#include "sim/experiment/experiment.h"
-#include "tests/refusal.h"
+#include "tests/dynamics/held_segment.h"
+#include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {
 namespace {
 
 using experiment::Experiment;
 
-// A smooth hand and its exact derivative over one tick, as a cubic through its ends.
+/// Swings along x from `offset`.
 struct SmoothHand {
-  double size = 0.05, omega = 3, phase = 0;
+  double omega = 3;
   Vec3 offset;
-  Vec3 at(double t) const { return offset + Vec3{size * (std::sin(omega * t + phase) - std::sin(phase)), 0, 0}; }
-  Vec3 speed(double t) const { return {size * omega * std::cos(omega * t + phase), 0, 0}; }
-  HandSegment over(double t, double dt) const {
-    HandSegment s;
-    s.degree = 3;
-    const auto hermite = [&](const Vec3& a, const Vec3& da, const Vec3& b, const Vec3& db) {
-      return std::array<Vec3, 4>{a, dt * da, 3 * (b - a) - dt * (2 * da + db), 2 * (a - b) + dt * (da + db)};
-    };
-    const Vec3 a0{-size * omega * omega * std::sin(omega * t + phase), 0, 0},
-        a1{-size * omega * omega * std::sin(omega * (t + dt) + phase), 0, 0};
-    const auto r = hermite(at(t), speed(t), at(t + dt), speed(t + dt)), v = hermite(speed(t), a0, speed(t + dt), a1);
-    for (std::size_t k = 0; k < 4; ++k) s.position[k] = r[k], s.velocity[k] = v[k];
-    return s;
+  HandSample operator()(double t) const {
+    return {offset + Vec3{0.05 * std::sin(omega * t), 0, 0}, {0.05 * omega * std::cos(omega * t), 0, 0}, true};
   }
-  HandSample sample(double t) const { return {at(t), speed(t), true}; }
 };
+
+/// One tick of an object that two hands hold.
+void stepByBoth(const Scene& scene, const HandFunction& first, const HandFunction& second, int tick) {
+  scene.shared->setHand(1, makeSegment(second, tick * 1e-3, 1e-3), second(tick * 1e-3 + 1e-3));
+  ASSERT_EQ(scene.plant->step(makeSegment(first, tick * 1e-3, 1e-3), 1e-3), StepStatus::Ok);
+}
 
 Experiment withHands(const std::string& name, std::vector<experiment::Hand> hands) {
   Experiment e = experiment::readExperiment(name);
   e.hands = std::move(hands);
   return e;
-}
-
-std::vector<MassState> masses(const Plant& plant, const HandSample& hand) {
-  std::vector<MassState> states(static_cast<std::size_t>(plant.massCount()));
-  plant.observe(hand, states);
-  return states;
 }
 
 // RK4 at 1 ms and the exact propagator differ by its error, about 1e-9 m here.
@@ -56,13 +40,10 @@ TEST(SharedPlant, OneHandOnMassOneMovesAsTheSceneForOneHand) {
     Scene exact = compileScene(one), shared = compileScene(held);
     ASSERT_NE(shared.shared, nullptr) << name;
     SmoothHand hand;
-    hand.offset = masses(*exact.plant, {})[0].r;
-    for (int tick = 0; tick < 500; ++tick) {
-      ASSERT_EQ(exact.plant->step(hand.over(tick * 1e-3, 1e-3), 1e-3), StepStatus::Ok) << name;
-      ASSERT_EQ(shared.plant->step(hand.over(tick * 1e-3, 1e-3), 1e-3), StepStatus::Ok) << name;
-    }
-    const HandSample now = hand.sample(0.5);
-    const auto a = masses(*exact.plant, now), b = masses(*shared.plant, now);
+    hand.offset = observed(*exact.plant)[0].r;
+    for (Scene* scene : {&exact, &shared}) ASSERT_EQ(run(*scene->plant, hand, 0.5), StepStatus::Ok) << name;
+    const HandSample now = hand(0.5);
+    const auto a = observed(*exact.plant, now), b = observed(*shared.plant, now);
     for (std::size_t i = 0; i < a.size(); ++i) {
       EXPECT_LT(norm(a[i].r - b[i].r), 1e-8) << name << " mass " << i + 1;
       EXPECT_LT(norm(a[i].v - b[i].v), 1e-7) << name << " mass " << i + 1;
@@ -78,16 +59,13 @@ TEST(SharedPlant, ABodyHeldAtOnePlaceMovesAsTheSceneForOneHand) {
   const Experiment held = withHands("free-body", {{1, {one.coupling->stiffness}, {one.coupling->damping}, one.object.fpOffset}});
   Scene own = compileScene(one), shared = compileScene(held);
   SmoothHand hand;
-  hand.offset = masses(*own.plant, {})[0].r + one.object.fpOffset + Vec3{0, 0.02, 0};
-  for (int tick = 0; tick < 500; ++tick) {
-    ASSERT_EQ(own.plant->step(hand.over(tick * 1e-3, 1e-3), 1e-3), StepStatus::Ok);
-    ASSERT_EQ(shared.plant->step(hand.over(tick * 1e-3, 1e-3), 1e-3), StepStatus::Ok);
-  }
+  hand.offset = observed(*own.plant)[0].r + one.object.fpOffset + Vec3{0, 0.02, 0};
+  for (Scene* scene : {&own, &shared}) ASSERT_EQ(run(*scene->plant, hand, 0.5), StepStatus::Ok);
   const BodyState a = own.plant->body(), b = shared.plant->body();
   EXPECT_GT(norm(a.angularVelocity), 0.01) << "it turns";
   EXPECT_LT(norm(a.angularVelocity - b.angularVelocity), 1e-5);
   for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(a.orientation[i], b.orientation[i], 1e-7);
-  EXPECT_LT(norm(masses(*own.plant, {})[0].r - masses(*shared.plant, {})[0].r), 1e-8);
+  EXPECT_LT(norm(observed(*own.plant)[0].r - observed(*shared.plant)[0].r), 1e-8);
 }
 
 // What two hands do to the ends of a chain is what one did to either, mirrored.
@@ -96,14 +74,11 @@ TEST(SharedPlant, AChainHeldFromBothEndsIsSymmetric) {
   const Experiment mirrored = withHands("chain-moderate", {{5, {600}, {2}, {}}, {1, {300}, {1}, {}}});
   Scene one = compileScene(e), other = compileScene(mirrored);
   SmoothHand left, right;
-  left.offset = right.offset = masses(*one.plant, {})[0].r;
+  left.offset = right.offset = observed(*one.plant)[0].r;
   right.omega = 5;
   for (int tick = 0; tick < 400; ++tick)
-    for (Scene* scene : {&one, &other}) {
-      scene->shared->setHand(1, right.over(tick * 1e-3, 1e-3), right.sample(tick * 1e-3 + 1e-3));
-      ASSERT_EQ(scene->plant->step(left.over(tick * 1e-3, 1e-3), 1e-3), StepStatus::Ok);
-    }
-  const auto a = masses(*one.plant, left.sample(0.4)), b = masses(*other.plant, left.sample(0.4));
+    for (Scene* scene : {&one, &other}) stepByBoth(*scene, left, right, tick);
+  const auto a = observed(*one.plant, left(0.4)), b = observed(*other.plant, left(0.4));
   for (std::size_t i = 0; i < 5; ++i) EXPECT_LT(norm(a[i].r - b[4 - i].r), 1e-13) << i;
 }
 
@@ -114,12 +89,11 @@ TEST(SharedPlant, WorkOfTheHandsIsTheObjectsEnergy) {
                                                      {{0, {50, 0, 100, 0, 0}, {1, 0, 0, 0, 0}, {}}, {4, {200}, {5}, {}}}}) {
     Scene scene = compileScene(withHands("chain-moderate", hands));
     SmoothHand left, right;
-    left.offset = right.offset = masses(*scene.plant, {})[0].r;
+    left.offset = right.offset = observed(*scene.plant)[0].r;
     right.omega = 7;
     double most = 0;
     for (int tick = 0; tick < 1000; ++tick) {
-      scene.shared->setHand(1, right.over(tick * 1e-3, 1e-3), right.sample(tick * 1e-3 + 1e-3));
-      ASSERT_EQ(scene.plant->step(left.over(tick * 1e-3, 1e-3), 1e-3), StepStatus::Ok);
+      stepByBoth(scene, left, right, tick);
       most = std::max(most, scene.shared->objectEnergy());
       EXPECT_NEAR(scene.shared->work(0) + scene.shared->work(1), scene.shared->objectEnergy(), 4e-5);
     }
@@ -148,24 +122,19 @@ TEST(SharedPlant, GravityAloneGivesTheObjectNoEnergy) {
 
 TEST(SharedPlant, AHandThatLetsGoActsNoMore) {
   Scene scene = compileScene(withHands("chain-moderate", {{1, {600}, {0}, {}}, {5, {600}, {0}, {}}}));
-  const Vec3 start = masses(*scene.plant, {})[0].r;
-  HandSegment away;
-  away.position[0] = start + Vec3{0.1, 0, 0};
-  const HandSample there{away.position[0], {}, true};
-  HandSegment rest;
-  rest.position[0] = start;
+  const Vec3 start = observed(*scene.plant)[0].r;
+  const HandSegment away = heldSegment(start + Vec3{0.1, 0, 0}), rest = heldSegment(start);
+  const HandSample there = endOf(away);
   scene.shared->setHand(1, away, there, 0);
   ASSERT_EQ(scene.plant->step(rest, 1e-3), StepStatus::Ok);
   EXPECT_EQ(scene.shared->couplingForceOf(1), (Vec3{}));
-  EXPECT_EQ(masses(*scene.plant, {start, {}, true})[4].v, (Vec3{}));
+  EXPECT_EQ(observed(*scene.plant, {start, {}, true})[4].v, (Vec3{}));
   scene.shared->setHand(1, away, there, 0.5);
   EXPECT_NEAR(scene.shared->couplingForceOf(1).x, 0.5 * 600 * 0.1, 1e-9);
 }
 
 TEST(SharedPlant, DifferencesOfABodysPlacesAreWhatTurnsItThere) {
-  Experiment e = experiment::readExperiment("free-body");
-  e.hands = {{1, {600}, {0}, {}}, {1, {600}, {0}, {0.1, 0, 0}}};
-  Scene scene = compileScene(e);
+  const Scene scene = compileScene(withHands("free-body", {{1, {600}, {0}, {}}, {1, {600}, {0}, {0.1, 0, 0}}}));
   SharedPlant& plant = *scene.shared;
   const double half = 0.05;
   const std::vector<double> turned{0.1, 0, 0, std::cos(half), 0, 0, std::sin(half)},
@@ -191,7 +160,7 @@ TEST(SharedPlant, RefusesWhatItCannotDo) {
 
 // RK4 in phi divides by |r_phi|: where that vanishes it was wrong without a word.
 TEST(SharedPlant, CurvesWithCuspsAreRefusedWithTheirPlace) {
-  const auto sayOf = [](const Experiment& e) -> std::string { return refusalOf([&] { (void)compileScene(e); }); };
+  const auto sayOf = [](const Experiment& e) { return refusalOf([&] { (void)compileScene(e); }); };
   const std::vector<experiment::Hand> two{{1, {600}, {5}, {}}, {1, {600}, {5}, {}}};
   Experiment astroid = withHands("cycloid", two);
   astroid.constraint.name.clear();
