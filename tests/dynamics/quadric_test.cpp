@@ -12,42 +12,17 @@ constexpr double kPi = std::numbers::pi;
 // Ten coefficients found to 1e-15 of a surface of 0.1 m.
 constexpr double kOffSurface = 1e-15;  // [m]
 
+constraints::Surface surfaceOf(constraints::SurfaceFunction function) { return {function, nullptr, {}}; }
 constraints::Surface sphere() {
-  return {[](const void*, const double*, double u, double v, constraints::SurfacePoint& p) noexcept {
-            p.r = {0.1 * std::sin(v) * std::cos(u), 0.1 * std::sin(v) * std::sin(u), 0.1 * std::cos(v)};
-          },
-          nullptr,
-          {}};
+  return surfaceOf([](const void*, const double*, double u, double v, constraints::SurfacePoint& p) noexcept {
+    p.r = {0.1 * std::sin(v) * std::cos(u), 0.1 * std::sin(v) * std::sin(u), 0.1 * std::cos(v)};
+  });
 }
 constraints::Surface ellipsoid() {
-  return {[](const void*, const double*, double u, double v, constraints::SurfacePoint& p) noexcept {
-            p.r = {0.2 + 0.1 * std::sin(v) * std::cos(u), 0.07 * std::sin(v) * std::sin(u) - 0.1, 0.04 * std::cos(v)};
-          },
-          nullptr,
-          {}};
+  return surfaceOf([](const void*, const double*, double u, double v, constraints::SurfacePoint& p) noexcept {
+    p.r = {0.2 + 0.1 * std::sin(v) * std::cos(u), 0.07 * std::sin(v) * std::sin(u) - 0.1, 0.04 * std::cos(v)};
+  });
 }
-constraints::Surface torus() {
-  return {[](const void*, const double*, double u, double v, constraints::SurfacePoint& p) noexcept {
-            p.r = {(0.1 + 0.04 * std::cos(v)) * std::cos(u), (0.1 + 0.04 * std::cos(v)) * std::sin(u), 0.04 * std::sin(v)};
-          },
-          nullptr,
-          {}};
-}
-constraints::Surface plane() {
-  return {[](const void*, const double*, double u, double v, constraints::SurfacePoint& p) noexcept {
-            p.r = {0.1 * u, 0.1 * v, 0.02 * u};
-          },
-          nullptr,
-          {}};
-}
-constraints::Surface monkeySaddle() {
-  return {[](const void*, const double*, double u, double v, constraints::SurfacePoint& p) noexcept {
-            p.r = {0.1 * u, 0.1 * v, 0.05 * (u * u * u - 3 * u * v * v)};
-          },
-          nullptr,
-          {}};
-}
-
 const std::array<constraints::Domain, 2> kAnywhere{};
 const std::array<constraints::Domain, 2> kRound{constraints::Domain{0, 2 * kPi, true}, constraints::Domain{0, kPi, false}};
 
@@ -193,11 +168,12 @@ TEST(Quadric, HoldsAnEllipsoidAwayFromTheOriginEvenWithoutADomain) {
 }
 
 TEST(Quadric, RefusesWhatIsNotOfSecondDegreeOrNotUnique) {
-  EXPECT_FALSE(fitQuadric(torus(), kAnywhere, {0, 0}));
-  EXPECT_FALSE(fitQuadric(monkeySaddle(), kAnywhere, {0, 0}));
-  EXPECT_FALSE(fitQuadric(plane(), kAnywhere, {0, 0}));
-  EXPECT_FALSE(fitted(typed("0.1*u", "0.1*v", "0.05*u^2 + 0.01*sqrt(v)"))) << "not finite everywhere";
-  EXPECT_FALSE(fitted(typed("0.1*u", "0.1*v", "0.05*(u^2 + v^2) + 1e-6*u^3"))) << "nearly";
+  for (const auto& [x, y, z, what] : {std::tuple{"(0.1 + 0.04*cos(v))*cos(u)", "(0.1 + 0.04*cos(v))*sin(u)", "0.04*sin(v)", "a torus"},
+                                      {"0.1*u", "0.1*v", "0.05*(u^3 - 3*u*v^2)", "a monkey saddle"},
+                                      {"0.1*u", "0.1*v", "0.02*u", "a plane: many hold it"},
+                                      {"0.1*u", "0.1*v", "0.05*u^2 + 0.01*sqrt(v)", "not finite everywhere"},
+                                      {"0.1*u", "0.1*v", "0.05*(u^2 + v^2) + 1e-6*u^3", "nearly"}})
+    EXPECT_FALSE(fitted(typed(x, y, z))) << what;
   const auto ends = [](double lo, double hi) { return std::array{constraints::Domain{lo, hi}, constraints::Domain{lo, hi}}; };
   const constraints::Constraint root = typed("0.1*u", "0.1*v", "0.05*sqrt(2 + u^2 + v^2 - u)");
   EXPECT_TRUE(fitQuadric(root.surface, ends(-5, 5), {0, 0}));
