@@ -77,8 +77,8 @@ void requirePeriods(const Constraint& c, const std::string& key) {
   const std::array<Domain, 2> range = boundedDomain(c);
   const int parameters = c.parameterCount();
   for (int k = 0; k < parameters; ++k) {
-    if (!c.domain[static_cast<std::size_t>(k)].periodic) continue;
-    const Domain &own = range[static_cast<std::size_t>(k)], &other = range[static_cast<std::size_t>(1 - k)];
+    if (!c.domain[k].periodic) continue;
+    const Domain &own = range[k], &other = range[1 - k];
     const auto at = [&](double q, double across) {
       if (parameters == 1) return evaluate(c.curve, q).r;
       return (k == 0 ? evaluate(c.surface, q, across) : evaluate(c.surface, across, q)).r;

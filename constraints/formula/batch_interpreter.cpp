@@ -91,7 +91,7 @@ void evaluateCurveBatchProgram(const void* program, const double* shape, const d
   const auto fill = [&](int k, double value) {
     for (double& lane : registers[k]) lane = value;
   };
-  for (int k = 0; k < kOutputs; ++k) fill(k, p.constants[static_cast<std::size_t>(k)]);
+  for (int k = 0; k < kOutputs; ++k) fill(k, p.constants[k]);
   for (int k = 0; k < p.parameterCount; ++k) fill(kOutputs + k, shape[k]);
   std::memcpy(registers[kOutputs + p.parameterCount], phi, sizeof(Register));
   execute(p, registers);

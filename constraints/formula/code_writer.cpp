@@ -118,7 +118,7 @@ std::string writeDynamicsCode(const CompiledFormula& formula, const std::string&
     std::array<int, 3> w{};
     for (int k = 0; k < 3; ++k) {
       const int square = graph.add(graph.mul(r[9 + k], graph.powInt(uRate, 2)), graph.mul(r[15 + k], graph.powInt(vRate, 2)));
-      w[static_cast<std::size_t>(k)] = graph.add(square, graph.mul(graph.constant(2), graph.mul(r[12 + k], graph.mul(uRate, vRate))));
+      w[k] = graph.add(square, graph.mul(graph.constant(2), graph.mul(r[12 + k], graph.mul(uRate, vRate))));
     }
     put("G11", dotOf(graph, rU, rU));
     put("G12", dotOf(graph, rU, rV));

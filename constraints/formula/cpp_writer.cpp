@@ -67,7 +67,7 @@ CppWriter::CppWriter(ExpressionGraph& graph, const std::vector<int>& roots, Name
   taken_.insert(taken_.end(), names_.parameters.begin(), names_.parameters.end());
   const std::vector<bool> needed = graph.reachableFrom(roots_);
   std::vector<int> uses = graph.countUses(roots_);
-  for (const int root : roots_) ++uses[static_cast<std::size_t>(root)];
+  for (const int root : roots_) ++uses[root];
   for (std::size_t i = 0; i < needed.size(); ++i) {
     const int id = static_cast<int>(i);
     if (!needed[i] || operandCount(graph.node(id).op) == 0) continue;
@@ -93,11 +93,11 @@ std::string CppWriter::freshName(const std::string& wish) {
 // sin(phi) is called sinPhi, sin(4 phi) sin4Phi, others by number.
 std::string CppWriter::waveSuffix(int argument) {
   const ExpressionNode& n = graph_.node(argument);
-  if (n.op == Op::Variable) return capitalised(names_.variables[static_cast<std::size_t>(n.a)]);
+  if (n.op == Op::Variable) return capitalised(names_.variables[n.a]);
   if (n.op == Op::Mul && graph_.isConstant(n.a) && graph_.node(n.b).op == Op::Variable) {
     const double factor = graph_.node(n.a).value;
     if (factor == std::floor(factor) && factor < 1000)
-      return fmt::format("{}{}", factor, capitalised(names_.variables[static_cast<std::size_t>(graph_.node(n.b).a)]));
+      return fmt::format("{}{}", factor, capitalised(names_.variables[graph_.node(n.b).a]));
   }
   return fmt::format("T{}", ++temporaries_);
 }
@@ -126,8 +126,8 @@ CppWriter::Text CppWriter::print(int id) const {
   if (const auto found = named_.find(id); found != named_.end()) return {found->second, 3};
   const ExpressionNode& n = graph_.node(id);
   if (n.op == Op::Constant) return {numberText(n.value), n.value < 0 ? 2 : 3};
-  if (n.op == Op::Variable) return {names_.variables[static_cast<std::size_t>(n.a)], 3};
-  if (n.op == Op::Parameter) return {names_.parameters[static_cast<std::size_t>(n.a)], 3};
+  if (n.op == Op::Variable) return {names_.variables[n.a], 3};
+  if (n.op == Op::Parameter) return {names_.parameters[n.a], 3};
   return operation(id);
 }
 

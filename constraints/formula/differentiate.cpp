@@ -6,8 +6,8 @@ namespace reachlab::constraints {
 int ExpressionGraph::derivativeOf(int id, const std::vector<int>& d) {
   const ExpressionNode n = node(id);
   const int operands = operandCount(n.op);
-  const int da = operands >= 1 ? d[static_cast<std::size_t>(n.a)] : -1;
-  const int db = operands == 2 ? d[static_cast<std::size_t>(n.b)] : -1;
+  const int da = operands >= 1 ? d[n.a] : -1;
+  const int db = operands == 2 ? d[n.b] : -1;
   // Nothing that does not move: keeps 0 * (1/0) and the like out of the result.
   if ((operands == 1 && isConstant(da, 0)) || (operands == 2 && isConstant(da, 0) && isConstant(db, 0))) return constant(0);
   const int one = constant(1);
@@ -53,7 +53,7 @@ std::vector<int> ExpressionGraph::differentiate(std::span<const int> roots, int 
     d[id] = n.op == Op::Variable ? constant(n.a == variable ? 1 : 0) : derivativeOf(static_cast<int>(id), d);
   }
   std::vector<int> result;
-  for (const int root : roots) result.push_back(d[static_cast<std::size_t>(root)]);
+  for (const int root : roots) result.push_back(d[root]);
   return result;
 }
 

@@ -278,13 +278,13 @@ int ExpressionGraph::apply(Op function, int a, int b) {
 
 std::vector<bool> ExpressionGraph::reachableFrom(std::span<const int> roots) const {
   std::vector<bool> needed(nodes_.size(), false);
-  for (const int root : roots) needed[static_cast<std::size_t>(root)] = true;
+  for (const int root : roots) needed[root] = true;
   for (int id = size() - 1; id >= 0; --id) {
-    if (!needed[static_cast<std::size_t>(id)]) continue;
+    if (!needed[id]) continue;
     const ExpressionNode& n = node(id);
     const int operands = operandCount(n.op);
-    if (operands >= 1) needed[static_cast<std::size_t>(n.a)] = true;
-    if (operands == 2) needed[static_cast<std::size_t>(n.b)] = true;
+    if (operands >= 1) needed[n.a] = true;
+    if (operands == 2) needed[n.b] = true;
   }
   return needed;
 }
@@ -296,8 +296,8 @@ std::vector<int> ExpressionGraph::countUses(std::span<const int> roots) const {
     if (!needed[id]) continue;
     const ExpressionNode& n = nodes_[id];
     const int operands = operandCount(n.op);
-    if (operands >= 1) ++uses[static_cast<std::size_t>(n.a)];
-    if (operands == 2) ++uses[static_cast<std::size_t>(n.b)];
+    if (operands >= 1) ++uses[n.a];
+    if (operands == 2) ++uses[n.b];
   }
   return uses;
 }
@@ -311,12 +311,12 @@ OperationList ExpressionGraph::operationsFor(std::span<const int> roots, const d
     ExpressionNode n = nodes_[id];
     const int operands = operandCount(n.op);
     if (n.op == Op::Parameter) n = {Op::Constant, -1, -1, shape[n.a]};
-    if (operands >= 1) n.a = place[static_cast<std::size_t>(n.a)];
-    if (operands == 2) n.b = place[static_cast<std::size_t>(n.b)];
+    if (operands >= 1) n.a = place[n.a];
+    if (operands == 2) n.b = place[n.b];
     place[id] = static_cast<int>(list.operations.size());
     list.operations.push_back(n);
   }
-  for (const int root : roots) list.roots.push_back(place[static_cast<std::size_t>(root)]);
+  for (const int root : roots) list.roots.push_back(place[root]);
   return list;
 }
 
@@ -328,7 +328,7 @@ std::vector<int> ExpressionGraph::expandPowers(std::span<const int> roots) {
     const ExpressionNode n = nodes_[id];
     if (n.op == Op::PowInt) {
       int result = -1;
-      int square = image[static_cast<std::size_t>(n.a)];
+      int square = image[n.a];
       for (int rest = n.b; rest > 0; rest /= 2) {
         if (rest % 2 == 1) result = result < 0 ? square : intern({Op::Mul, square, result, 0});
         if (rest > 1) square = intern({Op::Mul, square, square, 0});
@@ -337,12 +337,11 @@ std::vector<int> ExpressionGraph::expandPowers(std::span<const int> roots) {
     } else if (operandCount(n.op) == 0) {
       image[id] = static_cast<int>(id);
     } else {
-      image[id] = intern(
-          {n.op, image[static_cast<std::size_t>(n.a)], operandCount(n.op) == 2 ? image[static_cast<std::size_t>(n.b)] : n.b, n.value});
+      image[id] = intern({n.op, image[n.a], operandCount(n.op) == 2 ? image[n.b] : n.b, n.value});
     }
   }
   std::vector<int> result;
-  for (const int root : roots) result.push_back(image[static_cast<std::size_t>(root)]);
+  for (const int root : roots) result.push_back(image[root]);
   return result;
 }
 

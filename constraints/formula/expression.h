@@ -77,7 +77,7 @@ class ExpressionGraph {
   /// The roots with every integer power written out as products (the form that is compiled).
   std::vector<int> expandPowers(std::span<const int> roots);
 
-  const ExpressionNode& node(int id) const { return nodes_[static_cast<std::size_t>(id)]; }
+  const ExpressionNode& node(int id) const { return nodes_[id]; }
   int size() const { return static_cast<int>(nodes_.size()); }
   bool isConstant(int id) const { return node(id).op == Op::Constant; }
   bool isConstant(int id, double value) const { return isConstant(id) && node(id).value == value; }

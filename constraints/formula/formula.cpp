@@ -22,7 +22,7 @@ std::optional<FormulaFault> cancelledEnd(const ExpressionGraph& graph, const std
                                          const FormulaNames& names) {
   const std::vector<bool> needed = graph.reachableFrom(roots), moving = findMoving(graph);
   for (int id = 0; id < graph.size(); ++id) {
-    if (needed[static_cast<std::size_t>(id)] || !moving[static_cast<std::size_t>(id)]) continue;
+    if (needed[id] || !moving[id]) continue;
     const ExpressionNode& n = graph.node(id);
     const bool endsBelowZero = (n.op == Op::Log || n.op == Op::Sqrt || n.op == Op::Pow) && !graph.isNeverNegative(n.a);
     if (n.op != Op::Asin && n.op != Op::Acos && !endsBelowZero) continue;
@@ -152,7 +152,7 @@ std::shared_ptr<const CompiledFormula> compileFormula(const FormulaText& text, c
     for (std::size_t id = 0; id < needed.size(); ++id) {
       const ExpressionNode& n = graph.node(static_cast<int>(id));
       const bool polynomial = n.op == Op::Variable || n.op == Op::Add || n.op == Op::Sub || n.op == Op::Mul || n.op == Op::Neg ||
-                              n.op == Op::PowInt || (n.op == Op::Div && !moving[static_cast<std::size_t>(n.b)]);
+                              n.op == Op::PowInt || (n.op == Op::Div && !moving[n.b]);
       broken = broken || (needed[id] && moving[id] && !polynomial);
     }
     formula->straight = !broken && std::all_of(second.begin(), second.end(), [&](int id) { return graph.isConstant(id, 0); });
@@ -179,12 +179,12 @@ std::vector<double> evaluateNodes(const ExpressionGraph& graph, std::span<const 
       case Op::Constant: values[id] = n.value; break;
       case Op::Variable: values[id] = variables[n.a]; break;
       case Op::Parameter: values[id] = shape[n.a]; break;
-      case Op::PowInt: values[id] = applyOp(n.op, values[static_cast<std::size_t>(n.a)], n.b); break;
-      default: values[id] = applyOp(n.op, values[static_cast<std::size_t>(n.a)], n.b < 0 ? 0 : values[static_cast<std::size_t>(n.b)]);
+      case Op::PowInt: values[id] = applyOp(n.op, values[n.a], n.b); break;
+      default: values[id] = applyOp(n.op, values[n.a], n.b < 0 ? 0 : values[n.b]);
     }
   }
   std::vector<double> result;
-  for (const int root : roots) result.push_back(values[static_cast<std::size_t>(root)]);
+  for (const int root : roots) result.push_back(values[root]);
   return result;
 }
 

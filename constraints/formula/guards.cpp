@@ -14,8 +14,7 @@ std::vector<bool> findMoving(const ExpressionGraph& graph) {
   for (int id = 0; id < graph.size(); ++id) {
     const ExpressionNode& n = graph.node(id);
     const int operands = operandCount(n.op);
-    moves[static_cast<std::size_t>(id)] = n.op == Op::Variable || (operands >= 1 && moves[static_cast<std::size_t>(n.a)]) ||
-                                          (operands == 2 && moves[static_cast<std::size_t>(n.b)]);
+    moves[id] = n.op == Op::Variable || (operands >= 1 && moves[n.a]) || (operands == 2 && moves[n.b]);
   }
   return moves;
 }
@@ -26,7 +25,7 @@ std::vector<Guard> findGuards(ExpressionGraph& graph, const std::vector<int>& ro
   for (std::size_t id = 0; id < needed.size(); ++id) {
     if (!needed[id] || !moves[id]) continue;
     const ExpressionNode n = graph.node(static_cast<int>(id));
-    const auto moving = [&](int operand) { return operand >= 0 && moves[static_cast<std::size_t>(operand)]; };
+    const auto moving = [&](int operand) { return operand >= 0 && moves[operand]; };
     const auto add = [&](int argument, double level = 0) {
       if (argument >= static_cast<int>(moves.size()) || moving(argument)) guards.push_back({n.op, static_cast<int>(id), argument, level});
     };
@@ -68,12 +67,12 @@ std::vector<int> freezeBranches(ExpressionGraph& graph, const std::vector<int>& 
     if (!needed[id]) continue;
     const ExpressionNode n = graph.node(static_cast<int>(id));
     const int operands = operandCount(n.op);
-    const int a = operands >= 1 ? image[static_cast<std::size_t>(n.a)] : -1, b = operands == 2 ? image[static_cast<std::size_t>(n.b)] : -1;
+    const int a = operands >= 1 ? image[n.a] : -1, b = operands == 2 ? image[n.b] : -1;
     int& result = image[id];
     if (const auto sign = signAt.find(static_cast<int>(id)); sign != signAt.end() && (n.op != Op::Atan2 || sign->second != 0)) {
       const int side = graph.constant(sign->second);
       if (n.op == Op::Sign) result = side;
-      else if (n.op == Op::Atan2 && !moves[static_cast<std::size_t>(n.a)]) result = graph.apply(n.op, a, b);
+      else if (n.op == Op::Atan2 && !moves[n.a]) result = graph.apply(n.op, a, b);
       else if (n.op == Op::Abs) result = graph.mul(side, a);
       else  // by a quarter turn, so that the cut lies on the other side
         result = graph.add(graph.constant(sign->second * std::numbers::pi / 2),
@@ -95,7 +94,7 @@ std::vector<int> freezeBranches(ExpressionGraph& graph, const std::vector<int>& 
     }
   }
   std::vector<int> result;
-  for (const int root : roots) result.push_back(image[static_cast<std::size_t>(root)]);
+  for (const int root : roots) result.push_back(image[root]);
   return result;
 }
 
@@ -113,8 +112,8 @@ std::string writeFormula(const ExpressionGraph& graph, int id, const std::vector
         text = n.value == std::numbers::pi ? "pi" : fmt::format("{:.6g}", n.value);
         if (n.value < 0) own = 2;
         break;
-      case Op::Variable: text = variables[static_cast<std::size_t>(n.a)]; break;
-      case Op::Parameter: text = parameters[static_cast<std::size_t>(n.a)]; break;
+      case Op::Variable: text = variables[n.a]; break;
+      case Op::Parameter: text = parameters[n.a]; break;
       case Op::Add: text = part(n.a, 0) + " + " + part(n.b, 1), own = 0; break;
       case Op::Sub: text = part(n.a, 0) + " - " + part(n.b, 1), own = 0; break;
       case Op::Mul: text = part(n.a, 1) + "*" + part(n.b, 2), own = 1; break;

@@ -147,13 +147,13 @@ const std::vector<Finiteness>& IntervalEvaluator::evaluate(const std::array<Inte
     const ExpressionNode& n = list_.operations[i];
     Bound a, b;
     if (n.op == Op::Constant) a.range = {n.value, n.value};
-    else if (n.op == Op::Variable) a.range = box[static_cast<std::size_t>(n.a)];
-    else a = bounds_[static_cast<std::size_t>(n.a)];
-    if (operandCount(n.op) == 2) b = bounds_[static_cast<std::size_t>(n.b)];
+    else if (n.op == Op::Variable) a.range = box[n.a];
+    else a = bounds_[n.a];
+    if (operandCount(n.op) == 2) b = bounds_[n.b];
     bounds_[i].finiteness = std::max(a.finiteness, b.finiteness);
     bounds_[i].range = applyOver(n.op, a.range, b.range, n.b, bounds_[i].finiteness);
   }
-  for (std::size_t k = 0; k < result_.size(); ++k) result_[k] = bounds_[static_cast<std::size_t>(list_.roots[k])].finiteness;
+  for (std::size_t k = 0; k < result_.size(); ++k) result_[k] = bounds_[list_.roots[k]].finiteness;
   return result_;
 }
 

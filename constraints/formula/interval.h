@@ -27,7 +27,7 @@ class IntervalEvaluator {
   /// Finiteness of each root on the box.
   const std::vector<Finiteness>& evaluate(const std::array<Interval, 2>& box);
   /// Bounds of root k on the box last evaluated.
-  Interval rangeOf(std::size_t k) const { return bounds_[static_cast<std::size_t>(list_.roots[k])].range; }
+  Interval rangeOf(std::size_t k) const { return bounds_[list_.roots[k]].range; }
 
  private:
   struct Bound {

@@ -29,7 +29,7 @@ Interval square(Interval a) { return over(Op::PowInt, a, {}, 2); }
 /// Coefficient k of x y, with the terms from x_first y_(k-first) to x_last y_(k-last).
 Interval convolve(const Series& x, const Series& y, int k, int first, int last) {
   Interval sum;
-  for (int i = first; i <= last; ++i) sum = sum + product(x[static_cast<std::size_t>(i)], y[static_cast<std::size_t>(k - i)]);
+  for (int i = first; i <= last; ++i) sum = sum + product(x[i], y[k - i]);
   return sum;
 }
 Series multiply(const Series& x, const Series& y) {
@@ -230,16 +230,16 @@ double IntervalSeries::bound(const std::array<Interval, 2>& box, const std::arra
     if (operation.op == Op::Constant) {
       to = constantOf({operation.value, operation.value});
     } else if (operation.op == Op::Variable) {
-      to = constantOf(box[static_cast<std::size_t>(operation.a)]);
-      to[1] = rate[static_cast<std::size_t>(operation.a)];
+      to = constantOf(box[operation.a]);
+      to[1] = rate[operation.a];
     } else {
       const bool two = operandCount(operation.op) == 2;
-      apply(operation, values_[static_cast<std::size_t>(operation.a)], two ? values_[static_cast<std::size_t>(operation.b)] : kNothing, to);
+      apply(operation, values_[operation.a], two ? values_[operation.b] : kNothing, to);
     }
   }
   double squares = 0, largest = 0;  // the squares are of shares of the largest, so that they do not overflow
   for (const int root : list_.roots) {
-    const Interval& last = values_[static_cast<std::size_t>(root)][kOrder];
+    const Interval& last = values_[root][kOrder];
     const double most = std::max(std::abs(last.lo), std::abs(last.hi));
     if (!(most < std::numeric_limits<double>::infinity())) return std::numeric_limits<double>::infinity();
     if (most > largest) {
@@ -255,7 +255,7 @@ double IntervalSeries::bound(const std::array<Interval, 2>& box, const std::arra
 double IntervalSeries::leastSlope() const noexcept {
   double least = 0;
   for (const int root : list_.roots) {
-    const Interval& slope = values_[static_cast<std::size_t>(root)][1];
+    const Interval& slope = values_[root][1];
     least = std::max({least, slope.lo, -slope.hi});
   }
   return std::isfinite(least) ? least : 0;

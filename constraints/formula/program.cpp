@@ -18,10 +18,10 @@ class Compiler {
     roots_ = graph.expandPowers(roots);
     needed_ = graph.reachableFrom(roots_);
     uses_ = graph.countUses(roots_);
-    for (const int root : roots_) uses_[static_cast<std::size_t>(root)] += 2;  // an output keeps its own register
+    for (const int root : roots_) uses_[root] += 2;  // an output keeps its own register
     register_.assign(needed_.size(), -1);
     place_.assign(needed_.size(), -1);
-    for (int k = static_cast<int>(roots_.size()); k-- > 0;) place_[static_cast<std::size_t>(roots_[static_cast<std::size_t>(k)])] = k;
+    for (int k = static_cast<int>(roots_.size()); k-- > 0;) place_[roots_[k]] = k;
   }
 
   Program compile() {
@@ -60,14 +60,14 @@ class Compiler {
       }
     }
   }
-  void markFused(int id) { fused_[static_cast<std::size_t>(id)] = true; }
-  bool usedOnce(int id) const { return uses_[static_cast<std::size_t>(id)] == 1; }
+  void markFused(int id) { fused_[id] = true; }
+  bool usedOnce(int id) const { return uses_[id] == 1; }
   bool isScaling(int id) const { return node(id).op == Op::Mul && graph_.isConstant(node(id).a) && !graph_.isConstant(node(id).b); }
   bool isPlainProduct(int id) const {
     const ExpressionNode& n = node(id);
     return n.op == Op::Mul && !graph_.isConstant(n.a) && !graph_.isConstant(n.b);
   }
-  bool isFused(int id) const { return fused_[static_cast<std::size_t>(id)]; }
+  bool isFused(int id) const { return fused_[id]; }
 
   std::uint16_t newRegister() {
     if (next_ >= kMaxRegisters)
@@ -90,11 +90,11 @@ class Compiler {
   void put(int id, Code code, int a, int b = 0, int c = 0, double number = 0) {
     const std::uint16_t out = registerFor(id);
     emit(code, a, b, c, out, number);
-    register_[static_cast<std::size_t>(id)] = out;
+    register_[id] = out;
   }
   // A result's own place, else a new one.
   std::uint16_t registerFor(int id) {
-    const int place = place_[static_cast<std::size_t>(id)];
+    const int place = place_[id];
     return place >= 0 ? static_cast<std::uint16_t>(place) : newRegister();
   }
 
@@ -116,7 +116,7 @@ class Compiler {
 
   // Numbers are loaded only where an operation has no form with the number inside.
   std::uint16_t registerOf(int id) {
-    int& r = register_[static_cast<std::size_t>(id)];
+    int& r = register_[id];
     const ExpressionNode n = node(id);
     if (r < 0 && n.op == Op::Parameter) r = shape_ + n.a;
     if (r < 0 && n.op == Op::Variable) r = shape_ + parameterCount_ + n.a;
@@ -137,7 +137,7 @@ class Compiler {
       emit(Code::SinCos, a, both.first, both.second, 0, 0);
       sinCos_[argument] = both;
     }
-    register_[static_cast<std::size_t>(id)] = node(id).op == Op::Sin ? both.first : both.second;
+    register_[id] = node(id).op == Op::Sin ? both.first : both.second;
   }
 
   // id = sign * (number * x), where x may be a product of its own.

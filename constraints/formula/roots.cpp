@@ -24,7 +24,7 @@ RootSearch findRoots(ExpressionGraph& graph, int expression, const double* shape
   IntervalEvaluator bounds(graph, both, shape), value(graph, one, shape);
   const auto boxOf = [&](double a, double b) {
     std::array<Interval, 2> box{Interval{other, other}, Interval{other, other}};
-    box[static_cast<std::size_t>(variable)] = {a, b};
+    box[variable] = {a, b};
     return box;
   };
   const auto at = [&](double phi) {

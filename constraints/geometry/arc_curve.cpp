@@ -45,7 +45,7 @@ void refuseAtPlaces(const Constraint& c, double start, double target) {
   for (std::size_t i = 0; i + 1 < regularity.pieces.size(); ++i) {
     const CurvePiece &before = regularity.pieces[i], &after = regularity.pieces[i + 1];
     if (before.placeAtHi < 0 || before.placeAtHi != after.placeAtLo) continue;
-    const Place& place = regularity.places[static_cast<std::size_t>(before.placeAtHi)];
+    const Place& place = regularity.places[before.placeAtHi];
     if (place.kind == PlaceKind::Hole) continue;
     const CurvePoint a = evaluate(before.curve, place.at), b = evaluate(after.curve, place.at);
     const std::string because = fmt::format(" ({})", place.because);
@@ -120,7 +120,7 @@ ArcCurve::ArcCurve(const Constraint& curve, double start, double target, Along a
     std::swap(piece.from, piece.to);
     piece.from = -piece.from, piece.to = -piece.to;
     for (int k = 1; k < kTerms; k += 2)
-      for (double& c : piece.position[static_cast<size_t>(k)]) c = -c;
+      for (double& c : piece.position[k]) c = -c;
   }
   const size_t before = pieces_.size();
   pieces_.insert(pieces_.end(), forward.begin(), forward.end());
@@ -166,7 +166,7 @@ bool ArcCurve::append(double phi, double phiEnd, int depth) {
     const double square = dot(p.rPhi, p.rPhi);
     const Vec3 c = along_ == Along::Parameter ? half * half * p.rPhiPhi
                                               : (way * way / 4) * ((p.rPhiPhi - (dot(p.rPhi, p.rPhiPhi) / square) * p.rPhi) / square);
-    for (int k = 0; k < 3; ++k) curvature[static_cast<size_t>(k)].push_back(coordinate(c, k));
+    for (int k = 0; k < 3; ++k) curvature[k].push_back(coordinate(c, k));
     sharpest = std::max(sharpest, norm(c));
   }
   Piece piece;

@@ -24,14 +24,13 @@ SurfaceExpansion SurfaceFormula::expand(double u, double v, int order) const {
       value[i].c[0] = o.a == 0 ? u : v;
       if (order > 0) value[i].c[Taylor::place(o.a == 0, o.a != 0)] = 1;
     } else {
-      const Taylor& x = value[static_cast<size_t>(o.a)];
+      const Taylor& x = value[o.a];
       const bool two = operandCount(o.op) == 2;
-      value[i] = apply(o.op, x, two ? value[static_cast<size_t>(o.b)] : x, two ? 0 : o.b, order);
+      value[i] = apply(o.op, x, two ? value[o.b] : x, two ? 0 : o.b, order);
     }
   }
   SurfaceExpansion d{};
-  const auto &x = value[static_cast<size_t>(list_.roots[0])].c, &y = value[static_cast<size_t>(list_.roots[1])].c,
-             &z = value[static_cast<size_t>(list_.roots[2])].c;
+  const auto &x = value[list_.roots[0]].c, &y = value[list_.roots[1]].c, &z = value[list_.roots[2]].c;
   double aFactorial = 1;
   for (int a = 0; a <= order; aFactorial *= ++a) {
     double factor = aFactorial;

@@ -390,7 +390,7 @@ class Examiner {
     result_.places = std::move(sorted);
     for (CurvePiece& piece : result_.pieces)
       for (int* index : {&piece.placeAtLo, &piece.placeAtHi})
-        if (*index >= 0) *index = where[static_cast<std::size_t>(*index)];
+        if (*index >= 0) *index = where[*index];
   }
 
   const Constraint& c_;

@@ -64,7 +64,7 @@ class PlaceFinder {
     const auto value = [&](double a) { return largestAlong(fixed, a, area); };
     const int n = kLines;
     std::vector<double> w(static_cast<std::size_t>(n) + 1);
-    for (int i = 0; i <= n; ++i) w[static_cast<std::size_t>(i)] = value(fraction(k, i / double{kLines}));
+    for (int i = 0; i <= n; ++i) w[i] = value(fraction(k, i / double{kLines}));
     const int last = domain_[k].periodic ? n - 1 : n;
     for (int i = 0; i <= last; ++i) {
       const std::size_t s = static_cast<std::size_t>(i);

@@ -83,8 +83,7 @@ std::optional<HiddenBend> findHiddenBend(const Constraint& surface, const std::f
     }
     std::vector<Piece> open;
     for (int i = kPieces; i-- > 0;)
-      open.push_back(
-          {i / double{kPieces}, (i + 1) / double{kPieces}, sample[static_cast<std::size_t>(i)], sample[static_cast<std::size_t>(i) + 1]});
+      open.push_back({i / double{kPieces}, (i + 1) / double{kPieces}, sample[i], sample[static_cast<std::size_t>(i) + 1]});
     double work = kWork;
     while (!open.empty()) {
       const Piece piece = open.back();

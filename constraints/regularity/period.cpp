@@ -20,9 +20,9 @@ class Slopes {
     const std::vector<int> one{root};
     const std::vector<bool> needed = graph_.reachableFrom(one);
     std::vector<bool> reached(needed.size(), false);
-    reached[static_cast<std::size_t>(root)] = true;
+    reached[root] = true;
     for (int id = root; id >= 0; --id) {
-      if (!reached[static_cast<std::size_t>(id)] || !moving_[static_cast<std::size_t>(id)]) continue;
+      if (!reached[id] || !moving_[id]) continue;
       const ExpressionNode& n = graph_.node(id);
       if (n.op == Op::Variable) return false;
       if (n.op == Op::Sin || n.op == Op::Cos || n.op == Op::Tan) {
@@ -31,8 +31,8 @@ class Slopes {
           continue;
         }
       }
-      reached[static_cast<std::size_t>(n.a)] = true;
-      if (operandCount(n.op) == 2) reached[static_cast<std::size_t>(n.b)] = true;
+      reached[n.a] = true;
+      if (operandCount(n.op) == 2) reached[n.b] = true;
     }
     return true;
   }
@@ -44,7 +44,7 @@ class Slopes {
     return evaluateNodes(graph_, one, shape_, &nowhere)[0];
   }
   bool isAffine(int id, double& slope) const {
-    if (!moving_[static_cast<std::size_t>(id)]) {
+    if (!moving_[id]) {
       slope = 0;
       return true;
     }
@@ -56,10 +56,10 @@ class Slopes {
       case Op::Add: return isAffine(n.a, a) && isAffine(n.b, b) && (slope = a + b, true);
       case Op::Sub: return isAffine(n.a, a) && isAffine(n.b, b) && (slope = a - b, true);
       case Op::Mul:
-        if (!moving_[static_cast<std::size_t>(n.a)]) return isAffine(n.b, b) && (slope = numberOf(n.a) * b, true);
-        if (!moving_[static_cast<std::size_t>(n.b)]) return isAffine(n.a, a) && (slope = numberOf(n.b) * a, true);
+        if (!moving_[n.a]) return isAffine(n.b, b) && (slope = numberOf(n.a) * b, true);
+        if (!moving_[n.b]) return isAffine(n.a, a) && (slope = numberOf(n.b) * a, true);
         return false;
-      case Op::Div: return !moving_[static_cast<std::size_t>(n.b)] && isAffine(n.a, a) && (slope = a / numberOf(n.b), true);
+      case Op::Div: return !moving_[n.b] && isAffine(n.a, a) && (slope = a / numberOf(n.b), true);
       default: return false;
     }
   }
@@ -80,7 +80,7 @@ Period findPeriod(const Constraint& curve) {
   const Slopes all(formula.graph, curve.curve.shape.data());
   std::vector<double> slopes;
   for (int k = 0; k < 3; ++k)
-    if (!all.collect(formula.roots[static_cast<std::size_t>(k)], slopes)) return {};
+    if (!all.collect(formula.roots[k], slopes)) return {};
   double least = std::numeric_limits<double>::infinity();
   for (const double a : slopes)
     if (a > 0) least = std::min(least, a);

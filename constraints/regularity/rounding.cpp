@@ -66,15 +66,15 @@ double computeRounding(const Constraint& constraint, double first, double second
     if (n.op == Op::Constant) out.value = n.value;
     if (n.op == Op::Variable) out.value = n.a == 0 ? first : second;
     if (operandCount(n.op) == 0) continue;
-    const Value a = values[static_cast<std::size_t>(n.a)];
-    const Value b = operandCount(n.op) == 2 ? values[static_cast<std::size_t>(n.b)] : Value{};
+    const Value a = values[n.a];
+    const Value b = operandCount(n.op) == 2 ? values[n.b] : Value{};
     out.value = applyOp(n.op, a.value, n.op == Op::PowInt ? n.b : b.value);
     const double off = a.off > 0 || b.off > 0 ? handedOn(n.op, a, b, n.b, out.value) : 0;
     const bool exact = n.op == Op::Neg || n.op == Op::Abs || n.op == Op::Sign;
     out.off = off + (exact ? 0 : (n.op >= Op::Pow && n.op <= Op::Log ? kUnitOfFunctions : kUnit) * std::abs(out.value));
   }
   double most = 0;
-  for (const int root : list.roots) most = std::max(most, values[static_cast<std::size_t>(root)].off);
+  for (const int root : list.roots) most = std::max(most, values[root].off);
   return most;
 }
 

@@ -38,7 +38,7 @@ std::vector<Place> findStillPlaces(ExpressionGraph& graph, const double* shape, 
   if (!(stretch.lo < stretch.hi)) return places;
   const std::vector<int> d = graph.differentiate(stretch.r, 0);
   int square = graph.powInt(d[0], 2);
-  for (int k = 1; k < 3; ++k) square = graph.add(square, graph.powInt(d[static_cast<std::size_t>(k)], 2));
+  for (int k = 1; k < 3; ++k) square = graph.add(square, graph.powInt(d[k], 2));
   const double step = std::min(1e-4, 1e-3 * std::max(1.0, stretch.hi - stretch.lo));
   for (const double phi : findRoots(graph, square, shape, stretch.lo, stretch.hi, boxes).roots) {
     if (places.size() >= most) break;

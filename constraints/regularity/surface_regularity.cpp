@@ -128,7 +128,7 @@ std::array<SurfaceBranches::Guarded, SurfaceBranches::kMaxGuards> SurfaceBranche
   evaluateSurfaceProgram(program, shape.data(), u, v, room);
   std::array<Guarded, kMaxGuards> result;
   const Vec3* values = &room.r;
-  for (int k = 0; k < kMaxGuards; ++k) result[static_cast<std::size_t>(k)] = {values[k].x, values[k].y, values[k].z};
+  for (int k = 0; k < kMaxGuards; ++k) result[k] = {values[k].x, values[k].y, values[k].z};
   return result;
 }
 

@@ -79,11 +79,11 @@ std::optional<Fault> undefinedFault(const Constraint& c, const std::array<Domain
     for (int i = 0; i <= root; ++i) {
       const ExpressionNode& node = formula.graph.node(i);
       const int operand = node.op == Op::Div ? node.b : node.a;
-      if (!part[static_cast<std::size_t>(i)] || seen[static_cast<std::size_t>(i)].finite > 0 || operandCount(node.op) == 0) continue;
+      if (!part[i] || seen[i].finite > 0 || operandCount(node.op) == 0) continue;
       const std::string needed = neededBy(node.op);
-      if (needed.empty() || seen[static_cast<std::size_t>(operand)].finite == 0) break;
+      if (needed.empty() || seen[operand].finite == 0) break;
       const std::string name = node.op == Op::Div ? "a division" : node.op == Op::Pow ? "a power" : nameOf(node.op);
-      fault.what += fmt::format(": {} is given {}", name, textOf(seen[static_cast<std::size_t>(operand)]));
+      fault.what += fmt::format(": {} is given {}", name, textOf(seen[operand]));
       fault.allowed = fmt::format("{} for {}; look for a wrong sign, or for a range that is shifted", needed, name);
       break;
     }

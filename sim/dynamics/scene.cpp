@@ -112,7 +112,7 @@ void requireValue(const constraints::Curve& curve, double start) {
 
 const constraints::CurvePiece& startPiece(const constraints::CurveRegularity& regularity, double start) {
   const int piece = regularity.pieceAt(start);
-  if (piece >= 0) return regularity.pieces[static_cast<std::size_t>(piece)];
+  if (piece >= 0) return regularity.pieces[piece];
   if (regularity.pieces.empty() && regularity.places.empty())
     throw RefusedError(
         fmt::format("where the curve is smooth about the start phi = {} could not be decided: the formula has no value there, or "

@@ -69,7 +69,7 @@ class HeldObject final : public SharedPlant {
   void restart() noexcept override {}
 
   void setHand(int hand, const HandSegment& segment, const HandSample& end, double grip) noexcept override {
-    Hand& held = hands_[static_cast<std::size_t>(hand)];
+    Hand& held = hands_[hand];
     held.segment = segment;
     held.end = end;
     held.grip = grip;
@@ -128,16 +128,16 @@ class HeldObject final : public SharedPlant {
   }
   Vec3 couplingForceOf(int hand) const noexcept override {
     geometry_.locate(places_, rates_, r_, v_);
-    const Hand& held = hands_[static_cast<std::size_t>(hand)];
+    const Hand& held = hands_[hand];
     Vec3 total;
     for (int i = 0; i < model_.count(); ++i) total += forceOn(held, i, held.end.position, held.end.velocity);
     return total;
   }
   Vec3 fixedPoint(int hand) const noexcept override {
     geometry_.locate(places_, rates_, r_, v_);
-    return pointOf(hands_[static_cast<std::size_t>(hand)]);
+    return pointOf(hands_[hand]);
   }
-  double work(int hand) const noexcept override { return hands_[static_cast<std::size_t>(hand)].work; }
+  double work(int hand) const noexcept override { return hands_[hand].work; }
 
   double energy(const HandSample& sample) const noexcept override {
     hands_[0].end = sample;

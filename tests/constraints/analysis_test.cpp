@@ -64,9 +64,7 @@ TEST(HigherDerivatives, OfTheAstroidMatchItsMultipleAngles) {
   const std::vector<Vec3> d = computeDerivatives(named("astroid"), phi, 4);
   ASSERT_EQ(d.size(), 5u);
   for (int n = 0; n <= 4; ++n)
-    EXPECT_NEAR(d[static_cast<std::size_t>(n)].x,
-                0.12 * (3 * std::cos(phi + n * kPi / 2) + std::pow(3, n) * std::cos(3 * phi + n * kPi / 2)) / 4, 1e-14)
-        << n;
+    EXPECT_NEAR(d[n].x, 0.12 * (3 * std::cos(phi + n * kPi / 2) + std::pow(3, n) * std::cos(3 * phi + n * kPi / 2)) / 4, 1e-14) << n;
   EXPECT_THROW(computeDerivatives(named("astroid"), 0, 5), RefusedError);
   EXPECT_THROW(computeDerivatives(named("torus"), 0, 1), RefusedError);
 }

@@ -47,7 +47,7 @@ TEST(Catalogue, EveryPeriodClosesInPlaceAndDirection) {
       EXPECT_LT(norm(a.rPhi - b.rPhi), kClosed);
     }
     for (int k = 0; k < 2 && c.kind == ConstraintKind::Surface; ++k) {
-      const Domain& domain = c.domain[static_cast<std::size_t>(k)];
+      const Domain& domain = c.domain[k];
       if (!domain.periodic) continue;
       const double other = 0.37;
       const SurfacePoint a = k == 0 ? evaluate(c.surface, domain.lo, other) : evaluate(c.surface, other, domain.lo);

@@ -31,7 +31,7 @@ TEST(Expressions, HaveNoPowersWhereTheyAreWrittenOut) {
     const std::vector<int> written = graph.expandPowers(std::array{root});
     EXPECT_NEAR(valueOf(graph, written[0], place), expected.x, tolerance);
     const std::vector<bool> needed = graph.reachableFrom(written);
-    for (int id = 0; id < graph.size(); ++id) EXPECT_FALSE(needed[static_cast<std::size_t>(id)] && graph.node(id).op == Op::PowInt);
+    for (int id = 0; id < graph.size(); ++id) EXPECT_FALSE(needed[id] && graph.node(id).op == Op::PowInt);
   });
 }
 

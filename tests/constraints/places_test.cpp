@@ -156,7 +156,7 @@ TEST(Places, AreTheBoundariesOfPiecesThatGoOnBeyondThem) {
   EXPECT_EQ(r.pieces[0].lo, r.lo);
   EXPECT_EQ(r.pieces[2].hi, r.hi);
   for (int i = 0; i < 2; ++i) {
-    const CurvePiece &before = r.pieces[static_cast<std::size_t>(i)], &after = r.pieces[static_cast<std::size_t>(i) + 1];
+    const CurvePiece &before = r.pieces[i], &after = r.pieces[static_cast<std::size_t>(i) + 1];
     EXPECT_EQ(before.hi, after.lo);
     EXPECT_EQ(before.placeAtHi, i);
     EXPECT_EQ(after.placeAtLo, i);
@@ -254,7 +254,7 @@ TEST(Places, WhereACycloidStandsStillAreToldOnFourTurnsEitherWay) {
   const CurveRegularity r = computeRegularity(curve("0.1*(phi - sin(phi))", "0.1*(1 - cos(phi))"), 1);
   EXPECT_TRUE(r.whole);
   ASSERT_EQ(r.places.size(), 8u);
-  for (int k = 0; k < 8; ++k) EXPECT_NEAR(r.places[static_cast<std::size_t>(k)].at, 2 * kPi * (k - 3), 1e-6);
+  for (int k = 0; k < 8; ++k) EXPECT_NEAR(r.places[k].at, 2 * kPi * (k - 3), 1e-6);
 }
 
 TEST(Places, OfAStretchAreThoseInIt) {
@@ -299,10 +299,10 @@ TEST(SurfaceLines, HaveABranchOnEitherSide) {
   for (const auto& line : two->lines) EXPECT_TRUE(line.passable);
   EXPECT_FALSE(two->smooth());
   for (int index = 0; index < 4; ++index) {
-    const auto side = [&](int line) { return (index >> two->lines[static_cast<std::size_t>(line)].bit & 1) != 0 ? 1.0 : -1.0; };
+    const auto side = [&](int line) { return (index >> two->lines[line].bit & 1) != 0 ? 1.0 : -1.0; };
     const bool first = two->lines[0].because == "abs(u - 0.5)";
     const double z = side(first ? 0 : 1) * (0.3 - 0.5) + 2 * side(first ? 1 : 0) * 0.7;
-    const SurfacePoint p = evaluate(two->branches[static_cast<std::size_t>(index)], 0.3, 0.7);
+    const SurfacePoint p = evaluate(two->branches[index], 0.3, 0.7);
     EXPECT_NEAR(p.r.z, z, 1e-15) << index;
     EXPECT_EQ(p.rU.x, 0.1);
   }

@@ -67,7 +67,7 @@ TEST(HandPath, EveryComponentGoesThroughItsOwnSamples) {
     const std::array x{0.05, 0.01, 0.04, -0.02, 0.03};
     for (const double at : x) path.push(along(at));
     for (int back = 0; back < most; ++back) {
-      const HandSample expected = along(x[static_cast<std::size_t>(4 - back)]), found = sampleAt(path.segment(), 1.0 - back);
+      const HandSample expected = along(x[4 - back]), found = sampleAt(path.segment(), 1.0 - back);
       EXPECT_LT(norm(found.position - expected.position), 1e-15) << most << " samples, " << back << " ago";
       EXPECT_LT(norm(found.velocity - expected.velocity), 1e-14) << most << " samples, " << back << " ago";
       EXPECT_EQ(sampleAt(path.segment(false), 1.0 - back).position, found.position);

@@ -50,7 +50,7 @@ Scene inMotion(const Experiment& e) {
     HandSegment moving = heldSegment(handAt(h).position);
     moving.degree = 2;
     moving.position[2] = {0.01, -0.02, 0.03}, moving.velocity[1] = {0.3, 0.2, 0.1};
-    plant.setHand(h, moving, handAt(h), kGrip[static_cast<std::size_t>(h)]);
+    plant.setHand(h, moving, handAt(h), kGrip[h]);
   }
   return scene;
 }
@@ -143,7 +143,7 @@ TEST(HeldObject, EnergiesAreThoseOfMotionSpringsAndHeight) {
       if (i < 2) springs += e.object.stiffness[i] * dot(m[i + 1].r - m[i].r, m[i + 1].r - m[i].r) / 2;
       for (int h = 0; h < 3; ++h) {
         const Vec3 stretch = handAt(h).position - m[i].r;
-        held += kGrip[static_cast<std::size_t>(h)] * hands[h].stiffness[i] * dot(stretch, stretch) / 2;
+        held += kGrip[h] * hands[h].stiffness[i] * dot(stretch, stretch) / 2;
       }
     }
     const Vec3 start = e.constraint.name == "free" ? Vec3{0.2, 0.2, 0.2} : constraints::evaluate(scene.constraint->curve, 0.2).r;

@@ -60,7 +60,7 @@ Followed follow(const Follower& f, Method& method, double seconds, double dt) {
     run.most = std::max(run.most, rhs);
   }
   const std::array<double, 3> expected = truth(f, seconds);
-  for (int i = 0; i < 3; ++i) run.error = std::max(run.error, std::abs(y[i] - expected[static_cast<std::size_t>(i)]));
+  for (int i = 0; i < 3; ++i) run.error = std::max(run.error, std::abs(y[i] - expected[i]));
   EXPECT_EQ(run.rhs, static_cast<std::uint64_t>(f.evaluations)) << "each is counted";
   return run;
 }

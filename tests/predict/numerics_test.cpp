@@ -103,8 +103,8 @@ TYPED_TEST(LaneMatrices, AProductIsTheSumOverRowAndColumn) {
     for (const bool fromStart : {false, true}) {
       multiplyRow<TypeParam>(a.row(n - 1), b, fromStart ? start.row(0) : nullptr, row.data());
       for (int j = 0; j < m; ++j)
-        ASSERT_NEAR(static_cast<double>(laneOf(row[static_cast<std::size_t>(j / 8)], j % 8)),
-                    this->at(product, n - 1, j) + (fromStart ? this->at(start, 0, j) : 0), 1e-14);
+        ASSERT_NEAR(static_cast<double>(laneOf(row[j / 8], j % 8)), this->at(product, n - 1, j) + (fromStart ? this->at(start, 0, j) : 0),
+                    1e-14);
     }
   }
 }
@@ -152,7 +152,7 @@ TYPED_TEST(LaneMatrices, ATriangleTimesItsTransposeIsTheMatrix) {
     const auto root = this->make(n, n + 2);
     auto a = root * transpose(root);
     const auto l = factoriseCholesky(a);
-    const auto entry = [&](int i, int j) { return static_cast<double>(l[static_cast<std::size_t>(i * n + j)]); };
+    const auto entry = [&](int i, int j) { return static_cast<double>(l[i * n + j]); };
     for (int i = 0; i < n; ++i) {
       EXPECT_GT(entry(i, i), 0);
       for (int j = 0; j < n; ++j) {
@@ -189,7 +189,7 @@ TEST(WideLanes, AProductOfMatricesKeepsThirtyDigits) {
       for (int j = 0; j < 19; ++j) {
         const Wide truth = static_cast<Wide>((1.0 + i) * (k * (k + 1) / 2) * (j % 2 == 0 ? 1 : -1)) / 9;
         ASSERT_LT(relative(product.at(i, j), truth), 20 * kDigits);
-        const DoubleDouble sum = laneOf(row[static_cast<std::size_t>(j / 8)], j % 8);
+        const DoubleDouble sum = laneOf(row[j / 8], j % 8);
         if (i == 4) {
           ASSERT_LT(relative(sum, truth + wide(b.at(0, j))), 20 * kDigits);
         }

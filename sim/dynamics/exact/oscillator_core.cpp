@@ -126,8 +126,8 @@ EndPlaces OscillatorCore::readEnds(const State& state) const noexcept {
   for (int j = 0; j < n_; ++j) {
     const double e = state.x[j / kLanes][j % kLanes], de = state.v[j / kLanes][j % kLanes];
     for (std::size_t end = 0; end < 2; ++end) {
-      ends.x[end] += endShapes_[static_cast<std::size_t>(j)][end] * e;
-      ends.v[end] += endShapes_[static_cast<std::size_t>(j)][end] * de;
+      ends.x[end] += endShapes_[j][end] * e;
+      ends.v[end] += endShapes_[j][end] * de;
     }
   }
   return ends;

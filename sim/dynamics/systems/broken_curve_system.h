@@ -46,7 +46,7 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N>> {
   constexpr int n() const noexcept { return N > 0 ? N : count; }
   constexpr int rates() const noexcept { return n(); }
   constexpr int states() const noexcept { return 2 * n(); }
-  const constraints::CurvePiece& pieceOf(int i) const noexcept { return regularity->pieces[static_cast<std::size_t>(where[i].piece)]; }
+  const constraints::CurvePiece& pieceOf(int i) const noexcept { return regularity->pieces[where[i].piece]; }
   const constraints::Curve& curveOf(int i) const noexcept { return pieceOf(i).curve; }
   double speedAt(int i, double phi) const noexcept { return norm(evaluate(curveOf(i), phi).rPhi); }
   double scale(int) const noexcept { return kTypicalPlace; }
@@ -125,7 +125,7 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N>> {
 
   void place(std::span<const double> q, std::span<const double> qRate, State& y) noexcept {
     const int found = std::max(0, regularity->pieceAt(q[0]));
-    const constraints::CurvePiece& piece = regularity->pieces[static_cast<std::size_t>(found)];
+    const constraints::CurvePiece& piece = regularity->pieces[found];
     const bool corner = q[0] == piece.lo && piece.passedAtLo;
     const bool backwards = corner && qRate[0] < 0;
     for (int i = 0; i < n(); ++i) {
@@ -233,8 +233,7 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N>> {
     const int place = stoppedLow ? piece.placeAtLo : piece.placeAtHi;
     const std::string mass = fmt::format("mass {} at phi = {:.9g}", stoppedMass + 1, stoppedLow ? piece.lo : piece.hi);
     if (place >= 0)
-      return mass + " met a place that is never crossed: " +
-             describe(regularity->places[static_cast<std::size_t>(place)], constraints::ConstraintKind::Curve);
+      return mass + " met a place that is never crossed: " + describe(regularity->places[place], constraints::ConstraintKind::Curve);
     const double end = stoppedLow ? piece.lo : piece.hi;
     if (end == domain.lo || end == domain.hi) return mass + " reached the end of the constraint's domain";
     const bool unseen = end == regularity->seenLo || end == regularity->seenHi;

@@ -94,7 +94,7 @@ struct CurveMasses : Unturned {
       masses[i].a = dRates[i] * points[i].rPhi + (rates[i] * rates[i]) * points[i].rPhiPhi;
     }
   }
-  Vec3 placeOf(std::span<const double> places, int i) const noexcept { return pointAt(places[static_cast<std::size_t>(i)]).r; }
+  Vec3 placeOf(std::span<const double> places, int i) const noexcept { return pointAt(places[i]).r; }
   bool inside(std::span<const double> places) const noexcept {
     if (domain.periodic) return true;
     return std::all_of(places.begin(), places.end(), [&](double phi) { return phi >= domain.lo && phi <= domain.hi; });

@@ -153,7 +153,7 @@ bool SurfaceSystem::hasLimit(const std::array<double, 2>& q, int k, double along
   if (!isFinite(here.r) || !isFinite(here.rU) || !isFinite(here.rV)) return false;
   const double steep = std::hypot(alongU, alongV);
   if (!(steep > 0)) return true;
-  const double step = kStep * where.side[static_cast<std::size_t>(k)] / steep, du = step * alongU, dv = step * alongV;
+  const double step = kStep * where.side[k] / steep, du = step * alongU, dv = step * alongV;
   const constraints::SurfacePoint beside = evaluate(surface, q[0] + du, q[1] + dv);
   return norm(beside.r - du * beside.rU - dv * beside.rV - here.r) <= slack(here) &&
          norm(here.rU - beside.rU) + norm(here.rV - beside.rV) <= kSame * (norm(beside.rU) + norm(beside.rV));
@@ -202,7 +202,7 @@ bool SurfaceSystem::crossLine(std::size_t k, const std::array<double, 2>& behind
   const Where other{where.branch ^ (1 << branches->lines[k].bit), where.side};
   const constraints::SurfacePoint here = evaluate(surface, y[0], y[1]);
   // Just behind the line: before it the other branch may have a value that it has not got there (atan2(u, u)).
-  const constraints::SurfacePoint there = evaluate(branches->branches[static_cast<std::size_t>(other.branch)], behind[0], behind[1]);
+  const constraints::SurfacePoint there = evaluate(branches->branches[other.branch], behind[0], behind[1]);
   if (!(norm(here.r - there.r) <= slack(here))) return false;
   const auto line = branches->at(behind[0], behind[1])[k];
   // Unit vectors along the crease and across it, the latter in each side's tangent plane.
@@ -299,14 +299,14 @@ std::string SurfaceSystem::stopReason(StepStatus status, const State& y) const {
 
 std::string SurfaceSystem::endReason() const {
   if (metLine < 0) return "the mass reached the end of the constraint's domain";
-  const constraints::SurfaceBranches::Line& line = branches->lines[static_cast<std::size_t>(metLine)];
+  const constraints::SurfaceBranches::Line& line = branches->lines[metLine];
   if (line.passable)
     return fmt::format("the mass met a place of the surface that is never crossed: {}: {}", nameOf(constraints::PlaceKind::Jump),
                        line.because);
   return fmt::format(
       "the mass is beside a place of the surface that is never crossed: {}: {} (its argument is {:.2g} from {:g}; nearer, the formula loses "
       "the digits of the speed)",
-      nameOf(line.kind), line.because, margin[static_cast<std::size_t>(metLine)], line.level);
+      nameOf(line.kind), line.because, margin[metLine], line.level);
 }
 
 std::string SurfaceSystem::lostReason(const State& y) const {
@@ -332,7 +332,7 @@ std::string SurfaceSystem::lostReason(const State& y) const {
           std::sqrt(largestArea), norm(area));
     return "the surface degenerates here (a pinch point, an apex or a cuspidal edge): there is no unique continuation";
   }
-  const constraints::SurfaceBranches::Line& line = branches->lines[static_cast<std::size_t>(k)];
+  const constraints::SurfaceBranches::Line& line = branches->lines[k];
   return fmt::format("the mass is beside a place of the surface that is never crossed: {}: {}", nameOf(line.kind), line.because);
 }
 

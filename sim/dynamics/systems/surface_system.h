@@ -196,7 +196,7 @@ struct SurfaceSystem : SpaceSystem<Springs<1>> {
   }
   void useBranch() noexcept {
     if (branches == nullptr) return;
-    surface = branches->branches[static_cast<std::size_t>(where.branch)];
+    surface = branches->branches[where.branch];
     if (!inPolar) active = surface;
   }
   bool onBranch(const State& y) const noexcept;

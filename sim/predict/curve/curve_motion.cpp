@@ -29,11 +29,11 @@ const Collocation& collocation() {
       std::vector<double> one(kStages, 0.0);
       one[i] = 1;
       const LegendreSeries integral = integralOf(projectOnLegendre(one, rule.node, rule.weight));
-      for (int k = 0; k < kStages; ++k) c.once(k, l) = valueAt(integral, rule.node[static_cast<size_t>(k)]) / 2;
+      for (int k = 0; k < kStages; ++k) c.once(k, l) = valueAt(integral, rule.node[k]) / 2;
     }
     c.twiceInside = c.once * c.once;
     for (int l = 0; l < kStages; ++l)
-      for (int k = 0; k < kStages; ++k) c.twice[static_cast<size_t>(l)] += c.weight[static_cast<size_t>(k)] * c.once(k, l);
+      for (int k = 0; k < kStages; ++k) c.twice[l] += c.weight[k] * c.once(k, l);
     return c;
   }();
   return made;
@@ -51,14 +51,14 @@ CurveMotion::CurveMotion(const constraints::ArcCurve& curve, const CurveObject& 
   }
 }
 
-double CurveMotion::timeOf(int node) const { return width_ * (node / kStages + collocation().node[static_cast<size_t>(node % kStages)]); }
+double CurveMotion::timeOf(int node) const { return width_ * (node / kStages + collocation().node[node % kStages]); }
 
 // Arc lengths and speeds of hand and masses at one stage, from the accelerations.
 void CurveMotion::locateStage(const Interval& interval, int first, int stage, Vector& s, Vector& v) const {
   const Collocation& c = collocation();
   s(0) = handPosition_(first + stage);
   v(0) = handSpeed_(first + stage);
-  s.tail(n_) = interval.position + width_ * c.node[static_cast<size_t>(stage)] * interval.speed;
+  s.tail(n_) = interval.position + width_ * c.node[stage] * interval.speed;
   v.tail(n_) = interval.speed;
   for (int l = 0; l < kStages; ++l) {
     s.tail(n_) += width_ * width_ * c.twiceInside(stage, l) * interval.acceleration.segment(l * n_, n_);
@@ -71,7 +71,7 @@ CurveMotion::Matrix CurveMotion::stageSystem(const Interval& interval) const {
   const int nodes = n_ + 1;
   Matrix system = Matrix::Identity(n_ * kStages, n_ * kStages);
   for (int k = 0; k < kStages; ++k) {
-    const Matrix& jacobian = interval.jacobian[static_cast<size_t>(k)];
+    const Matrix& jacobian = interval.jacobian[k];
     for (int l = 0; l < kStages; ++l)
       system.block(k * n_, l * n_, n_, n_) -=
           width_ * width_ * c.twiceInside(k, l) * jacobian.middleCols(1, n_) + width_ * c.once(k, l) * jacobian.middleCols(nodes + 1, n_);
@@ -86,7 +86,7 @@ bool CurveMotion::solveInterval(Interval& interval, int first) {
   for (int pass = 0; pass < kPasses; ++pass) {
     for (int k = 0; k < kStages; ++k) {
       locateStage(interval, first, k, s, v);
-      expandAccelerations(curve_, object_, s.data(), v.data(), a.data(), &interval.jacobian[static_cast<size_t>(k)]);
+      expandAccelerations(curve_, object_, s.data(), v.data(), a.data(), &interval.jacobian[k]);
       rest.segment(k * n_, n_) = a - interval.acceleration.segment(k * n_, n_);
     }
     interval.factor.compute(stageSystem(interval));
@@ -105,15 +105,15 @@ bool CurveMotion::follow(const Vector& handPosition, const Vector& handSpeed) {
   Vector position = Vector::Zero(n_), speed = Vector::Zero(n_), s(n_ + 1), v(n_ + 1);
   lowest_ = highest_ = 0;
   for (int p = 0; p < intervals_; ++p) {
-    Interval& interval = interval_[static_cast<size_t>(p)];
+    Interval& interval = interval_[p];
     interval.position = position;
     interval.speed = speed;
     if (!solveInterval(interval, p * kStages)) return false;
     position += width_ * speed;
     for (int l = 0; l < kStages; ++l) {
       const auto a = interval.acceleration.segment(l * n_, n_);
-      position += width_ * width_ * c.twice[static_cast<size_t>(l)] * a;
-      speed += width_ * c.weight[static_cast<size_t>(l)] * a;
+      position += width_ * width_ * c.twice[l] * a;
+      speed += width_ * c.weight[l] * a;
     }
     lowest_ = std::min(lowest_, position.minCoeff());
     highest_ = std::max(highest_, position.maxCoeff());
@@ -129,12 +129,12 @@ CurveMotion::Matrix CurveMotion::linearise(const Matrix& handPosition, const Mat
   Matrix position = Matrix::Zero(n_, columns), speed = position, source(n_ * kStages, columns);
   local_.resize(2 * nodes * this->nodes(), columns);
   for (int p = 0; p < intervals_; ++p) {
-    const Interval& interval = interval_[static_cast<size_t>(p)];
+    const Interval& interval = interval_[p];
     const int first = p * kStages;
     for (int k = 0; k < kStages; ++k) {
-      const Matrix& jacobian = interval.jacobian[static_cast<size_t>(k)];
+      const Matrix& jacobian = interval.jacobian[k];
       auto rows = source.middleRows(k * n_, n_);
-      rows.noalias() = jacobian.middleCols(1, n_) * (position + width_ * c.node[static_cast<size_t>(k)] * speed);
+      rows.noalias() = jacobian.middleCols(1, n_) * (position + width_ * c.node[k] * speed);
       rows.noalias() += jacobian.middleCols(nodes + 1, n_) * speed;
       rows.noalias() += jacobian.col(0) * handPosition.row(first + k);
       rows.noalias() += jacobian.col(nodes) * handSpeed.row(first + k);
@@ -144,7 +144,7 @@ CurveMotion::Matrix CurveMotion::linearise(const Matrix& handPosition, const Mat
       auto s = local_.middleRows(2 * nodes * (first + k), nodes), v = local_.middleRows(2 * nodes * (first + k) + nodes, nodes);
       s.row(0) = handPosition.row(first + k);
       v.row(0) = handSpeed.row(first + k);
-      s.bottomRows(n_) = position + width_ * c.node[static_cast<size_t>(k)] * speed;
+      s.bottomRows(n_) = position + width_ * c.node[k] * speed;
       v.bottomRows(n_) = speed;
       for (int l = 0; l < kStages; ++l) {
         s.bottomRows(n_) += width_ * width_ * c.twiceInside(k, l) * a.middleRows(l * n_, n_);
@@ -153,8 +153,8 @@ CurveMotion::Matrix CurveMotion::linearise(const Matrix& handPosition, const Mat
     }
     position += width_ * speed;
     for (int l = 0; l < kStages; ++l) {
-      position += width_ * width_ * c.twice[static_cast<size_t>(l)] * a.middleRows(l * n_, n_);
-      speed += width_ * c.weight[static_cast<size_t>(l)] * a.middleRows(l * n_, n_);
+      position += width_ * width_ * c.twice[l] * a.middleRows(l * n_, n_);
+      speed += width_ * c.weight[l] * a.middleRows(l * n_, n_);
     }
   }
   Matrix end(2 * n_, columns);
@@ -170,19 +170,18 @@ CurveMotion::Matrix CurveMotion::computeHessian(const Vector& multiplier) const 
   Vector onPosition = multiplier.head(n_), onSpeed = multiplier.tail(n_), drive(n_ * kStages), s(nodes), v(nodes), a(n_);
   Matrix bent(local_.rows(), local_.cols()), hessian(2 * nodes, 2 * nodes);
   for (int p = intervals_; p-- > 0;) {
-    const Interval& interval = interval_[static_cast<size_t>(p)];
+    const Interval& interval = interval_[p];
     const int first = p * kStages;
     for (int l = 0; l < kStages; ++l)
-      drive.segment(l * n_, n_) =
-          width_ * width_ * c.twice[static_cast<size_t>(l)] * onPosition + width_ * c.weight[static_cast<size_t>(l)] * onSpeed;
+      drive.segment(l * n_, n_) = width_ * width_ * c.twice[l] * onPosition + width_ * c.weight[l] * onSpeed;
     const Vector weight = interval.factor.transpose().solve(drive);
     onSpeed += width_ * onPosition;
     for (int k = 0; k < kStages; ++k) {
-      const Matrix& jacobian = interval.jacobian[static_cast<size_t>(k)];
+      const Matrix& jacobian = interval.jacobian[k];
       const auto w = weight.segment(k * n_, n_);
       const Vector back = jacobian.middleCols(1, n_).transpose() * w;
       onPosition += back;
-      onSpeed += width_ * c.node[static_cast<size_t>(k)] * back + jacobian.middleCols(nodes + 1, n_).transpose() * w;
+      onSpeed += width_ * c.node[k] * back + jacobian.middleCols(nodes + 1, n_).transpose() * w;
       locateStage(interval, first, k, s, v);
       hessian.setZero();
       expandAccelerations(curve_, object_, s.data(), v.data(), a.data(), nullptr, &weight[k * n_], &hessian);
@@ -213,12 +212,12 @@ PiecewiseSeries CurveMotion::makeProfile() const {
   PiecewiseSeries profile(n_, kStages + 2, intervals_);
   profile.width = width_;
   for (int p = 0; p < intervals_; ++p) {
-    const Interval& interval = interval_[static_cast<size_t>(p)];
+    const Interval& interval = interval_[p];
     for (int i = 0; i < n_; ++i) {
       std::array<double, kStages + 2> series{interval.position(i), width_ * interval.speed(i)};
       for (size_t j = 0; j < kStages; ++j) {
         double sum = 0;
-        for (int l = 0; l < kStages; ++l) sum += power[static_cast<size_t>(l)][j] * interval.acceleration(l * n_ + i);
+        for (int l = 0; l < kStages; ++l) sum += power[l][j] * interval.acceleration(l * n_ + i);
         series[j + 2] = width_ * width_ * sum / static_cast<double>((j + 1) * (j + 2));
       }
       for (size_t k = 0; k < series.size(); ++k) profile.of(p, i)[k][p % kBatchLanes] = series[k];

@@ -43,7 +43,7 @@ void expandAccelerations(const constraints::ArcCurve& curve, const CurveObject& 
     if (jacobian != nullptr) (*jacobian)(i - 1, nodes + i) = -drag;
   }
   const auto pull = [&](int i, int j, double stiffness, double damping) {  // of node j on node i
-    const auto &here = at[static_cast<size_t>(i)], &there = at[static_cast<size_t>(j)];
+    const auto &here = at[i], &there = at[j];
     const Vec3 &t = here[1], &c = here[2], &farT = there[1], &farC = there[2], chord = there[0] - here[0];
     const double lightness = 1 / object.masses[static_cast<size_t>(i) - 1], k = lightness * stiffness, b = lightness * damping;
     const double along = dot(t, farT);

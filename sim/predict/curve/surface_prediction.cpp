@@ -56,8 +56,8 @@ void refuseAtLines(const constraints::Constraint& surface, const std::function<s
         // To the line itself, and both sides' formulas there.
         const double slope = after[k].u * after[k].u + after[k].v * after[k].v;
         const double u = q[0] - after[k].value * after[k].u / slope, v = q[1] - after[k].value * after[k].v / slope;
-        const constraints::SurfacePoint a = evaluate(branches->branches[static_cast<std::size_t>(branch)], u, v),
-                                        b = evaluate(branches->branches[static_cast<std::size_t>(branch ^ (1 << line.bit))], u, v);
+        const constraints::SurfacePoint a = evaluate(branches->branches[branch], u, v),
+                                        b = evaluate(branches->branches[branch ^ (1 << line.bit)], u, v);
         const double size = norm(a.r) + norm(a.rU) + norm(a.rV) + norm(a.rUu) + norm(a.rUv) + norm(a.rVv);
         if (norm(a.r - b.r) + norm(a.rU - b.rU) + norm(a.rV - b.rV) + norm(a.rUu - b.rUu) + norm(a.rUv - b.rUv) + norm(a.rVv - b.rVv) <=
             kAgrees * size)

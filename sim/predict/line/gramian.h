@@ -76,7 +76,7 @@ template <class Real>
 double computeCondition(const std::pmr::vector<Real>& l, Eigen::Index n) {
   Eigen::MatrixXd factor = Eigen::MatrixXd::Zero(n, n), inverse = Eigen::MatrixXd::Identity(n, n);
   for (Eigen::Index i = 0; i < n; ++i)
-    for (Eigen::Index j = 0; j <= i; ++j) factor(i, j) = leading(l[static_cast<size_t>(i * n + j)]);
+    for (Eigen::Index j = 0; j <= i; ++j) factor(i, j) = leading(l[i * n + j]);
   factor.triangularView<Eigen::Lower>().solveInPlace(inverse);
   if (!inverse.allFinite()) return std::numeric_limits<double>::infinity();
   const auto largest = [](const Eigen::MatrixXd& m) { return std::sqrt(symmetricEigenvalues(m * m.transpose())[m.rows() - 1]); };

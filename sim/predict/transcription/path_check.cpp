@@ -40,14 +40,14 @@ PathCheck checkPath(double duration, const std::function<PathPoint(double)>& at)
     if (!finite || !isFinitePoint(end)) return {check.cost, false, width * (i + 0.5)};
     const std::array<Vec3, 3> was{end.r - begin.r, end.velocity - begin.velocity, end.acceleration - begin.acceleration};
     for (size_t k = 0; k < 3; ++k) {
-      gaps[static_cast<size_t>(i)].differs[k] = norm(was[k] - change[k]);
+      gaps[i].differs[k] = norm(was[k] - change[k]);
       largest[k] = std::max({largest[k], norm(was[k]), norm(change[k])});
     }
     begin = end;
   }
   for (int i = 0; i < kIntervals; ++i)
     for (size_t k = 0; k < 3; ++k)
-      if (gaps[static_cast<size_t>(i)].differs[k] > kAgrees * largest[k]) return {check.cost, false, width * (i + 0.5)};
+      if (gaps[i].differs[k] > kAgrees * largest[k]) return {check.cost, false, width * (i + 0.5)};
   return check;
 }
 

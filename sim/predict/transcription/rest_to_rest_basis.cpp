@@ -31,9 +31,9 @@ void RestToRestBasis::tabulate(double x, double rate, double* table) const {
 }
 
 LegendreSeries RestToRestBasis::combine(const std::vector<double>& coefficient, int m) const {
-  LegendreSeries sum(series_.back()[static_cast<size_t>(m)].size(), 0);
+  LegendreSeries sum(series_.back()[m].size(), 0);
   for (size_t c = 0; c < coefficient.size(); ++c) {
-    const LegendreSeries& column = series_[c][static_cast<size_t>(m)];
+    const LegendreSeries& column = series_[c][m];
     for (size_t n = firstTerm(static_cast<int>(c), m); n < column.size(); ++n) sum[n] += coefficient[c] * column[n];
   }
   return sum;

@@ -16,9 +16,7 @@ class RestToRestBasis {
   int order() const { return order_; }
   int columns() const { return static_cast<int>(series_.size()); }
   /// d^m y / dx^m of one column, 0 <= m <= order.
-  const LegendreSeries& derivative(int column, int m) const {
-    return series_[static_cast<std::size_t>(column)][static_cast<std::size_t>(m)];
-  }
+  const LegendreSeries& derivative(int column, int m) const { return series_[column][m]; }
   /// All derivatives of all columns at one x, times rate^m: table[column * (order+1) + m].
   void tabulate(double x, double rate, double* table) const;
   /// A derivative of a combination: coefficient of the first column, then the unknowns.

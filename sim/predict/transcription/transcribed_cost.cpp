@@ -65,14 +65,14 @@ TranscribedCost::TranscribedCost(const TranscribedProblem& problem, const RestTo
     double rate = 1;  // d^m/dt^m = (2/T)^m d^m/dx^m
     for (int k = 0; k < width; ++k, rate *= 2 / problem.duration) local.col(k) *= rate;
     for (int node = 0; node < nodes; ++node) {
-      all.noalias() = local * table_->at[static_cast<size_t>(node)];
+      all.noalias() = local * table_->at[node];
       fixed_.segment(node * locals, locals) += all.col(0) * (problem.to[m] - problem.from[m]) + local.col(0) * problem.from[m];
       rows_.block(node * locals, motion * unknowns, locals, unknowns) = all.rightCols(unknowns);
     }
   }
 }
 
-double TranscribedCost::weight(int node) const { return table_->rule.weight[static_cast<size_t>(node)] * problem_.duration / 2; }
+double TranscribedCost::weight(int node) const { return table_->rule.weight[node] * problem_.duration / 2; }
 
 double TranscribedCost::evaluate(const Vector& unknowns) const {
   problem_.work->spend(static_cast<double>(rows_.size()));

@@ -37,8 +37,8 @@ LegendreSeries TranscribedMotion::derivative(int motion, int m) const {
 std::array<double, 4> TranscribedMotion::at(int motion, double t) const {
   std::vector<double> table(static_cast<size_t>(basis.columns() * (basis.order() + 1)));
   basis.tabulate(2 * t / duration - 1, 2 / duration, table.data());
-  std::array<double, 4> y{start[static_cast<size_t>(motion)]};
-  const std::vector<double>& c = coefficient[static_cast<size_t>(motion)];
+  std::array<double, 4> y{start[motion]};
+  const std::vector<double>& c = coefficient[motion];
   for (size_t column = 0; column < c.size(); ++column)
     for (size_t m = 0; m < 4; ++m) y[m] += c[column] * table[column * (static_cast<size_t>(basis.order()) + 1) + m];
   return y;
