@@ -97,9 +97,7 @@ TEST(Arm, NoSeededPerturbationLowersTheCost) {
 
 TEST(Arm, ProfilesAreKnownTo1e8) {
   for (const experiment::Experiment& e : {freely(dingwell(), {-0.1, 0, 0}, {0.15, 0, -0.08}), dingwell(), parallelPair()}) {
-    PredictOptions many;
-    many.unknowns = 90;
-    const auto chosen = predict(e, Criterion::MinTorqueChange), fine = predict(e, Criterion::MinTorqueChange, many);
+    const auto chosen = predict(e, Criterion::MinTorqueChange), fine = predict(e, Criterion::MinTorqueChange, {.unknowns = 90});
     EXPECT_NEAR(chosen->cost / fine->cost, 1, 1e-8);
     for (int i = 0; i <= 60; ++i) {
       const double t = chosen->duration * i / 60;

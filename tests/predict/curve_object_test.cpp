@@ -72,9 +72,9 @@ TEST(CurveObject, TheBoundOfItsRatesIsMetByParallelMasses) {
   e.object.stiffness = {0.3, 1.2};
   double most = 0;
   for (size_t i = 0; i < e.object.masses.size(); ++i) most = std::max(most, std::sqrt(e.object.stiffness[i] / e.object.masses[i]));
-  EXPECT_NEAR(makeCurveObject(makeLineObject(e, 0, 0)).boundRate(), most, 1e-12);
+  EXPECT_NEAR(boundRate(makeLineObject(e, 0, 0)), most, 1e-12);
   e.object.damping = {6, 6};
-  EXPECT_NEAR(makeCurveObject(makeLineObject(e, 0, 0)).boundRate(), most + 6 / e.object.masses[1], 1e-12);
+  EXPECT_NEAR(boundRate(makeLineObject(e, 0, 0)), most + 6 / e.object.masses[1], 1e-12);
 }
 
 // The way turns by L/R; what that changes is even in it.
@@ -149,9 +149,7 @@ TEST(CurveObject, AMotionOfFewerUnknownsCostsMore) {
     const auto best = predict(e, Criterion::MinHandJerk);
     double before = INFINITY;
     for (const int unknowns : {20, 30, 40, 50}) {
-      PredictOptions options;
-      options.unknowns = unknowns;
-      const double cost = predict(e, Criterion::MinHandJerk, options)->cost;
+      const double cost = predict(e, Criterion::MinHandJerk, {.unknowns = unknowns})->cost;
       EXPECT_LT(cost, before * (1 + kRounding));
       EXPECT_GT(cost, best->cost * (1 - kRounding));
       before = cost;
@@ -161,9 +159,7 @@ TEST(CurveObject, AMotionOfFewerUnknownsCostsMore) {
 
 TEST(CurveObject, ErrorFallsWithTheUnknownsTo1e8) {
   const auto with = [](const experiment::Experiment& e, int unknowns) {
-    PredictOptions options;
-    options.unknowns = unknowns;
-    return predict(e, Criterion::MinHandJerk, options);
+    return predict(e, Criterion::MinHandJerk, {.unknowns = unknowns});
   };
   const experiment::Experiment bent = onEllipse(chainModerate()),
                                straight = onCurve(chainModerate(), {"0.2*(phi + 0.1*sin(2*pi*phi))", "0", "0"}, 0, 1);

@@ -20,10 +20,7 @@ constexpr double kSame = 1e-11;
 constexpr double kFiveDigits = 2e-5, kTwoDigits = 0.03;
 
 std::unique_ptr<Prediction> predictWith(const experiment::Experiment& e, Criterion criterion, double handMass, double handDamping = 0) {
-  PredictOptions options;
-  options.handMass = handMass;
-  options.handDamping = handDamping;
-  return predict(e, criterion, options);
+  return predict(e, criterion, {.handMass = handMass, .handDamping = handDamping});
 }
 
 // Largest difference of two velocities on [0, T], of the first's peak.

@@ -80,10 +80,6 @@ inline experiment::Experiment freely(experiment::Experiment e, std::vector<doubl
 }
 
 /// The hand itself moves as the criterion says, and not the one mass.
-inline PredictOptions asHand() {
-  PredictOptions options;
-  options.point = PointIs::Hand;
-  return options;
-}
+inline PredictOptions asHand() { return {.point = PointIs::Hand}; }
 
 }  // namespace reachlab::predict

@@ -52,11 +52,9 @@ TEST(PathError, IsAtMostThriceWhatIsSaidOnTheWholeCatalogue) {
     e.constraint.name = definition.name;
     e.task->start = definition.start;
     e.task->target = definition.target;
-    PredictOptions options;
-    options.point = PointIs::Hand;
     std::unique_ptr<Prediction> p;
     try {
-      p = predict(e, Criterion::MinHandJerk, options);
+      p = predict(e, Criterion::MinHandJerk, asHand());
     } catch (const RefusedError& reason) {
       EXPECT_NE(std::string(reason.what()).find("cusp"), std::string::npos) << reason.what();
       ++refused;

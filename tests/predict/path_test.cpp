@@ -114,9 +114,7 @@ INSTANTIATE_TEST_SUITE_P(Pitches, Helix, testing::Values(0.0, 0.05));
 TEST(CurveJerk, ProfileIsKnownTo1e8) {
   const experiment::Experiment e =
       makeCurveExperiment({"0.08*cos(phi) - 0.01*cos(4*phi)", "0.08*sin(phi) - 0.01*sin(4*phi)", "0"}, 1, 3, 1.5);
-  PredictOptions many;
-  many.unknowns = 220;
-  const auto chosen = predict(e, Criterion::MinHandJerk), fine = predict(e, Criterion::MinHandJerk, many);
+  const auto chosen = predict(e, Criterion::MinHandJerk), fine = predict(e, Criterion::MinHandJerk, {.unknowns = 220});
   for (int i = 0; i <= 60; ++i)
     EXPECT_NEAR(chosen->handAt(1.5 * i / 60).velocity, fine->handAt(1.5 * i / 60).velocity, kProfile * fine->handPeak);
 }
@@ -249,8 +247,7 @@ TEST(SurfaceJerk, GoesRoundAHillHoweverItsParametersCount) {
 TEST(Point, IsBehindItsSpringOnALineAndTheHandElsewhereUnlessAsked) {
   const auto line = makeChain(1, 1, 600, 1);
   const auto straight = makeCurveExperiment({"0.2*(phi + 0.1*sin(2*pi*phi))", "0", "0"}, 0, 1, 1);
-  PredictOptions behind;
-  behind.point = PointIs::BehindSpring;
+  const PredictOptions behind{.point = PointIs::BehindSpring};
   const auto onLine = predict(line, Criterion::MinHandJerk), onCurve = predict(straight, Criterion::MinHandJerk);
   const auto handOnLine = predict(line, Criterion::MinHandJerk, asHand()),
              behindOnCurve = predict(straight, Criterion::MinHandJerk, behind);

@@ -43,9 +43,7 @@ std::vector<Family> families() {
   std::vector<Family> all;
   for (const Criterion c : {MinHandJerk, MinCrackle, MinHandForce, MinHandForceChange, MinComAcceleration, MinHandCrackle}) {
     const std::string name(nameOf(c));
-    PredictOptions heavy;
-    heavy.handMass = 0.8;
-    heavy.handDamping = 2;
+    const PredictOptions heavy{.handMass = 0.8, .handDamping = 2};
     all.push_back({"chain " + name, [=] { return predict(uneven(), c); }});
     all.push_back({"pair with hand " + name, [=] { return predict(parallelPair(), c, heavy); }});
     all.push_back({"damped chain " + name, [=] { return predict(damped(uneven()), c, heavy); }});
@@ -187,8 +185,7 @@ TEST(Predictions, TheWayBackIsTheWayThereInReverse) {
        {Way{still, MinTorqueChange}, Way{freely(still, {-0.1, 0, 0}, {0.05, 0, -0.08}), MinTorqueChange}, Way{surface, MinHandJerk},
         Way{onCurve(makeChain(1, 1, 600, 1.2), {"0.1*cos(phi)", "0.06*sin(phi)", "0.02*phi^2"}, 0.3, 2), MinHandJerk},
         Way{onCurve(uneven(), {"0.1*cos(phi)", "0.06*sin(phi)", "0.02*phi"}, 0.3, 2), MinHandJerk}}) {
-    PredictOptions options;
-    options.unknowns = 36;
+    const PredictOptions options{.unknowns = 36};
     experiment::Experiment back = way.experiment;
     std::swap(back.task->start, back.task->target);
     const auto there = predict(way.experiment, way.criterion, options), again = predict(back, way.criterion, options);
@@ -326,8 +323,7 @@ TEST(PredictRefusals, OfAnObjectThatTheCriteriaDoNotKnow) {
   experiment::Experiment soft = chainModerate();
   soft.object.stiffness[1] = -4;
   EXPECT_REFUSED("spring (the coupling is number 1) 3 is -4 N/m", predict(soft, MinHandJerk));
-  PredictOptions options;
-  options.handMass = -1;
+  PredictOptions options{.handMass = -1};
   EXPECT_REFUSED("hand_mass", predict(dingwell(), MinHandJerk, options));
   options.handMass = 0;
   options.handDamping = -1;
@@ -378,8 +374,7 @@ TEST(PredictRefusals, OfAnArmThatDoesNotReach) {
 
 TEST(PredictRefusals, OfAnObjectOnACurve) {
   const auto bent = onCurve(chainModerate(), {"0.1*cos(phi)", "0.1*sin(phi)", "0"}, 0, 1);
-  PredictOptions options;
-  options.unknowns = 10;
+  PredictOptions options{.unknowns = 10};
   EXPECT_REFUSED("more than 10 here, twice the number of masses", predict(bent, MinHandJerk, options));
   options.unknowns = 14;
   const auto few = predict(bent, MinHandJerk, options);
@@ -449,8 +444,7 @@ TEST(TravelTime, IsTwiceTheSumOfEachMasssOnItsSpring) {
   experiment::Experiment e = uneven();
   const double once = std::sqrt(0.5 / 700) + std::sqrt(1.0 / 300) + std::sqrt(1.4 / 500);
   EXPECT_NEAR(*predict(e, MinHandJerk)->travelTime, 2 * once, 1e-15);
-  PredictOptions options;
-  options.duration = 2 * once * 1.0001;
+  PredictOptions options{.duration = 2 * once * 1.0001};
   EXPECT_TRUE(predict(e, MinHandJerk, options)->warnings.empty());
   options.duration = 2 * once * 0.9999;
   const auto hurried = predict(e, MinHandJerk, options);
@@ -532,8 +526,7 @@ TEST(NearPredictions, LeadToTheSameMovement) {
   const auto alone = predict(dingwell(), MinTorqueChange);
   for (const int unknowns : {12, 54}) {
     std::vector<std::unique_ptr<Prediction>> around;
-    PredictOptions options;
-    options.unknowns = unknowns;
+    PredictOptions options{.unknowns = unknowns};
     for (const double duration : {1.2, 1.3, 1.45, 1.5}) {
       options.duration = duration;
       around.push_back(predict(dingwell(), MinTorqueChange, options));

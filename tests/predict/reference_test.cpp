@@ -261,10 +261,7 @@ class AgainstReference : public testing::TestWithParam<Case> {};
 
 TEST_P(AgainstReference, ProfilesAndCostAgree) {
   const Case& c = GetParam();
-  PredictOptions options;
-  options.handMass = c.handMass;
-  options.handDamping = c.handDamping;
-  const auto prediction = predict(c.experiment, c.criterion, options);
+  const auto prediction = predict(c.experiment, c.criterion, {.handMass = c.handMass, .handDamping = c.handDamping});
   const ReferenceProfile reference = computeReference(c.experiment, c.criterion, c.handMass, c.handDamping);
   const int n = prediction->massCount();
   std::vector<double> x(n), v(n);

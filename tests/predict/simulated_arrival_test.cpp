@@ -51,9 +51,7 @@ TEST(Simulator, ArrivesAtRestUnderEveryCriterion) {
         damped(parallelPair(), 1.5, 3), hardCoupling, viscous, viscousTwins, viscousPair})
     for (const double handMass : {0.0, 1.0})
       for (const Criterion c : {MinHandJerk, MinCrackle, MinHandForce, MinHandForceChange, MinComAcceleration, MinHandCrackle}) {
-        PredictOptions options;
-        options.handMass = handMass;
-        const auto prediction = predict(e, c, options);
+        const auto prediction = predict(e, c, {.handMass = handMass});
         const Arrival arrival = simulate(e, *prediction);
         EXPECT_LT(arrival.position, kAtRest) << nameOf(c) << " hand " << handMass << " masses " << prediction->massCount();
         EXPECT_LT(arrival.velocity, kAtRest) << nameOf(c) << " hand " << handMass << " masses " << prediction->massCount();

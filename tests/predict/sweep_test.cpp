@@ -212,9 +212,7 @@ TEST(Sweep, HasARowForEachValueInOrderWithItsPredictionOrItsRefusal) {
     EXPECT_EQ(rows[i].refusal, "");
     EXPECT_EQ(rows[i].shape.velocityPeaks, computeShape(*rows[i].prediction).velocityPeaks);
     EXPECT_EQ(rows[i].shape.reverses, computeShape(*rows[i].prediction).reverses);
-    PredictOptions options;
-    options.duration = rows[i].value;
-    EXPECT_EQ(rows[i].prediction->cost, predict(makeChain(10, 0.3, 60, 1.35), Criterion::MinHandJerk, options)->cost);
+    EXPECT_EQ(rows[i].prediction->cost, predict(makeChain(10, 0.3, 60, 1.35), Criterion::MinHandJerk, {.duration = rows[i].value})->cost);
   }
 }
 

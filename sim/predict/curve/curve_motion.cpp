@@ -23,11 +23,10 @@ const Collocation& collocation() {
     Collocation c;
     const GaussRule rule = makeGaussRule(kStages);
     for (int l = 0; l < kStages; ++l) {
-      const auto i = static_cast<size_t>(l);
-      c.node[i] = (rule.node[i] + 1) / 2;
-      c.weight[i] = rule.weight[i] / 2;
+      c.node[l] = (rule.node[l] + 1) / 2;
+      c.weight[l] = rule.weight[l] / 2;
       std::vector<double> one(kStages, 0.0);
-      one[i] = 1;
+      one[l] = 1;
       const LegendreSeries integral = integralOf(projectOnLegendre(one, rule.node, rule.weight));
       for (int k = 0; k < kStages; ++k) c.once(k, l) = valueAt(integral, rule.node[k]) / 2;
     }
@@ -41,7 +40,7 @@ const Collocation& collocation() {
 
 }  // namespace
 
-CurveMotion::CurveMotion(const constraints::ArcCurve& curve, const CurveObject& object, double duration, int intervals)
+CurveMotion::CurveMotion(const constraints::ArcCurve& curve, const LineObject& object, double duration, int intervals)
     : curve_(curve), object_(object), intervals_(intervals), n_(object.count()), width_(duration / intervals),
       interval_(static_cast<size_t>(intervals)) {
   for (Interval& interval : interval_) {

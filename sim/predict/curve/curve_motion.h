@@ -14,7 +14,7 @@ class CurveMotion {
  public:
   static constexpr int kStages = 8;
 
-  CurveMotion(const constraints::ArcCurve& curve, const CurveObject& object, double duration, int intervals);
+  CurveMotion(const constraints::ArcCurve& curve, const LineObject& object, double duration, int intervals);
 
   int nodes() const { return intervals_ * kStages; }
   double timeOf(int node) const;
@@ -48,7 +48,7 @@ class CurveMotion {
   Matrix stageSystem(const Interval& interval) const;
 
   const constraints::ArcCurve& curve_;
-  const CurveObject& object_;
+  const LineObject& object_;
   int intervals_, n_;
   double width_;  // [s] of a interval
   Vector handPosition_, handSpeed_;

@@ -5,47 +5,42 @@
 
 namespace reachlab::predict {
 
-double CurveObject::boundRate() const {
-  std::vector<double> stiffness(masses.size(), 0.0), decay = viscosity;
-  for (const Link& link : links)
-    for (const int node : {link.inner, link.outer})
+namespace {
+
+/// The node from which spring i leads to node i + 1.
+int innerOf(const LineObject& object, int i) { return object.parallel ? 0 : i; }
+
+}  // namespace
+
+double boundRate(const LineObject& object) {
+  std::vector<double> stiffness(object.masses.size(), 0.0), decay = object.viscosity;
+  for (int i = 0; i < object.count(); ++i)
+    for (const int node : {innerOf(object, i), i + 1})
       if (node > 0) {
-        const auto i = static_cast<size_t>(node) - 1;
-        const double rows = link.inner > 0 ? 2 : 1;  // Gershgorin: what stands on the diagonal, and the same beside it
-        stiffness[i] += rows * link.stiffness, decay[i] += rows * link.damping;
+        const double rows = innerOf(object, i) > 0 ? 2 : 1;  // Gershgorin: what stands on the diagonal, and the same beside it
+        stiffness[node - 1] += rows * object.springs[i], decay[node - 1] += rows * object.dampers[i];
       }
   double most = 0;
-  for (size_t i = 0; i < masses.size(); ++i) most = std::max(most, std::sqrt(stiffness[i] / masses[i]) + decay[i] / masses[i]);
+  for (int i = 0; i < object.count(); ++i) most = std::max(most, std::sqrt(stiffness[i] / object.masses[i]) + decay[i] / object.masses[i]);
   return most;
 }
 
-CurveObject makeCurveObject(const LineObject& object) {
-  CurveObject made;
-  made.masses = object.masses;
-  made.viscosity = object.viscosity;
-  for (int i = 0; i < object.count(); ++i) {
-    const auto k = static_cast<size_t>(i);
-    made.links.push_back({object.parallel ? 0 : i, i + 1, object.springs[k], object.dampers[k]});
-  }
-  return made;
-}
-
-void expandAccelerations(const constraints::ArcCurve& curve, const CurveObject& object, const double* s, const double* v, double* a,
+void expandAccelerations(const constraints::ArcCurve& curve, const LineObject& object, const double* s, const double* v, double* a,
                          Eigen::MatrixXd* jacobian, const double* weight, Eigen::MatrixXd* hessian) {
   const int nodes = object.count() + 1;
   std::vector<std::array<Vec3, 4>> at;  // place, tangent, curvature vector and its derivative of every node
-  at.reserve(static_cast<size_t>(nodes));
+  at.reserve(nodes);
   for (int i = 0; i < nodes; ++i) at.push_back(curve.expand<3>(s[i]));
   if (jacobian != nullptr) jacobian->setZero(nodes - 1, 2 * nodes);
   for (int i = 1; i < nodes; ++i) {
-    const double drag = object.viscosity[static_cast<size_t>(i) - 1] / object.masses[static_cast<size_t>(i) - 1];
+    const double drag = object.viscosity[i - 1] / object.masses[i - 1];
     a[i - 1] = -drag * v[i];
     if (jacobian != nullptr) (*jacobian)(i - 1, nodes + i) = -drag;
   }
   const auto pull = [&](int i, int j, double stiffness, double damping) {  // of node j on node i
     const auto &here = at[i], &there = at[j];
     const Vec3 &t = here[1], &c = here[2], &farT = there[1], &farC = there[2], chord = there[0] - here[0];
-    const double lightness = 1 / object.masses[static_cast<size_t>(i) - 1], k = lightness * stiffness, b = lightness * damping;
+    const double lightness = 1 / object.masses[i - 1], k = lightness * stiffness, b = lightness * damping;
     const double along = dot(t, farT);
     a[i - 1] += k * dot(t, chord) + b * (along * v[j] - v[i]);
     if (jacobian != nullptr) {
@@ -68,9 +63,10 @@ void expandAccelerations(const constraints::ArcCurve& curve, const CurveObject& 
       add(j, nodes + j, wb * dot(t, farC));
     }
   };
-  for (const CurveObject::Link& link : object.links) {
-    pull(link.outer, link.inner, link.stiffness, link.damping);
-    if (link.inner > 0) pull(link.inner, link.outer, link.stiffness, link.damping);
+  for (int i = 0; i + 1 < nodes; ++i) {
+    const int inner = innerOf(object, i);
+    pull(i + 1, inner, object.springs[i], object.dampers[i]);
+    if (inner > 0) pull(inner, i + 1, object.springs[i], object.dampers[i]);
   }
 }
 

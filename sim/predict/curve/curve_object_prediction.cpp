@@ -71,7 +71,7 @@ struct Optimum {
 class Search {
  public:
   Search(const constraints::ArcCurve& curve, const LineObject& object, double duration, const std::shared_ptr<WorkLimit>& work)
-      : curve_(curve), duration_(duration), object_(makeCurveObject(object)), problem_(makeCurveJerkProblem(curve, duration)),
+      : curve_(curve), duration_(duration), object_(object), problem_(makeCurveJerkProblem(curve, duration)),
         scale_(makeConditionScale(object)), target_(2 * object.count()) {
     problem_.work = work;
     target_ << Vector::Constant(object.count(), curve.length()), Vector::Zero(object.count());
@@ -81,12 +81,12 @@ class Search {
   /// Follows the optimum on finer intervals.
   CurveMotion follow(const Optimum& optimum, int intervals) const;
   double missOf(const CurveMotion& motion) const { return (motion.end() - target_).head(object_.count()).lpNorm<Eigen::Infinity>(); }
-  double fastest() const { return object_.boundRate(); }
+  double fastest() const { return boundRate(object_); }
 
  private:
   const constraints::ArcCurve& curve_;
   double duration_;
-  CurveObject object_;
+  const LineObject& object_;
   TranscribedProblem problem_;
   Matrix scale_;
   Vector target_;
@@ -197,7 +197,6 @@ class CurveObjectPrediction final : public Prediction {
     duration = seconds;
     massCount_ = static_cast<int>(source_.size());
     fastest_ = std::max(fastest, static_cast<double>(hand_.position.size()) / seconds);
-    handJump = handVelocityJump = 0.0;
   }
   PredictedHand handAt(double t) const override {
     const double x = 2 * t / duration - 1;
