@@ -66,11 +66,6 @@ JointMotion<S> computeJointMotion(const experiment::Arm& arm, const S& x, double
   return m;
 }
 
-template <int Locals>
-void store(const std::array<HyperDual<Locals>, 2>& rates, double* r, double* ra, double* raa) {
-  for (int k = 0; k < 2; ++k) rates[k].store(r + k, ra + k * Locals, raa + k * Locals * Locals);
-}
-
 // Whether the last terms of a series are nothing beside its largest: more unknowns would not change it.
 bool isResolved(const LegendreSeries& velocity) {
   constexpr double kNothing = 1e-10;
@@ -118,7 +113,7 @@ std::unique_ptr<Prediction> makeFreeArmPrediction(const experiment::Arm& arm, co
       std::copy(rates.begin(), rates.end(), r);
       return;
     }
-    store<kLocals>(computeTorqueRates<S>(arm, {v(0), v(1), v(2), v(3), v(4), v(5), v(6), v(7)}, S(0.0), S(0.0)), r, ra, raa);
+    store(computeTorqueRates<S>(arm, {v(0), v(1), v(2), v(3), v(4), v(5), v(6), v(7)}, S(0.0), S(0.0)), r, ra, raa);
   };
   const TranscribedMotion motion = solveFromStarts(problem, unknowns);
 
@@ -188,7 +183,7 @@ std::unique_ptr<Prediction> makeLineArmPrediction(const experiment::Arm& arm, co
       return;
     }
     const JointMotion<S> m = computeJointMotion<S>(arm, start + along * v(0), across, along * v(1), along * v(2), along * v(3));
-    store<kLocals>(computeTorqueRates<S>(arm, m, along * v(4), along * v(5)), r, ra, raa);
+    store(computeTorqueRates<S>(arm, m, along * v(4), along * v(5)), r, ra, raa);
   };
   std::vector<LegendreSeries> derivative;
   const auto differentiate = [&](const TranscribedMotion& motion) {

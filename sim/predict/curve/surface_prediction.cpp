@@ -21,11 +21,6 @@ namespace {
 
 double component(const Vec3& v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
 
-template <int Locals>
-void store(const std::array<HyperDual<Locals>, 3>& jerk, double* r, double* ra, double* raa) {
-  for (int k = 0; k < 3; ++k) jerk[k].store(r + k, ra + k * Locals, raa + k * Locals * Locals);
-}
-
 // A hand whose parameters move with these first, second and third derivatives.
 PathPoint computePathPoint(const constraints::SurfaceExpansion& d, const std::array<double, 3>& du, const std::array<double, 3>& dv) {
   const double u = du[0], v = dv[0];
@@ -132,7 +127,7 @@ std::unique_ptr<Prediction> makeSurfaceJerkPrediction(const constraints::Constra
       jerk[k] = partial(3, 0) * uuu + partial(2, 1) * uuv + partial(1, 2) * uvv + partial(0, 3) * vvv + partial(2, 0) * uu +
                 partial(1, 1) * uv + partial(0, 2) * vv + partial(1, 0) * u3 + partial(0, 1) * v3;
     }
-    store<kLocals>(jerk, r, ra, raa);
+    store(jerk, r, ra, raa);
   };
   const Vec3 chord = evaluate(surface.surface, target[0], target[1]).r - evaluate(surface.surface, start[0], start[1]).r;
   const constraints::SurfacePoint middle = evaluate(surface.surface, (start[0] + target[0]) / 2, (start[1] + target[1]) / 2);

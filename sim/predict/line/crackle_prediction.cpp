@@ -28,8 +28,6 @@ class CracklePrediction final : public Prediction {
     for (int i = 1; i <= power_; ++i) top *= 2 * i / static_cast<LongReal>(half_);
     cost = static_cast<double>(top * top * half_ * 2 / (2 * power_ + 1));
     condition = computeAmplification();
-    handJump = 0.0;
-    handVelocityJump = 0.0;
   }
 
   PredictedHand handAt(double t) const override {

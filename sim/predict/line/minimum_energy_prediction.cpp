@@ -43,8 +43,8 @@ std::unique_ptr<Prediction> makeMinimumEnergyPrediction(const LineObject& object
   prediction->cost = motion.cost;
   prediction->condition = motion.condition;
   const PredictedHand start = prediction->handAt(0);
-  prediction->handJump = system.handJumps ? start.position : 0.0;
-  if (!system.handJumps) prediction->handVelocityJump = system.handVelocityJumps ? start.velocity : 0.0;
+  if (system.handJumps) prediction->handJump = start.position, prediction->handVelocityJump.reset();
+  else if (system.handVelocityJumps) prediction->handVelocityJump = start.velocity;
   return prediction;
 }
 

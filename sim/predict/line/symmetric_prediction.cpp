@@ -222,7 +222,6 @@ std::unique_ptr<Prediction> makeRigidPrediction(double mass, Criterion criterion
   auto prediction = std::make_unique<SymmetricPrediction>(duration / 2, distance / 2, none, z, z, std::vector<int>{0});
   prediction->cost = (byForce ? mass * mass : 1.0) * motion.cost;
   prediction->condition = motion.condition;
-  prediction->handJump = prediction->handVelocityJump = 0.0;
   return prediction;
 }
 
@@ -258,8 +257,6 @@ std::unique_ptr<Prediction> makeSymmetricPrediction(const LineObject& object, Cr
   auto prediction = std::make_unique<SymmetricPrediction>(H, distance / 2, modes.frequency, hand, nodes, object.source);
   prediction->cost = gain * gain * motion.cost;
   prediction->condition = motion.condition;
-  prediction->handJump = 0.0;
-  prediction->handVelocityJump = 0.0;
   if (algebraicHand) {  // the force may jump (4, 6) or its rate (5): so does the hand or its velocity
     const PredictedHand start = prediction->handAt(0);
     if (byForceChange) prediction->handVelocityJump = start.velocity;

@@ -77,4 +77,10 @@ struct HyperDual {
   }
 };
 
+/// The same of several numbers, one after the other.
+template <int Count, std::size_t Numbers>
+void store(const std::array<HyperDual<Count>, Numbers>& all, double* r, double* ra, double* raa) {
+  for (std::size_t k = 0; k < Numbers; ++k) all[k].store(r + k, ra + k * Count, raa + k * Count * Count);
+}
+
 }  // namespace reachlab::predict

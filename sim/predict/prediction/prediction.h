@@ -37,18 +37,18 @@ class Prediction {
   int scanCount() const { return 48 + static_cast<int>(1.2 * fastest_ * duration); }
 
   Criterion criterion{};
-  double duration = 0;                               // [s]
-  double distance = 0;                               // [m]
-  double cost = 0;                                   // integral of u^2, no 1/2
-  double condition = 0;                              // of the linear solve
-  std::optional<double> profileError;                // estimated, of the hand's peak; nullopt: right to rounding times the condition
-  std::optional<double> travelTime;                  // [s] T*, chain only
-  double handPeak = 0, handPeakTime = 0;             // [m/s], [s] largest |v| on [0+, T-], signed, earliest if equal
-  double objectPeak = 0;                             // [m/s] last mass
-  std::optional<double> handJump, handVelocityJump;  // [m], [m/s] at t = 0+; nullopt where a pulse makes it meaningless
-  std::optional<PointIs> point;                      // nullopt: the object is no point
-  std::vector<std::string> warnings;                 // T < T*, condition, merged frequencies …
-  std::vector<double> unknowns;                      // of an iteration, in its own basis; empty where there was none
+  double duration = 0;                    // [s]
+  double distance = 0;                    // [m]
+  double cost = 0;                        // integral of u^2, no 1/2
+  double condition = 0;                   // of the linear solve
+  std::optional<double> profileError;     // estimated, of the hand's peak; nullopt: right to rounding times the condition
+  std::optional<double> travelTime;       // [s] T*, chain only
+  double handPeak = 0, handPeakTime = 0;  // [m/s], [s] largest |v| on [0+, T-], signed, earliest if equal
+  double objectPeak = 0;                  // [m/s] last mass
+  std::optional<double> handJump = 0, handVelocityJump = 0;  // [m], [m/s] at t = 0+; nullopt where a pulse makes it meaningless
+  std::optional<PointIs> point;                              // nullopt: the object is no point
+  std::vector<std::string> warnings;                         // T < T*, condition, merged frequencies …
+  std::vector<double> unknowns;                              // of an iteration, in its own basis; empty where there was none
 
  protected:
   int massCount_ = 0;

@@ -307,10 +307,7 @@ void describeMotion(const TranscribedMotion& motion, Prediction& prediction) {
 }
 
 std::unique_ptr<Prediction> makeLegendrePrediction(MotionSeries hand, std::vector<MotionSeries> masses, double duration) {
-  auto prediction = std::make_unique<LegendrePrediction>(std::move(hand), std::move(masses), duration);
-  prediction->handJump = 0.0;
-  prediction->handVelocityJump = 0.0;
-  return prediction;
+  return std::make_unique<LegendrePrediction>(std::move(hand), std::move(masses), duration);
 }
 
 }  // namespace reachlab::predict
