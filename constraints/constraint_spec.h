@@ -35,9 +35,9 @@ struct Domain {
 /// The constraint as an experiment names it: a name of the catalogue ("free" for no constraint) or the formula itself, and the shape.
 struct ConstraintSpec {
   std::string name = "line";
-  std::vector<std::string> curve;    // one formula a coordinate in `phi`; empty if named
-  std::vector<std::string> surface;  // one formula a coordinate in `u`, `v`; empty if named
-  std::map<std::string, double> shape;
+  std::vector<std::string> curve = {};    // one formula a coordinate in `phi`; empty if named
+  std::vector<std::string> surface = {};  // one formula a coordinate in `u`, `v`; empty if named
+  std::map<std::string, double> shape = {};
   /// The range in which a typed formula will be used (the hull of start and target). The formula and its derivatives must be finite there.
   /// The movement itself has no ends. If unknown: phi in [0, 2 pi] (Eq. 10), u and v in [-1, 1].
   std::optional<std::array<Domain, 2>> inUse = std::nullopt;

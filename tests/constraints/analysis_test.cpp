@@ -15,18 +15,13 @@
 #include "constraints/geometry/arc_length.h"
 #include "constraints/regularity/places.h"
 #include "tests/refusal.h"
+#include "tests/constraints/made_constraints.h"
 
 namespace reachlab::constraints {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-Constraint named(const std::string& name, const std::map<std::string, double>& shape = {}) {
-  return makeConstraint({.name = name, .curve = {}, .surface = {}, .shape = shape});
-}
-Constraint curve(const std::vector<std::string>& formula, const std::map<std::string, double>& shape = {}) {
-  return makeConstraint({.name = {}, .curve = formula, .surface = {}, .shape = shape});
-}
 std::string refusal(const ConstraintSpec& spec) {
   return refusalOf([&] { makeConstraint(spec, "here"); }, "accepted");
 }
@@ -102,21 +97,16 @@ TEST(DegeneratePlaces, AreToldApartByKind) {
 }
 
 TEST(Usable, FormulasThatDegenerateEverywhereAreRefused) {
-  EXPECT_NE(refusal({.name = {}, .curve = {"a", "b", "c"}, .surface = {}, .shape = {{"a", 0.1}, {"b", 0.2}, {"c", 0.3}}})
-                .find("degenerates everywhere"),
+  EXPECT_NE(refusal({.curve = {"a", "b", "c"}, .shape = {{"a", 0.1}, {"b", 0.2}, {"c", 0.3}}}).find("degenerates everywhere"),
             std::string::npos);
-  EXPECT_NE(
-      refusal({.name = {}, .curve = {"0", "sin(phi)^2 + cos(phi)^2", "1"}, .surface = {}, .shape = {}}).find("degenerates everywhere"),
-      std::string::npos);
-  EXPECT_NE(refusal({.name = {}, .curve = {}, .surface = {"u + v", "2*(u + v)", "(u + v)^2"}, .shape = {}}).find("degenerates everywhere"),
-            std::string::npos);
-  EXPECT_NE(refusal({.name = {}, .curve = {}, .surface = {"u", "u^2", "1"}, .shape = {}}).find("degenerates everywhere"),
-            std::string::npos);
+  EXPECT_NE(refusal({.curve = {"0", "sin(phi)^2 + cos(phi)^2", "1"}}).find("degenerates everywhere"), std::string::npos);
+  EXPECT_NE(refusal({.surface = {"u + v", "2*(u + v)", "(u + v)^2"}}).find("degenerates everywhere"), std::string::npos);
+  EXPECT_NE(refusal({.surface = {"u", "u^2", "1"}}).find("degenerates everywhere"), std::string::npos);
 }
 
 TEST(Usable, PolesBetweenSamplePointsAreFoundWithTheirPlace) {
   const auto expect = [](const std::string& x, const std::string& place) {
-    ConstraintSpec spec{.name = {}, .curve = {x, "phi", "0"}, .surface = {}, .shape = {}};
+    ConstraintSpec spec{.curve = {x, "phi", "0"}};
     spec.inUse = {Domain{0, 2 * kPi}, Domain{0, 0}};
     const std::string message = refusal(spec);
     EXPECT_NE(message.find("not finite at phi = " + place), std::string::npos) << x << ": " << message;
@@ -163,7 +153,7 @@ TEST(Usable, APeriodThatTheFormulaHasNotIsRefused) {
 }
 
 TEST(Usable, JumpsBetweenStartAndTargetAreRefused) {
-  ConstraintSpec spec{.name = {}, .curve = {"phi/10", "sign(phi - 1)/20", "0"}, .surface = {}, .shape = {}};
+  ConstraintSpec spec{.curve = {"phi/10", "sign(phi - 1)/20", "0"}};
   spec.inUse = {Domain{0, 2}, Domain{0, 0}};
   EXPECT_NE(refusal(spec).find("jump at phi = 1: sign(phi - 1), which no mass can cross"), std::string::npos) << refusal(spec);
   spec.inUse = {Domain{1.1, 2}, Domain{0, 0}};
@@ -171,13 +161,13 @@ TEST(Usable, JumpsBetweenStartAndTargetAreRefused) {
 }
 
 TEST(Usable, WithoutATaskTheStartDecides) {
-  EXPECT_EQ(refusal({.name = {}, .curve = {"log(phi)", "1/phi", "phi"}, .surface = {}, .shape = {}}), "accepted");
-  EXPECT_EQ(refusal({.name = {}, .curve = {"sin(phi)/phi", "phi", "0"}, .surface = {}, .shape = {}}), "accepted");
-  EXPECT_EQ(refusal({.name = {}, .curve = {}, .surface = {"u", "v", "1/(u^2 + v^2)"}, .shape = {}}), "accepted");
+  EXPECT_EQ(refusal({.curve = {"log(phi)", "1/phi", "phi"}}), "accepted");
+  EXPECT_EQ(refusal({.curve = {"sin(phi)/phi", "phi", "0"}}), "accepted");
+  EXPECT_EQ(refusal({.surface = {"u", "v", "1/(u^2 + v^2)"}}), "accepted");
 }
 
 TEST(Usable, OnlyWhereItIsMovedOnMustItBeFinite) {
-  ConstraintSpec spec{.name = {}, .curve = {"log(phi)", "1/phi", "phi"}, .surface = {}, .shape = {}};
+  ConstraintSpec spec{.curve = {"log(phi)", "1/phi", "phi"}};
   spec.inUse = {Domain{-1, 1}, Domain{0, 0}};
   EXPECT_NE(refusal(spec).find("not finite at phi = 0"), std::string::npos) << refusal(spec);
   spec.inUse = {Domain{1, 2}, Domain{0, 0}};
@@ -185,7 +175,7 @@ TEST(Usable, OnlyWhereItIsMovedOnMustItBeFinite) {
 }
 
 TEST(Usable, AMotionAlongAPoleIsNoDegenerateFormula) {
-  ConstraintSpec spec{.name = {}, .curve = {}, .surface = {"cos(v)*cos(u)/10", "sin(v)/10", "cos(v)*sin(u)/10"}, .shape = {}};
+  ConstraintSpec spec{.surface = {"cos(v)*cos(u)/10", "sin(v)/10", "cos(v)*sin(u)/10"}};
   spec.inUse = {Domain{0, 1}, Domain{kPi / 2, kPi / 2}};
   EXPECT_EQ(refusal(spec), "accepted");
 }
@@ -197,15 +187,10 @@ TEST(Usable, HarmlessDenominatorsAndRootsAreAccepted) {
 }
 
 TEST(TypedFormula, UnusedShapeIsNamed) {
-  EXPECT_NE(refusal({.name = {}, .curve = {"a*phi", "0", "0"}, .surface = {}, .shape = {{"a", 1}, {"b", 1}}})
-                .find("shape.b is used by no coordinate"),
+  EXPECT_NE(refusal({.curve = {"a*phi", "0", "0"}, .shape = {{"a", 1}, {"b", 1}}}).find("shape.b is used by no coordinate"),
             std::string::npos);
-  EXPECT_NE(refusal({.name = {}, .curve = {"phi", "0", "0"}, .surface = {}, .shape = {{"phi", 1}}}).find("variable"), std::string::npos);
-  EXPECT_NE(refusal({.name = {}, .curve = {"phi", "0"}, .surface = {}, .shape = {}}).find("allowed: three"), std::string::npos);
-}
-
-Constraint surface(const std::vector<std::string>& formula) {
-  return makeConstraint({.name = {}, .curve = {}, .surface = formula, .shape = {}});
+  EXPECT_NE(refusal({.curve = {"phi", "0", "0"}, .shape = {{"phi", 1}}}).find("variable"), std::string::npos);
+  EXPECT_NE(refusal({.curve = {"phi", "0"}}).find("allowed: three"), std::string::npos);
 }
 
 TEST(Domains, WithoutAnEndAreLookedAtOnATurnOrOnASquare) {

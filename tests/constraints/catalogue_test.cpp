@@ -63,14 +63,11 @@ TEST(Catalogue, DefinitionReadsBackEqualFromItsJson) {
 
 TEST(Catalogue, UnknownNamesAndShapeKeysTellTheNearest) {
   const auto message = [](const ConstraintSpec& spec) { return refusalOf([&] { makeConstraint(spec, "here"); }, "accepted"); };
-  EXPECT_NE(message({.name = "elipse", .curve = {}, .surface = {}, .shape = {}}).find("did you mean ellipse?"), std::string::npos);
-  EXPECT_NE(message({.name = "torus", .curve = {}, .surface = {}, .shape = {{"mayor_m", 0.1}}}).find("did you mean major_m?"),
-            std::string::npos);
-  EXPECT_NE(message({.name = "circle", .curve = {}, .surface = {}, .shape = {{"radius_m", -1}}}).find("allowed: 0.01 to 1000 m"),
-            std::string::npos);
-  EXPECT_NE(message({.name = "torus-knot", .curve = {}, .surface = {}, .shape = {{"p", 1.5}}}).find("allowed: a whole number"),
-            std::string::npos);
-  EXPECT_NE(message({.name = "../secret", .curve = {}, .surface = {}, .shape = {}}).find("there is no constraint"), std::string::npos);
+  EXPECT_NE(message({.name = "elipse"}).find("did you mean ellipse?"), std::string::npos);
+  EXPECT_NE(message({.name = "torus", .shape = {{"mayor_m", 0.1}}}).find("did you mean major_m?"), std::string::npos);
+  EXPECT_NE(message({.name = "circle", .shape = {{"radius_m", -1}}}).find("allowed: 0.01 to 1000 m"), std::string::npos);
+  EXPECT_NE(message({.name = "torus-knot", .shape = {{"p", 1.5}}}).find("allowed: a whole number"), std::string::npos);
+  EXPECT_NE(message({.name = "../secret"}).find("there is no constraint"), std::string::npos);
 }
 
 TEST(Definition, SaysOfAPlaceThatIsNoConstantWhatInItIsNotKnown) {

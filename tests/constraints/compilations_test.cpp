@@ -9,7 +9,7 @@ namespace reachlab::constraints {
 
 TEST(Compilations, AreCounted) {
   (void)test::takeCompilations();
-  const Constraint one = makeConstraint(ConstraintSpec{.name = "", .curve = {"0", "cos(phi)", "sin(phi)"}, .surface = {}, .shape = {}});
+  const Constraint one = makeConstraint(ConstraintSpec{.curve = {"0", "cos(phi)", "sin(phi)"}});
   const Constraint copy = one;
   EXPECT_EQ(test::takeCompilations(), std::vector<std::string>{"0 | cos(phi) | sin(phi)"}) << "once, and not again for a copy";
   EXPECT_TRUE(test::takeCompilations().empty());

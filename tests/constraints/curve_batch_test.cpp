@@ -7,6 +7,7 @@
 #include "constraints/catalogue/definition.h"
 #include "constraints/constraint.h"
 #include "constraints/curve_batch.h"
+#include "tests/constraints/made_constraints.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -61,10 +62,8 @@ TEST(CurveBatch, OfTypedFormulasHasTheBitsOfSinglePoints) {
       {"atan2(sin(phi), 2 + cos(phi))", "abs(phi)*sign(phi - 20)", "3/(2 + cos(3*phi)) - phi"},
       {"sinh(phi/10) + cosh(phi/9)", "atan(phi) + asin(cos(phi)/3) + acos(sin(phi)/3)", "log(9 + phi)^2.5 + tan(phi/40)"},
       {"1 - phi", "2*phi*(3*phi)", "-(phi*phi) + 4 - phi*phi*sin(phi)"}};
-  for (const auto& formula : formulas)
-    expectSameBitsEverywhere(makeConstraint({.name = "", .curve = formula, .surface = {}, .shape = {}}).curve, formula[1]);
-  const Constraint shaped =
-      makeConstraint({.name = "", .curve = {"a*cos(phi)", "b*sin(phi)", "a - b*phi"}, .surface = {}, .shape = {{"a", 0.1}, {"b", 0.06}}});
+  for (const auto& formula : formulas) expectSameBitsEverywhere(curve(formula).curve, formula[1]);
+  const Constraint shaped = curve({"a*cos(phi)", "b*sin(phi)", "a - b*phi"}, {{"a", 0.1}, {"b", 0.06}});
   expectSameBitsEverywhere(shaped.curve, "with a shape");
 }
 

@@ -7,6 +7,7 @@
 
 #include "base/fault.h"
 #include "tests/refusal.h"
+#include "tests/constraints/made_constraints.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -16,7 +17,7 @@ class CatenaryWay : public testing::TestWithParam<std::pair<double, double>> {
  protected:
   static double arcAt(double phi) { return kScale * std::sinh(phi); }
   static constexpr double kScale = 0.08;  // [m]
-  const Constraint catenary = makeConstraint({.name = "catenary", .curve = {}, .surface = {}, .shape = {{"a_m", kScale}}});
+  const Constraint catenary = named("catenary", {{"a_m", kScale}});
 };
 
 TEST_P(CatenaryWay, IsMetresOfItsArcBothWays) {
@@ -48,7 +49,7 @@ TEST_P(CatenaryWay, GoesOnBeyondItsEndsAtTheirPace) {
 INSTANTIATE_TEST_SUITE_P(Ends, CatenaryWay, testing::Values(std::pair{-0.4, 0.9}, std::pair{0.7, -0.6}));
 
 TEST(CurveWay, FromAPlaceToItselfIsRefused) {
-  const Constraint circle = makeConstraint({.name = "circle", .curve = {}, .surface = {}, .shape = {}});
+  const Constraint circle = named("circle");
   const std::vector<Fault> faults = faultsToldBy([&] { CurveWay(circle, 0.4, 0.4); });
   ASSERT_EQ(faults.size(), 1u);
   EXPECT_EQ(faults[0].key, "task.target");

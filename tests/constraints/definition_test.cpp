@@ -12,6 +12,7 @@
 #include "base/fault.h"
 #include "constraints/regularity/analysis.h"
 #include "tests/refusal.h"
+#include "tests/constraints/made_constraints.h"
 
 /// What a definition may hold, and the words that refuse it.
 namespace reachlab::constraints {
@@ -243,12 +244,12 @@ std::string refusalOf(const ConstraintSpec& spec) {
   return reachlab::refusalOf([&] { (void)makeConstraint(spec, "c"); });
 }
 ConstraintSpec typed(const std::vector<std::string>& curve, const std::map<std::string, double>& shape = {}) {
-  return {.name = {}, .curve = curve, .surface = {}, .shape = shape};
+  return {.curve = curve, .shape = shape};
 }
 
 TEST(TypedConstraint, IsRefusedInWords) {
   EXPECT_EQ(refusalOf(typed({"phi", "0"})), "c: has 2 formulas; allowed: three, one a coordinate");
-  EXPECT_EQ(refusalOf({.name = "free", .curve = {}, .surface = {}, .shape = {{"a", 1}}}), "c.shape: free has no shape; allowed: no shape");
+  EXPECT_EQ(refusalOf({.name = "free", .shape = {{"a", 1}}}), "c.shape: free has no shape; allowed: no shape");
   EXPECT_EQ(refusalOf(typed({"phi", "0", "0"}, {{"a", 1}})),
             "c.curve: shape.a is used by no coordinate; allowed: names that the formula uses");
   EXPECT_EQ(refusalOf(typed({"a*phi", "0", "0"}, {{"a", std::nan("")}})), "c.shape.a: is nan; allowed: any finite number");
@@ -256,7 +257,7 @@ TEST(TypedConstraint, IsRefusedInWords) {
             "c.curve[1], character 4: unexpected end of the formula; expected a number, a name, a function or '('");
   EXPECT_EQ(refusalOf(typed({"1", "2", "3"})),
             "c: degenerates everywhere: r_phi is zero at every phi; allowed: a formula that moves with phi");
-  EXPECT_EQ(refusalOf({.name = {}, .curve = {}, .surface = {"u", "2*u", "3*u"}, .shape = {}}),
+  EXPECT_EQ(refusalOf({.surface = {"u", "2*u", "3*u"}}),
             "c: degenerates everywhere: r_u x r_v is zero at every u, v; allowed: a formula that spans a surface");
   for (const char* nowhere : {"1/0", "phi + 0*log(0)", "-1/0 + phi", "sqrt(-1)"})
     EXPECT_EQ(refusalOf(typed({"phi", nowhere, "0"})).substr(0, 55), "c.curve[1], character 1: has no finite value anywhere: ") << nowhere;
@@ -301,15 +302,15 @@ TEST(TypedConstraint, KnowsItsNameItsKindAndItsOrder) {
   EXPECT_EQ(curve.parameterCount(), 1);
   EXPECT_TRUE(curve.straight);
   EXPECT_EQ(evaluate(curve.curve, 5).r, (Vec3{10, 3, 0}));
-  const Constraint surface = makeConstraint({.name = {}, .curve = {}, .surface = {"u", "v", "u*v"}, .shape = {}});
-  EXPECT_EQ(surface.name, "surface");
-  EXPECT_EQ(surface.parameterCount(), 2);
-  EXPECT_EQ(evaluate(surface.surface, 2, 3).rUv, (Vec3{0, 0, 1}));
-  const Constraint free = makeConstraint({.name = "free", .curve = {}, .surface = {}, .shape = {}});
+  const Constraint saddle = surface({"u", "v", "u*v"});
+  EXPECT_EQ(saddle.name, "surface");
+  EXPECT_EQ(saddle.parameterCount(), 2);
+  EXPECT_EQ(evaluate(saddle.surface, 2, 3).rUv, (Vec3{0, 0, 1}));
+  const Constraint free = named("free");
   EXPECT_EQ(free.name, "free");
   EXPECT_EQ(free.parameterCount(), 0);
   EXPECT_EQ(ConstraintSpec{}.name, "line");
-  EXPECT_EQ(makeConstraint({.name = "own-arc", .curve = {}, .surface = {}, .shape = {}, .definition = kCurve}).name, "own-arc");
+  EXPECT_EQ(makeConstraint({.name = "own-arc", .definition = kCurve}).name, "own-arc");
 }
 
 }  // namespace

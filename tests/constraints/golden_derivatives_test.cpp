@@ -106,7 +106,7 @@ TEST(Derivatives, MatchFiniteDifferencesOfTheRandomFormulas) {
   for (const char* formula : {"sin(phi)^3*exp(-phi)", "phi^2.5/(1 + phi)", "atan2(sin(phi), 2 + cos(phi))", "log(1 + phi^2)*sqrt(phi)",
                               "tanh(phi)*cosh(phi/3)", "asin(phi/4) + acos(phi/5)", "tan(phi/3) + atan(phi)", "abs(sin(phi))*sign(phi)",
                               "2^phi + phi^phi/10", "sinh(phi)/(phi*phi + 1)"}) {
-    ConstraintSpec spec{.name = {}, .curve = {formula, "phi", "0"}, .surface = {}, .shape = {}};
+    ConstraintSpec spec{.curve = {formula, "phi", "0"}};
     spec.inUse = {Domain{0.5, 2.5}, Domain{0, 0}};
     const Constraint c = makeConstraint(spec);
     for (const double phi : {0.7, 1.3, 2.2}) {

@@ -7,15 +7,13 @@
 #include "constraints/regularity/hidden_bend.h"
 #include "constraints/regularity/places.h"
 #include "constraints/regularity/surface_watch.h"
+#include "tests/constraints/made_constraints.h"
 
 /// What is so narrow on a curve or a surface that a movement could step over it.
 namespace reachlab::constraints {
 namespace {
 
-Constraint surface(const std::string& z, const std::string& x = "u", const std::string& y = "v") {
-  return makeConstraint({.name = {}, .curve = {}, .surface = {x, y, z}, .shape = {}});
-}
-Constraint named(const char* name) { return makeConstraint({.name = name, .curve = {}, .surface = {}, .shape = {}}); }
+Constraint surface(const std::string& z, const std::string& x = "u", const std::string& y = "v") { return constraints::surface({x, y, z}); }
 
 SurfaceWatch::Motion motion(double u, double v, double uRate, double vRate) {
   return {{u, v}, {uRate, vRate}, {}, {1, 1}, std::hypot(uRate, vRate)};
@@ -102,9 +100,7 @@ TEST(CurveBatch, HoldsEachPointInItsLane) {
   }
 }
 
-CurveRegularity bumpsOn(const std::string& y) {
-  return computeRegularity(makeConstraint({.name = {}, .curve = {"phi/10", y, "0"}, .surface = {}, .shape = {}}), 0.5);
-}
+CurveRegularity bumpsOn(const std::string& y) { return computeRegularity(curve({"phi/10", y, "0"}), 0.5); }
 
 // Narrow is what a step of 1 mm could miss. A step may lead up to the place, and into it by a part of its width.
 TEST(NarrowPlace, OfACurveIsSeenFromBothSides) {

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "constraints/constraint.h"
+#include "tests/constraints/made_constraints.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -13,15 +14,14 @@ namespace {
 TEST(Period, IsTheShortestThatClosesEveryTerm) {
   constexpr double kTurn = 2 * std::numbers::pi;
   for (const auto& [k, turns] : {std::pair{0.0, 1.0}, {1.0, 1.0}, {3.0, 1.0}, {0.5, 2.0}, {1.5, 2.0}, {0.25, 4.0}}) {
-    const Constraint c =
-        makeConstraint({.name = {}, .curve = {"cos(phi)", "sin(phi)", "0.1*cos(k*phi)"}, .surface = {}, .shape = {{"k", k}}});
+    const Constraint c = curve({"cos(phi)", "sin(phi)", "0.1*cos(k*phi)"}, {{"k", k}});
     EXPECT_NEAR(findPeriod(c).turn, turns * kTurn, 1e-12) << k;
   }
-  EXPECT_EQ(findPeriod(makeConstraint({.name = {}, .curve = {"cos(phi)", "sin(phi)", "phi"}, .surface = {}, .shape = {}})).turn, 0);
+  EXPECT_EQ(findPeriod(curve({"cos(phi)", "sin(phi)", "phi"})).turn, 0);
 }
 
 Period periodOf(const std::string& wave, const std::map<std::string, double>& shape = {}) {
-  return findPeriod(makeConstraint({.name = {}, .curve = {"cos(3*phi)", "sin(3*phi)", wave}, .surface = {}, .shape = shape}));
+  return findPeriod(curve({"cos(3*phi)", "sin(3*phi)", wave}, shape));
 }
 
 // A third of a turn beside what each stands for: the angle is a phi + b however it is written.
@@ -46,13 +46,13 @@ TEST(Period, IsNoneWhereItWouldBeTooLong) {
   EXPECT_NEAR(periodOf("sin(189*phi/64)").turn, 64 * kTurn / 3, 1e-12) << "64 of the slowest turns at most, which this is";
   EXPECT_EQ(periodOf("sin(sqrt(2)*phi)").turn, 0);
   EXPECT_EQ(periodOf("sin(3*phi*66/65)").turn, 0) << "65 of the slowest";
-  EXPECT_EQ(findPeriod(makeConstraint({.name = "free", .curve = {}, .surface = {}, .shape = {}})).turn, 0);
-  EXPECT_EQ(findPeriod(makeConstraint({.name = "sphere", .curve = {}, .surface = {}, .shape = {}})).turn, 0);
+  EXPECT_EQ(findPeriod(named("free")).turn, 0);
+  EXPECT_EQ(findPeriod(named("sphere")).turn, 0);
 }
 
 // 2 pi is 6.283185307179586 + 2.4492935982947064e-16.
 TEST(Period, HasTheDigitsThatADoubleHasNotRoomFor) {
-  const Period period = findPeriod(makeConstraint({.name = {}, .curve = {"cos(phi)", "sin(phi)", "0"}, .surface = {}, .shape = {}}));
+  const Period period = findPeriod(curve({"cos(phi)", "sin(phi)", "0"}));
   EXPECT_EQ(period.turn, 6.283185307179586);
   EXPECT_NEAR(period.rest, 2.4492935982947064e-16, 5e-19) << "as far as a long double knows it";
 }

@@ -13,15 +13,14 @@
 #include "constraints/catalogue/definition.h"
 #include "constraints/regularity/surface_branches.h"
 #include "tests/refusal.h"
+#include "tests/constraints/made_constraints.h"
 
 namespace reachlab::constraints {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-Constraint curve(const std::string& x, const std::string& y, const std::string& z = "0") {
-  return makeConstraint({.name = {}, .curve = {x, y, z}, .surface = {}, .shape = {}});
-}
+Constraint curve(const std::string& x, const std::string& y, const std::string& z = "0") { return constraints::curve({x, y, z}); }
 std::vector<std::string> placesOf(const std::string& y, double from = -1.01, double to = 2.02) {
   std::vector<std::string> told;
   for (const Place& place : placesBetween(computeRegularity(curve("phi/10", y), 0.4), from, to))
@@ -103,7 +102,7 @@ TEST(Places, EveryCurveOfTheCatalogueIsSmoothButForStillPlaces) {
 
 TEST(Places, CuspsOfTheCatalogueAreWhereItsCurvesTurnBack) {
   const auto expect = [](const std::string& name, const std::map<std::string, double>& shape, const std::vector<double>& places) {
-    const Constraint c = makeConstraint({.name = name, .curve = {}, .surface = {}, .shape = shape});
+    const Constraint c = named(name, shape);
     std::vector<double> found;
     for (const Place& place : computeRegularity(c, 0.4).places)
       if (place.kind == PlaceKind::Cusp && place.at > -0.01 && place.at < 2 * kPi - 0.01) found.push_back(place.at);
@@ -123,7 +122,7 @@ TEST(Places, CuspsOfTheCatalogueAreWhereItsCurvesTurnBack) {
 TEST(Places, ARangeOfASurfaceWithoutAnyIsShownToBeRegular) {
   const auto shown = [](const std::string& x, const std::string& y, const std::string& z, double least, double most) {
     const std::array<Domain, 2> range{Domain{least, most, false}, Domain{0.2, 0.5, false}};
-    return isProvedRegular(makeConstraint({.name = {}, .curve = {}, .surface = {x, y, z}, .shape = {}}), range);
+    return isProvedRegular(surface({x, y, z}), range);
   };
   EXPECT_TRUE(shown("(0.1 + 0.04*cos(u))*cos(v)", "(0.1 + 0.04*cos(u))*sin(v)", "0.04*sin(u)", 0.1, 1.5));
   EXPECT_TRUE(shown("u*cos(v)", "u*sin(v)", "u", 0.1, 1));
@@ -135,9 +134,7 @@ TEST(Places, ARangeOfASurfaceWithoutAnyIsShownToBeRegular) {
 }
 
 TEST(Places, LinesOfASurfaceAreKnown) {
-  const auto branches = [](const std::string& z) {
-    return computeBranches(makeConstraint({.name = {}, .curve = {}, .surface = {"u/10", "v/10", z}, .shape = {}}));
-  };
+  const auto branches = [](const std::string& z) { return computeBranches(surface({"u/10", "v/10", z})); };
   EXPECT_TRUE(branches("u^2 + sqrt(1 + v^2)")->smooth());
   const auto roof = branches("abs(u - 0.5)");
   ASSERT_EQ(roof->places.size(), 1u);
@@ -266,13 +263,13 @@ TEST(Places, OfAStretchAreThoseInIt) {
   EXPECT_EQ(within.places[0].at, 1);
   EXPECT_EQ(within.pieces.size(), 2u);
   EXPECT_TRUE(computeRegularityWithin(two, 1.5, 2.5).whole);
-  const Constraint free = makeConstraint({.name = "free", .curve = {}, .surface = {}, .shape = {}});
+  const Constraint free = named("free");
   EXPECT_TRUE(computeRegularity(free, 0).places.empty());
   EXPECT_TRUE(computeRegularityWithin(free, 0, 1).pieces.empty());
 }
 
 std::shared_ptr<const SurfaceBranches> branchesOf(const std::string& z, const std::string& x = "u/10") {
-  return computeBranches(makeConstraint({.name = {}, .curve = {}, .surface = {x, "v/10", z}, .shape = {}}));
+  return computeBranches(surface({x, "v/10", z}));
 }
 std::vector<std::string> linesOf(const std::string& z) {
   std::vector<std::string> told;
@@ -338,7 +335,7 @@ TEST(SurfaceLines, AreSixAtMostAndFourToBePassed) {
 TEST(SurfaceLines, AreNoneWhereTheFormulaIsSmooth) {
   for (const char* smooth : {"u*v", "sqrt(1 + u^2)", "abs(2 + sin(u*v))", "atan2(v, 2 + u^2)", "1/(1.5 + cos(v))", "asin(0.9*sin(u))"})
     EXPECT_TRUE(branchesOf(smooth)->smooth()) << smooth;
-  EXPECT_TRUE(computeBranches(makeConstraint({.name = "free", .curve = {}, .surface = {}, .shape = {}}))->smooth());
+  EXPECT_TRUE(computeBranches(named("free"))->smooth());
   EXPECT_EQ(branchesOf("atan2(u, v)")->lines[0].kind, PlaceKind::Jump);
   EXPECT_TRUE(branchesOf("tan(u)")->places.empty()) << "outside of the stretch that is told of";
   EXPECT_EQ(branchesOf("tan(u)")->lines[0].kind, PlaceKind::Pole);

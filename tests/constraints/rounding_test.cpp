@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "constraints/regularity/analysis.h"
+#include "tests/constraints/made_constraints.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -14,7 +15,7 @@ namespace {
 // much as those just above. Near the end of its domain an arc cosine or sine makes that many times greater.
 TEST(Rounding, OfArcsNearTheirEndsIsToldAsItIs) {
   for (const char* arc : {"acos", "asin"}) {
-    const Constraint c = makeConstraint({.name = {}, .curve = {"phi", std::string(arc) + "(1 - phi)", "0"}, .surface = {}, .shape = {}});
+    const Constraint c = curve({"phi", std::string(arc) + "(1 - phi)", "0"});
     for (const double place : {1e-10, 1e-6, 1e-4}) {
       double worst = 0, told = 0;
       for (int i = 0; i < 400; ++i) {
@@ -36,7 +37,7 @@ TEST(Rounding, OfAnExactNumberIsNone) {
   const auto told = [](const std::string& y) {
     std::map<std::string, double> shape{{"c", 1e6}, {"a", 0}, {"b", 1}};
     std::erase_if(shape, [&](const auto& one) { return y.find("(" + one.first) == std::string::npos; });
-    return computeRounding(makeConstraint({.name = {}, .curve = {"phi", y, "0"}, .surface = {}, .shape = shape}), 0.3);
+    return computeRounding(curve({"phi", y, "0"}, shape), 0.3);
   };
   const double alone = told("(c + phi) - c");
   EXPECT_NEAR(alone, 1e6 * 0x1p-53, 1e-3 * alone);
@@ -46,9 +47,7 @@ TEST(Rounding, OfAnExactNumberIsNone) {
 
 // A sign changed or taken off rounds nothing: the number is off by what it was off by before.
 TEST(Rounding, ASignCostsNothing) {
-  const auto told = [](const std::string& y) {
-    return computeRounding(makeConstraint({.name = {}, .curve = {"phi", y, "0"}, .surface = {}, .shape = {}}), 0.3);
-  };
+  const auto told = [](const std::string& y) { return computeRounding(curve({"phi", y, "0"}), 0.3); };
   for (const char* sign : {"-sqrt(phi + 1)", "abs(sqrt(phi + 1))"}) EXPECT_EQ(told(sign), told("sqrt(phi + 1)")) << sign;
 }
 

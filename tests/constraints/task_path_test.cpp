@@ -1,5 +1,6 @@
 #include "constraints/constraint.h"
 #include "constraints/geometry/task_path.h"
+#include "tests/constraints/made_constraints.h"
 
 #include <gtest/gtest.h>
 
@@ -11,8 +12,6 @@ namespace reachlab::constraints {
 namespace {
 
 constexpr double kRounding = 1e-15;
-
-Constraint named(const char* name) { return makeConstraint({.name = name, .curve = {}, .surface = {}, .shape = {}}); }
 
 TEST(PlaceOn, IsTheParametersPointOrNowhere) {
   EXPECT_EQ(placeOn(named("free"), std::array{1.0, 2.0, 3.0}), (Vec3{1, 2, 3}));

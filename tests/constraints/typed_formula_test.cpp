@@ -6,6 +6,7 @@
 #include "base/fault.h"
 #include "constraints/constraint.h"
 #include "tests/refusal.h"
+#include "tests/constraints/made_constraints.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -15,9 +16,7 @@ constexpr double kRounding = 1e-15;  // a few roundings of numbers below 1
 // 0*log(phi) is 0 where it has a value, and it has none below 0: simplified to 0 it would go on there without a word.
 TEST(TypedFormula, WhatCancelsOutWithTheEndOfItsDomainIsRefused) {
   const auto faultOf = [](const std::string& y) -> std::string {
-    const std::vector<Fault> faults = faultsToldBy([&] {
-      makeConstraint({.name = "", .curve = {"phi/10", y, "phi/5"}, .surface = {}, .shape = {}});
-    });
+    const std::vector<Fault> faults = faultsToldBy([&] { curve({"phi/10", y, "phi/5"}); });
     return faults.empty() ? "" : faults[0].key + ": " + faults[0].what;
   };
   EXPECT_EQ(faultOf("0*log(phi)").find("constraint.curve[1]: log(phi) cancels out"), 0u) << faultOf("0*log(phi)");

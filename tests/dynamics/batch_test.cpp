@@ -32,8 +32,7 @@ void expectSameRates(int n, bool parallel, unsigned seed) {
   model.handStiffness[0] = 600, model.handDamping[0] = 5;
   model.viscosity = 0.7;
   model.gravity = {0.1, -9.81, 0.3};
-  const constraints::Constraint c =
-      constraints::makeConstraint({.name = "", .curve = {"0.1*cos(phi)", "0.06*sin(2*phi)", "0.02*phi"}, .surface = {}, .shape = {}});
+  const constraints::Constraint c = constraints::makeConstraint({.curve = {"0.1*cos(phi)", "0.06*sin(2*phi)", "0.02*phi"}});
 
   CurveSystem<0, Tangential> plain(model, c, 0.1);
   BatchSystem<Batches, Tangential> batches(model, c, 0.1);

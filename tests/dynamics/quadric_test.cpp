@@ -72,9 +72,7 @@ TEST(Quadric, ItsGradientIsTheSlopeOfItsValueAndOfOrderOne) {
 
 /// The quadric of a typed surface, over the whole plane.
 std::optional<Quadric> fitted(const constraints::Constraint& c) { return fitQuadric(c.surface, c.domain, {0.3, 0.2}); }
-constraints::Constraint typed(const char* x, const char* y, const char* z) {
-  return constraints::makeConstraint({.name = "", .curve = {}, .surface = {x, y, z}, .shape = {}});
-}
+constraints::Constraint typed(const char* x, const char* y, const char* z) { return constraints::makeConstraint({.surface = {x, y, z}}); }
 
 TEST(Quadric, IsProvedOfEveryFormOfSecondDegree) {
   for (const auto& [x, y, z] : {std::tuple{"0.1*cos(u)*cos(v)", "0.08*sin(u)*cos(v)", "0.06*sin(v)"},

@@ -21,9 +21,7 @@ ObjectModel held() {
   m.gravity = {0.5, -1.2, -0.8};
   return m;
 }
-constraints::Constraint typed(const char* x, const char* y, const char* z) {
-  return constraints::makeConstraint({.name = "", .curve = {}, .surface = {x, y, z}, .shape = {}});
-}
+constraints::Constraint typed(const char* x, const char* y, const char* z) { return constraints::makeConstraint({.surface = {x, y, z}}); }
 
 /// One surface of second degree, in its own parameters and in world coordinates.
 struct Both {
