@@ -83,8 +83,6 @@ constexpr std::array<std::array<double, Count>, Count> legendrePowers() {
   return power;
 }
 
-double coordinate(const Vec3& v, int i) { return i == 0 ? v.x : i == 1 ? v.y : v.z; }
-
 }  // namespace
 
 ArcCurve::ArcCurve(const Constraint& curve, double start, double target, Along along)
@@ -119,8 +117,7 @@ ArcCurve::ArcCurve(const Constraint& curve, double start, double target, Along a
   for (Piece& piece : pieces_) {
     std::swap(piece.from, piece.to);
     piece.from = -piece.from, piece.to = -piece.to;
-    for (int k = 1; k < kTerms; k += 2)
-      for (double& c : piece.position[k]) c = -c;
+    for (int k = 1; k < kTerms; k += 2) piece.position[k] = -piece.position[k];
   }
   const size_t before = pieces_.size();
   pieces_.insert(pieces_.end(), forward.begin(), forward.end());
@@ -166,34 +163,32 @@ bool ArcCurve::append(double phi, double phiEnd, int depth) {
     const double square = dot(p.rPhi, p.rPhi);
     const Vec3 c = along_ == Along::Parameter ? half * half * p.rPhiPhi
                                               : (way * way / 4) * ((p.rPhiPhi - (dot(p.rPhi, p.rPhiPhi) / square) * p.rPhi) / square);
-    for (int k = 0; k < 3; ++k) curvature[k].push_back(coordinate(c, k));
+    curvature[0].push_back(c.x), curvature[1].push_back(c.y), curvature[2].push_back(c.z);
     sharpest = std::max(sharpest, norm(c));
   }
   Piece piece;
   piece.begin = phi;
   piece.from = pieces_.empty() ? 0 : pieces_.back().to;
   piece.to = piece.from + way;
+  std::array<LegendreSeries, 3> series;
   for (size_t k = 0; k < 3; ++k) {
-    const LegendreSeries series = projectOnLegendre(curvature[k], rule.node, rule.weight);
-    if (!isResolved(series, kResolved * sharpest + kNoise * 2 * rate[0])) return halves();
-    for (size_t n = 0; n < kNodes; ++n)
-      for (size_t j = 0; j <= n; ++j) piece.position[j + 2][k] += series[n] * kPower[n][j];
-    for (size_t j = 2; j < kTerms; ++j) piece.position[j][k] /= static_cast<double>(j * (j - 1));
+    series[k] = projectOnLegendre(curvature[k], rule.node, rule.weight);
+    if (!isResolved(series[k], kResolved * sharpest + kNoise * 2 * rate[0])) return halves();
   }
+  for (int n = 0; n < kNodes; ++n)
+    for (int j = 0; j <= n; ++j) piece.position[j + 2] += Vec3{series[0][n], series[1][n], series[2][n]} * kPower[n][j];
+  for (int j = 2; j < kTerms; ++j) piece.position[j] = piece.position[j] / (j * (j - 1));
   // Tangent and place at the beginning, x = -1; where that is a kink, in the middle.
   for (const double at : {-1.0, 0.0}) {
     const CurvePoint p = evaluate(curve, phi + half * (at + 1));
     const double x0 = along_ == Along::Parameter || at < 0 ? at : 2 * valueAt(arc, at) / way - 1;
     const Vec3 tangent = along_ == Along::Parameter ? half * p.rPhi : (half > 0 ? 1 : -1) * way / 2 / norm(p.rPhi) * p.rPhi;
     if (!isFinite(tangent) || !std::isfinite(sharpest)) continue;
-    for (size_t k = 0; k < 3; ++k) {
-      double slope = coordinate(tangent, static_cast<int>(k)), place = coordinate(p.r, static_cast<int>(k)), power = x0;
-      for (size_t j = 2; j < kTerms; ++j, power *= x0) slope -= static_cast<double>(j) * piece.position[j][k] * power;
-      piece.position[1][k] = slope;
-      power = x0;
-      for (size_t j = 1; j < kTerms; ++j, power *= x0) place -= piece.position[j][k] * power;
-      piece.position[0][k] = place;
-    }
+    piece.position[0] = p.r, piece.position[1] = tangent;
+    double power = x0;
+    for (int j = 2; j < kTerms; ++j, power *= x0) piece.position[1] -= j * piece.position[j] * power;
+    power = x0;
+    for (int j = 1; j < kTerms; ++j, power *= x0) piece.position[0] -= piece.position[j] * power;
     if (!fits(piece, phi, phiEnd, arc)) continue;
     pieces_.push_back(piece);
     return true;
@@ -209,7 +204,7 @@ bool ArcCurve::fits(const Piece& piece, double phi, double phiEnd, const Legendr
     const double x = i == checks ? 1 : 2.0 * i / checks - 1, at = along_ == Along::Parameter ? x : 2 * valueAt(arc, x) / way - 1;
     const Vec3 r = evaluate(curve_, phi + (phiEnd - phi) * (x + 1) / 2).r;
     Vec3 sum;
-    for (size_t j = kTerms; j-- > 0;) sum = at * sum + Vec3{piece.position[j][0], piece.position[j][1], piece.position[j][2]};
+    for (int j = kTerms; j-- > 0;) sum = at * sum + piece.position[j];
     if (!(norm(r - sum) <= kFits * length + kPlace * norm(r))) return false;
   }
   return true;
@@ -231,29 +226,28 @@ bool ArcCurve::appendShort(double phi, double phiEnd) {
   piece.isShort = true;
   piece.from = pieces_.empty() ? 0 : pieces_.back().to;
   piece.to = piece.from + length;
-  for (size_t k = 0; k < 3; ++k) {
-    const double c = coordinate(chord, static_cast<int>(k)) / 2;
-    piece.position[0][k] = coordinate(begin.r, static_cast<int>(k)) + c;
-    piece.position[1][k] = c;
-  }
+  piece.position[1] = chord / 2;
+  piece.position[0] = begin.r + piece.position[1];
   pieces_.push_back(piece);
   return true;
 }
 
-std::array<Vec3, 3> ArcCurve::expand(const Piece& piece, double x) const {
-  std::array<Vec3, 3> d{};
-  for (size_t j = kTerms; j-- > 0;) {
-    d[2] = x * d[2] + d[1], d[1] = x * d[1] + d[0];
-    d[0] = x * d[0] + Vec3{piece.position[j][0], piece.position[j][1], piece.position[j][2]};
+template <int Order>
+std::array<Vec3, Order + 1> ArcCurve::expand(const Piece& piece, double x) {
+  std::array<Vec3, Order + 1> d{};
+  for (int j = kTerms; j-- > 0;) {
+    for (int m = Order; m > 0; --m) d[m] = x * d[m] + d[m - 1];
+    d[0] = x * d[0] + piece.position[j];
   }
   const double scale = 2 / (piece.to - piece.from);
-  d[1] *= scale, d[2] *= 2 * scale * scale;
+  double factor = 1;
+  for (int m = 1; m <= Order; ++m) d[m] *= factor *= m * scale;
   return d;
 }
 
 // Whether place, tangent and curvature go over from one piece to the next; in the parameter, the pace too.
 bool ArcCurve::joins(const Piece& before, const Piece& after) {
-  const auto a = expand(before, 1), b = expand(after, -1);
+  const auto a = expand<2>(before, 1), b = expand<2>(after, -1);
   const double pace = std::min(norm(a[1]), norm(b[1])), shorter = std::min(before.to - before.from, after.to - after.from);
   const double between = 1.5 * (after.from - before.to), longer = std::max(before.to - before.from, after.to - after.from);
   if (!(norm(a[0] - b[0]) <= pace * (between + 1e-6 * longer) + kPlace * norm(b[0])))
@@ -310,14 +304,7 @@ template <int Order>
 std::array<Vec3, Order + 1> ArcCurve::expandWhole(double s) const {
   const double inside = std::clamp(s, lowest(), highest());
   const Piece& piece = pieceAt(inside);
-  const double scale = 2 / (piece.to - piece.from), x = (inside - piece.from) * scale - 1;
-  std::array<Vec3, Order + 1> d{};
-  for (size_t j = kTerms; j-- > 0;) {
-    for (int m = Order; m > 0; --m) d[m] = x * d[m] + d[m - 1];
-    d[0] = x * d[0] + Vec3{piece.position[j][0], piece.position[j][1], piece.position[j][2]};
-  }
-  double factor = 1;
-  for (int m = 1; m <= Order; ++m) d[m] *= factor *= m * scale;
+  auto d = expand<Order>(piece, (inside - piece.from) * (2 / (piece.to - piece.from)) - 1);
   if (s != inside) {  // straight on
     d[0] += (s - inside) * d[1];
     for (int m = 2; m <= Order; ++m) d[m] = {};

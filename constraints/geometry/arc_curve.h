@@ -45,17 +45,18 @@ class ArcCurve {
  private:
   static constexpr int kNodes = 16, kTerms = kNodes + 2;
   struct Piece {
-    double from = 0, to = 0;                               // [m]
-    double begin = 0;                                      // parameter where it begins
-    bool isShort = false;                                  // a change of pace
-    std::array<std::array<double, 3>, kTerms> position{};  // [m] powers of x = (2 s - from - to) / (to - from)
+    double from = 0, to = 0;              // [m]
+    double begin = 0;                     // parameter where it begins
+    bool isShort = false;                 // a change of pace
+    std::array<Vec3, kTerms> position{};  // [m] powers of x = (2 s - from - to) / (to - from)
   };
   bool append(double phi, double phiEnd, int depth);
   bool appendShort(double phi, double phiEnd);
   bool fits(const Piece& piece, double phi, double phiEnd, const LegendreSeries& arc) const;
   bool joins(const Piece& before, const Piece& after);
   size_t countJoined();
-  std::array<Vec3, 3> expand(const Piece& piece, double x) const;
+  template <int Order>
+  static std::array<Vec3, Order + 1> expand(const Piece& piece, double x);
   bool breakOff(double phi, std::string what);
   const Piece& pieceAt(double s) const;
   template <int Order>
