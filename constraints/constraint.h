@@ -29,7 +29,7 @@ using CurveBatchFunction = void (*)(const void* program, const double* shape, co
 struct Curve {
   CurveFunction function = nullptr;
   CurveBatchFunction batch = nullptr;
-  const void* program = nullptr;  // outlives every scene, see Constraint::owner
+  const void* program = nullptr;  // outlives every scene, see Constraint::formula
   std::array<double, kMaxShapeParameters> shape{};
 };
 struct Surface {
@@ -56,18 +56,20 @@ inline SurfacePoint evaluate(const Surface& surface, double u, double v) noexcep
   return p;
 }
 
-/// A constraint that is ready for computation. It is a value and cheap to copy. The owner keeps a typed formula's program alive.
+/// A constraint that is ready for computation. It is a value and cheap to copy. Its formula is kept with it.
 struct Constraint {
   ConstraintKind kind = ConstraintKind::Free;
   std::string name;  // of the definition, or "curve" / "surface" for a typed formula
   Curve curve;       // kind Curve
   Surface surface;   // kind Surface
   std::array<Domain, 2> domain;
-  bool straight = false;  // a curve with constant r_phi: dynamics on it are linear
-  std::shared_ptr<const void> owner;
+  bool straight = false;                           // a curve with constant r_phi: dynamics on it are linear
+  std::shared_ptr<const CompiledFormula> formula;  // null if free
 
   /// Parameters of a mass on it: 0 (free), 1 or 2.
   int parameterCount() const { return static_cast<int>(kind); }
+  /// The values of the formula's parameters.
+  const double* shape() const { return (kind == ConstraintKind::Curve ? curve.shape : surface.shape).data(); }
 };
 
 /// Builds the constraint of an experiment: looks the name up or compiles the formula. Throws FaultError for an unknown name or shape key, a

@@ -17,6 +17,7 @@ struct Surface;
 struct CurvePoint;
 struct SurfacePoint;
 struct CurveBatch;
+struct CompiledFormula;  // formula.h
 
 enum class ConstraintKind { Free, Curve, Surface };
 /// What happens where an open parameter domain ends: the run stops there with a reason, or the end is an elastic stop.

@@ -170,7 +170,7 @@ double constantOf(const std::string& expression, const FormulaText& names, const
   const ParsedFormula parsed = parseFormula(expression, {{}, names.parameters}, graph);
   if (parsed.fault)
     throw FaultError(Fault{key, parsed.fault->what, parsed.fault->allowed, FilePlace{{}, 0, static_cast<int>(parsed.fault->character)}});
-  const double value = evaluateNodes(graph, std::array{parsed.root}, shape.data(), nullptr)[0];
+  const double value = evaluateNode(graph, parsed.root, shape.data(), nullptr);
   if (!std::isfinite(value)) throw FaultError(Fault{key, "is not finite", "a finite number"});
   return value;
 }

@@ -28,7 +28,7 @@ Constraint assemble(std::shared_ptr<const CompiledFormula> formula, const std::a
     c.surface = generated.surface != nullptr ? Surface{generated.surface, nullptr, shape}
                                              : Surface{evaluateSurfaceProgram, &formula->program, shape};
   c.straight = formula->straight;
-  c.owner = std::move(formula);
+  c.formula = std::move(formula);
   return c;
 }
 

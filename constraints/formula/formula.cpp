@@ -52,7 +52,7 @@ Parsed parseCoordinates(const FormulaText& text, ExpressionGraph& graph) {
   }
   if (!result.faults.empty()) return result;
   for (std::size_t k = 0; k < 3; ++k) {
-    const std::vector<bool> needed = graph.reachableFrom(std::vector<int>{result.roots[k]});
+    const std::vector<bool> needed = graph.reachableFrom(std::span(&result.roots[k], 1));
     for (std::size_t id = 0; id < needed.size(); ++id) {
       const ExpressionNode& n = graph.node(static_cast<int>(id));
       const bool divided = n.op == Op::Div && graph.isConstant(n.a) && graph.isConstant(n.b);  // by 0: the graph leaves it as it is
@@ -130,11 +130,11 @@ std::shared_ptr<const CompiledFormula> compileFormula(const FormulaText& text, c
     throw FaultError(std::move(told));
   }
 
-  const std::vector<int> r(parsed.roots.begin(), parsed.roots.end());
-  formula->roots = r;
+  const std::array<int, 3>& r = parsed.roots;
   if (text.kind == ConstraintKind::Curve) {
-    std::vector<int> order = r;
-    formula->derivatives.push_back(parsed.roots);
+    std::vector<int> order(r.begin(), r.end());
+    formula->roots = order;
+    formula->derivatives.push_back(r);
     for (int k = 1; k <= kMaxDerivative; ++k) {
       try {
         order = graph.differentiate(order, 0);
@@ -157,16 +157,25 @@ std::shared_ptr<const CompiledFormula> compileFormula(const FormulaText& text, c
     }
     formula->straight = !broken && std::all_of(second.begin(), second.end(), [&](int id) { return graph.isConstant(id, 0); });
   } else {
-    const std::vector<int> rU = graph.differentiate(r, 0), rV = graph.differentiate(r, 1);
-    append(formula->roots, rU);
-    append(formula->roots, rV);
-    append(formula->roots, graph.differentiate(rU, 0));
-    append(formula->roots, graph.differentiate(rU, 1));
-    append(formula->roots, graph.differentiate(rV, 1));
+    formula->roots = withDerivatives(graph, r, text.kind);
   }
   formula->program =
       compileProgram(graph, formula->roots, static_cast<int>(text.parameters.size()), static_cast<int>(variablesOf(text.kind).size()));
   return formula;
+}
+
+std::vector<int> withDerivatives(ExpressionGraph& graph, std::span<const int> r, ConstraintKind kind) {
+  std::vector<int> all(r.begin(), r.end());
+  const std::vector<int> first = graph.differentiate(r, 0);
+  if (kind == ConstraintKind::Curve) {
+    append(all, first);
+    append(all, graph.differentiate(first, 0));
+    return all;
+  }
+  const std::vector<int> second = graph.differentiate(r, 1);
+  for (const auto& part : {first, second, graph.differentiate(first, 0), graph.differentiate(first, 1), graph.differentiate(second, 1)})
+    append(all, part);
+  return all;
 }
 
 std::vector<double> evaluateNodes(const ExpressionGraph& graph, std::span<const int> roots, const double* shape, const double* variables) {

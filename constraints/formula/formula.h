@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -28,6 +29,7 @@ struct CompiledFormula {
   ExpressionGraph graph;
   /// Nodes in the order of CurvePoint's or SurfacePoint's members: 9 or 18.
   std::vector<int> roots;
+  std::span<const int> place() const { return std::span(roots).first(3); }  // nodes of r
   /// Curves: nodes of r, r', … as far as they could be formed (three each, up to kMaxDerivative). Derivatives beyond order two are slow.
   std::vector<std::array<int, 3>> derivatives;
   Program program;
@@ -45,7 +47,13 @@ Fault toFault(const FormulaFault& fault, ConstraintKind kind, const std::string&
 /// Throws FaultError with every fault, each under `key`.
 std::shared_ptr<const CompiledFormula> compileFormula(const FormulaText& text, const std::string& key);
 
+/// r (three nodes) and its first and second derivatives, in the order of CurvePoint's or SurfacePoint's members. Adds nodes.
+std::vector<int> withDerivatives(ExpressionGraph& graph, std::span<const int> r, ConstraintKind kind);
+
 /// Values of graph nodes, with the operations of the compiled forms. Allocates: not for the haptic thread.
 std::vector<double> evaluateNodes(const ExpressionGraph& graph, std::span<const int> roots, const double* shape, const double* variables);
+inline double evaluateNode(const ExpressionGraph& graph, int root, const double* shape, const double* variables) {
+  return evaluateNodes(graph, std::span(&root, 1), shape, variables)[0];
+}
 
 }  // namespace reachlab::constraints

@@ -19,7 +19,7 @@ std::vector<bool> findMoving(const ExpressionGraph& graph) {
   return moves;
 }
 
-std::vector<Guard> findGuards(ExpressionGraph& graph, const std::vector<int>& roots, const double* shape) {
+std::vector<Guard> findGuards(ExpressionGraph& graph, std::span<const int> roots, const double* shape) {
   const std::vector<bool> needed = graph.reachableFrom(roots), moves = findMoving(graph);
   std::vector<Guard> guards;
   for (std::size_t id = 0; id < needed.size(); ++id) {
@@ -37,7 +37,7 @@ std::vector<Guard> findGuards(ExpressionGraph& graph, const std::vector<int>& ro
       case Op::Div: add(n.b); break;
       case Op::Atan2:
         if (moving(n.a)) add(n.a);
-        else if (evaluateNodes(graph, std::vector<int>{n.a}, shape, nullptr)[0] == 0) add(n.b);
+        else if (evaluateNode(graph, n.a, shape, nullptr) == 0) add(n.b);
         break;
       case Op::Asin:
       case Op::Acos:
@@ -46,7 +46,7 @@ std::vector<Guard> findGuards(ExpressionGraph& graph, const std::vector<int>& ro
         break;
       case Op::Tan: add(graph.apply(Op::Cos, n.a)); break;
       case Op::Pow: {
-        const double exponent = moving(n.b) ? 0.5 : evaluateNodes(graph, std::vector<int>{n.b}, shape, nullptr)[0];
+        const double exponent = moving(n.b) ? 0.5 : evaluateNode(graph, n.b, shape, nullptr);
         if (!(exponent >= 0 && exponent == std::floor(exponent))) add(n.a);
         break;
       }
@@ -56,7 +56,7 @@ std::vector<Guard> findGuards(ExpressionGraph& graph, const std::vector<int>& ro
   return guards;
 }
 
-std::vector<int> freezeBranches(ExpressionGraph& graph, const std::vector<int>& roots, const std::vector<Guard>& guards,
+std::vector<int> freezeBranches(ExpressionGraph& graph, std::span<const int> roots, const std::vector<Guard>& guards,
                                 const std::vector<int>& signs) {
   const std::vector<bool> needed = graph.reachableFrom(roots), moves = findMoving(graph);
   std::map<int, int> signAt;

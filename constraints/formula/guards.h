@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
@@ -21,11 +22,11 @@ std::vector<bool> findMoving(const ExpressionGraph& graph);
 
 /// Guards of everything the roots need, operands before their users. Operations on numbers and shape alone have no guards. Adds nodes to
 /// the graph (the cosine under a tangent). `shape` decides which exponents are whole numbers.
-std::vector<Guard> findGuards(ExpressionGraph& graph, const std::vector<int>& roots, const double* shape);
+std::vector<Guard> findGuards(ExpressionGraph& graph, std::span<const int> roots, const double* shape);
 
 /// The roots with each branching guard replaced by its branch, on the side where argument - level has the sign `signs[k]`. abs(a) becomes
 /// a, 0 or -a. sign(a) becomes that number. atan2(y, x) becomes the form that is continuous across y = 0.
-std::vector<int> freezeBranches(ExpressionGraph& graph, const std::vector<int>& roots, const std::vector<Guard>& guards,
+std::vector<int> freezeBranches(ExpressionGraph& graph, std::span<const int> roots, const std::vector<Guard>& guards,
                                 const std::vector<int>& signs);
 
 /// The node as the text of a formula, cut at about `most` characters.

@@ -19,9 +19,8 @@ RootSearch findRoots(ExpressionGraph& graph, int expression, const double* shape
   RootSearch found;
   found.examinedTo = hi;
   if (graph.isConstant(expression)) return found;
-  const int slope = graph.differentiate(std::vector<int>{expression}, variable)[0];
-  const std::vector<int> both{expression, slope}, one{expression};
-  IntervalEvaluator bounds(graph, both, shape), value(graph, one, shape);
+  const int slope = graph.differentiate(std::span(&expression, 1), variable)[0];
+  IntervalEvaluator bounds(graph, std::array{expression, slope}, shape), value(graph, std::span(&expression, 1), shape);
   const auto boxOf = [&](double a, double b) {
     std::array<Interval, 2> box{Interval{other, other}, Interval{other, other}};
     box[variable] = {a, b};

@@ -10,8 +10,7 @@ static_assert(kMaxExpansion == Taylor::kMaxDegree);
 
 SurfaceFormula::SurfaceFormula(const Constraint& surface) {
   if (surface.kind != ConstraintKind::Surface) throw RefusedError(surface.name + " is no surface");
-  const auto& formula = *std::static_pointer_cast<const CompiledFormula>(surface.owner);
-  list_ = formula.graph.operationsFor(std::span(formula.roots).first(3), surface.surface.shape.data());
+  list_ = surface.formula->graph.operationsFor(surface.formula->place(), surface.shape());
 }
 
 SurfaceExpansion SurfaceFormula::expand(double u, double v, int order) const {

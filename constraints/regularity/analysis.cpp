@@ -50,13 +50,13 @@ std::array<Domain, 2> boundedDomain(const Constraint& c) {
 
 std::vector<Vec3> computeDerivatives(const Constraint& c, double phi, int order) {
   requireCurve(c);
-  const auto formula = std::static_pointer_cast<const CompiledFormula>(c.owner);
+  const CompiledFormula* formula = c.formula.get();
   if (order < 0 || order >= static_cast<int>(formula->derivatives.size()))
     throw RefusedError("derivative " + std::to_string(order) + " of " + c.name + " can't be formed; allowed: orders up to " +
                        std::to_string(formula->derivatives.size() - 1));
   std::vector<int> roots;
   for (int k = 0; k <= order; ++k) roots.insert(roots.end(), formula->derivatives[k].begin(), formula->derivatives[k].end());
-  const std::vector<double> values = evaluateNodes(formula->graph, roots, c.curve.shape.data(), &phi);
+  const std::vector<double> values = evaluateNodes(formula->graph, roots, c.shape(), &phi);
   std::vector<Vec3> result;
   for (std::size_t k = 0; k < values.size(); k += 3) result.push_back({values[k], values[k + 1], values[k + 2]});
   return result;

@@ -31,12 +31,8 @@ bool lieTogether(double a, double b) { return std::abs(a - b) <= kTogether * std
 class Examiner {
  public:
   Examiner(const Constraint& c, double about)
-      : c_(c), formula_(*std::static_pointer_cast<const CompiledFormula>(c.owner)), graph_(formula_.graph), shape_(c.curve.shape.data()),
-        about_(about) {
-    const auto& r = formula_.derivatives[0];
-    r_.assign(r.begin(), r.end());
-    guards_ = findGuards(graph_, r_, shape_);
-  }
+      : c_(c), formula_(*c.formula), graph_(formula_.graph), shape_(c.shape()), about_(about),
+        r_(formula_.place().begin(), formula_.place().end()), guards_(findGuards(graph_, r_, shape_)) {}
 
   CurveRegularity examine() {
     const Domain& domain = c_.domain[0];
@@ -75,13 +71,11 @@ class Examiner {
 
   bool provedWithin(double lo, double hi) {
     for (const Guard& g : guards_) {
-      const std::vector<int> argument{g.argument};
-      IntervalEvaluator bounds(graph_, argument, shape_);
+      IntervalEvaluator bounds(graph_, std::span(&g.argument, 1), shape_);
       bounds.evaluate({Interval{lo, hi}, Interval{}});
       const Interval range = bounds.rangeOf(0);
       if (g.op == Op::Atan2) {  // its cut lies where x < 0
-        const std::vector<int> x{graph_.node(g.node).b};
-        IntervalEvaluator right(graph_, x, shape_);
+        IntervalEvaluator right(graph_, std::span(&graph_.node(g.node).b, 1), shape_);
         right.evaluate({Interval{lo, hi}, Interval{}});
         if (right.rangeOf(0).lo > 0) continue;
       }
@@ -179,11 +173,10 @@ class Examiner {
   }
 
   int signOn(int g, double lo, double hi) {
-    const std::vector<int> one{g};
     int sign = 0;
     for (const double share : {0.5, 0.381966, 0.7315}) {
       const double phi = lo + (hi - lo) * share;
-      const double value = evaluateNodes(graph_, one, shape_, &phi)[0];
+      const double value = evaluateNode(graph_, g, shape_, &phi);
       sign = value > 0 ? 1 : value < 0 ? -1 : 0;
       if (sign != 0) break;
     }
@@ -205,12 +198,8 @@ class Examiner {
       if (guards_[k].branches()) key.push_back(signs[k]);
     Branch& found = branches_[key];
     if (found.program == nullptr) {
-      std::vector<int> r = frozen(r_, signs), roots = r;
-      for (int order = 0; order < 2; ++order) {
-        r = graph_.differentiate(r, 0);
-        roots.insert(roots.end(), r.begin(), r.end());
-      }
-      found.r = {roots[0], roots[1], roots[2]};
+      found.r = frozen(r_, signs);
+      const std::vector<int> roots = withDerivatives(graph_, found.r, ConstraintKind::Curve);
       found.program = std::make_shared<const Program>(compileProgram(graph_, roots, static_cast<int>(formula_.text.parameters.size()), 1));
     }
     return found;
@@ -220,7 +209,7 @@ class Examiner {
   void takeWhole(double from, double to) {
     result_.whole = true;
     result_.pieces = {{result_.lo, result_.hi, c_.curve}};
-    result_.owner = c_.owner;
+    result_.owner = c_.formula;
     addStillPlaces({r_, c_.curve, from, to});
     addNarrowPlaces({r_});
     if (!c_.domain[0].periodic) {
@@ -414,12 +403,12 @@ class Examiner {
 }  // namespace
 
 CurveRegularity computeRegularity(const Constraint& curve, double about) {
-  if (curve.kind != ConstraintKind::Curve || curve.owner == nullptr) return {};
+  if (curve.kind != ConstraintKind::Curve || curve.formula == nullptr) return {};
   return Examiner(curve, about).examine();
 }
 
 CurveRegularity computeRegularityWithin(const Constraint& curve, double lo, double hi) {
-  if (curve.kind != ConstraintKind::Curve || curve.owner == nullptr) return {};
+  if (curve.kind != ConstraintKind::Curve || curve.formula == nullptr) return {};
   return Examiner(curve, lo + (hi - lo) / 2).examine(lo, hi, false);
 }
 

@@ -37,11 +37,9 @@ std::string tell(const Constraint& c, std::size_t root, const std::array<double,
 }  // namespace
 
 std::string findNonFinite(const Constraint& c, const std::array<Domain, 2>& range) {
-  if (c.kind == ConstraintKind::Free || c.owner == nullptr) return {};
-  const CompiledFormula& formula = *std::static_pointer_cast<const CompiledFormula>(c.owner);
-  const double* shape = c.kind == ConstraintKind::Curve ? c.curve.shape.data() : c.surface.shape.data();
+  if (c.kind == ConstraintKind::Free || c.formula == nullptr) return {};
   const std::size_t dimensions = c.kind == ConstraintKind::Curve ? 1 : 2;
-  IntervalEvaluator evaluator(formula.graph, formula.roots, shape);
+  IntervalEvaluator evaluator(c.formula->graph, c.formula->roots, c.shape());
 
   std::array<double, 2> extent{};
   for (std::size_t k = 0; k < dimensions; ++k) extent[k] = std::max(range[k].hi - range[k].lo, 1e-300);

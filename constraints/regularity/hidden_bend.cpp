@@ -23,7 +23,7 @@ constexpr int kSecond = 3, kThird = 4;  // derivatives: uu, uv, vv; uuu, uuv, uv
 
 class Bends {
  public:
-  Bends(ExpressionGraph& graph, const std::vector<int>& r, const double* shape) : evaluator_(graph, rootsOf(graph, r), shape) {}
+  Bends(ExpressionGraph& graph, std::span<const int> r, const double* shape) : evaluator_(graph, rootsOf(graph, r), shape) {}
 
   /// Bound of |3 (r_uu u' u'' + …)| + |r_uuu u'^3 + …|, for parameters in the box and rates up to these.
   double bound(const std::array<Interval, 2>& box, const std::array<double, 2>& rate, const std::array<double, 2>& acceleration) {
@@ -45,13 +45,15 @@ class Bends {
   }
 
  private:
-  static std::vector<int> rootsOf(ExpressionGraph& graph, const std::vector<int>& r) {
-    const std::vector<int> u = graph.differentiate(r, 0), v = graph.differentiate(r, 1);
-    const std::vector<int> uu = graph.differentiate(u, 0), uv = graph.differentiate(u, 1), vv = graph.differentiate(v, 1);
-    std::vector<int> all;
-    for (const std::vector<int>& part :
-         {uu, uv, vv, graph.differentiate(uu, 0), graph.differentiate(uu, 1), graph.differentiate(vv, 0), graph.differentiate(vv, 1)})
-      all.insert(all.end(), part.begin(), part.end());
+  static std::vector<int> rootsOf(ExpressionGraph& graph, std::span<const int> r) {
+    std::vector<int> all = withDerivatives(graph, r, ConstraintKind::Surface);
+    all.erase(all.begin(), all.begin() + 9);  // r, r_u, r_v
+    const std::vector<int> uu(all.begin(), all.begin() + 3), vv(all.begin() + 6, all.end());
+    for (const std::vector<int>& second : {uu, vv})
+      for (const int variable : {0, 1}) {
+        const std::vector<int> third = graph.differentiate(second, variable);
+        all.insert(all.end(), third.begin(), third.end());
+      }
     return all;
   }
   IntervalEvaluator evaluator_;
@@ -68,10 +70,9 @@ struct Piece {
 
 std::optional<HiddenBend> findHiddenBend(const Constraint& surface, const std::function<WayPoint(double)>& way, double least) {
   if (surface.surface.function != evaluateSurfaceProgram) return {};
-  const auto& formula = *std::static_pointer_cast<const CompiledFormula>(surface.owner);
-  ExpressionGraph graph = formula.graph;
+  ExpressionGraph graph = surface.formula->graph;
   try {
-    Bends bends(graph, {formula.roots[0], formula.roots[1], formula.roots[2]}, surface.surface.shape.data());
+    Bends bends(graph, surface.formula->place(), surface.shape());
     const auto at = [&](const WayPoint& p) {
       return bends.bound({Interval{p.q[0], p.q[0]}, Interval{p.q[1], p.q[1]}}, magnitudes(p.rate), magnitudes(p.acceleration));
     };

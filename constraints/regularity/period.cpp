@@ -17,9 +17,7 @@ class Slopes {
   Slopes(const ExpressionGraph& graph, const double* shape) : graph_(graph), shape_(shape), moving_(findMoving(graph)) {}
 
   bool collect(int root, std::vector<double>& slopes) const {
-    const std::vector<int> one{root};
-    const std::vector<bool> needed = graph_.reachableFrom(one);
-    std::vector<bool> reached(needed.size(), false);
+    std::vector<bool> reached(root + 1, false);
     reached[root] = true;
     for (int id = root; id >= 0; --id) {
       if (!reached[id] || !moving_[id]) continue;
@@ -39,9 +37,8 @@ class Slopes {
 
  private:
   double numberOf(int id) const {
-    const std::vector<int> one{id};
     const double nowhere = 0;
-    return evaluateNodes(graph_, one, shape_, &nowhere)[0];
+    return evaluateNode(graph_, id, shape_, &nowhere);
   }
   bool isAffine(int id, double& slope) const {
     if (!moving_[id]) {
@@ -75,12 +72,11 @@ Period findPeriod(const Constraint& curve) {
   constexpr long double kTurn = 6.283185307179586476925286766559L;
   constexpr double kSame = 1e-12;
   constexpr int kMost = 64;
-  if (curve.kind != ConstraintKind::Curve || curve.owner == nullptr) return {};
-  const auto& formula = *std::static_pointer_cast<const CompiledFormula>(curve.owner);
-  const Slopes all(formula.graph, curve.curve.shape.data());
+  if (curve.kind != ConstraintKind::Curve || curve.formula == nullptr) return {};
+  const Slopes all(curve.formula->graph, curve.shape());
   std::vector<double> slopes;
-  for (int k = 0; k < 3; ++k)
-    if (!all.collect(formula.roots[k], slopes)) return {};
+  for (const int root : curve.formula->place())
+    if (!all.collect(root, slopes)) return {};
   double least = std::numeric_limits<double>::infinity();
   for (const double a : slopes)
     if (a > 0) least = std::min(least, a);

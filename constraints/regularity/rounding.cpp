@@ -56,10 +56,8 @@ double handedOn(Op op, const Value& a, const Value& b, int exponent, double valu
 }  // namespace
 
 double computeRounding(const Constraint& constraint, double first, double second) {
-  const auto formula = std::static_pointer_cast<const CompiledFormula>(constraint.owner);
-  if (formula == nullptr) return 0;
-  const double* shape = constraint.kind == ConstraintKind::Curve ? constraint.curve.shape.data() : constraint.surface.shape.data();
-  const OperationList list = formula->graph.operationsFor(std::span(formula->roots).first(3), shape);
+  if (constraint.formula == nullptr) return 0;
+  const OperationList list = constraint.formula->graph.operationsFor(constraint.formula->place(), constraint.shape());
   std::vector<Value> values;
   for (const ExpressionNode& n : list.operations) {
     Value& out = values.emplace_back();

@@ -72,7 +72,7 @@ PlaceKind kindOf(const Guard& guard) {
 }
 
 /// The surface and its derivatives up to the second, with every passable guard on the side that its bit of `index` says.
-std::vector<int> branchRoots(ExpressionGraph& graph, const std::vector<int>& r, const std::vector<Guard>& active,
+std::vector<int> branchRoots(ExpressionGraph& graph, std::span<const int> r, const std::vector<Guard>& active,
                              const std::vector<SurfaceBranches::Line>& lines, int index) {
   std::vector<Guard> guards;
   std::vector<int> signs;
@@ -81,17 +81,13 @@ std::vector<int> branchRoots(ExpressionGraph& graph, const std::vector<int>& r, 
     guards.push_back(active[k]);
     signs.push_back((index >> lines[k].bit & 1) != 0 ? 1 : -1);
   }
-  std::vector<int> roots = freezeBranches(graph, r, guards, signs);
-  const std::vector<int> pU = graph.differentiate(roots, 0), pV = graph.differentiate(roots, 1);
-  for (const auto& more : {pU, pV, graph.differentiate(pU, 0), graph.differentiate(pU, 1), graph.differentiate(pV, 1)})
-    roots.insert(roots.end(), more.begin(), more.end());
-  return roots;
+  return withDerivatives(graph, freezeBranches(graph, r, guards, signs), ConstraintKind::Surface);
 }
 
 /// For people: lines of one parameter by their values, others by their equation. `roots`: of each guard, g and its two derivatives.
 void addPlaces(const Constraint& c, ExpressionGraph& graph, const std::vector<Guard>& active, const std::vector<int>& roots,
                SurfaceBranches& result) {
-  const CompiledFormula& formula = *std::static_pointer_cast<const CompiledFormula>(c.owner);
+  const CompiledFormula& formula = *c.formula;
   const std::array<Domain, 2> range = boundedDomain(c);
   for (std::size_t k = 0; k < active.size(); ++k) {
     const int g = roots[3 * k];
@@ -108,8 +104,7 @@ void addPlaces(const Constraint& c, ExpressionGraph& graph, const std::vector<Gu
     place.parameter = byU ? 0 : 1;
     const Domain& d = range[byU ? 0 : 1];
     int boxes = kMaxBoxes;
-    for (const double root :
-         findRoots(graph, g, c.surface.shape.data(), d.lo, d.hi, boxes, active[k].branches() ? 1e-12 : 1e-7, byU ? 0 : 1).roots) {
+    for (const double root : findRoots(graph, g, c.shape(), d.lo, d.hi, boxes, active[k].branches() ? 1e-12 : 1e-7, byU ? 0 : 1).roots) {
       place.at = root + 0.0;
       result.places.push_back(place);
     }
@@ -133,11 +128,11 @@ std::array<SurfaceBranches::Guarded, SurfaceBranches::kMaxGuards> SurfaceBranche
 }
 
 bool isProvedRegular(const Constraint& c, const std::array<Domain, 2>& range) {
-  if (c.kind != ConstraintKind::Surface || c.owner == nullptr) return false;
-  const CompiledFormula& formula = *std::static_pointer_cast<const CompiledFormula>(c.owner);
+  if (c.kind != ConstraintKind::Surface || c.formula == nullptr) return false;
+  const CompiledFormula& formula = *c.formula;
   ExpressionGraph graph = formula.graph;
-  const double* shape = c.surface.shape.data();
-  const std::vector<int> r(formula.roots.begin(), formula.roots.begin() + 3);
+  const double* shape = c.shape();
+  const std::span<const int> r = formula.place();
   for (const Guard& guard : findGuards(graph, r, shape))
     if (!isProvedAway(graph, guard, shape, range)) return false;
   const std::vector<int> u = graph.differentiate(r, 0), v = graph.differentiate(r, 1);
@@ -155,11 +150,11 @@ bool isProvedRegular(const Constraint& c, const std::array<Domain, 2>& range) {
 
 std::shared_ptr<const SurfaceBranches> computeBranches(const Constraint& c) {
   auto result = std::make_shared<SurfaceBranches>();
-  if (c.kind != ConstraintKind::Surface || c.owner == nullptr) return result;
-  const CompiledFormula& formula = *std::static_pointer_cast<const CompiledFormula>(c.owner);
+  if (c.kind != ConstraintKind::Surface || c.formula == nullptr) return result;
+  const CompiledFormula& formula = *c.formula;
   ExpressionGraph graph = formula.graph;
-  const std::vector<int> r(formula.roots.begin(), formula.roots.begin() + 3);
-  const double* shape = c.surface.shape.data();
+  const std::span<const int> r = formula.place();
+  const double* shape = c.shape();
   const std::vector<Guard> all = findGuards(graph, r, shape);
   std::vector<Guard> active;
   for (const Guard& guard : all)
@@ -192,7 +187,7 @@ std::shared_ptr<const SurfaceBranches> computeBranches(const Constraint& c) {
   std::vector<int> roots;
   for (const Guard& guard : active) {
     const int g = guard.level == 0 ? guard.argument : graph.sub(guard.argument, graph.constant(guard.level));
-    roots.insert(roots.end(), {g, graph.differentiate(std::vector<int>{g}, 0)[0], graph.differentiate(std::vector<int>{g}, 1)[0]});
+    roots.insert(roots.end(), {g, graph.differentiate(std::span(&g, 1), 0)[0], graph.differentiate(std::span(&g, 1), 1)[0]});
   }
   while (roots.size() < 3 * SurfaceBranches::kMaxGuards) roots.push_back(graph.constant(1));
   owned->guards = compileProgram(graph, roots, parameters, 2);

@@ -15,9 +15,6 @@ constexpr double kAside = 0.25;   // of its way, by which a mass may leave it
 constexpr double kFaster = 0.05;  // [m/s] that a mass may become within a step
 constexpr int kHalvings = 20;     // of a step, until nothing is said
 
-std::span<const int> placesOf(const CompiledFormula& formula) { return std::span(formula.roots).first(3); }
-const CompiledFormula& formulaOf(const Constraint& surface) { return *static_cast<const CompiledFormula*>(surface.owner.get()); }
-
 }  // namespace
 
 std::shared_ptr<SurfaceWatch> SurfaceWatch::make(const Constraint& surface) {
@@ -25,8 +22,7 @@ std::shared_ptr<SurfaceWatch> SurfaceWatch::make(const Constraint& surface) {
   return std::make_shared<SurfaceWatch>(surface);
 }
 
-SurfaceWatch::SurfaceWatch(const Constraint& surface)
-    : series_(formulaOf(surface).graph, placesOf(formulaOf(surface)), surface.surface.shape.data()) {}
+SurfaceWatch::SurfaceWatch(const Constraint& surface) : series_(surface.formula->graph, surface.formula->place(), surface.shape()) {}
 
 double SurfaceWatch::reach(const Motion& motion, double most) noexcept {
   double h = most, least = std::numeric_limits<double>::infinity();

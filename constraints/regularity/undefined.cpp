@@ -59,18 +59,17 @@ std::optional<Fault> undefinedFault(const Constraint& c, const std::array<Domain
       curve ? fmt::format("phi from {:.4g} to {:.4g}", range[0].lo, range[0].hi)
             : fmt::format("u from {:.4g} to {:.4g} and v from {:.4g} to {:.4g}", range[0].lo, range[0].hi, range[1].lo, range[1].hi);
   Fault fault{{}, "has no value at any " + where, "a formula with a value there"};
-  if (c.owner == nullptr) return fault;
+  if (c.formula == nullptr) return fault;
 
   // The first part that never has a value, while what it is made of has.
-  const CompiledFormula& formula = *std::static_pointer_cast<const CompiledFormula>(c.owner);
-  const double* shape = curve ? c.curve.shape.data() : c.surface.shape.data();
+  const CompiledFormula& formula = *c.formula;
   for (std::size_t coordinate = 0; coordinate < 3; ++coordinate) {
     const int root = formula.roots[coordinate];
     std::vector<int> nodes(static_cast<std::size_t>(root) + 1);
     std::iota(nodes.begin(), nodes.end(), 0);
     std::vector<Values> seen(nodes.size());
     for (const auto& place : places) {
-      const std::vector<double> values = evaluateNodes(formula.graph, nodes, shape, place.data());
+      const std::vector<double> values = evaluateNodes(formula.graph, nodes, c.shape(), place.data());
       for (std::size_t i = 0; i < values.size(); ++i) seen[i].add(values[i]);
     }
     if (seen.back().finite > 0) continue;

@@ -289,7 +289,7 @@ std::unique_ptr<SharedPlant> makeSharedPlant(const experiment::Experiment& exper
     CurveMasses geometry;
     geometry.curve = constraint.curve;
     geometry.domain = constraint.domain[0];
-    geometry.owner = constraint.owner;
+    geometry.owner = constraint.formula;
     if (constraint.straight) geometry.straight = evaluate(constraint.curve, 0.0);
     geometry.points.resize(static_cast<std::size_t>(model.count()));
     return std::make_unique<HeldObject<CurveMasses>>(model, std::move(hands), std::move(geometry));

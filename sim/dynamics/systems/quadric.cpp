@@ -149,15 +149,14 @@ std::optional<Quadric> fitQuadric(const constraints::Surface& surface, const std
 }
 
 bool provesQuadric(const constraints::Constraint& surface, const Quadric& q) {
-  if (surface.owner == nullptr) return false;
-  const constraints::CompiledFormula& formula = *std::static_pointer_cast<const constraints::CompiledFormula>(surface.owner);
-  const double* shape = surface.surface.shape.data();
-  const constraints::ExpressionGraph& graph = formula.graph;
+  if (surface.formula == nullptr) return false;
+  const double* shape = surface.shape();
+  const constraints::ExpressionGraph& graph = surface.formula->graph;
   std::array<constraints::Polynomial, 3> d;
   const double centre[3] = {q.centre.x, q.centre.y, q.centre.z};
   double size = 0;
   for (std::size_t k = 0; k < 3; ++k) {
-    const auto coordinate = constraints::Polynomial::of(graph, formula.roots[k], shape);
+    const auto coordinate = constraints::Polynomial::of(graph, surface.formula->roots[k], shape);
     if (!coordinate) return false;
     d[k] = *coordinate;
     d[k] += constraints::Polynomial::constant(-centre[k]);
