@@ -67,11 +67,6 @@ void CoupledCopy::resetPeers() noexcept {
   ledger_ = 0;
 }
 
-void CoupledCopy::placeAtRest(std::span<const double> q) noexcept {
-  plant_->placeAtRest(q);
-  resetPeers();
-}
-
 void CoupledCopy::place(std::span<const double> q, std::span<const double> qRate) noexcept {
   plant_->place(q, qRate);
   resetPeers();

@@ -89,7 +89,6 @@ class CoupledCopy final : public dynamics::Plant {
   void fill(CopySample& sample, const dynamics::HandSample& hand) const noexcept;
 
   int massCount() const noexcept override { return plant_->massCount(); }
-  void placeAtRest(std::span<const double> q) noexcept override;
   void place(std::span<const double> q, std::span<const double> qRate) noexcept override;
   void setAngularVelocity(const Vec3& velocity) noexcept override { plant_->setAngularVelocity(velocity); }
   void setExtraForce(const Vec3& force) noexcept override { plant_->setExtraForce(force); }

@@ -6,12 +6,9 @@ namespace {
 class HandAlone final : public Plant {
  public:
   int massCount() const noexcept override { return 1; }
-  void placeAtRest(std::span<const double> q) noexcept override {
+  void place(std::span<const double> q, std::span<const double> rate) noexcept override {
     hand_ = {};
     if (q.size() == 3) hand_.r = {q[0], q[1], q[2]};
-  }
-  void place(std::span<const double> q, std::span<const double> rate) noexcept override {
-    placeAtRest(q);
     if (rate.size() == 3) hand_.v = {rate[0], rate[1], rate[2]};
   }
   void setExtraForce(const Vec3&) noexcept override {}

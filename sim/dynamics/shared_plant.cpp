@@ -41,10 +41,6 @@ class HeldObject final : public SharedPlant {
   std::span<const double> places() const noexcept override { return places_; }
   std::span<const double> rates() const noexcept override { return rates_; }
 
-  void placeAtRest(std::span<const double> q) noexcept override {
-    const std::array<double, 3> rest{};
-    place(q, std::span(rest).first(q.size()));
-  }
   void place(std::span<const double> q, std::span<const double> qRate) noexcept override {
     geometry_.place(q, qRate, places_, rates_);
     std::fill(extra_.begin(), extra_.end(), 0.0);

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -16,11 +17,13 @@ class Plant {
   virtual ~Plant() = default;
 
   virtual int massCount() const noexcept = 0;
-  /// Puts all masses at rest at constraint parameters `q` (three metres when free). The plant forgets the history of the method and the
-  /// faults.
-  virtual void placeAtRest(std::span<const double> q) noexcept = 0;
-  /// Puts all masses at parameters q with rates qRate.
+  /// Puts all masses at constraint parameters `q` (three metres when free) with rates qRate. The plant forgets the history of the method and
+  /// the faults.
   virtual void place(std::span<const double> q, std::span<const double> qRate) noexcept = 0;
+  void placeAtRest(std::span<const double> q) noexcept {
+    const std::array<double, 3> rest{};
+    place(q, std::span(rest).first(q.size()));
+  }
   /// Sets the angular velocity of a body [rad/s], world axes. place() sets it to zero and removes any rotation. No effect on other objects.
   virtual void setAngularVelocity(const Vec3&) noexcept {}
   /// A constant extra force on mass 1 [N], world frame.

@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <vector>
 
 #include "sim/dynamics/object/forces.h"
@@ -14,10 +13,6 @@ class PlantBase : public Plant {
   ~PlantBase() override;
 
   int massCount() const noexcept override { return model_.count(); }
-  void placeAtRest(std::span<const double> q) noexcept override {
-    const std::array<double, 3> rest{};
-    place(q, std::span(rest).first(q.size()));
-  }
   Vec3 couplingForce(const HandSample& hand) const noexcept override {
     const int count = model_.kind == experiment::ObjectKind::Parallel ? model_.count() : 1;
     const std::span<MassState> masses{located_.data(), static_cast<std::size_t>(count)};
