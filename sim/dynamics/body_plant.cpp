@@ -24,10 +24,7 @@ class BodyPlant : public SystemPlant<BodySystem> {
     now()[10] = turn.x, now()[11] = turn.y, now()[12] = turn.z;
     restart();
   }
-  BodyState body() const noexcept override {
-    const auto p = pose();
-    return {{p.w, p.x, p.y, p.z}, p.toWorld(p.turn)};
-  }
+  BodyState body() const noexcept override { return pose().state(); }
 
  private:
   BodySystem::Pose pose() const noexcept { return BodySystem::pose(now()); }

@@ -19,15 +19,14 @@ struct Hand {
 };
 
 /// State, room for the method and what all geometries share. `Geometry` maps places and rates to the masses' r and v, and the masses' forces
-/// to accelerations of the rates.
+/// to accelerations of the rates. A state is the places and then the rates.
 template <class Geometry>
 class HeldObject final : public SharedPlant {
  public:
   HeldObject(const ObjectModel& model, std::vector<HandSprings> springs, Geometry geometry)
-      : model_(model), geometry_(std::move(geometry)), places_(geometry_.placeCount()), rates_(geometry_.rateCount()) {
+      : model_(model), geometry_(std::move(geometry)), now_(geometry_.placeCount() + geometry_.rateCount()), extra_(geometry_.rateCount()) {
     for (HandSprings& hand : springs) hands_.push_back({std::move(hand), {}, {}, 1, 0});
-    for (auto* room : {&atPlaces_, &k1q_, &k2q_, &k3q_, &k4q_}) room->resize(places_.size());
-    for (auto* room : {&atRates_, &k1v_, &k2v_, &k3v_, &k4v_, &extra_}) room->resize(rates_.size());
+    for (auto* room : {&next_, &k1_, &k2_, &k3_, &k4_}) room->resize(now_.size());
     const auto count = static_cast<std::size_t>(model_.count());
     for (auto* room : {&r_, &v_, &force_, &before_}) room->resize(count);
     points_.resize(hands_.size());
@@ -36,15 +35,15 @@ class HeldObject final : public SharedPlant {
 
   int massCount() const noexcept override { return model_.count(); }
   int handCount() const noexcept override { return static_cast<int>(hands_.size()); }
-  int placeCount() const noexcept override { return static_cast<int>(places_.size()); }
-  int rateCount() const noexcept override { return static_cast<int>(rates_.size()); }
-  std::span<const double> places() const noexcept override { return places_; }
-  std::span<const double> rates() const noexcept override { return rates_; }
+  int placeCount() const noexcept override { return geometry_.placeCount(); }
+  int rateCount() const noexcept override { return geometry_.rateCount(); }
+  std::span<const double> places() const noexcept override { return placesOf(now_); }
+  std::span<const double> rates() const noexcept override { return ratesOf(now_); }
 
   void place(std::span<const double> q, std::span<const double> qRate) noexcept override {
-    geometry_.place(q, qRate, places_, rates_);
+    geometry_.place(q, qRate, placesOf(now_), ratesOf(now_));
     std::fill(extra_.begin(), extra_.end(), 0.0);
-    geometry_.locate(places_, rates_, r_, v_);
+    locate(now_);
     gravityZero_ = gravityEnergy();
     for (Hand& hand : hands_) {
       hand.end = {pointOf(hand), {}, true};
@@ -56,9 +55,9 @@ class HeldObject final : public SharedPlant {
     fraction_ = 1;
   }
   void show(std::span<const double> places, std::span<const double> rates) noexcept override {
-    std::copy_n(places.begin(), places_.size(), places_.begin());
-    std::copy_n(rates.begin(), rates_.size(), rates_.begin());
-    geometry_.locate(places_, rates_, r_, v_);
+    std::ranges::copy(places.first(geometry_.placeCount()), placesOf(now_).begin());
+    std::ranges::copy(rates.first(geometry_.rateCount()), ratesOf(now_).begin());
+    locate(now_);
   }
   void setExtraForce(const Vec3& force) noexcept override { extraForce_ = force; }
   void setCoupled(bool coupled) noexcept override { coupled_ = coupled; }
@@ -78,34 +77,29 @@ class HeldObject final : public SharedPlant {
     hands_[0].segment = segment;
     hands_[0].end = endOf(segment);
     fraction_ = 1;
-    geometry_.locate(places_, rates_, r_, v_);
+    locate(now_);
     rememberForces();
 
-    derive(0, places_, rates_, k1q_, k1v_);
-    advance(dt / 2, k1q_, k1v_);
-    derive(0.5, atPlaces_, atRates_, k2q_, k2v_);
-    advance(dt / 2, k2q_, k2v_);
-    derive(0.5, atPlaces_, atRates_, k3q_, k3v_);
-    advance(dt, k3q_, k3v_);
-    derive(1, atPlaces_, atRates_, k4q_, k4v_);
+    derive(0, now_, k1_);
+    advance(dt / 2, k1_);
+    derive(0.5, next_, k2_);
+    advance(dt / 2, k2_);
+    derive(0.5, next_, k3_);
+    advance(dt, k3_);
+    derive(1, next_, k4_);
     rhs_ += 4;
     double check = 0;
-    const auto sum = [&](const std::vector<double>& y, const auto& k1, const auto& k2, const auto& k3, const auto& k4, auto& next) {
-      for (std::size_t i = 0; i < y.size(); ++i) {
-        next[i] = y[i] + dt / 6 * (k1[i] + 2 * (k2[i] + k3[i]) + k4[i]);
-        check += 0.0 * next[i];
-      }
-    };
-    sum(places_, k1q_, k2q_, k3q_, k4q_, atPlaces_);
-    sum(rates_, k1v_, k2v_, k3v_, k4v_, atRates_);
+    for (std::size_t i = 0; i < now_.size(); ++i) {
+      next_[i] = now_[i] + dt / 6 * (k1_[i] + 2 * (k2_[i] + k3_[i]) + k4_[i]);
+      check += 0.0 * next_[i];
+    }
     if (check != 0) return StepStatus::NotFinite;
-    geometry_.settle(atPlaces_);
-    if (!geometry_.inside(atPlaces_)) {
+    geometry_.settle(placesOf(next_));
+    if (!geometry_.inside(placesOf(next_))) {
       fraction_ = 0;
       return StepStatus::AtEnd;
     }
-    places_.swap(atPlaces_);
-    rates_.swap(atRates_);
+    now_.swap(next_);
     countWork();
     return StepStatus::Ok;
   }
@@ -113,9 +107,9 @@ class HeldObject final : public SharedPlant {
 
   void observe(const HandSample& hand, std::span<MassState> masses) const noexcept override {
     hands_[0].end = hand;
-    geometry_.locate(places_, rates_, r_, v_);
-    derive(1, places_, rates_, k4q_, k4v_, true);
-    geometry_.observe(places_, rates_, k4v_, masses);
+    locate(now_);
+    derive(1, now_, k4_, true);
+    geometry_.observe(places(), rates(), ratesOf(k4_), masses);
     for (int i = 0; i < model_.count(); ++i) masses[i].r = r_[i], masses[i].v = v_[i];
   }
   Vec3 couplingForce(const HandSample& hand) const noexcept override {
@@ -123,14 +117,14 @@ class HeldObject final : public SharedPlant {
     return couplingForceOf(0);
   }
   Vec3 couplingForceOf(int hand) const noexcept override {
-    geometry_.locate(places_, rates_, r_, v_);
+    locate(now_);
     const Hand& held = hands_[hand];
     Vec3 total;
     for (int i = 0; i < model_.count(); ++i) total += forceOn(held, i, held.end.position, held.end.velocity);
     return total;
   }
   Vec3 fixedPoint(int hand) const noexcept override {
-    geometry_.locate(places_, rates_, r_, v_);
+    locate(now_);
     return pointOf(hands_[hand]);
   }
   double work(int hand) const noexcept override { return hands_[hand].work; }
@@ -147,7 +141,7 @@ class HeldObject final : public SharedPlant {
     return energy;
   }
   double objectEnergy() const noexcept override {
-    geometry_.locate(places_, rates_, r_, v_);
+    locate(now_);
     double energy = kinetic() + gravityEnergy() - gravityZero_;
     for (std::size_t i = 0; i < model_.stiffness.size(); ++i) {
       const Vec3 stretch = r_[i + 1] - r_[i];
@@ -156,11 +150,11 @@ class HeldObject final : public SharedPlant {
     return energy;
   }
   double kineticEnergy() const noexcept override {
-    geometry_.locate(places_, rates_, r_, v_);
+    locate(now_);
     return kinetic();
   }
   void difference(std::span<const double> target, std::span<double> out) const noexcept override {
-    geometry_.difference(places_, target, out);
+    geometry_.difference(places(), target, out);
   }
   double distanceBetween(std::span<const double> a, std::span<const double> b) const noexcept override {
     double squares = 0;
@@ -170,12 +164,16 @@ class HeldObject final : public SharedPlant {
     }
     return std::sqrt(squares / model_.count());
   }
-  void setAngularVelocity(const Vec3& velocity) noexcept override { geometry_.setAngularVelocity(velocity, rates_); }
-  BodyState body() const noexcept override { return geometry_.body(places_, rates_); }
+  void setAngularVelocity(const Vec3& velocity) noexcept override { geometry_.setAngularVelocity(velocity, ratesOf(now_)); }
+  BodyState body() const noexcept override { return geometry_.body(places(), rates()); }
   std::uint64_t rhsEvaluations() const noexcept override { return rhs_; }
   std::string stopReason() const override { return fraction_ < 1 ? "a mass reached the end of the constraint's domain" : std::string(); }
 
  private:
+  auto placesOf(auto& state) const noexcept { return std::span(state).first(geometry_.placeCount()); }
+  auto ratesOf(auto& state) const noexcept { return std::span(state).subspan(geometry_.placeCount()); }
+  void locate(const std::vector<double>& state) const noexcept { geometry_.locate(placesOf(state), ratesOf(state), r_, v_); }
+
   /// Where the hand holds mass i, and how fast that place moves; r_, v_ hold the masses.
   Vec3 pointOn(const Hand& hand, int i) const noexcept { return r_[i] + geometry_.arm(hand.springs.fpOffset); }
   Vec3 speedOn(const Hand& hand, int i) const noexcept { return v_[i] + geometry_.armSpeed(hand.springs.fpOffset); }
@@ -194,10 +192,9 @@ class HeldObject final : public SharedPlant {
     return k * (place - pointOn(hand, i)) + b * (speed - speedOn(hand, i));
   }
 
-  // Rates of places and rates at s of the step; `now`: with the hands where they are at its end, as they were told.
-  void derive(double s, const std::vector<double>& places, const std::vector<double>& rates, std::vector<double>& dPlaces,
-              std::vector<double>& dRates, bool now = false) const noexcept {
-    geometry_.locate(places, rates, r_, v_);
+  // Rates of a state at s of the step; `now`: with the hands where they are at its end, as they were told.
+  void derive(double s, const std::vector<double>& y, std::vector<double>& dy, bool now = false) const noexcept {
+    locate(y);
     for (int i = 0; i < model_.count(); ++i) force_[i] = model_.mass[i] * model_.gravity - model_.viscosity * v_[i];
     force_[0] += extraForce_;
     for (std::size_t i = 0; i < model_.stiffness.size(); ++i) {
@@ -215,12 +212,12 @@ class HeldObject final : public SharedPlant {
         if constexpr (Geometry::kTurns) moment += cross(geometry_.arm(hand.springs.fpOffset), force);
       }
     }
-    geometry_.accelerate(model_, places, rates, force_, moment, dPlaces, dRates);
+    const auto dRates = ratesOf(dy);
+    geometry_.accelerate(model_, ratesOf(y), force_, moment, placesOf(dy), dRates);
     for (std::size_t i = 0; i < extra_.size(); ++i) dRates[i] += extra_[i];
   }
-  void advance(double dt, const std::vector<double>& dPlaces, const std::vector<double>& dRates) noexcept {
-    for (std::size_t i = 0; i < places_.size(); ++i) atPlaces_[i] = places_[i] + dt * dPlaces[i];
-    for (std::size_t i = 0; i < rates_.size(); ++i) atRates_[i] = rates_[i] + dt * dRates[i];
+  void advance(double dt, const std::vector<double>& dy) noexcept {
+    for (std::size_t i = 0; i < now_.size(); ++i) next_[i] = now_[i] + dt * dy[i];
   }
 
   // r_, v_ are those before the step.
@@ -236,7 +233,7 @@ class HeldObject final : public SharedPlant {
   }
   void countWork() noexcept {
     const auto count = static_cast<std::size_t>(model_.count());
-    geometry_.locate(places_, rates_, r_, v_);
+    locate(now_);
     for (std::size_t h = 0; h < hands_.size(); ++h) {
       Hand& hand = hands_[h];
       for (std::size_t i = 0; i < count; ++i) {
@@ -248,7 +245,7 @@ class HeldObject final : public SharedPlant {
   }
 
   double kinetic() const noexcept {
-    double energy = geometry_.turningEnergy(rates_);
+    double energy = geometry_.turningEnergy(rates());
     for (int i = 0; i < model_.count(); ++i) energy += 0.5 * model_.mass[i] * dot(v_[i], v_[i]);
     return energy;
   }
@@ -260,7 +257,7 @@ class HeldObject final : public SharedPlant {
 
   ObjectModel model_;
   mutable Geometry geometry_;
-  std::vector<double> places_, rates_;
+  std::vector<double> now_;
   bool coupled_ = true;
   Vec3 extraForce_;
   double gravityZero_ = 0;  // [J]
@@ -268,7 +265,7 @@ class HeldObject final : public SharedPlant {
   std::uint64_t rhs_ = 0;
   mutable std::vector<Hand> hands_;  // the last sample of hand 0 is what was asked about last
   // Room, so that a step allocates nothing.
-  mutable std::vector<double> atPlaces_, atRates_, k1q_, k2q_, k3q_, k4q_, k1v_, k2v_, k3v_, k4v_, extra_;
+  mutable std::vector<double> next_, k1_, k2_, k3_, k4_, extra_;
   mutable std::vector<Vec3> r_, v_, force_, before_, points_, startForce_;
 };
 

@@ -37,6 +37,13 @@ struct BodySystem : SpaceSystem<Springs<1>> {
       const Vec3 u{-x, -y, -z}, t = 2.0 * cross(u, a);
       return a + w * t + cross(u, t);
     }
+    /// The quaternion's rates.
+    std::array<double, 4> turning() const noexcept {
+      const Vec3& o = turn;
+      return {0.5 * (-x * o.x - y * o.y - z * o.z), 0.5 * (w * o.x + y * o.z - z * o.y), 0.5 * (w * o.y + z * o.x - x * o.z),
+              0.5 * (w * o.z + x * o.y - y * o.x)};
+    }
+    BodyState state() const noexcept { return {{w, x, y, z}, toWorld(turn)}; }
   };
   static Pose pose(const State& s) noexcept {
     return {{s[0], s[1], s[2]}, {s[3], s[4], s[5]}, {s[10], s[11], s[12]}, s[6], s[7], s[8], s[9]};
@@ -54,26 +61,18 @@ struct BodySystem : SpaceSystem<Springs<1>> {
     // The extra force acts on mass 1 at its centre. The force of the hand acts at the FP.
     const Vec3 moment = cross(fpOffset, p.toBody(held)) - cross(p.turn, times(inertia, p.turn));
     const Vec3 spin = times(inverseInertia, moment);
-    const Vec3& o = p.turn;
-    ds.values = {p.v.x,
-                 p.v.y,
-                 p.v.z,
-                 a.x,
-                 a.y,
-                 a.z,
-                 0.5 * (-p.x * o.x - p.y * o.y - p.z * o.z),
-                 0.5 * (p.w * o.x + p.y * o.z - p.z * o.y),
-                 0.5 * (p.w * o.y + p.z * o.x - p.x * o.z),
-                 0.5 * (p.w * o.z + p.x * o.y - p.y * o.x),
-                 spin.x,
-                 spin.y,
-                 spin.z};
+    const auto [w, x, y, z] = p.turning();
+    ds.values = {p.v.x, p.v.y, p.v.z, a.x, a.y, a.z, w, x, y, z, spin.x, spin.y, spin.z};
   }
   double scale(int i) const noexcept { return i < 3 ? kTypicalPlace : 1.0; }
   Settled settle(const State&, State& s) const noexcept {
-    const double length = 1 / std::sqrt(s[6] * s[6] + s[7] * s[7] + s[8] * s[8] + s[9] * s[9]);
-    for (int i = 6; i < 10; ++i) s[i] *= length;
+    normalise(s, 6);
     return Settled::Same;
+  }
+  /// Gives the quaternion from number `i` on its length 1.
+  static void normalise(auto& s, int i) noexcept {
+    const double length = 1 / std::sqrt(s[i] * s[i] + s[i + 1] * s[i + 1] + s[i + 2] * s[i + 2] + s[i + 3] * s[i + 3]);
+    for (int k = i; k < i + 4; ++k) s[k] *= length;
   }
 
   void place(std::span<const double> q, std::span<const double> qRate, State& s) const noexcept {

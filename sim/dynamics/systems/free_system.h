@@ -25,38 +25,34 @@ struct FreeSystem : SpaceSystem<Springs<N>> {
     };
     Points r, v, force;
     for (int i = 0; i < n(); ++i) {
-      r[i] = at(y, i);
-      v[i] = at(y, n() + i);
+      r[i] = at3(y, i);
+      v[i] = at3(y, n() + i);
     }
     springs.push(hand.position, hand.velocity, r, v, force);
     force[0] += springs.extraForce;
     for (int i = 0; i < n(); ++i) {
-      put(dy, i, v[i]);
-      put(dy, n() + i, springs.inverseMass[i] * (force[i] - springs.viscosity * v[i]) + springs.gravity);
+      put3(dy, i, v[i]);
+      put3(dy, n() + i, springs.inverseMass[i] * (force[i] - springs.viscosity * v[i]) + springs.gravity);
     }
   }
   double scale(int i) const noexcept { return i < 3 * n() ? kTypicalPlace : 1.0; }
 
   void place(std::span<const double> q, std::span<const double> qRate, State& y) const noexcept {
     for (int i = 0; i < n(); ++i) {
-      put(y, i, {q[0], q[1], q[2]});
-      put(y, n() + i, {qRate[0], qRate[1], qRate[2]});
+      put3(y, i, {q[0], q[1], q[2]});
+      put3(y, n() + i, {qRate[0], qRate[1], qRate[2]});
     }
   }
   void locate(const State& y, std::span<MassState> masses) const noexcept {
     for (std::size_t i = 0; i < masses.size(); ++i) {
-      masses[i].r = at(y, static_cast<int>(i));
-      masses[i].v = at(y, n() + static_cast<int>(i));
+      masses[i].r = at3(y, static_cast<int>(i));
+      masses[i].v = at3(y, n() + static_cast<int>(i));
     }
   }
   void accelerate(const State&, const State& dy, std::span<MassState> masses) const noexcept {
-    for (std::size_t i = 0; i < masses.size(); ++i) masses[i].a = at(dy, n() + static_cast<int>(i));
+    for (std::size_t i = 0; i < masses.size(); ++i) masses[i].a = at3(dy, n() + static_cast<int>(i));
   }
   std::string stopReason(StepStatus status, const State&) const { return plainReason(status, "there is no continuation here"); }
-
- private:
-  static Vec3 at(const State& y, int i) noexcept { return {y[3 * i], y[3 * i + 1], y[3 * i + 2]}; }
-  static void put(State& y, int i, const Vec3& value) noexcept { y[3 * i] = value.x, y[3 * i + 1] = value.y, y[3 * i + 2] = value.z; }
 };
 
 }  // namespace reachlab::dynamics

@@ -13,21 +13,15 @@
 /// forces on the masses to accelerations of the rates.
 namespace reachlab::dynamics {
 
-inline Vec3 at3(std::span<const double> numbers, int i) noexcept { return {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]}; }
-inline void put3(std::span<double> numbers, int i, const Vec3& v) noexcept {
-  numbers[3 * i] = v.x, numbers[3 * i + 1] = v.y, numbers[3 * i + 2] = v.z;
-}
-inline void put3(std::vector<double>& numbers, int i, const Vec3& v) noexcept { put3(std::span<double>(numbers), i, v); }
-
 /// The common part of all objects that do not turn.
 struct Unturned {
   static constexpr bool kTurns = false;
   static Vec3 arm(const Vec3&) noexcept { return {}; }
   static Vec3 armSpeed(const Vec3&) noexcept { return {}; }
   static double turningEnergy(std::span<const double>) noexcept { return 0; }
-  static void setAngularVelocity(const Vec3&, std::vector<double>&) noexcept {}
+  static void setAngularVelocity(const Vec3&, std::span<double>) noexcept {}
   static BodyState body(std::span<const double>, std::span<const double>) noexcept { return {}; }
-  static void settle(std::vector<double>&) noexcept {}
+  static void settle(std::span<double>) noexcept {}
   static void difference(std::span<const double> from, std::span<const double> to, std::span<double> out) noexcept {
     for (std::size_t i = 0; i < out.size(); ++i) out[i] = to[i] - from[i];
   }
@@ -37,14 +31,14 @@ struct FreeMasses : Unturned {
   int count;
   int placeCount() const { return 3 * count; }
   int rateCount() const { return 3 * count; }
-  void place(std::span<const double> q, std::span<const double> qRate, std::vector<double>& places, std::vector<double>& rates) noexcept {
+  void place(std::span<const double> q, std::span<const double> qRate, std::span<double> places, std::span<double> rates) noexcept {
     for (int i = 0; i < count; ++i) put3(places, i, {q[0], q[1], q[2]}), put3(rates, i, {qRate[0], qRate[1], qRate[2]});
   }
   void locate(std::span<const double> places, std::span<const double> rates, std::vector<Vec3>& r, std::vector<Vec3>& v) noexcept {
     for (int i = 0; i < count; ++i) r[i] = at3(places, i), v[i] = at3(rates, i);
   }
-  void accelerate(const ObjectModel& model, std::span<const double>, std::span<const double> rates, const std::vector<Vec3>& force,
-                  const Vec3&, std::vector<double>& dPlaces, std::vector<double>& dRates) noexcept {
+  void accelerate(const ObjectModel& model, std::span<const double> rates, const std::vector<Vec3>& force, const Vec3&,
+                  std::span<double> dPlaces, std::span<double> dRates) noexcept {
     for (int i = 0; i < count; ++i) put3(dPlaces, i, at3(rates, i)), put3(dRates, i, force[i] / model.mass[i]);
   }
   void observe(std::span<const double>, std::span<const double>, std::span<const double> dRates, std::span<MassState> masses) noexcept {
@@ -67,7 +61,7 @@ struct CurveMasses : Unturned {
   }
   int placeCount() const { return static_cast<int>(points.size()); }
   int rateCount() const { return placeCount(); }
-  void place(std::span<const double> q, std::span<const double> qRate, std::vector<double>& places, std::vector<double>& rates) noexcept {
+  void place(std::span<const double> q, std::span<const double> qRate, std::span<double> places, std::span<double> rates) noexcept {
     std::fill(places.begin(), places.end(), q[0]);
     std::fill(rates.begin(), rates.end(), qRate[0]);
   }
@@ -78,8 +72,8 @@ struct CurveMasses : Unturned {
       v[i] = rates[i] * points[i].rPhi;
     }
   }
-  void accelerate(const ObjectModel& model, std::span<const double>, std::span<const double> rates, const std::vector<Vec3>& force,
-                  const Vec3&, std::vector<double>& dPlaces, std::vector<double>& dRates) noexcept {
+  void accelerate(const ObjectModel& model, std::span<const double> rates, const std::vector<Vec3>& force, const Vec3&,
+                  std::span<double> dPlaces, std::span<double> dRates) noexcept {
     for (std::size_t i = 0; i < points.size(); ++i) {
       const constraints::CurvePoint& p = points[i];
       dPlaces[i] = rates[i];
@@ -108,28 +102,29 @@ struct FreeBody {
   Matrix3 inertia{}, inverseInertia{};
   BodySystem::Pose pose{};  // of the latest `locate`
 
+  static BodySystem::Pose poseOf(std::span<const double> s, std::span<const double> rates) noexcept {
+    return {at3(s, 0), at3(rates, 0), at3(rates, 1), s[3], s[4], s[5], s[6]};
+  }
+
   static int placeCount() { return 7; }
   static int rateCount() { return 6; }
-  void place(std::span<const double> q, std::span<const double> qRate, std::vector<double>& places, std::vector<double>& rates) noexcept {
-    places = {q[0], q[1], q[2], 1, 0, 0, 0};
-    rates = {qRate[0], qRate[1], qRate[2], 0, 0, 0};
+  void place(std::span<const double> q, std::span<const double> qRate, std::span<double> places, std::span<double> rates) noexcept {
+    std::ranges::copy(std::array{q[0], q[1], q[2], 1.0, 0.0, 0.0, 0.0}, places.begin());
+    std::ranges::copy(std::array{qRate[0], qRate[1], qRate[2], 0.0, 0.0, 0.0}, rates.begin());
   }
   void locate(std::span<const double> s, std::span<const double> rates, std::vector<Vec3>& r, std::vector<Vec3>& v) noexcept {
-    pose = {at3(s, 0), at3(rates, 0), at3(rates, 1), s[3], s[4], s[5], s[6]};
+    pose = poseOf(s, rates);
     r[0] = pose.r;
     v[0] = pose.v;
   }
   Vec3 arm(const Vec3& offset) const noexcept { return pose.toWorld(offset); }
   Vec3 armSpeed(const Vec3& offset) const noexcept { return cross(pose.toWorld(pose.turn), pose.toWorld(offset)); }
-  void accelerate(const ObjectModel& model, std::span<const double>, std::span<const double>, const std::vector<Vec3>& force,
-                  const Vec3& moment, std::vector<double>& dPlaces, std::vector<double>& dRates) noexcept {
+  void accelerate(const ObjectModel& model, std::span<const double>, const std::vector<Vec3>& force, const Vec3& moment,
+                  std::span<double> dPlaces, std::span<double> dRates) noexcept {
     const Vec3& o = pose.turn;
     const Vec3 spin = times(inverseInertia, pose.toBody(moment) - cross(o, times(inertia, o)));
     put3(dPlaces, 0, pose.v);
-    dPlaces[3] = 0.5 * (-pose.x * o.x - pose.y * o.y - pose.z * o.z);
-    dPlaces[4] = 0.5 * (pose.w * o.x + pose.y * o.z - pose.z * o.y);
-    dPlaces[5] = 0.5 * (pose.w * o.y + pose.z * o.x - pose.x * o.z);
-    dPlaces[6] = 0.5 * (pose.w * o.z + pose.x * o.y - pose.y * o.x);
+    std::ranges::copy(pose.turning(), dPlaces.begin() + 3);
     put3(dRates, 0, force[0] / model.mass[0]);
     put3(dRates, 1, spin);
   }
@@ -142,15 +137,9 @@ struct FreeBody {
     const Vec3 turn = at3(rates, 1);
     return 0.5 * dot(turn, times(inertia, turn));
   }
-  void setAngularVelocity(const Vec3& velocity, std::vector<double>& rates) const noexcept { put3(rates, 1, pose.toBody(velocity)); }
-  BodyState body(std::span<const double> s, std::span<const double> rates) noexcept {
-    pose = {at3(s, 0), at3(rates, 0), at3(rates, 1), s[3], s[4], s[5], s[6]};
-    return {{s[3], s[4], s[5], s[6]}, pose.toWorld(pose.turn)};
-  }
-  static void settle(std::vector<double>& s) noexcept {
-    const double length = 1 / std::sqrt(s[3] * s[3] + s[4] * s[4] + s[5] * s[5] + s[6] * s[6]);
-    for (int i = 3; i < 7; ++i) s[i] *= length;
-  }
+  void setAngularVelocity(const Vec3& velocity, std::span<double> rates) const noexcept { put3(rates, 1, pose.toBody(velocity)); }
+  static BodyState body(std::span<const double> s, std::span<const double> rates) noexcept { return poseOf(s, rates).state(); }
+  static void settle(std::span<double> s) noexcept { BodySystem::normalise(s, 3); }
   // The rotation between two near orientations: twice the vector part of q* q', in the axes of q.
   static void difference(std::span<const double> a, std::span<const double> b, std::span<double> out) noexcept {
     for (std::size_t i = 0; i < 3; ++i) out[i] = b[i] - a[i];

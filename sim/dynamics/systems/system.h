@@ -69,6 +69,10 @@ concept ObjectSystem = Equations<S> && requires(S s, const S c, const ObjectMode
   { c.stopReason(StepStatus::AtEnd, at) } -> std::same_as<std::string>;
 };
 
+/// Vector i of numbers that are vectors one after the other.
+Vec3 at3(const auto& numbers, int i) noexcept { return {numbers[3 * i], numbers[3 * i + 1], numbers[3 * i + 2]}; }
+void put3(auto& numbers, int i, const Vec3& v) noexcept { numbers[3 * i] = v.x, numbers[3 * i + 1] = v.y, numbers[3 * i + 2] = v.z; }
+
 /// The reason for which a step stopped, where a system adds nothing. `noContinuation` is its text for NoContinuation.
 inline std::string plainReason(StepStatus status, const char* noContinuation) {
   if (status == StepStatus::AtEnd) return "a mass reached the end of the constraint's domain";
