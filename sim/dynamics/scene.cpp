@@ -322,7 +322,9 @@ void compileOnSurface(Scene& scene, const ObjectModel& model, const std::array<d
   scene.plant = makeChartPlant(model, constraint, branches->smooth() ? nullptr : branches, request);
 }
 
-Scene compile(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const SceneOptions& options) {
+}  // namespace
+
+Scene compileScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const SceneOptions& options) {
   Scene scene;
   scene.constraint = std::make_shared<const constraints::Constraint>(constraint);
   if (experiment.object.kind == experiment::ObjectKind::None) {
@@ -377,10 +379,8 @@ Scene compile(const experiment::Experiment& experiment, const constraints::Const
   return scene;
 }
 
-}  // namespace
-
 Scene compileScene(const experiment::CompiledExperiment& experiment, const SceneOptions& options) {
-  return compile(experiment.experiment(), experiment.constraint(), options);
+  return compileScene(experiment.experiment(), experiment.constraint(), options);
 }
 
 std::vector<Scene> compileScenes(std::span<const experiment::CompiledExperiment> experiments) {
@@ -392,12 +392,8 @@ std::vector<Scene> compileScenes(std::span<const experiment::CompiledExperiment>
   return scenes;
 }
 
-Scene compileScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const SceneOptions& options) {
-  return compile(experiment, constraint, options);
-}
-
 Scene compileScene(const experiment::Experiment& experiment, const SceneOptions& options) {
-  return compile(experiment, constraints::makeConstraint(experiment.constraint), options);
+  return compileScene(experiment, constraints::makeConstraint(experiment.constraint), options);
 }
 
 }  // namespace reachlab::dynamics
