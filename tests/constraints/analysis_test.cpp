@@ -97,11 +97,10 @@ TEST(DegeneratePlaces, AreToldApartByKind) {
 }
 
 TEST(Usable, FormulasThatDegenerateEverywhereAreRefused) {
-  EXPECT_NE(refusal({.curve = {"a", "b", "c"}, .shape = {{"a", 0.1}, {"b", 0.2}, {"c", 0.3}}}).find("degenerates everywhere"),
-            std::string::npos);
-  EXPECT_NE(refusal({.curve = {"0", "sin(phi)^2 + cos(phi)^2", "1"}}).find("degenerates everywhere"), std::string::npos);
-  EXPECT_NE(refusal({.surface = {"u + v", "2*(u + v)", "(u + v)^2"}}).find("degenerates everywhere"), std::string::npos);
-  EXPECT_NE(refusal({.surface = {"u", "u^2", "1"}}).find("degenerates everywhere"), std::string::npos);
+  EXPECT_TRUE(holds(refusal({.curve = {"a", "b", "c"}, .shape = {{"a", 0.1}, {"b", 0.2}, {"c", 0.3}}}), "degenerates everywhere"));
+  EXPECT_TRUE(holds(refusal({.curve = {"0", "sin(phi)^2 + cos(phi)^2", "1"}}), "degenerates everywhere"));
+  EXPECT_TRUE(holds(refusal({.surface = {"u + v", "2*(u + v)", "(u + v)^2"}}), "degenerates everywhere"));
+  EXPECT_TRUE(holds(refusal({.surface = {"u", "u^2", "1"}}), "degenerates everywhere"));
 }
 
 TEST(Usable, PolesBetweenSamplePointsAreFoundWithTheirPlace) {
@@ -109,7 +108,7 @@ TEST(Usable, PolesBetweenSamplePointsAreFoundWithTheirPlace) {
     ConstraintSpec spec{.curve = {x, "phi", "0"}};
     spec.inUse = {Domain{0, 2 * kPi}, Domain{0, 0}};
     const std::string message = refusal(spec);
-    EXPECT_NE(message.find("not finite at phi = " + place), std::string::npos) << x << ": " << message;
+    EXPECT_TRUE(holds(message, "not finite at phi = " + place)) << x;
   };
   expect("1/(phi - 1)", "1");
   expect("1/(phi - 1.2345678)", "1.2345678");
@@ -139,23 +138,22 @@ TEST(Usable, APeriodThatTheFormulaHasNotIsRefused) {
   const std::string turn = "[0, \"2*pi\"]";
   EXPECT_EQ(told("curve", R"f("0.1*cos(phi)", "0.1*sin(phi)", "0")f", turn, "true"), "accepted");
   const std::string helix = told("curve", R"f("0.1*cos(phi)", "0.1*sin(phi)", "0.01*phi")f", turn, "true");
-  EXPECT_NE(helix.find("periodic: is true, but r does not repeat itself: its places at phi = "), std::string::npos) << helix;
-  EXPECT_NE(helix.find(" are 0.0628 m apart"), std::string::npos) << helix;
+  EXPECT_TRUE(holds(helix, "periodic: is true, but r does not repeat itself: its places at phi = "));
+  EXPECT_TRUE(holds(helix, " are 0.0628 m apart"));
   // Its ends are one place, but the parameter runs on beyond it.
-  EXPECT_NE(told("curve", R"f("0.1*phi*(1 - phi)", "0.1*phi*(1 - phi)*(2 - phi)", "0")f", "[0, 1]", "true").find("does not repeat itself"),
-            std::string::npos);
-  EXPECT_NE(told("curve", R"f("0.1*phi", "0.1*sqrt(7 - phi)", "0")f", turn, "true").find("but r has a value at phi = "), std::string::npos);
+  EXPECT_TRUE(
+      holds(told("curve", R"f("0.1*phi*(1 - phi)", "0.1*phi*(1 - phi)*(2 - phi)", "0")f", "[0, 1]", "true"), "does not repeat itself"));
+  EXPECT_TRUE(holds(told("curve", R"f("0.1*phi", "0.1*sqrt(7 - phi)", "0")f", turn, "true"), "but r has a value at phi = "));
   const std::string band = R"f("(0.1 + 0.05*v*cos(u/2))*cos(u)", "(0.1 + 0.05*v*cos(u/2))*sin(u)", "0.05*v*sin(u/2)")f";
   EXPECT_EQ(told("surface", band, "[" + turn + ", [-1, 1]]", "[true, false]"), "accepted")
       << "Moebius' band comes back the other way round";
-  EXPECT_NE(told("surface", R"f("0.1*cos(u)", "0.1*sin(u)", "0.1*v")f", "[" + turn + ", [0, 1]]", "true").find("periodic[1]: is true"),
-            std::string::npos);
+  EXPECT_TRUE(holds(told("surface", R"f("0.1*cos(u)", "0.1*sin(u)", "0.1*v")f", "[" + turn + ", [0, 1]]", "true"), "periodic[1]: is true"));
 }
 
 TEST(Usable, JumpsBetweenStartAndTargetAreRefused) {
   ConstraintSpec spec{.curve = {"phi/10", "sign(phi - 1)/20", "0"}};
   spec.inUse = {Domain{0, 2}, Domain{0, 0}};
-  EXPECT_NE(refusal(spec).find("jump at phi = 1: sign(phi - 1), which no mass can cross"), std::string::npos) << refusal(spec);
+  EXPECT_TRUE(holds(refusal(spec), "jump at phi = 1: sign(phi - 1), which no mass can cross"));
   spec.inUse = {Domain{1.1, 2}, Domain{0, 0}};
   EXPECT_EQ(refusal(spec), "accepted");
 }
@@ -169,7 +167,7 @@ TEST(Usable, WithoutATaskTheStartDecides) {
 TEST(Usable, OnlyWhereItIsMovedOnMustItBeFinite) {
   ConstraintSpec spec{.curve = {"log(phi)", "1/phi", "phi"}};
   spec.inUse = {Domain{-1, 1}, Domain{0, 0}};
-  EXPECT_NE(refusal(spec).find("not finite at phi = 0"), std::string::npos) << refusal(spec);
+  EXPECT_TRUE(holds(refusal(spec), "not finite at phi = 0"));
   spec.inUse = {Domain{1, 2}, Domain{0, 0}};
   EXPECT_EQ(refusal(spec), "accepted");
 }
@@ -187,10 +185,9 @@ TEST(Usable, HarmlessDenominatorsAndRootsAreAccepted) {
 }
 
 TEST(TypedFormula, UnusedShapeIsNamed) {
-  EXPECT_NE(refusal({.curve = {"a*phi", "0", "0"}, .shape = {{"a", 1}, {"b", 1}}}).find("shape.b is used by no coordinate"),
-            std::string::npos);
-  EXPECT_NE(refusal({.curve = {"phi", "0", "0"}, .shape = {{"phi", 1}}}).find("variable"), std::string::npos);
-  EXPECT_NE(refusal({.curve = {"phi", "0"}}).find("allowed: three"), std::string::npos);
+  EXPECT_TRUE(holds(refusal({.curve = {"a*phi", "0", "0"}, .shape = {{"a", 1}, {"b", 1}}}), "shape.b is used by no coordinate"));
+  EXPECT_TRUE(holds(refusal({.curve = {"phi", "0", "0"}, .shape = {{"phi", 1}}}), "variable"));
+  EXPECT_TRUE(holds(refusal({.curve = {"phi", "0"}}), "allowed: three"));
 }
 
 TEST(Domains, WithoutAnEndAreLookedAtOnATurnOrOnASquare) {
@@ -266,7 +263,7 @@ TEST(NonFinite, IsToldByTheLowestDerivativeAndItsPlace) {
   EXPECT_EQ(ofSurface("abs(u)^1.5"), "r_uu is not finite at u = 0, v = 0");
   EXPECT_EQ(ofSurface("v^1.5"), "r_vv is not finite at u = -1, v = 0");
   EXPECT_EQ(ofSurface("1/(u - 0.3)").substr(0, 27), "r is not finite at u = 0.3,");
-  EXPECT_NE(ofSurface("1/(v - 1.7)").find("v = 1.7"), std::string::npos);
+  EXPECT_TRUE(holds(ofSurface("1/(v - 1.7)"), "v = 1.7"));
   EXPECT_EQ(ofSurface("1/((u + 2)*(v + 1))"), "");
   EXPECT_EQ(findNonFinite(named("free"), {Domain{0, 1}, Domain{0, 1}}), "");
 }

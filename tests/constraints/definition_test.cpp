@@ -1,18 +1,17 @@
 #include "constraints/catalogue/generated_catalogue.h"
 
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
-#include <filesystem>
-#include <fstream>
 #include <numbers>
+#include <optional>
 
 #include "base/fault.h"
 #include "constraints/regularity/analysis.h"
-#include "tests/refusal.h"
 #include "tests/constraints/made_constraints.h"
+#include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 /// What a definition may hold, and the words that refuse it.
 namespace reachlab::constraints {
@@ -185,24 +184,21 @@ TEST(Periods, HaveToRepeatThePlace) {
   EXPECT_EQ(refused(round), "");
   const std::string told = refused(replaced(round, "2*pi", "pi"));
   EXPECT_EQ(told.find("c.periodic: is true, but r does not repeat itself: its places at phi = "), 0u) << told;
-  EXPECT_NE(told.find("m apart; allowed: true for a formula of that period; else false, with at_end stop or bounce"), std::string::npos)
-      << told;
+  EXPECT_TRUE(holds(told, "m apart; allowed: true for a formula of that period; else false, with at_end stop or bounce"));
   const std::string tube = refused(replaced(kSurface, "\"2*pi\"", "\"pi\""));
   EXPECT_EQ(tube.find("c.periodic[0]: is true, but r does not repeat itself: its places at u = "), 0u) << tube;
-  EXPECT_NE(tube.find(" are 0.2 m apart"), std::string::npos) << "opposite sides of the tube: " << tube;
+  EXPECT_TRUE(holds(tube, " are 0.2 m apart")) << "opposite sides of the tube";
   const std::string across = refused(replaced(replaced(kSurface, "[-1, null]", "[-1, 3]"), "[true, false]", "[true, true]"));
   EXPECT_EQ(across.find("c.periodic[1]: is true, but r does not repeat itself: its places at v = "), 0u) << across;
-  EXPECT_NE(across.find(" are 4 m apart"), std::string::npos) << across;
+  EXPECT_TRUE(holds(across, " are 4 m apart"));
 }
 
 TEST(UserDefinitions, AreFoundInTheFolderThatTheEnvironmentNames) {
-  namespace fs = std::filesystem;
-  const std::map<std::string, const char*> before{{"REACHLAB_CONSTRAINTS", std::getenv("REACHLAB_CONSTRAINTS")},
-                                                  {"XDG_DATA_HOME", std::getenv("XDG_DATA_HOME")},
-                                                  {"HOME", std::getenv("HOME")}};
-  std::map<std::string, std::string> kept;
-  for (const auto& [name, value] : before)
-    if (value != nullptr) kept[name] = value;
+  std::map<std::string, std::optional<std::string>> before;
+  for (const char* name : {"REACHLAB_CONSTRAINTS", "XDG_DATA_HOME", "HOME"}) {
+    const char* value = std::getenv(name);
+    before[name] = value == nullptr ? std::nullopt : std::optional<std::string>(value);
+  }
   ::setenv("REACHLAB_CONSTRAINTS", "/own", 1);
   ::setenv("XDG_DATA_HOME", "/data", 1);
   ::setenv("HOME", "/home/me", 1);
@@ -212,16 +208,15 @@ TEST(UserDefinitions, AreFoundInTheFolderThatTheEnvironmentNames) {
   ::setenv("XDG_DATA_HOME", "", 1);
   EXPECT_EQ(userDefinitionFolder(), "/home/me/.local/share/reachlab/constraints");
 
-  const fs::path folder = fs::temp_directory_path() / ("reachlab-definitions-" + std::to_string(::getpid()));
-  EXPECT_TRUE(readDefinitionFolder(folder.string()).empty()) << "there is none";
-  fs::create_directories(folder);
-  std::ofstream(folder / "own-tube.json") << kSurface;
-  std::ofstream(folder / "own-arc.json") << kCurve;
-  std::ofstream(folder / "read.me") << "no definition";
-  const std::vector<Definition> all = readDefinitionFolder(folder.string());
+  const TemporaryFolder folder;
+  EXPECT_TRUE(readDefinitionFolder(folder / "none").empty()) << "there is none";
+  folder.write("own-tube.json", kSurface);
+  folder.write("own-arc.json", kCurve);
+  folder.write("read.me", "no definition");
+  const std::vector<Definition> all = readDefinitionFolder(folder.path());
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].name + " " + all[1].name, "own-arc own-tube");
-  ::setenv("REACHLAB_CONSTRAINTS", folder.c_str(), 1);
+  ::setenv("REACHLAB_CONSTRAINTS", folder.path().c_str(), 1);
   EXPECT_EQ(findDefinition("own-tube", "c").name, "own-tube");
   EXPECT_EQ(findDefinition("circle", "c").name, "circle");
   for (const char* none : {"own-tub", "", "x/own-tube", "../own-tube", "own-tube.json"})
@@ -233,9 +228,8 @@ TEST(UserDefinitions, AreFoundInTheFolderThatTheEnvironmentNames) {
   Definition changed = *findInCatalogue("circle");
   changed.coordinates[0] = "radius_m*0.1*cos(phi)";
   EXPECT_EQ(generatedFunctions(changed).curve, nullptr) << "its code would be another formula's";
-  fs::remove_all(folder);
   for (const auto& [name, value] : before) {
-    if (kept.contains(name)) ::setenv(name.c_str(), kept[name].c_str(), 1);
+    if (value) ::setenv(name.c_str(), value->c_str(), 1);
     else ::unsetenv(name.c_str());
   }
 }
@@ -266,7 +260,7 @@ TEST(TypedConstraint, IsRefusedInWords) {
             "c.curve[2], character 1: log(phi) cancels out, and what is left would go on where the formula as written has no value; "
             "allowed: a formula without it");
   for (const char* cancels : {"0*sqrt(phi)", "0*asin(phi)", "0*acos(phi)", "0*phi^0.3"})
-    EXPECT_NE(refusalOf(typed({"phi", cancels, "0"})).find("c.curve[1], character 1: "), std::string::npos) << cancels;
+    EXPECT_TRUE(holds(refusalOf(typed({"phi", cancels, "0"})), "c.curve[1], character 1: ")) << cancels;
   for (const char* whole : {"0*sqrt(phi^2 + 1)", "0*sin(phi)", "0*log(exp(phi))", "0*atan(phi)"})
     EXPECT_EQ(refusalOf(typed({"phi", whole, "0"})), "") << whole;
   std::map<std::string, double> shape;

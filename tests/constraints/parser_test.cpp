@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "constraints/formula/formula.h"
+#include "tests/refusal.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -56,7 +57,7 @@ TEST(Formula, FaultsPointAtTheCharacterAndSayWhatWasExpected) {
   const auto expect = [](const std::string& text, std::size_t character, const std::string& words) {
     const FormulaFault f = fault(text);
     EXPECT_EQ(f.character, character) << text;
-    EXPECT_NE(f.what.find(words), std::string::npos) << text << ": " << f.what;
+    EXPECT_TRUE(holds(f.what, words)) << text;
   };
   expect("", 1, "expected a number, a name, a function or '('");
   expect("cos(phi", 8, "expected ')'");
@@ -80,13 +81,13 @@ TEST(Formula, FaultsPointAtTheCharacterAndSayWhatWasExpected) {
 }
 
 TEST(Formula, TenThousandCharactersAndParenthesesAreRefused) {
-  EXPECT_NE(fault(std::string(10000, '1')).what.find("10000 characters"), std::string::npos);
+  EXPECT_TRUE(holds(fault(std::string(10000, '1')).what, "10000 characters"));
   EXPECT_EQ(fault(std::string(10000, '(')).allowed, "2000");
-  EXPECT_NE(fault(std::string(1500, '(')).what.find("nested too deeply"), std::string::npos);
-  EXPECT_NE(fault(std::string(1500, '-').append("1")).what.find("nested too deeply"), std::string::npos);
+  EXPECT_TRUE(holds(fault(std::string(1500, '(')).what, "nested too deeply"));
+  EXPECT_TRUE(holds(fault(std::string(1500, '-').append("1")).what, "nested too deeply"));
   std::string tower = "phi";
   for (int i = 0; i < 300; ++i) tower += "^phi";
-  EXPECT_NE(fault(tower).what.find("nested too deeply"), std::string::npos);
+  EXPECT_TRUE(holds(fault(tower).what, "nested too deeply"));
 }
 
 TEST(Formula, ALongSumIsNoDepth) {

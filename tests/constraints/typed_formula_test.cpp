@@ -21,14 +21,14 @@ TEST(TypedFormula, WhatCancelsOutWithTheEndOfItsDomainIsRefused) {
   };
   EXPECT_EQ(faultOf("0*log(phi)").find("constraint.curve[1]: log(phi) cancels out"), 0u) << faultOf("0*log(phi)");
   for (const char* y : {"0*sqrt(phi)", "log(phi) - log(phi)", "asin(phi)/asin(phi)", "0*acos(phi)", "0*phi^0.3", "log(phi)^0"})
-    EXPECT_NE(faultOf(y).find("cancels out"), std::string::npos) << y;
+    EXPECT_TRUE(holds(faultOf(y), "cancels out")) << y;
   for (const char* y :
        {"0*sin(phi)", "0*log(1 + phi^2)", "sqrt(1 + phi^2)^2", "0*exp(phi)", "sqrt(phi)*sqrt(phi)", "2*log(phi + 9) - log(phi + 9)"})
     EXPECT_EQ(faultOf(y), "") << y;
 }
 
 TEST(Line, RunsFromMinusToPlusHalfItsLength) {
-  const Constraint c = makeConstraint({});
+  const Constraint c = makeConstraint(ConstraintSpec{});
   EXPECT_TRUE(c.straight);
   EXPECT_NEAR(evaluate(c.curve, 0).r.x, -0.1, kRounding);
   EXPECT_NEAR(evaluate(c.curve, 2 * std::numbers::pi).r.x, 0.1, kRounding);
