@@ -44,20 +44,20 @@ TEST(ChooseMethod, ElasticEndsAreLeftToSubSteps) {
   const SceneFacts elastic{.linear = true, .elasticEnds = true};
   EXPECT_EQ(chosen("auto", oscillating(0.1), elastic).method, "adaptive");
   EXPECT_EQ(chosen("auto", oscillating(101), elastic).method, "stiff");
-  EXPECT_TRUE(has(chosen("auto", oscillating(0.1), elastic).reason, "the ends are elastic"));
-  EXPECT_FALSE(has(chosen("auto", oscillating(1)).reason, "elastic"));
-  EXPECT_TRUE(has(refused("exact", oscillating(0.1), elastic), "does not know elastic ends; use auto or adaptive"));
+  EXPECT_TRUE(holds(chosen("auto", oscillating(0.1), elastic).reason, "the ends are elastic"));
+  EXPECT_FALSE(holds(chosen("auto", oscillating(1)).reason, "elastic"));
+  EXPECT_TRUE(holds(refused("exact", oscillating(0.1), elastic), "does not know elastic ends; use auto or adaptive"));
 }
 
 TEST(ChooseMethod, TheReasonTellsTheNumbersAndWhatFollowsFromThem) {
   const auto reason = [](double reach, const SceneFacts& facts = {}) { return chosen("auto", oscillating(reach), facts).reason; };
-  EXPECT_TRUE(has(reason(0.25), "fastest mode 0.5 1/s, times step 0.25: within 0.3, Adams-Bashforth-Moulton")) << reason(0.25);
-  EXPECT_TRUE(has(reason(0.25), "by an embedded pair of order 8"));
-  EXPECT_TRUE(has(reason(0.25, {.hardCurve = true}), "sub-steps in a fictitious time, which passes cusps"));
-  EXPECT_TRUE(has(reason(4), "fastest mode 8 1/s, times step 4: sub-steps of an embedded pair of order 8 (one step a tick up to 0.3)"));
-  EXPECT_TRUE(has(reason(200), "times step 200: beyond 100 only an L-stable method is affordable"));
-  EXPECT_TRUE(has(reason(4, {.linear = true}), "the matrix exponential is exact")) << reason(4, {.linear = true});
-  EXPECT_TRUE(has(reason(4, {.linear = true}), "(fastest mode 8 1/s, times step 4)"));
+  EXPECT_TRUE(holds(reason(0.25), "fastest mode 0.5 1/s, times step 0.25: within 0.3, Adams-Bashforth-Moulton"));
+  EXPECT_TRUE(holds(reason(0.25), "by an embedded pair of order 8"));
+  EXPECT_TRUE(holds(reason(0.25, {.hardCurve = true}), "sub-steps in a fictitious time, which passes cusps"));
+  EXPECT_TRUE(holds(reason(4), "fastest mode 8 1/s, times step 4: sub-steps of an embedded pair of order 8 (one step a tick up to 0.3)"));
+  EXPECT_TRUE(holds(reason(200), "times step 200: beyond 100 only an L-stable method is affordable"));
+  EXPECT_TRUE(holds(reason(4, {.linear = true}), "the matrix exponential is exact"));
+  EXPECT_TRUE(holds(reason(4, {.linear = true}), "(fastest mode 8 1/s, times step 4)"));
   EXPECT_EQ(chosen("adaptive", oscillating(4)).reason, "asked for; fastest mode 8 1/s, times step 4");
 }
 
@@ -75,36 +75,36 @@ TEST(ChooseMethod, EveryMethodForetellsItsError) {
 // |R(3i)| = |-0.125 - 1.5 i|, R(-3) = 1.375.
 TEST(ChooseMethod, AnUnstableRk4IsRefusedWithItsFastestModeItsGrowthAndItsLongestStep) {
   const std::string undamped = refused("rk4", oscillating(3));
-  EXPECT_TRUE(has(undamped, "the fastest mode times the step is 3, its limit 2.828 (an undamped mode)")) << undamped;
-  EXPECT_TRUE(has(undamped, "multiplies that mode by 1.505")) << undamped;
-  EXPECT_TRUE(has(undamped, "use method auto, or a step below 0.471 s")) << undamped;
+  EXPECT_TRUE(holds(undamped, "the fastest mode times the step is 3, its limit 2.828 (an undamped mode)"));
+  EXPECT_TRUE(holds(undamped, "multiplies that mode by 1.505"));
+  EXPECT_TRUE(holds(undamped, "use method auto, or a step below 0.471 s"));
   ObjectModel damped = oscillating(0);
   damped.viscosity = 12;
   const std::string real = refused("rk4", damped);
-  EXPECT_TRUE(has(real, "times the step is 3, its limit 2.785 (a real mode: light mass, strong damper)")) << real;
-  EXPECT_TRUE(has(real, "multiplies that mode by 1.375")) << real;
-  EXPECT_TRUE(has(real, "a step below 0.464 s")) << real;
+  EXPECT_TRUE(holds(real, "times the step is 3, its limit 2.785 (a real mode: light mass, strong damper)"));
+  EXPECT_TRUE(holds(real, "multiplies that mode by 1.375"));
+  EXPECT_TRUE(holds(real, "a step below 0.464 s"));
   EXPECT_EQ(refused("rk4", oscillating(2.82)), "");
   damped.viscosity = 11.1;
   EXPECT_EQ(refused("rk4", damped), "");
   ObjectModel two = oscillating(3, 3);  // the one that grows most is told, wherever it stands
   two.handStiffness[1] *= 4;
-  EXPECT_TRUE(has(refused("rk4", two), "the fastest mode times the step is 6,")) << refused("rk4", two);
+  EXPECT_TRUE(holds(refused("rk4", two), "the fastest mode times the step is 6,"));
 }
 
 TEST(ChooseMethod, WhatAMethodCannotDoIsRefusedWithWhatCan) {
-  EXPECT_TRUE(has(refused("exact", oscillating(0.1)), "method exact is for linear scenes"));
-  EXPECT_TRUE(has(refused("euler", oscillating(0.1)), "there is no method 'euler'; allowed: auto, rk4, exact, abm, adaptive, stiff"));
+  EXPECT_TRUE(holds(refused("exact", oscillating(0.1)), "method exact is for linear scenes"));
+  EXPECT_TRUE(holds(refused("euler", oscillating(0.1)), "there is no method 'euler'; allowed: auto, rk4, exact, abm, adaptive, stiff"));
   EXPECT_EQ(refused("stiff", oscillating(10, 24)), "");
-  EXPECT_TRUE(has(refused("stiff", oscillating(10, 25)), "for up to 24 masses, and here are 25; use auto, or fewer masses"));
+  EXPECT_TRUE(holds(refused("stiff", oscillating(10, 25)), "for up to 24 masses, and here are 25; use auto, or fewer masses"));
   for (const char* method : {"abm", "adaptive"}) {
     EXPECT_EQ(refused(method, oscillating(449)), "") << method;
     const std::string words = refused(method, oscillating(460));
-    EXPECT_TRUE(has(words, std::string("method ") + method + " would need more than 1000 right-hand sides a tick")) << words;
-    EXPECT_TRUE(has(words, "times step 460, limit 450; use method stiff, or a smaller step")) << words;
-    EXPECT_TRUE(has(refused(method, oscillating(460), {.linear = true}), "use method exact, or"));
+    EXPECT_TRUE(holds(words, std::string("method ") + method + " would need more than 1000 right-hand sides a tick"));
+    EXPECT_TRUE(holds(words, "times step 460, limit 450; use method stiff, or a smaller step"));
+    EXPECT_TRUE(holds(refused(method, oscillating(460), {.linear = true}), "use method exact, or"));
     EXPECT_EQ(refused(method, oscillating(460, 24)), words);
-    EXPECT_TRUE(has(refused(method, oscillating(460, 25)), "use method stiff with at most 24 masses, or"));
+    EXPECT_TRUE(holds(refused(method, oscillating(460, 25)), "use method stiff with at most 24 masses, or"));
   }
 }
 

@@ -94,7 +94,7 @@ std::string refusalOf(const experiment::Experiment& e) {
 
 TEST(HardCases, ALineThatHasNoPlaceAtTheStartIsRefused) {
   const experiment::Experiment e = from(onCurve(makePoint(), "1e10*phi", "0", "0"), {1e300}, {2e300});
-  EXPECT_NE(refusalOf(e).find("has no finite value there"), std::string::npos) << refusalOf(e);
+  EXPECT_TRUE(holds(refusalOf(e), "has no finite value there"));
 }
 
 // c + phi is rounded by 2^-53 of it; allowed are 1e-9 m, and 1e-13 of how far away the place is.
@@ -167,7 +167,7 @@ TEST(HardCases, LongStiffChainsOnACurveAreTakenOrRefusedInWords) {
     return onEllipse(e);
   };
   EXPECT_EQ(compileScene(damped(500)).choice.method, "adaptive") << "4 b/m dt = 200";
-  EXPECT_NE(reachlab::refusalOf([&] { (void)compileScene(damped(5000)); }).find("at most 24 masses"), std::string::npos);
+  EXPECT_TRUE(holds(reachlab::refusalOf([&] { (void)compileScene(damped(5000)); }), "at most 24 masses"));
 }
 
 }  // namespace

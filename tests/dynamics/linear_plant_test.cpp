@@ -217,7 +217,7 @@ TEST(LinearPlant, AtAnEndEveryMassIsWhereItWasWhenTheFirstCameThere) {
       for (; status == StepStatus::Ok && ticks[k] < 1000; ++ticks[k]) status = p->step(hand, 1e-3);
       ++k;
       EXPECT_EQ(status, StepStatus::AtEnd);
-      EXPECT_NE(p->stopReason().find("a mass reached the end of the"), std::string::npos);
+      EXPECT_TRUE(holds(p->stopReason(), "a mass reached the end of the"));
       EXPECT_GT(p->lastStepFraction(), 0);
       EXPECT_LT(p->lastStepFraction(), 1);
       EXPECT_NEAR(observed(*p)[0].q[0], side * 0.5, 1e-12);

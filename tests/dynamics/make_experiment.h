@@ -93,8 +93,6 @@ inline StepStatus run(Plant& plant, const HandSample& hand, double seconds, doub
 }
 inline HandSample noHand(double) { return {}; }
 
-inline bool has(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-
 inline std::vector<MassState> observed(const Plant& plant, const HandSample& hand = {}) {
   std::vector<MassState> masses(static_cast<std::size_t>(plant.massCount()));
   plant.observe(hand, masses);

@@ -48,9 +48,9 @@ TEST(ObjectModel, OfSeveralHandsASpringIsTheSum) {
   EXPECT_EQ(model.handStiffness, (std::vector<double>{110, 20, 230}));
   EXPECT_EQ(model.handDamping, (std::vector<double>{1.1, 0.2, 2.3}));
   e.hands[1].stiffness = {-1};
-  EXPECT_NE(refused(e).find("the hand's stiffness of spring 3 is -1"), std::string::npos) << refused(e);
+  EXPECT_TRUE(holds(refused(e), "the hand's stiffness of spring 3 is -1"));
   e.hands[1] = {3, {1}, {-2}, {}};
-  EXPECT_NE(refused(e).find("the hand's damping of spring 3 is -2"), std::string::npos) << refused(e);
+  EXPECT_TRUE(holds(refused(e), "the hand's damping of spring 3 is -2"));
 }
 
 TEST(ObjectModel, WhatNoMethodCanIntegrateIsRefusedByItsNameAndPlace) {
@@ -76,11 +76,11 @@ TEST(ObjectModel, WhatNoMethodCanIntegrateIsRefusedByItsNameAndPlace) {
                              "stiffness_n_per_m has 2 numbers where 1 are needed"}}) {
     experiment::Experiment e = good;
     c.spoil(e);
-    EXPECT_NE(refused(e).find(c.words), std::string::npos) << c.words << ": " << refused(e);
+    EXPECT_TRUE(holds(refused(e), c.words)) << c.words;
   }
   EXPECT_EQ(refused(good), "");
   EXPECT_EQ(refused(makeExperiment(ObjectKind::Chain, {1, 2}, {0}, {0, 0})), "") << "no spring at all is allowed";
-  EXPECT_NE(refused(makeExperiment(ObjectKind::Parallel, {1, 2}, {40})).find("has 1 numbers where 2 are needed"), std::string::npos);
+  EXPECT_TRUE(holds(refused(makeExperiment(ObjectKind::Parallel, {1, 2}, {40})), "has 1 numbers where 2 are needed"));
 }
 
 TEST(ObjectModel, FiveHundredAndTwelveMassesAreTheMost) {

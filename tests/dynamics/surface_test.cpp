@@ -162,16 +162,16 @@ std::string stopped(const Experiment& e, const std::vector<double>& q, const std
 }
 
 TEST(Surface, WhatEndsAMotionIsToldInWords) {
-  EXPECT_TRUE(has(stopped(onSurface("v*cos(u)/10", "v*sin(u)/10", "v/10"), {0.4, 0.5}, {0, -1}, StepStatus::NoContinuation),
-                  "the surface has no tangent plane here (a cone's apex)"));
+  EXPECT_TRUE(holds(stopped(onSurface("v*cos(u)/10", "v*sin(u)/10", "v/10"), {0.4, 0.5}, {0, -1}, StepStatus::NoContinuation),
+                    "the surface has no tangent plane here (a cone's apex)"));
   const std::string jump = stopped(onSurface("u/10", "v/10", "0.02*sign(u - 0.5) + 0.01*v^3"), {0.2, 0.1}, {1, 0.1}, StepStatus::AtEnd);
-  EXPECT_TRUE(has(jump, "the mass met a place of the surface that is never crossed: jump")) << jump;
+  EXPECT_TRUE(holds(jump, "the mass met a place of the surface that is never crossed: jump"));
   const std::string parallel =
       stopped(onSurface("0.1*(u + v)", "0.1*log(cosh(u - v))", "0.01*(u + v)^3"), {0.05, -0.05}, {-0.03, 0.03}, StepStatus::NoContinuation);
-  EXPECT_TRUE(has(parallel, "the surface's parameter lines run into each other here")) << parallel;
-  EXPECT_TRUE(has(parallel, " degrees apart")) << parallel;
+  EXPECT_TRUE(holds(parallel, "the surface's parameter lines run into each other here"));
+  EXPECT_TRUE(holds(parallel, " degrees apart"));
   const std::string pinch = stopped(onSurface("u*v", "u", "v^2"), {0, 0.3}, {0, -1}, StepStatus::NoContinuation);
-  EXPECT_TRUE(has(pinch, "the surface degenerates here (a pinch point, an apex or a cuspidal edge)")) << pinch;
+  EXPECT_TRUE(holds(pinch, "the surface degenerates here (a pinch point, an apex or a cuspidal edge)"));
 }
 
 // A constant force drives a mass up a monkey saddle, until its slope is 19000 and its parameter lines are 0.007 degrees apart. The reference
@@ -190,14 +190,14 @@ TEST(Surface, WhereParameterLinesRunTogetherTheMotionKeepsItsDigits) {
 // sqrt(u) ends at u = 0 with |r_u| without bound: the mass stays beside it.
 TEST(Surface, BesideAnEndOfItsFormulaAMassIsStopped) {
   const std::string words = stopped(onSurface("u/10", "v/10", "0.05*sqrt(u) + 0.01*v^3"), {0.3, 0.1}, {-1, 0.1}, StepStatus::AtEnd);
-  EXPECT_TRUE(has(words, "the mass is beside a place of the surface that is never crossed: ")) << words;
-  EXPECT_TRUE(has(words, "nearer, the formula loses the digits of the speed")) << words;
+  EXPECT_TRUE(holds(words, "the mass is beside a place of the surface that is never crossed: "));
+  EXPECT_TRUE(holds(words, "nearer, the formula loses the digits of the speed"));
 }
 
 // Two planes that meet in a crease at 45 degrees and less: what is along it stays, and the speed.
 TEST(Surface, OverACreaseAMassGoesOnStraightAsOnAFoldedSheet) {
   const Scene scene = freeScene(onSurface("0.1*u", "0.1*v", "0.1*abs(u - 0.5)"), {0.2, 0.1}, {3, 1});
-  EXPECT_TRUE(has(scene.choice.form, "smooth between 1 lines")) << scene.choice.form;
+  EXPECT_TRUE(holds(scene.choice.form, "smooth between 1 lines"));
   ASSERT_EQ(run(*scene.plant, noHand, 0.25), StepStatus::Ok);
   const MassState mass = observed(*scene.plant)[0];
   EXPECT_NEAR(mass.q[0], 0.2 + 0.75, 1e-9) << "equally steep on either side";

@@ -85,15 +85,14 @@ TEST(Sweep, IsReadFromKeyFromToAndStep) {
 
 TEST(Sweep, SaysWhatIsWrongWithOneThatCannotBeRead) {
   for (const char* broken : {"n", "n=1", "n=1:2", "1:2:3", ""})
-    EXPECT_NE(refusalOf([&] { parseSweep(broken); }).find("KEY=FROM:TO:STEP"), std::string::npos) << broken;
-  EXPECT_NE(refusalOf([] { parseSweep("colour=1:2:1"); }).find("'colour', which is no key"), std::string::npos);
-  EXPECT_NE(refusalOf([] { parseSweep("colour=1:2:1"); }).find("hand_mass_kg, hand_damping_n_s_per_m"), std::string::npos);
+    EXPECT_TRUE(holds(refusalOf([&] { parseSweep(broken); }), "KEY=FROM:TO:STEP")) << broken;
+  EXPECT_TRUE(holds(refusalOf([] { parseSweep("colour=1:2:1"); }), "'colour', which is no key"));
+  EXPECT_TRUE(holds(refusalOf([] { parseSweep("colour=1:2:1"); }), "hand_mass_kg, hand_damping_n_s_per_m"));
   for (const auto& [text, number] :
        {std::pair{"n=x:2:1", "'x'"}, {"n=1:2y:1", "'2y'"}, {"n=1:2:", "''"}, {"n=1:inf:1", "'inf'"}, {"n=1:2:1:1", "'1:1'"}})
-    EXPECT_NE(refusalOf([text = text] { parseSweep(text); }).find(std::string("where ") + number + " is no number"), std::string::npos)
-        << text;
+    EXPECT_TRUE(holds(refusalOf([text = text] { parseSweep(text); }), std::string("where ") + number + " is no number")) << text;
   for (const char* way : {"n=1:2:0", "n=1:2:-1", "n=2:1:1", "n=1:100002:1"})
-    EXPECT_NE(refusalOf([&] { parseSweep(way); }).find("FROM <= TO, STEP > 0, at most 100000 values"), std::string::npos) << way;
+    EXPECT_TRUE(holds(refusalOf([&] { parseSweep(way); }), "FROM <= TO, STEP > 0, at most 100000 values")) << way;
   EXPECT_NO_THROW(parseSweep("n=1:100001:1"));
 }
 
@@ -166,7 +165,7 @@ TEST(SweepKeys, TheNumberOfMassesKeepsTheirSumOrTheFirst) {
   EXPECT_EQ(applied("n", 1, parallel).experiment.object.kind, experiment::ObjectKind::Parallel);
   EXPECT_EQ(applied("n", 512).experiment.object.masses.size(), 512u);
   for (const double n : {0.5, 1.5, 513.0})
-    EXPECT_NE(refusalOf([=] { applied("n", n); }).find("whole numbers of masses from 1 to 512"), std::string::npos) << n;
+    EXPECT_TRUE(holds(refusalOf([=] { applied("n", n); }), "whole numbers of masses from 1 to 512")) << n;
 }
 
 TEST(SweepKeys, TakeValuesThatMakeSenseAlone) {
@@ -175,18 +174,18 @@ TEST(SweepKeys, TakeValuesThatMakeSenseAlone) {
     const bool zero =
         name == "damping_n_s_per_m" || name == "viscosity_n_s_per_m" || name == "hand_mass_kg" || name == "hand_damping_n_s_per_m";
     EXPECT_EQ(refusalOf([&] { applied(name, 0); }).find("above 0") == std::string::npos, zero) << name;
-    EXPECT_NE(refusalOf([&] { applied(name, -1); }).find("above 0"), std::string::npos) << name;
+    EXPECT_TRUE(holds(refusalOf([&] { applied(name, -1); }), "above 0")) << name;
     EXPECT_NE(refusalOf([&] { applied(name, std::nan("")); }), "") << name;
     EXPECT_EQ(refusalOf([&] { applied(name, 2); }), "") << name;
     EXPECT_FALSE(key.meaning.empty());
   }
   EXPECT_EQ(sweepKeys().size(), 12u);
   EXPECT_EQ(refusalOf([] { applied("duration_s", 3600); }), "");
-  EXPECT_NE(refusalOf([] { applied("duration_s", 3601); }).find("0.001 to 3600 s"), std::string::npos);
-  EXPECT_NE(refusalOf([] { applied("colour", 1); }).find("'colour', which is no key"), std::string::npos);
+  EXPECT_TRUE(holds(refusalOf([] { applied("duration_s", 3601); }), "0.001 to 3600 s"));
+  EXPECT_TRUE(holds(refusalOf([] { applied("colour", 1); }), "'colour', which is no key"));
   Applied parallel;
   parallel.experiment = parallelPair();
-  EXPECT_NE(refusalOf([&] { applied("coupling.stiffness_n_per_m", 1, parallel); }).find("has no coupling"), std::string::npos);
+  EXPECT_TRUE(holds(refusalOf([&] { applied("coupling.stiffness_n_per_m", 1, parallel); }), "has no coupling"));
   EXPECT_EQ(applied("stiffness_n_per_m", 9, parallel).experiment.object.stiffness, (std::vector<double>{9, 9}));
   EXPECT_EQ(applied("damping_n_s_per_m", 9, parallel).experiment.object.damping, (std::vector<double>{9, 9}));
 }
@@ -205,7 +204,7 @@ TEST(Sweep, HasARowForEachValueInOrderWithItsPredictionOrItsRefusal) {
   EXPECT_EQ(done, (std::vector<int>{1, 2, 3}));
   for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(rows[i].value, 0.25 + static_cast<double>(i));
   EXPECT_EQ(rows[0].prediction, nullptr);
-  EXPECT_NE(rows[0].refusal.find("allow more time"), std::string::npos);
+  EXPECT_TRUE(holds(rows[0].refusal, "allow more time"));
   for (const std::size_t i : {1, 2}) {
     ASSERT_NE(rows[i].prediction, nullptr);
     EXPECT_EQ(rows[i].prediction->duration, rows[i].value);
@@ -218,10 +217,7 @@ TEST(Sweep, HasARowForEachValueInOrderWithItsPredictionOrItsRefusal) {
 
 TEST(Sweep, AFaultOfAValueIsTheWholeSweeps) {
   const experiment::CompiledExperiment compiled(dingwell());
-  EXPECT_NE(refusalOf([&] {
-              computeSweep(compiled, Criterion::MinHandJerk, {}, {"mass_kg", -1, 1, 1});
-            }).find("above 0"),
-            std::string::npos);
+  EXPECT_TRUE(holds(refusalOf([&] { computeSweep(compiled, Criterion::MinHandJerk, {}, {"mass_kg", -1, 1, 1}); }), "above 0"));
   EXPECT_EQ(computeSweep(compiled, Criterion::MinHandJerk, {}, {"mass_kg", 1, 3, 1}).size(), 3u) << "nobody asks how far it is";
 }
 
