@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 namespace reachlab::predict {
 namespace {
@@ -33,97 +32,61 @@ class Builder {
   ControlProblem byHand(int order, double distance) {
     const int rest = 2 * n;  // h, h', … after elongations and relative velocities
     begin(n, n, order);
-    s.controlled = s.size;
     const Term speed = state(rest + 1), acceleration = state(rest + 2);
+    pullBySprings(zero());
     for (int i = 0; i < n; ++i) {
-      const int from = fromOf(i);
-      const Row stretching = from < 0 ? difference(zero(), velocity(i)) : difference(velocity(from), velocity(i));
-      setRate(i, stretching, sqrt(Real(o.springs[i])));
-      applySpring(i, from, i, stretching);
-      add(force[i], velocity(i), Real(-o.viscosity[i]));
       add(force[i], speed, Real(-o.viscosity[i]));
       add(force[i], acceleration, Real(-o.masses[i]));
     }
-    finishVelocities(o.masses);
+    finishVelocities();
     for (int k = 0; k + 1 < order; ++k) setRate(rest + k, row(state(rest + k + 1)), Real(1));
     setRate(rest + order - 1, row(control()), Real(1));
     s.target[rest] = distance;
-    Row hand = row(state(rest));
-    s.output = positions(hand);
+    s.output = positions(row(state(rest)));
     return finish();
   }
 
   ControlProblem byForce(double distance) {
+    if (o.handMass > 0) return withHeavyHand(distance);
     const double hubDamping = hubDampers() + o.handDamping;
-    const bool heavyHand = o.handMass > 0;
+    const bool hub = o.parallel && n > 1;
     // A massless hand that meets a damper has its own rate; it must come to rest only if the masses would feel it afterwards.
-    const bool slowHand = !heavyHand && hubDamping > 0 && (o.handDamping > 0 || (o.parallel && n > 1));
-    const bool follower = !heavyHand && !slowHand && hubDamping > 0;
-    if (heavyHand) return withHeavyHand(distance);
-    if (slowHand) return withSlowHand(hubDamping, distance);
-    if (o.parallel && n > 1) return withHub(distance);
-    return withFreeEnd(follower, hubDamping, distance);
+    if (hubDamping > 0 && (o.handDamping > 0 || hub)) return withSlowHand(hubDamping, distance);
+    return hub ? withHub(distance) : withFreeEnd(hubDamping, distance);
   }
 
  private:
   // The hand is node 0 of N+1.
   ControlProblem withHeavyHand(double distance) {
     begin(n, n + 1, 1 + forceStates());
-    s.controlled = s.size;
-    std::vector<double> masses{o.handMass};
-    masses.insert(masses.end(), o.masses.begin(), o.masses.end());
-    nodeMass = masses;
-    for (int i = 0; i < n; ++i) {
-      const int from = fromOf(i) + 1, to = i + 1;
-      const Row stretching = difference(velocity(from), velocity(to));
-      setRate(i, stretching, sqrt(Real(o.springs[i])));
-      applySpring(i, from, to, stretching);
-      add(force[to], velocity(to), Real(-o.viscosity[i]));
-    }
+    pullBySprings({});
     add(force[0], velocity(0), Real(-o.handDamping));
-    const Row drive = drivingForce(velocity(0), 1);
-    add(force[0], drive, Real(1));
-    finishByForce(masses, distance);
-    Row hand = row(centre());
-    for (int i = 0; i < n; ++i) subtractMassOffset(hand, i + 1);
-    s.output = positions(hand);
-    return finish();
+    add(force[0], drivingForce(), Real(1));
+    return finishWithElongations(distance);
   }
 
   // Hand without mass behind a damper: (sum b + b_hand) h' = F - sum k e + sum b v.
   ControlProblem withSlowHand(double hubDamping, double distance) {
     begin(n, n, 1 + forceStates());
-    s.controlled = s.size;
-    nodeMass = o.masses;
-    Row speed = drivingForce(std::nullopt, 0);
+    Row speed = drivingForce();
     for (int i = 0; i < n; ++i)
       if (fromOf(i) < 0) {
         add(speed, state(i), -sqrt(Real(o.springs[i])));
         add(speed, velocity(i), Real(o.dampers[i]));
       }
     for (Real& c : speed) c /= Real(hubDamping);
-    for (int i = 0; i < n; ++i) {
-      const int from = fromOf(i);
-      const Row stretching = from < 0 ? difference(speed, velocity(i)) : difference(velocity(from), velocity(i));
-      setRate(i, stretching, sqrt(Real(o.springs[i])));
-      applySpring(i, from, i, stretching);
-      add(force[i], velocity(i), Real(-o.viscosity[i]));
-    }
+    pullBySprings(speed);
     s.handVelocityJumps = kind != Criterion::MinHandForceChange;
-    finishByForce(o.masses, distance);
-    Row hand = row(centre());
-    for (int i = 0; i < n; ++i) subtractMassOffset(hand, i);
-    s.output = positions(hand);
-    return finish();
+    return finishWithElongations(distance);
   }
 
   // Massless hand, no damper at it: the force acts on mass 1 of the chain at once, and h = x1 + F/k. A damper in the coupling
   // makes the hand follow the force instead, without a say in the problem.
-  ControlProblem withFreeEnd(bool follower, double hubDamping, double distance) {
+  ControlProblem withFreeEnd(double hubDamping, double distance) {
+    const bool follower = hubDamping > 0;
     begin(n - 1, n, 1 + forceStates() + (follower ? 1 : 0));
     s.controlled = s.size - (follower ? 1 : 0);
-    nodeMass = o.masses;
-    const Row drive = drivingForce(std::nullopt, 0);
+    const Row drive = drivingForce();
     for (int i = 0; i < n; ++i) {
       add(force[i], velocity(i), Real(-o.viscosity[i]));
       if (i == 0) continue;
@@ -132,7 +95,7 @@ class Builder {
       applySpring(i, i - 1, i, stretching, i - 1);
     }
     add(force[0], drive, Real(1));
-    finishByForce(o.masses, distance);
+    finishByForce(distance);
 
     Row first = row(centre());  // x1 = Xc + sum of what lies behind it
     for (int i = 1; i < n; ++i) {
@@ -167,8 +130,6 @@ class Builder {
   // sqrt(k) of unit length and B an orthonormal basis of what is perpendicular to it (columns of a Householder reflection).
   ControlProblem withHub(double distance) {
     begin(n - 1, n, 1 + forceStates());
-    s.controlled = s.size;
-    nodeMass = o.masses;
     Real total = 0;
     for (const double k : o.springs) total += Real(k);
     std::vector<Real> q, axis;
@@ -179,7 +140,7 @@ class Builder {
       const Real reflected = axis[i] * axis[j + 1] / axis[0];
       return i == j + 1 ? Real(1) - reflected : -reflected;
     };
-    const Row drive = drivingForce(std::nullopt, 0);
+    const Row drive = drivingForce();
     std::vector<Row> stretch(n, zero());  // sqrt(k) e
     for (int i = 0; i < n; ++i) {
       add(stretch[i], drive, q[i] / sqrt(total));
@@ -192,7 +153,7 @@ class Builder {
       for (int i = 0; i < n; ++i) add(rate, velocity(i), -sqrt(Real(o.springs[i])) * basis(i, j));
       setRate(j, rate, Real(1));
     }
-    finishByForce(o.masses, distance);
+    finishByForce(distance);
     Row hand = row(centre());
     for (int i = 0; i < n; ++i) add(hand, stretch[i], Real(o.masses[i]) / Real(o.totalMass()) / sqrt(Real(o.springs[i])));
     s.output = {hand};
@@ -209,16 +170,16 @@ class Builder {
   void begin(int elongations, int velocities, int others) {
     s.elongations = elongations;
     s.velocities = velocities;
-    s.size = elongations + velocities + others;
+    s.size = s.controlled = elongations + velocities + others;
     s.a.assign(static_cast<size_t>(s.size) * s.size, Real(0));
     s.b.assign(s.size, Real(0));
     s.target.assign(s.size, Real(0));
     force.assign(velocities, zero());
-    if (!nodeMass.empty()) return;
     nodeMass = o.masses;
     if (o.handMass > 0) nodeMass.insert(nodeMass.begin(), o.handMass);
   }
 
+  int handNodes() const { return s.velocities - n; }  // 1 for a hand with mass
   int forceStates() const { return kind == Criterion::MinHandForceChange ? 1 : 0; }
   int centreIndex() const { return s.elongations + s.velocities; }
   int forceIndex() const { return centreIndex() + 1; }
@@ -246,13 +207,13 @@ class Builder {
   Row difference(const Term& a, const Term& b) const { return difference(row(a), b); }
 
   // F in terms of states and control; for criterion 6 the control is the acceleration of the centre of mass.
-  Row drivingForce(const std::optional<Term>& handVelocity, int firstMass) {
+  Row drivingForce() const {
     if (kind == Criterion::MinHandForceChange) return row(state(forceIndex()));
     Row drive = row(control());
     if (kind == Criterion::MinHandForce) return drive;
     for (Real& c : drive) c *= Real(o.totalMass());
-    if (handVelocity) add(drive, *handVelocity, Real(o.handDamping));
-    for (int i = 0; i < n; ++i) add(drive, velocity(firstMass + i), Real(o.viscosity[i]));
+    if (handNodes() > 0) add(drive, velocity(0), Real(o.handDamping));
+    for (int i = 0; i < n; ++i) add(drive, velocity(handNodes() + i), Real(o.viscosity[i]));
     return drive;
   }
 
@@ -269,24 +230,40 @@ class Builder {
     if (from >= 0) add(force[from], pull, Real(-1));
   }
 
-  void finishVelocities(const std::vector<double>& masses) {
-    for (int i = 0; i < s.velocities; ++i) setRate(s.elongations + i, force[i], Real(1) / sqrt(Real(masses[i])));
+  // Every spring, and the drag on the mass behind it. `hub`: the velocity of a hand without mass.
+  void pullBySprings(const Row& hub) {
+    for (int i = 0; i < n; ++i) {
+      const int from = handNodes() + fromOf(i), to = handNodes() + i;
+      const Row stretching = from < 0 ? difference(hub, velocity(to)) : difference(velocity(from), velocity(to));
+      setRate(i, stretching, sqrt(Real(o.springs[i])));
+      applySpring(i, from, to, stretching);
+      add(force[to], velocity(to), Real(-o.viscosity[i]));
+    }
   }
 
-  void finishByForce(const std::vector<double>& masses, double distance) {
-    finishVelocities(masses);
+  void finishVelocities() {
+    for (int i = 0; i < s.velocities; ++i) setRate(s.elongations + i, force[i], Real(1) / sqrt(Real(nodeMass[i])));
+  }
+
+  void finishByForce(double distance) {
+    finishVelocities();
     Row momentum = zero();
-    for (int i = 0; i < s.velocities; ++i) add(momentum, velocity(i), Real(masses[i]));
+    for (int i = 0; i < s.velocities; ++i) add(momentum, velocity(i), Real(nodeMass[i]));
     setRate(centreIndex(), momentum, Real(1) / Real(o.totalMass()));
     if (forceStates() > 0) setRate(forceIndex(), row(control()), Real(1));
     s.target[centreIndex()] = distance;
   }
 
-  // Mass `node - (heavy hand)` lies behind springs; its share of the distance from the hand to the centre of mass.
-  void subtractMassOffset(Row& hand, int node) {
-    const int mass = s.velocities == n ? node : node - 1;
-    const Real share = Real(o.masses[mass]) / Real(o.totalMass());
-    for (int i = o.parallel ? mass : 0; i <= mass; ++i) add(hand, state(i), share / sqrt(Real(o.springs[i])));
+  // Where every spring has its elongation state: from the centre of mass to the hand each mass adds its share of the springs before it.
+  ControlProblem finishWithElongations(double distance) {
+    finishByForce(distance);
+    Row hand = row(centre());
+    for (int mass = 0; mass < n; ++mass) {
+      const Real share = Real(o.masses[mass]) / Real(o.totalMass());
+      for (int i = o.parallel ? mass : 0; i <= mass; ++i) add(hand, state(i), share / sqrt(Real(o.springs[i])));
+    }
+    s.output = positions(hand);
+    return finish();
   }
 
   // Hand and masses from the hand's row when every spring has its elongation state.
