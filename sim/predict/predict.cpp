@@ -232,8 +232,7 @@ std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, co
   if (experiment.object.kind == experiment::ObjectKind::Body)
     throw FaultError(Fault{"object.kind", "is body", "point, chain, parallel: the criteria are not defined for a body that turns"});
   const auto makeObject = [&] {
-    return mergeEqualFrequencies(makeLineObject(experiment, options.handMass.value_or(experiment.handMass), options.handDamping), duration,
-                                 warnings);
+    return mergeEqualFrequencies(makeLineObject(experiment, handMass, options.handDamping), duration, warnings);
   };
   const std::optional<StraightTask> straight = findStraightTask(constraint, task);
   if (straight && !(straight->distance > 0)) throw FaultError(constraints::samePlaceFault());

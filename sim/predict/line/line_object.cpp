@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -67,7 +68,8 @@ LineObject makeLineObject(const experiment::Experiment& experiment, double handM
 LineObject mergeEqualFrequencies(const LineObject& object, double duration, std::vector<std::string>& warnings) {
   if (!object.parallel) return object;
   LineObject merged = object;
-  merged.masses.clear(), merged.springs.clear(), merged.dampers.clear(), merged.viscosity.clear();
+  constexpr std::array kOfMass{&LineObject::masses, &LineObject::springs, &LineObject::dampers, &LineObject::viscosity};
+  for (const auto numbers : kOfMass) (merged.*numbers).clear();
   const auto frequency = [](const LineObject& o, int i) { return std::sqrt(o.springs[i] / o.masses[i]); };
   const auto decay = [](const LineObject& o, int i) { return o.dampers[i] / o.masses[i]; };
   const auto drag = [](const LineObject& o, int i) { return o.viscosity[i] / o.masses[i]; };
@@ -77,19 +79,14 @@ LineObject mergeEqualFrequencies(const LineObject& object, double duration, std:
                                        std::abs(decay(merged, place) - decay(object, i)) * duration < kEqualPhase &&
                                        std::abs(drag(merged, place) - drag(object, i)) * duration < kEqualPhase))
       ++place;
-    if (place == merged.count()) {
-      merged.masses.push_back(object.masses[i]);
-      merged.springs.push_back(object.springs[i]);
-      merged.dampers.push_back(object.dampers[i]);
-      merged.viscosity.push_back(object.viscosity[i]);
-    } else {
+    if (place < merged.count())
       warnings.push_back(fmt::format("masses {} and {} have equal frequencies ({:.6g} rad/s): they move as one mass",
                                      std::find(merged.source.begin(), merged.source.begin() + i, place) - merged.source.begin() + 1, i + 1,
                                      frequency(object, i)));
-      merged.masses[place] += object.masses[i];
-      merged.springs[place] += object.springs[i];
-      merged.dampers[place] += object.dampers[i];
-      merged.viscosity[place] += object.viscosity[i];
+    for (const auto numbers : kOfMass) {
+      std::vector<double>& sum = merged.*numbers;
+      if (static_cast<int>(sum.size()) == place) sum.push_back(0);
+      sum[place] += (object.*numbers)[i];
     }
     merged.source[i] = place;
   }

@@ -13,11 +13,22 @@ struct Spring {
   double stiffness;
 };
 
-// Modes of masses joined by springs. Frequencies are Rayleigh quotients summed over spring energies: every term is positive, so a
+// All modes but the first `rigid`. Frequencies are Rayleigh quotients, summed over the springs' energies: every term is positive, so that a
 // low frequency keeps its relative precision beside high ones.
+template <class Energy>
+Modes computeModes(const Eigen::VectorXd& masses, const Eigen::MatrixXd& stiffness, Eigen::Index rigid, const Energy& twiceEnergyOf) {
+  const Eigen::VectorXd scale = masses.cwiseSqrt().cwiseInverse();
+  const SymmetricEigen solved = solveSymmetric(scale.asDiagonal() * stiffness * scale.asDiagonal());
+  Modes modes;
+  modes.shape = scale.asDiagonal() * solved.vectors.rightCols(masses.size() - rigid);
+  modes.frequency.resize(modes.shape.cols());
+  for (Eigen::Index j = 0; j < modes.shape.cols(); ++j) modes.frequency(j) = std::sqrt(twiceEnergyOf(modes.shape.col(j)));
+  return modes;
+}
+
+// Of masses joined by springs.
 Modes computeNetworkModes(const Eigen::VectorXd& masses, const std::vector<Spring>& springs, bool dropRigid) {
   const Eigen::Index n = masses.size();
-  const Eigen::VectorXd scale = masses.cwiseSqrt().cwiseInverse();
   Eigen::MatrixXd k = Eigen::MatrixXd::Zero(n, n);
   for (const Spring& s : springs) {
     k(s.to, s.to) += s.stiffness;
@@ -26,20 +37,14 @@ Modes computeNetworkModes(const Eigen::VectorXd& masses, const std::vector<Sprin
     k(s.from, s.to) -= s.stiffness;
     k(s.to, s.from) -= s.stiffness;
   }
-  const SymmetricEigen solved = solveSymmetric(scale.asDiagonal() * k * scale.asDiagonal());
-  const Eigen::Index first = dropRigid ? 1 : 0;
-  Modes modes;
-  modes.shape = scale.asDiagonal() * solved.vectors.rightCols(n - first);
-  modes.frequency.resize(n - first);
-  for (Eigen::Index j = 0; j < n - first; ++j) {
+  return computeModes(masses, k, dropRigid ? 1 : 0, [&](const auto& shape) {
     double energy = 0;
     for (const Spring& s : springs) {
-      const double e = modes.shape(s.to, j) - (s.from < 0 ? 0.0 : modes.shape(s.from, j));
+      const double e = shape(s.to) - (s.from < 0 ? 0.0 : shape(s.from));
       energy += s.stiffness * e * e;
     }
-    modes.frequency(j) = std::sqrt(energy);
-  }
-  return modes;
+    return energy;
+  });
 }
 
 std::vector<Spring> springsOf(const LineObject& object, int hand) {
@@ -55,17 +60,12 @@ Eigen::VectorXd massesOf(const LineObject& object) { return Eigen::Map<const Eig
 Modes computeHubModes(const LineObject& object) {
   const Eigen::VectorXd masses = massesOf(object);
   const Eigen::VectorXd k = Eigen::Map<const Eigen::VectorXd>(object.springs.data(), object.count());
-  const Eigen::VectorXd scale = masses.cwiseSqrt().cwiseInverse();
   const Eigen::VectorXd share = k / k.sum();
   const Eigen::MatrixXd stiffness = Eigen::MatrixXd(k.asDiagonal()) - k * share.transpose();
-  const SymmetricEigen solved = solveSymmetric(scale.asDiagonal() * stiffness * scale.asDiagonal());
-  Modes modes;
-  modes.shape = scale.asDiagonal() * solved.vectors.rightCols(masses.size() - 1);
-  modes.frequency.resize(modes.shape.cols());
-  for (Eigen::Index j = 0; j < modes.shape.cols(); ++j) {
-    const Eigen::ArrayXd elongation = modes.shape.col(j).array() - share.dot(modes.shape.col(j));
-    modes.frequency(j) = std::sqrt((k.array() * elongation.square()).sum());
-  }
+  Modes modes = computeModes(masses, stiffness, 1, [&](const auto& shape) {
+    const Eigen::ArrayXd elongation = shape.array() - share.dot(shape);
+    return (k.array() * elongation.square()).sum();
+  });
   modes.drive = -masses.sum() * (modes.shape.transpose() * share);
   return modes;
 }
