@@ -92,7 +92,6 @@ std::unique_ptr<Prediction> makeFreeArmPrediction(const experiment::Arm& arm, co
   constexpr int kLocals = 8;
   TranscribedProblem problem;
   problem.duration = task.duration;
-  problem.locals = kLocals;
   problem.residuals = 2;
   for (const auto* end : {&task.start, &task.target}) {
     const double x = (*end)[0] - arm.shoulder[0], y = (*end)[1] - arm.shoulder[1];
@@ -100,21 +99,11 @@ std::unique_ptr<Prediction> makeFreeArmPrediction(const experiment::Arm& arm, co
     const auto q = computeAngles(arm, x, y);
     (end == &task.start ? problem.from : problem.to) = {q[0], q[1]};
   }
-  for (int joint = 0; joint < 2; ++joint) {
-    std::vector<double> local(kLocals * 4, 0.0);
-    for (int m = 0; m < 4; ++m) local[(joint * 4 + m) * 4 + m] = 1;
-    problem.local.push_back(local);
-  }
-  problem.residual = [&arm](const double* a, double* r, double* ra, double* raa) {
-    using S = HyperDual<kLocals>;
-    const auto v = [&](int i) { return S::variable(i, a[i]); };
-    if (ra == nullptr) {
-      const auto rates = computeTorqueRates<double>(arm, {a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7]}, 0.0, 0.0);
-      std::copy(rates.begin(), rates.end(), r);
-      return;
-    }
-    store(computeTorqueRates<S>(arm, {v(0), v(1), v(2), v(3), v(4), v(5), v(6), v(7)}, S(0.0), S(0.0)), r, ra, raa);
-  };
+  problem.takeDerivativesAsLocals();
+  problem.residual = residualOf<kLocals>([&arm](const auto& a) {
+    using S = std::decay_t<decltype(a[0])>;
+    return computeTorqueRates<S>(arm, {a[0], a[1], a[2], a[3], a[4], a[5], a[6], a[7]}, S(0.0), S(0.0));
+  });
   const TranscribedMotion motion = solveFromStarts(problem, unknowns);
 
   // The hand along the chord, projected on as many Legendre polynomials as resolve it.
@@ -173,18 +162,11 @@ std::unique_ptr<Prediction> makeLineArmPrediction(const experiment::Arm& arm, co
     if (k + 1 < width) local[5 * width + k + 1] = static_cast<double>(force[k]);
   }
   problem.local = {local};
-  problem.residual = [&](const double* a, double* r, double* ra, double* raa) {
-    using S = HyperDual<kLocals>;
-    const auto v = [&](int i) { return S::variable(i, a[i]); };
-    if (ra == nullptr) {
-      const JointMotion<double> m = computeJointMotion<double>(arm, start + along * a[0], across, along * a[1], along * a[2], along * a[3]);
-      const auto rates = computeTorqueRates<double>(arm, m, along * a[4], along * a[5]);
-      std::copy(rates.begin(), rates.end(), r);
-      return;
-    }
-    const JointMotion<S> m = computeJointMotion<S>(arm, start + along * v(0), across, along * v(1), along * v(2), along * v(3));
-    store(computeTorqueRates<S>(arm, m, along * v(4), along * v(5)), r, ra, raa);
-  };
+  problem.residual = residualOf<kLocals>([&](const auto& a) {
+    using S = std::decay_t<decltype(a[0])>;
+    const JointMotion<S> m = computeJointMotion<S>(arm, start + along * a[0], across, along * a[1], along * a[2], along * a[3]);
+    return computeTorqueRates<S>(arm, m, along * a[4], along * a[5]);
+  });
   std::vector<LegendreSeries> derivative;
   const auto differentiate = [&](const TranscribedMotion& motion) {
     derivative.clear();

@@ -11,11 +11,10 @@ TranscribedProblem makeCurveJerkProblem(const constraints::ArcCurve& curve, doub
   constexpr int kLocals = 4;
   TranscribedProblem problem;
   problem.duration = duration;
-  problem.locals = kLocals;
   problem.residuals = 3;
   problem.from = {0};
   problem.to = {curve.length()};
-  problem.local = {{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1}};
+  problem.takeDerivativesAsLocals();
   problem.residual = [&curve](const double* a, double* r, double* ra, double* raa) {
     const double v = a[1], w = a[2], cube = v * v * v, turn = 3 * v * w;
     const auto put = [](const Vec3& from, double* to, int stride) { to[0] = from.x, to[stride] = from.y, to[2 * stride] = from.z; };

@@ -91,15 +91,10 @@ std::unique_ptr<Prediction> makeSurfaceJerkPrediction(const constraints::Constra
   constexpr int kLocals = 8;
   TranscribedProblem problem;
   problem.duration = duration;
-  problem.locals = kLocals;
   problem.residuals = 3;
   problem.from = start;
   problem.to = target;
-  for (int motion = 0; motion < 2; ++motion) {
-    std::vector<double> local(kLocals * 4, 0.0);
-    for (int m = 0; m < 4; ++m) local[(motion * 4 + m) * 4 + m] = 1;
-    problem.local.push_back(local);
-  }
+  problem.takeDerivativesAsLocals();
   const constraints::SurfaceFormula formula(surface);
   problem.residual = [&](const double* a, double* r, double* ra, double* raa) {
     using S = HyperDual<kLocals>;

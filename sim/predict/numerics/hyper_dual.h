@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -81,6 +82,20 @@ struct HyperDual {
 template <int Count, std::size_t Numbers>
 void store(const std::array<HyperDual<Count>, Numbers>& all, double* r, double* ra, double* raa) {
   for (std::size_t k = 0; k < Numbers; ++k) all[k].store(r + k, ra + k * Count, raa + k * Count * Count);
+}
+
+/// The residual of a TranscribedProblem from a formula of `Count` numbers, written once for doubles and HyperDuals.
+template <int Count, class Formula>
+auto residualOf(Formula formula) {
+  return [formula](const double* a, double* r, double* ra, double* raa) {
+    if (ra == nullptr) {
+      std::ranges::copy(formula(a), r);
+      return;
+    }
+    std::array<HyperDual<Count>, Count> variables;
+    for (int i = 0; i < Count; ++i) variables[i] = HyperDual<Count>::variable(i, a[i]);
+    store(formula(variables), r, ra, raa);
+  };
 }
 
 }  // namespace reachlab::predict

@@ -49,6 +49,14 @@ std::shared_ptr<const BasisTable> tableOf(const RestToRestBasis& basis) {
 
 }  // namespace
 
+void TranscribedProblem::takeDerivativesAsLocals() {
+  locals = 4 * static_cast<int>(from.size());
+  for (size_t motion = 0; motion < from.size(); ++motion) {
+    local.emplace_back(locals * 4, 0.0);
+    for (size_t m = 0; m < 4; ++m) local.back()[(motion * 4 + m) * 4 + m] = 1;
+  }
+}
+
 TranscribedCost::TranscribedCost(const TranscribedProblem& problem, const RestToRestBasis& basis)
     : problem_(problem), table_(tableOf(basis)) {
   const int unknowns = basis.columns() - 1, motions = static_cast<int>(problem.from.size()), nodes = static_cast<int>(table_->at.size());

@@ -20,6 +20,8 @@ struct TranscribedProblem {
   std::vector<double> detour;    // how far bent starts leave each motion's straight one; empty: the way it goes, at least 1e-3
   /// locals x (order+1) for each motion: a = sum over motions and m of local[motion][l*(order+1)+m] * y^(m)(t), time derivatives.
   std::vector<std::vector<double>> local;
+  /// Each motion, `from` says how many, and its first three derivatives become the local variables, motion by motion.
+  void takeDerivativesAsLocals();
   /// R, dR/da (residuals x locals) and d2R/da2 (residuals x locals x locals) at one instant. R alone when ra is null.
   std::function<void(const double* a, double* r, double* ra, double* raa)> residual;
   /// Of all searches for its minimum together.
