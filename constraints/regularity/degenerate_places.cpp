@@ -48,30 +48,27 @@ class PlaceFinder {
   }
 
  private:
-  double fraction(std::size_t k, double t) const { return t == 1 ? domain_[k].hi : domain_[k].lo + (domain_[k].hi - domain_[k].lo) * t; }
+  double fraction(int k, double t) const { return t == 1 ? domain_[k].hi : domain_[k].lo + (domain_[k].hi - domain_[k].lo) * t; }
   // The point with parameter `fixed` equal to a, the other to b.
   SurfacePoint at(int fixed, double a, double b) const { return fixed == 0 ? evaluate(c_.surface, a, b) : evaluate(c_.surface, b, a); }
 
   double largestAlong(int fixed, double a, const std::function<double(const SurfacePoint&)>& f) const {
-    const std::size_t other = fixed == 0 ? 1 : 0;
     double largest = 0;
-    for (int j = 0; j < kAlong; ++j) largest = std::max(largest, f(at(fixed, a, fraction(other, (j + 0.381966) / kAlong))));
+    for (int j = 0; j < kAlong; ++j) largest = std::max(largest, f(at(fixed, a, fraction(1 - fixed, (j + 0.381966) / kAlong))));
     return largest;
   }
 
   void findLines(int fixed) {
-    const std::size_t k = static_cast<std::size_t>(fixed);
     const auto value = [&](double a) { return largestAlong(fixed, a, area); };
     const int n = kLines;
-    std::vector<double> w(static_cast<std::size_t>(n) + 1);
-    for (int i = 0; i <= n; ++i) w[i] = value(fraction(k, i / double{kLines}));
-    const int last = domain_[k].periodic ? n - 1 : n;
+    std::vector<double> w(n + 1);
+    for (int i = 0; i <= n; ++i) w[i] = value(fraction(fixed, i / double{kLines}));
+    const int last = domain_[fixed].periodic ? n - 1 : n;
     for (int i = 0; i <= last; ++i) {
-      const std::size_t s = static_cast<std::size_t>(i);
-      if ((i > 0 && w[s - 1] < w[s]) || (i < n && w[s + 1] <= w[s])) continue;
-      double a = fraction(k, i / double{kLines});
-      if (w[s] > kZero * largestArea_)
-        a = minimise(value, fraction(k, std::max(0, i - 1) / double{kLines}), fraction(k, std::min(n, i + 1) / double{kLines}));
+      if ((i > 0 && w[i - 1] < w[i]) || (i < n && w[i + 1] <= w[i])) continue;
+      double a = fraction(fixed, i / double{kLines});
+      if (w[i] > kZero * largestArea_)
+        a = minimise(value, fraction(fixed, std::max(0, i - 1) / double{kLines}), fraction(fixed, std::min(n, i + 1) / double{kLines}));
       if (value(a) <= kZero * largestArea_) addLine(fixed, a);
     }
   }
@@ -79,8 +76,7 @@ class PlaceFinder {
   void addLine(int fixed, double a) {
     DegeneratePlace place;
     place.fixed = fixed;
-    const std::size_t other = fixed == 0 ? 1 : 0;
-    const double b = fraction(other, 0.381966);
+    const double b = fraction(1 - fixed, 0.381966);
     (fixed == 0 ? place.u : place.v) = a;
     (fixed == 0 ? place.v : place.u) = b;
     place.r = at(fixed, a, b).r;
@@ -92,14 +88,13 @@ class PlaceFinder {
 
   // Do the normals around a collapsed line meet in one as it is approached?
   bool isSmooth(int fixed, double a, Vec3& normal) const {
-    const std::size_t k = static_cast<std::size_t>(fixed), other = fixed == 0 ? 1 : 0;
-    const double range = domain_[k].hi - domain_[k].lo;
-    const double inwards = a - domain_[k].lo > range / 2 ? -1 : 1;
+    const double range = domain_[fixed].hi - domain_[fixed].lo;
+    const double inwards = a - domain_[fixed].lo > range / 2 ? -1 : 1;
     const auto spread = [&](double distance, Vec3& mean) {
       std::vector<Vec3> normals;
       mean = {};
       for (int j = 0; j < kAlong; ++j) {
-        const SurfacePoint p = at(fixed, a + inwards * distance * range, fraction(other, (j + 0.381966) / kAlong));
+        const SurfacePoint p = at(fixed, a + inwards * distance * range, fraction(1 - fixed, (j + 0.381966) / kAlong));
         const Vec3 n = cross(p.rU, p.rV);
         normals.push_back(n / norm(n));
         mean += normals.back();
@@ -116,10 +111,9 @@ class PlaceFinder {
   bool onLine(double u, double v) const {
     for (const DegeneratePlace& p : places_) {
       if (p.fixed < 0) continue;
-      const std::size_t k = static_cast<std::size_t>(p.fixed);
-      const double range = domain_[k].hi - domain_[k].lo;
+      const double range = domain_[p.fixed].hi - domain_[p.fixed].lo;
       double distance = std::abs((p.fixed == 0 ? u - p.u : v - p.v));
-      if (domain_[k].periodic) distance = std::min(distance, std::abs(range - distance));
+      if (domain_[p.fixed].periodic) distance = std::min(distance, std::abs(range - distance));
       if (distance < 2.5 * range / kLines) return true;
     }
     return false;
@@ -128,7 +122,7 @@ class PlaceFinder {
   void findPoints() {
     constexpr int n = 96;
     std::vector<double> w((n + 1) * (n + 1));
-    const auto index = [](int i, int j) { return static_cast<std::size_t>(i * (n + 1) + j); };
+    const auto index = [](int i, int j) { return i * (n + 1) + j; };
     for (int i = 0; i <= n; ++i)
       for (int j = 0; j <= n; ++j) w[index(i, j)] = area(evaluate(c_.surface, fraction(0, i / double{n}), fraction(1, j / double{n})));
     for (int i = 0; i <= n; ++i)

@@ -15,9 +15,7 @@ constexpr int kBudget = 6000;                // boxes; what is undecided after t
 constexpr double kLeaf = 1.0 / (1LL << 40);  // of the range: nothing finer is told apart
 constexpr double kTouchingLeaf = 1.0 / (1 << 10);
 
-struct Box {
-  std::array<Interval, 2> side;
-};
+using Box = std::array<Interval, 2>;
 
 std::string placeText(const Constraint& c, const std::array<double, 2>& q) {
   return c.kind == ConstraintKind::Curve ? fmt::format("phi = {:.9g}", q[0]) : fmt::format("u = {:.9g}, v = {:.9g}", q[0], q[1]);
@@ -57,25 +55,29 @@ std::string findNonFinite(const Constraint& c, const std::array<Domain, 2>& rang
     return {};
   };
 
+  const auto sampled = [&](int n) -> std::string {
+    for (int i = 0; i <= n; ++i)
+      for (int j = 0; j <= (dimensions == 2 ? n : 0); ++j)
+        if (std::string fault = pointwise({range[0].lo + extent[0] * i / n, dimensions == 2 ? range[1].lo + extent[1] * j / n : 0});
+            !fault.empty())
+          return fault;
+    return {};
+  };
   // The ends and a few inner points first: whole numbers and halves are where formulas like to break.
-  for (int i = 0; i <= 8; ++i)
-    for (int j = 0; j <= (dimensions == 2 ? 8 : 0); ++j)
-      if (std::string fault = pointwise({range[0].lo + extent[0] * i / 8, dimensions == 2 ? range[1].lo + extent[1] * j / 8 : 0});
-          !fault.empty())
-        return fault;
+  if (std::string fault = sampled(8); !fault.empty()) return fault;
 
-  std::vector<Box> stack{{{Interval{range[0].lo, range[0].hi}, Interval{range[1].lo, range[1].hi}}}};
+  std::vector<Box> stack{Box{Interval{range[0].lo, range[0].hi}, Interval{range[1].lo, range[1].hi}}};
   int budget = kBudget;
   while (!stack.empty() && budget-- > 0) {
     const Box box = stack.back();
     stack.pop_back();
-    const std::vector<Finiteness>& finiteness = evaluator.evaluate(box.side);
+    const std::vector<Finiteness>& finiteness = evaluator.evaluate(box);
     const auto worst = std::max_element(finiteness.begin(), finiteness.end());
     if (*worst == Finiteness::Finite) continue;
     std::array<double, 2> middle{}, width{};
     for (std::size_t k = 0; k < dimensions; ++k) {
-      middle[k] = box.side[k].lo + (box.side[k].hi - box.side[k].lo) / 2;
-      width[k] = (box.side[k].hi - box.side[k].lo) / extent[k];
+      middle[k] = box[k].lo + (box[k].hi - box[k].lo) / 2;
+      width[k] = (box[k].hi - box[k].lo) / extent[k];
     }
     const double widest = std::max(width[0], width[1]);
     if (*worst == Finiteness::Touching && widest <= kTouchingLeaf) continue;
@@ -84,19 +86,12 @@ std::string findNonFinite(const Constraint& c, const std::array<Domain, 2>& rang
     if (*worst == Finiteness::Nowhere || widest <= kLeaf) return tell(c, static_cast<std::size_t>(first - finiteness.begin()), middle);
     const std::size_t k = width[1] > width[0] ? 1 : 0;
     Box left = box, right = box;
-    left.side[k].hi = middle[k];
-    right.side[k].lo = middle[k];
+    left[k].hi = middle[k];
+    right[k].lo = middle[k];
     stack.push_back(right);
     stack.push_back(left);
   }
-  if (stack.empty()) return {};
-  const int n = dimensions == 1 ? 2000 : 60;
-  for (int i = 0; i <= n; ++i)
-    for (int j = 0; j <= (dimensions == 2 ? n : 0); ++j)
-      if (std::string fault = pointwise({range[0].lo + extent[0] * i / n, dimensions == 2 ? range[1].lo + extent[1] * j / n : 0});
-          !fault.empty())
-        return fault;
-  return {};
+  return stack.empty() ? std::string() : sampled(dimensions == 1 ? 2000 : 60);
 }
 
 bool degeneratesEverywhere(const Constraint& c, const std::array<Domain, 2>& range) {
