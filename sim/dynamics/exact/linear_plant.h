@@ -126,7 +126,7 @@ class LinearPlant final : public PlantBase, public EndMasses {
     if constexpr (Axes == 1) return dot(vector, axis_);
     return a == 0 ? vector.x : a == 1 ? vector.y : vector.z;
   }
-  using Coefficients = std::array<Vec3, HandSegment::kMaxDegree + 1>;
+  using Coefficients = HandSegment::Coefficients;
   static const double* component(const Coefficients& c, int a) noexcept { return a == 0 ? &c[0].x : a == 1 ? &c[0].y : &c[0].z; }
   // This function and selectStep are calls, so that the usual step needs neither their registers nor their stack.
   [[gnu::noinline]] const double* project(const Coefficients& c, int degree, double* out) const noexcept {

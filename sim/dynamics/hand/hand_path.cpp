@@ -6,7 +6,7 @@ namespace reachlab::dynamics {
 namespace {
 
 /// Coefficients in s of the polynomial through p[0] at s = 1, p[1] at 0, p[2] at -1, p[3] at -2 (the first `count` of them).
-void interpolate(const std::array<Vec3, 4>& p, int count, std::array<Vec3, HandSegment::kMaxDegree + 1>& c) noexcept {
+void interpolate(const std::array<Vec3, 4>& p, int count, HandSegment::Coefficients& c) noexcept {
   if (count == 1) {
     c[0] = p[0];
     return;

@@ -3,10 +3,8 @@
 namespace reachlab::dynamics {
 namespace {
 
-using Coefficients = std::array<Vec3, HandSegment::kMaxDegree + 1>;
-
 /// p(s0 + width x) as a polynomial in x: Horner's shift, then powers of the width.
-Coefficients shifted(Coefficients c, int degree, double s0, double width) noexcept {
+HandSegment::Coefficients shifted(HandSegment::Coefficients c, int degree, double s0, double width) noexcept {
   for (int i = 0; i < degree; ++i)
     for (int k = degree - 1; k >= i; --k) c[k] += s0 * c[k + 1];
   double power = 1;

@@ -13,9 +13,9 @@ namespace reachlab::dynamics {
 /// degree are zero.
 struct HandSegment {
   static constexpr int kMaxDegree = 7;
+  using Coefficients = std::array<Vec3, kMaxDegree + 1>;
   int degree = 0;
-  std::array<Vec3, kMaxDegree + 1> position{};
-  std::array<Vec3, kMaxDegree + 1> velocity{};
+  Coefficients position{}, velocity{};
 };
 
 /// Straight from one sample to the next.
@@ -28,7 +28,7 @@ inline HandSegment straightSegment(const HandSample& from, const HandSample& to)
 }
 
 /// Value at s of a segment's polynomial [m] or [m/s].
-inline Vec3 valueAt(const std::array<Vec3, HandSegment::kMaxDegree + 1>& c, int degree, double s) noexcept {
+inline Vec3 valueAt(const HandSegment::Coefficients& c, int degree, double s) noexcept {
   Vec3 value = c[degree];
   for (int k = degree - 1; k >= 0; --k) value = mulAdd(s, value, c[k]);
   return value;
@@ -42,7 +42,7 @@ inline HandSample sampleAt(const HandSegment& hand, double s) noexcept {
 
 inline HandSample startOf(const HandSegment& hand) noexcept { return {hand.position[0], hand.velocity[0], true}; }
 /// The sum of all coefficients, the lowest first.
-inline Vec3 sumOf(const std::array<Vec3, HandSegment::kMaxDegree + 1>& c) noexcept {
+inline Vec3 sumOf(const HandSegment::Coefficients& c) noexcept {
   // Three lanes of four. The last lane holds x of the next coefficient. Component by component the compiler takes three times as many
   // instructions.
   const double* from = &c[0].x;
