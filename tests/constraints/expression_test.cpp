@@ -80,7 +80,7 @@ TEST(Expressions, AreGuardedWhereAnOperationIsNotAnalytic) {
     ExpressionGraph graph;
     const int root = nodeOf(graph, text);
     std::string told = text + ":";
-    for (const Guard& guard : findGuards(graph, {root}, kShape)) {
+    for (const Guard& guard : findGuards(graph, std::array{root}, kShape)) {
       told += (told.back() == ':' ? " " : ", ") + writeFormula(graph, guard.argument, kVariables, kParameters) + " " +
               std::to_string(static_cast<int>(guard.level));
       EXPECT_EQ(guard.branches(), guard.op == Op::Abs || guard.op == Op::Sign || guard.op == Op::Atan2);
@@ -102,14 +102,14 @@ TEST(Expressions, AreCutWhereTheyAreTooLongToBeTold) {
 
 TEST(Expressions, StayWhatTheyAreOnTheSideOfTheirBranches) {
   forManyFormulas(6, 2000, [](ExpressionGraph& graph, int root, const auto& place, const Dual& expected, double tolerance) {
-    const std::vector<Guard> guards = findGuards(graph, {root}, kShape);
+    const std::vector<Guard> guards = findGuards(graph, std::array{root}, kShape);
     std::vector<int> signs;
     for (const Guard& guard : guards) {
       const double off = valueOf(graph, guard.argument, place) - guard.level;
       EXPECT_NE(off, 0);
       signs.push_back(off > 0 ? 1 : -1);
     }
-    const std::vector<int> frozen = freezeBranches(graph, {root}, guards, signs);
+    const std::vector<int> frozen = freezeBranches(graph, std::array{root}, guards, signs);
     EXPECT_NEAR(valueOf(graph, frozen[0], place), expected.x, tolerance);
     for (const Guard& guard : findGuards(graph, frozen, kShape)) EXPECT_NE(guard.op, Op::Abs);
   });
