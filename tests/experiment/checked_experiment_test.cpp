@@ -138,13 +138,24 @@ TEST(CheckedExperiment, WhatCannotBeReadHasNoFaultsThatFollowFromIt) {
   EXPECT_EQ(masses[1].key, "coupling.stiffness_n_per_m");
 }
 
-TEST(CheckedExperiment, CompilesWhatIsInOrder) {
+TEST(CompiledExperiment, OfAShippedFileIsTheExperimentWithItsConstraint) {
   for (const std::string& name : shippedExperiments()) {
-    const CheckedExperiment checked = check(readExperiment(name));
-    EXPECT_TRUE(checked.faults.empty()) << toText(checked.faults);
-    ASSERT_TRUE(checked.constraint);
-    EXPECT_EQ(checked.constraint->kind, openExperiment(name).constraint().kind);
+    const CompiledExperiment compiled = openExperiment(name);
+    const Experiment value = readExperiment(name);
+    EXPECT_EQ(compiled.experiment(), value);
+    EXPECT_EQ(CompiledExperiment(value).experiment(), value);
+    const constraints::Constraint own = constraints::makeConstraint(compiled.experiment().constraint);
+    EXPECT_EQ(compiled.constraint().kind, own.kind) << name;
+    EXPECT_EQ(compiled.constraint().name, own.name);
+    EXPECT_EQ(compiled.constraint().straight, own.straight);
   }
+}
+
+TEST(CompiledExperiment, ACopySharesBothParts) {
+  const CompiledExperiment one = openExperiment("epitrochoid");
+  const CompiledExperiment other = one;
+  EXPECT_EQ(&one.experiment(), &other.experiment());
+  EXPECT_EQ(&one.constraint(), &other.constraint());
 }
 
 }  // namespace reachlab::experiment
