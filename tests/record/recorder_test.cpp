@@ -14,6 +14,7 @@
 #include "sim/record/log/records.h"
 #include "tests/in_a_folder.h"
 #include "tests/record/made_run.h"
+#include "tests/refusal.h"
 
 namespace reachlab::record {
 namespace {
@@ -145,7 +146,7 @@ TEST_F(Recording, TellsTheDiskOnceAndForAll) {
       EXPECT_TRUE(recorder.onTick(run.next(), trial::Command::None, 0)) << "the hand goes on";
     EXPECT_THROW(recorder.awaitTrial(1), ResourceError) << "which never waits for a trial that cannot come";
     const std::string first = recorder.fault();
-    EXPECT_NE(first.find("is no longer there"), std::string::npos) << first;
+    EXPECT_TRUE(holds(first, "is no longer there"));
     EXPECT_THROW(recorder.announce(2, {}), ResourceError);
     EXPECT_THROW(recorder.note("too late"), ResourceError);
     EXPECT_THROW(recorder.add(std::vector<RecordedEvent>(1)), ResourceError);

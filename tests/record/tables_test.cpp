@@ -6,21 +6,27 @@
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <set>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "base/table_text.h"
+#include "sim/experiment/describe.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/export/bids.h"
 #include "sim/record/export/c3d_export.h"
 #include "sim/record/export/column_dictionary.h"
 #include "sim/record/export/exporters.h"
+#include "sim/record/export/hdf5_file.h"
 #include "sim/record/export/matlab_file.h"
 #include "sim/record/export/run_tables.h"
 #include "sim/record/export/tidy_csv.h"
 #include "sim/record/export/trial_row.h"
+#include "sim/record/log/atomic_file.h"
 #include "sim/record/log/whole_file.h"
 #include "tests/record/made_run.h"
+#include "tests/refusal.h"
 
 namespace reachlab::record {
 namespace {
@@ -56,8 +62,7 @@ std::map<std::string, std::string> rowOf(const TsvTable& table, std::size_t row)
 TEST_F(Tables, TimesAreSinceTheFirstRowAndNotTheFirstTick) {
   configuration_.sampleEveryTicks = 10;
   const auto present = [](const haptics::TickState& state) { return state.tick >= 7; };  // and the first row is of the 10th
-  std::vector<RunLog> runs;
-  runs.push_back(recordedTicks(MadeRun::kTicksPerTrial, present));
+  const std::vector<RunLog> runs{recordedTicks(MadeRun::kTicksPerTrial, present)};
   std::map<std::string, std::string> row = rowOf(parseTsv(textOf(eventsTsv, runs.front())), 0);
   EXPECT_EQ(row["onset"], "0.04") << "50 ticks less 10";
   EXPECT_EQ(row["go"], "0.01");
@@ -72,7 +77,7 @@ TEST_F(Tables, TimesAreSinceTheFirstRowAndNotTheFirstTick) {
   const std::string motion = textOf(firstHandMotion, runs.front()), samples = textOf(samplesCsv, runs.front());
   EXPECT_TRUE(motion.starts_with("0\t")) << motion.substr(0, 40);
   EXPECT_TRUE(samples.substr(samples.find('\n') + 1).starts_with("0,")) << samples.substr(samples.find('\n'), 40);
-  EXPECT_NE(clockStatement(runs.front()).find("first sample, which is 0.01 s after it began"), std::string::npos);
+  EXPECT_TRUE(holds(clockStatement(runs.front()), "first sample, which is 0.01 s after it began"));
 }
 
 TEST_F(Tables, ATrialWithoutAMovementIsPlacedWhereItStarted) {
@@ -164,12 +169,11 @@ TEST_F(Tables, WhereADeviceIsLostOrAPlaceIsNoNumberAPointIsNotSeen) {
 }
 
 TEST_F(Tables, ATrialBetweenTwoRowsHasNoC3dFile) {
-  std::vector<RunLog> runs;
-  runs.push_back(recordedTicks(40, [](haptics::TickState& state) {
+  const std::vector<RunLog> runs{recordedTicks(40, [](haptics::TickState& state) {
     state.trial = state.tick < 11 ? 0 : state.tick < 18 ? 1 : 2;
     state.phase = state.trial == 0 ? trial::Phase::Idle : state.tick % 10 == 7 ? trial::Phase::Done : trial::Phase::Waiting;
     return true;
-  }));
+  })};
   ASSERT_EQ(runs[0].trials().size(), 2u);
   EXPECT_EQ(c3dOf(runs[0], runs[0].trials()[0]).frames, 0u) << "ticks 11 to 17";
   EXPECT_EQ(writeC3d(runs, folder_ / "c3d").size(), 1u);
@@ -199,6 +203,109 @@ TEST_F(Tables, WhatAnUnreadableExperimentAskedForIsNotKnown) {
   const experiment::Task task = taskOf(configuration_, {});
   for (const double unknown : {task.duration, task.tolerance.position, task.tolerance.velocity, task.tolerance.time})
     EXPECT_TRUE(std::isnan(unknown));
+}
+
+TEST_F(Tables, MotionCellsReadBackAsTheRecordedNumbers) {
+  const TsvTable motion = parseTsv(textOf(firstHandMotion, recorded()));  // without a header: its first row is taken for one
+  const std::size_t x = configuration_.table.indexOf("hand_pos_x");
+  ASSERT_FALSE(motion.rows.empty());
+  for (std::size_t row = 0; row < motion.rows.size(); ++row) EXPECT_EQ(std::stod(motion.rows[row][x]), MadeRun::valueAt(10 * (row + 1)));
+}
+
+TEST_F(Tables, ChannelsAreUniqueAndTheirTypesUnitsAndCountsAgree) {
+  const TsvTable channels = parseTsv(channelsTsv(configuration_));
+  const json motion = json::parse(motionJson(recorded()));
+  const std::map<std::string, std::set<std::string>> allowed{
+      {"LATENCY", {"s"}}, {"POS", {"m"}}, {"VEL", {"m/s"}}, {"ACCEL", {"m/s^2"}}, {"MISC", {"s", "N", "J", "n/a", "1/s"}}};
+  std::set<std::string> names, points;
+  std::map<std::string, int> counts;
+  for (std::size_t i = 0; i < channels.rows.size(); ++i) {
+    std::map<std::string, std::string> channel = rowOf(channels, i);
+    EXPECT_TRUE(names.insert(channel["name"]).second) << channel["name"];
+    ++counts[channel["type"]];
+    ASSERT_TRUE(allowed.contains(channel["type"])) << channel["type"];
+    EXPECT_TRUE(allowed.at(channel["type"]).contains(channel["units"])) << channel["name"] << " in " << channel["units"];
+    if (channel["tracked_point"] != "n/a") points.insert(channel["tracked_point"]);
+  }
+  EXPECT_EQ(motion.at("MotionChannelCount"), channels.rows.size());
+  for (const auto& [key, value] : motion.items())
+    if (key.ends_with("ChannelCount") && key != "MotionChannelCount") {
+      EXPECT_EQ(value, counts[key.substr(0, key.size() - std::string("ChannelCount").size())]) << key;
+    }
+  EXPECT_EQ(counts["LATENCY"], 1);
+  EXPECT_EQ(motion.at("TrackedPointsCount"), points.size());
+  EXPECT_EQ(motion.at("TaskName"), "made") << "the same as task- in the file's name";
+  EXPECT_EQ(motion.at("SamplingFrequencyEffective"), 100);
+}
+
+TEST_F(Tables, EveryColumnIsExplainedBesideItsTable) {
+  const std::vector<RunLog> runs{recorded()};
+  const std::string out = folder_ / "csv";
+  writeTidyCsv(runs, out);
+  std::map<std::string, std::string> phases;
+  for (const std::string name : {"trials", "sub-01_ses-01_task-made_run-01_samples"}) {
+    const std::string header = readWholeFile(out + "/" + name + ".csv");
+    const json dictionary = json::parse(readWholeFile(out + "/" + name + ".json"));
+    std::istringstream columns(header.substr(0, header.find('\n')));
+    std::size_t count = 0;
+    for (std::string column; std::getline(columns, column, ','); ++count) EXPECT_NE(dictionary.at(column).at("Description"), "") << column;
+    EXPECT_EQ(dictionary.size(), count) << "no two columns have one name";
+    phases[name] = dictionary.at("phase").at("Description");
+  }
+  const json samples = json::parse(readWholeFile(out + "/sub-01_ses-01_task-made_run-01_samples.json"));
+  for (const char* column :
+       {"time_s", "hand_x_m", "hand_vx_m_per_s", "mass1_x_m", "mass2_ay_m_per_s2", "mass1_q1", "coupling_x_n", "device_force_z_n"})
+    EXPECT_TRUE(samples.contains(column)) << column;
+  EXPECT_NE(phases["trials"], phases["sub-01_ses-01_task-made_run-01_samples"]) << "one name, two meanings: both are told";
+  const json trials = json::parse(readWholeFile(out + "/trials.json"));
+  EXPECT_EQ(trials.at("peak_hand_speed_m_per_s").at("Units"), "m/s");
+  EXPECT_FALSE(trials.at("outcome").contains("Units"));
+  EXPECT_EQ(trials.at("subject").at("Format"), "string");
+}
+
+TEST_F(Tables, ColumnNamesAndChannelsAgreeOnTheUnit) {
+  for (const Channel& channel : configuration_.table.channels)
+    EXPECT_EQ(unitOfColumn(channel.column), channel.units == "n/a" ? "" : channel.units) << channel.column;
+}
+
+TEST_F(Tables, WritingTheDatasetAgainKeepsWhatAPersonHasAddedToIt) {
+  configuration_.participant = {31, "F", "L"};
+  const std::vector<RunLog> runs{recorded()};
+  const std::string out = folder_ / "dataset";
+  writeBids(runs, out);
+  EXPECT_EQ(readWholeFile(out + "/participants.tsv"), "participant_id\tage\tsex\thandedness\nsub-01\t31\tF\tL\n");
+  writeFileAtomically(out + "/participants.tsv", "participant_id\tage\tgroup\nsub-00\t20\tcontrol\nsub-01\tn/a\tpatient\n");
+  writeFileAtomically(out + "/README.md", "mine\n");
+  writeBids(runs, out);
+  EXPECT_EQ(readWholeFile(out + "/participants.tsv"),
+            "participant_id\tage\tgroup\tsex\thandedness\nsub-00\t20\tcontrol\tn/a\tn/a\nsub-01\t31\tpatient\tF\tL\n");
+  EXPECT_EQ(readWholeFile(out + "/README.md"), "mine\n");
+}
+
+TEST_F(Tables, AnExportedExperimentSaysWhatWasMovedAndAsked) {
+  RunConfiguration& c = configuration_;
+  const experiment::Experiment moved = experiment::readExperiment("chain-on-ellipse");
+  c.experimentName = moved.name;
+  c.experimentText = moved.text;
+  c.definitionText = experiment::definitionTextOf(moved);
+  c.timing = moved.timing;
+  const RunLog run = recorded(2);
+  writeBidsRun(run, folder_ / ".");
+  const std::string file = folder_ / experimentPath(c);
+  const experiment::Experiment back = experimentsFromJson(readWholeFile(file), file, c).at(0).experiment();
+  EXPECT_EQ(experiment::toJson(back), experiment::toJson(moved));
+  EXPECT_FALSE(back.constraint.definition.empty()) << "the formula as it was then";
+  const json j = json::parse(readWholeFile(file));
+  EXPECT_EQ(j.at("run").at("device"), c.device);
+  EXPECT_EQ(j.at("run").at("seed"), c.seed);
+  const std::string words = json::parse(motionJson(run)).at("TaskDescription");
+  EXPECT_EQ(experimentNameIn(words), c.experimentName);
+  EXPECT_TRUE(holds(words, experiment::describe(moved)));
+}
+
+TEST_F(Tables, ARunOfNoTrialHasTablesWithoutRows) {
+  const std::vector<RunLog> runs{recorded(0)};
+  for (const auto& write : {writeHdf5, writeMatlab}) EXPECT_EQ(write(runs, folder_ / "").size(), 1u);
 }
 
 TEST(ColumnDictionary, ExplainsEachColumnOfAHeader) {
@@ -232,8 +339,7 @@ TEST(Derivative, SaysWhatItIsAndIsKeptWhereItIsThere) {
 }
 
 TEST_F(Tables, EveryWayToExportIsFoundByItsNameAndWritesIntoItsFolder) {
-  std::vector<RunLog> runs;
-  runs.push_back(recorded(1));
+  const std::vector<RunLog> runs{recorded(1)};
   for (const Exporter& exporter : exporters()) {
     SCOPED_TRACE(exporter.name);
     EXPECT_EQ(findExporter(exporter.name), &exporter);
