@@ -47,9 +47,8 @@ experiment::Experiment shortTask() {
 TEST(HapticLoop, RealTimeGivesTheBitsOfTheVirtualClock) {
   const experiment::Experiment experiment = shortTask();
   const auto run = [&](bool virtualClock, MemorySink& sink) {
-    LoopOptions options;
-    options.virtualClock = virtualClock;
-    RunConductor conductor(experiment::CompiledExperiment(experiment), makeReach(), {trial::PlannedTrial{}}, options);
+    RunConductor conductor(experiment::CompiledExperiment(experiment), makeReach(), {trial::PlannedTrial{}},
+                           {.virtualClock = virtualClock, .clock = {}});
     conductor.start(&sink);
     const std::atomic<bool> stop{false};
     const auto trial = conductor.runTrial(stop);
@@ -94,9 +93,8 @@ TEST(HapticLoop, LeavesTheDeviceWithoutForce) {
 
 TEST(RunConductor, InterruptsTheTrialUnderWayWhenAskedToStop) {
   for (const bool virtualClock : {true, false}) {
-    LoopOptions options;
-    options.virtualClock = virtualClock;
-    RunConductor conductor(experiment::CompiledExperiment(test::armedAtOnce("chain-slow")), makeReach(), {trial::PlannedTrial{}}, options);
+    RunConductor conductor(experiment::CompiledExperiment(test::armedAtOnce("chain-slow")), makeReach(), {trial::PlannedTrial{}},
+                           {.virtualClock = virtualClock, .clock = {}});
     conductor.start(nullptr);
     const std::atomic<bool> stop{true};
     const auto trial = conductor.runTrial(stop);

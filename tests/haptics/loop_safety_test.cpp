@@ -14,6 +14,7 @@
 #include "sim/haptics/run_conductor.h"
 #include "tests/haptics/armed_at_once.h"
 #include "tests/until.h"
+#include "tests/refusal.h"
 
 /// The loop on devices that fail it. Waits are for events, never for a time to be short enough.
 namespace reachlab::haptics {
@@ -220,7 +221,7 @@ TEST_F(LoopSafety, ARunOnADeviceThatHangsEndsItsTrialAsLostAndSaysWhy) {
   EXPECT_EQ(trial->result.reason, trial::Reason::DeviceLost);
   const auto fault = run->fault();
   ASSERT_TRUE(fault);
-  EXPECT_NE(fault->find("stalled"), std::string::npos) << *fault;
+  EXPECT_TRUE(holds(*fault, "stalled"));
   run->finish();
   seen->letGo();
 }
@@ -261,7 +262,7 @@ TEST_F(LoopSafety, ADeviceMayBeTheClock) {
   own.start();
   own.tryCommand(trial::Command::NextTrial);
   ASSERT_TRUE(until([&] { return clock->lastForce > 0.1; }));
-  EXPECT_NE(own.report().mode.find("device"), std::string::npos);
+  EXPECT_TRUE(holds(own.report().mode, "device"));
   clock->silent = true;
   ASSERT_TRUE(until([&] { return own.fault() == DeviceFault::Stalled; }));
   EXPECT_GT(clock->stops, 0);

@@ -193,10 +193,10 @@ TEST(TickEngine, RefusesOtherThanADeviceForEachHand) {
   const auto refusal = [](const char* name, std::size_t hands) -> std::string {
     return refusalOf([&] { TickEngine engine(test::armedAtOnce(name), EngineOptions{std::vector<DeviceInfo>(hands)}); });
   };
-  EXPECT_NE(refusal("chain-two-hands", 1).find("is 1 device where the experiment has 2 hands"), std::string::npos);
+  EXPECT_TRUE(holds(refusal("chain-two-hands", 1), "is 1 device where the experiment has 2 hands"));
   EXPECT_EQ(refusal("chain-two-hands", 2), "");
-  EXPECT_NE(refusal("chain-two-hands", 3).find("is 3 devices where the experiment has 2 hands"), std::string::npos);
-  EXPECT_NE(refusal("chain-slow", 2).find("is 2 devices where the experiment has 1 hand;"), std::string::npos);
+  EXPECT_TRUE(holds(refusal("chain-two-hands", 3), "is 3 devices where the experiment has 2 hands"));
+  EXPECT_TRUE(holds(refusal("chain-slow", 2), "is 2 devices where the experiment has 1 hand;"));
 }
 
 }  // namespace

@@ -11,15 +11,12 @@
 #include <vector>
 
 #include "base/math/butterworth.h"
+#include "base/ticks.h"
 
 namespace reachlab::haptics {
 namespace {
 
-DeviceSample at(double x) {
-  DeviceSample sample;
-  sample.position = {x, 0, 0};
-  return sample;
-}
+DeviceSample at(double x) { return {.position = {x, 0, 0}}; }
 
 TEST(VelocityEstimator, FollowsASteadyHandExactly) {
   for (const char* kind : {"difference", "low-pass", "butterworth", "kalman", "adaptive-window", "auto"}) {
@@ -44,9 +41,7 @@ TEST(VelocityEstimator, KalmanFollowsAnAccelerationWithoutLag) {
 }
 
 TEST(VelocityEstimator, TakesTheDevicesOwnVelocityWhereItIsWanted) {
-  DeviceSample sample = at(0.1);
-  sample.velocity = {1, 2, 3};
-  sample.hasVelocity = true;
+  const DeviceSample sample{.position = {0.1, 0, 0}, .velocity = {1, 2, 3}, .hasVelocity = true};
   EXPECT_EQ(VelocityEstimator({"auto", 40}).estimate(sample), (Vec3{1, 2, 3}));
   EXPECT_EQ(VelocityEstimator({"device", 40}).estimate(sample), (Vec3{1, 2, 3}));
   EXPECT_EQ(VelocityEstimator({"butterworth", 40}).estimate(sample), Vec3{});
@@ -57,9 +52,7 @@ std::vector<Vec3> afterAStep(VelocityEstimator estimator, int ticks) {
   const Vec3 from{0.3, -0.2, 0.1}, step{1e-3, -2e-3, 0.5e-3};
   std::vector<Vec3> rows;
   for (int i = 0; i < ticks; ++i) {
-    DeviceSample sample;
-    sample.position = i == 0 ? from : from + step;
-    rows.push_back(estimator.estimate(sample));
+    rows.push_back(estimator.estimate({.position = i == 0 ? from : from + step}));
     EXPECT_NEAR(rows.back().y, -2 * rows.back().x, 1e-9) << i;
     EXPECT_NEAR(rows.back().z, 0.5 * rows.back().x, 1e-9) << i;
   }
@@ -152,13 +145,48 @@ TEST(VelocityEstimator, AResetForgetsEverything) {
 // A device that measures its velocity now and then: in between, the difference is to the sample before, also of those.
 TEST(VelocityEstimator, WhereTheDeviceMeasuresNothingTheFilterGoesOnFromTheSampleBefore) {
   VelocityEstimator device({"device", 30}), filter({"butterworth", 30});
-  DeviceSample first = at(0.1), second = at(0.4);
-  second.hasVelocity = true;
-  second.velocity = {9, 0, 0};
-  device.estimate(first);
+  const DeviceSample second{.position = {0.4, 0, 0}, .velocity = {9, 0, 0}, .hasVelocity = true};
+  device.estimate(at(0.1));
   EXPECT_EQ(device.estimate(second), second.velocity);
   filter.estimate(at(0.4));
   EXPECT_NEAR(device.estimate(at(0.401)).x, filter.estimate(at(0.401)).x, 1e-12);
+}
+
+/// The delay of the estimate of a hand on a circle, from its phase against the true velocity.
+double measuredDelay(const experiment::VelocityEstimatorSpec& spec, double hertz) {
+  const double omega = 2 * std::numbers::pi * hertz;
+  VelocityEstimator estimator(spec);
+  double sine = 0, cosine = 0;
+  const int turns = 3, ticks = static_cast<int>(std::lround(turns / (hertz * kTickSeconds)));
+  for (int i = 0; i <= 2 * ticks; ++i) {
+    const double t = i * kTickSeconds;
+    const Vec3 v = estimator.estimate({.position = {0.1 * std::cos(omega * t), 0.1 * std::sin(omega * t), 0}});
+    if (i < ticks) continue;  // settles
+    const Vec3 along{-std::sin(omega * t), std::cos(omega * t), 0}, inwards{-std::cos(omega * t), -std::sin(omega * t), 0};
+    cosine += dot(v, along);
+    sine -= dot(v, inwards);
+  }
+  return std::atan2(sine, cosine) / omega;
+}
+
+// Half a per cent of the delay: at 1 Hz the phase of these filters differs from its linear part by (f / fc)^2 and less.
+TEST(VelocityDelay, IsThatOfTheEstimateOfASlowCircle) {
+  for (const char* kind : {"difference", "low-pass", "butterworth", "auto"})
+    for (const double cutoff : {20.0, 40.0}) {
+      const experiment::VelocityEstimatorSpec spec{kind, cutoff};
+      EXPECT_NEAR(measuredDelay(spec, 1), velocityDelay(spec), 0.005 * velocityDelay(spec)) << kind << " " << cutoff;
+    }
+}
+
+TEST(VelocityDelay, AKalmanFilterOfASlowCircleHasNone) {
+  const experiment::VelocityEstimatorSpec spec{"kalman", 40};
+  EXPECT_NEAR(measuredDelay(spec, 1), velocityDelay(spec), 1e-4) << "a tenth of a tick";
+}
+
+TEST(VelocityDelay, AnAdaptiveWindowHasAtMostHalfOfItsLongest) {
+  const experiment::VelocityEstimatorSpec spec{"adaptive-window", 40};
+  EXPECT_GT(measuredDelay(spec, 0.2), 0);
+  EXPECT_LE(measuredDelay(spec, 0.2), velocityDelay(spec));
 }
 
 }  // namespace

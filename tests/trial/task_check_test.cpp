@@ -53,9 +53,7 @@ TEST(TaskCheck, TellsOfAnElasticFieldThatPushesAway) {
 TEST(TaskCheck, TellsOfAToleranceLargerThanTheWay) {
   const auto onCircle = [](double tolerance) {
     return implausibleWith("ellipse", [&](auto& e) {
-      e.constraint = {};
-      e.constraint.name.clear();
-      e.constraint.curve = {"0.1*cos(phi)", "0.1*sin(phi)", "0"};
+      e.constraint = {.name = {}, .curve = {"0.1*cos(phi)", "0.1*sin(phi)", "0"}, .surface = {}, .shape = {}};
       e.task->start = {0}, e.task->target = {2 * std::numbers::pi};
       e.task->tolerance.position = tolerance;
     });
@@ -66,9 +64,7 @@ TEST(TaskCheck, TellsOfAToleranceLargerThanTheWay) {
   EXPECT_EQ(onCircle(0.629)[0].what, "is 0.629 m, more than the way of 0.6283 m from start to target");
   const auto onSurface = [](double tolerance) {
     return implausibleWith("torus", [&](auto& e) {
-      e.constraint = {};
-      e.constraint.name.clear();
-      e.constraint.surface = {"u", "v", "0"};
+      e.constraint = {.name = {}, .curve = {}, .surface = {"u", "v", "0"}, .shape = {}};
       e.task->start = {0.5, 0.25}, e.task->target = {0.2, 0.65};
       e.task->tolerance.position = tolerance;
     });

@@ -11,9 +11,7 @@ namespace {
 TEST(WayOnASurface, IsToldOfTheCreasesThatItMeetsAndOfNoOther) {
   const auto creasesFrom = [](std::vector<double> start, std::vector<double> target) {
     experiment::Experiment e = experiment::readExperiment("torus");
-    e.constraint = {};
-    e.constraint.name.clear();
-    e.constraint.surface = {"u/10", "abs(u - 0.5)/10", "v/10"};
+    e.constraint = {.name = {}, .curve = {}, .surface = {"u/10", "abs(u - 0.5)/10", "v/10"}, .shape = {}};
     e.task->start = std::move(start);
     e.task->target = std::move(target);
     int creases = 0;
@@ -43,9 +41,7 @@ std::size_t tiesOf(const experiment::Experiment& e) {
 // On a circle the chord stands at right angles to it where it leads half-way round.
 TEST(WayOnACurve, IsToldOfATieAtItsStart) {
   experiment::Experiment e = experiment::readExperiment("ellipse");
-  e.constraint = {};
-  e.constraint.name.clear();
-  e.constraint.curve = {"0.3*cos(phi)", "0.3*sin(phi)", "0"};
+  e.constraint = {.name = {}, .curve = {"0.3*cos(phi)", "0.3*sin(phi)", "0"}, .surface = {}, .shape = {}};
   e.object.gravity = {};
   const auto tied = [&](double start, double target) {
     e.task->start = {start}, e.task->target = {target};
@@ -64,9 +60,7 @@ TEST(WayOnACurve, IsToldOfATieAtItsStart) {
 
 TEST(WayOnASurface, IsToldOfATieAtItsStart) {
   experiment::Experiment e = experiment::readExperiment("torus");
-  e.constraint = {};
-  e.constraint.name.clear();
-  e.constraint.surface = {"0.3*cos(u)*cos(v)", "0.3*sin(u)*cos(v)", "0.3*sin(v)"};  // a sphere
+  e.constraint = {.name = {}, .curve = {}, .surface = {"0.3*cos(u)*cos(v)", "0.3*sin(u)*cos(v)", "0.3*sin(v)"}, .shape = {}};  // a sphere
   e.object.gravity = {};
   e.task->start = {0.2, 0.3}, e.task->target = {0.2 + 3.14159265358979, -0.3};
   EXPECT_EQ(tiesOf(e), 1u) << "the other pole of it";
@@ -78,9 +72,7 @@ TEST(WayOnASurface, IsToldOfATieAtItsStart) {
 
 TEST(WayOnACurve, IsToldOfTheCornersBetweenItsEnds) {
   experiment::Experiment e = experiment::readExperiment("ellipse");
-  e.constraint = {};
-  e.constraint.name.clear();
-  e.constraint.curve = {"phi/10", "abs(phi - 0.5)/10", "0"};
+  e.constraint = {.name = {}, .curve = {"phi/10", "abs(phi - 0.5)/10", "0"}, .surface = {}, .shape = {}};
   const auto corners = [&](double start, double target) {
     e.task->start = {start}, e.task->target = {target};
     return describeWay(experiment::CompiledExperiment(e)).size();
