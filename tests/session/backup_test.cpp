@@ -109,8 +109,8 @@ TEST_F(Backups, NameWhatCannotBeReadAndCopyTheRest) {
     const AsNobody nobody;
     told = refusal();
   }
-  EXPECT_NE(told.find(dataset_ + "/code: cannot be read: Permission denied"), std::string::npos) << told;
-  EXPECT_NE(told.find(logOf(1) + ": cannot be read: Permission denied"), std::string::npos) << told;
+  EXPECT_TRUE(holds(told, dataset_ + "/code: cannot be read: Permission denied"));
+  EXPECT_TRUE(holds(told, logOf(1) + ": cannot be read: Permission denied"));
   EXPECT_TRUE(fs::exists(inBackup(logOf(2))));
   EXPECT_TRUE(fs::exists(backup_ + "/sub-01/ses-01/sub-01_ses-01_scans.tsv")) << "it comes after the folder that cannot be read";
   fs::permissions(dataset_ + "/code", fs::perms::owner_all);
@@ -174,7 +174,7 @@ TEST_F(Backups, SayWhichFileHasOtherBytes) {
 TEST_F(Backups, NeverOverwriteALogOfAnother) {
   record::makeFolders(backup_ + "/sourcedata");
   std::ofstream(inBackup(logOf(1))) << "another laboratory's only copy";
-  EXPECT_NE(refusal().find("is there already with other bytes; nothing is overwritten"), std::string::npos);
+  EXPECT_TRUE(holds(refusal(), "is there already with other bytes; nothing is overwritten"));
   EXPECT_EQ(contentOf(inBackup(logOf(1))), "another laboratory's only copy");
 }
 
@@ -183,7 +183,7 @@ TEST_F(Backups, OfARecoveredLogNameItAndKeepAllOthers) {
   const std::string before = contentOf(inBackup(logOf(1)));
   std::ofstream(logOf(1), std::ios::app) << "other bytes, as a recovery leaves them";
   addRun(2);
-  EXPECT_NE(refusal().find(inBackup(logOf(1)) + ": is there already with other bytes"), std::string::npos);
+  EXPECT_TRUE(holds(refusal(), inBackup(logOf(1)) + ": is there already with other bytes"));
   EXPECT_EQ(contentOf(inBackup(logOf(1))), before);
   EXPECT_EQ(contentOf(inBackup(logOf(2))), contentOf(logOf(2)));
 }
@@ -195,7 +195,7 @@ TEST_F(Backups, CountNoRunThatWasNotEndedInOrder) {
   std::ofstream(logOf(4)) << std::string(5000, '\0');
   const std::string said = refusal();
   for (const int run : {2, 3, 4}) {
-    EXPECT_NE(said.find(logOf(run)), std::string::npos) << said;
+    EXPECT_TRUE(holds(said, logOf(run)));
     EXPECT_FALSE(fs::exists(inBackup(logOf(run))));
   }
   EXPECT_TRUE(fs::exists(inBackup(logOf(1))));
@@ -236,7 +236,7 @@ TEST_F(Backups, LeaveNoCopyThatReadsBackOtherwise) {
     });
     said = refusal();
   }
-  EXPECT_NE(said.find("reads back with other bytes than were written; the copy was removed"), std::string::npos) << said;
+  EXPECT_TRUE(holds(said, "reads back with other bytes than were written; the copy was removed"));
   EXPECT_FALSE(fs::exists(copy));
 }
 
@@ -247,7 +247,7 @@ TEST_F(Backups, LieElsewhere) {
     for (const char* slash : {"", "/"}) {
       dataset_ = dataset + slash;
       backup_ = backup;
-      EXPECT_NE(refusal().find("lies in the dataset itself"), std::string::npos) << backup_ << " of " << dataset_;
+      EXPECT_TRUE(holds(refusal(), "lies in the dataset itself")) << backup_ << " of " << dataset_;
     }
   std::ofstream(folder_ / "file") << "no folder";
   backup_ = folder_ / "file";
@@ -262,12 +262,12 @@ TEST_F(Backups, AreMadeOnAThreadOfTheirOwnAndSayHowTheyStand) {
   BackupState state = worker.finish();
   EXPECT_EQ(state.kind, BackupState::Kind::Verified) << state.sentence;
   const std::string files = std::to_string(filesOfBackup(backup_));
-  EXPECT_NE(state.sentence.find("all 1 finished run is there and verified (" + files + " files, "), std::string::npos) << state.sentence;
+  EXPECT_TRUE(holds(state.sentence, "all 1 finished run is there and verified (" + files + " files, "));
   for (const int count : {1, 2}) {
     for (int i = 0; i < count; ++i) std::ofstream(dataset_ + "/note" + std::to_string(i)) << count;
     worker.request();
     state = worker.finish();
-    EXPECT_NE(state.sentence.find(count == 1 ? "(1 file, " : "(2 files, "), std::string::npos) << state.sentence;
+    EXPECT_TRUE(holds(state.sentence, count == 1 ? "(1 file, " : "(2 files, "));
   }
   addRun(2);
   record::makeFolders(backup_ + "/sourcedata");
@@ -275,8 +275,8 @@ TEST_F(Backups, AreMadeOnAThreadOfTheirOwnAndSayHowTheyStand) {
   worker.request();
   state = worker.finish();
   EXPECT_EQ(state.kind, BackupState::Kind::Failed);
-  EXPECT_NE(state.sentence.find("not made: "), std::string::npos) << state.sentence;
-  EXPECT_NE(state.sentence.find("; the recording itself is safe"), std::string::npos) << state.sentence;
+  EXPECT_TRUE(holds(state.sentence, "not made: "));
+  EXPECT_TRUE(holds(state.sentence, "; the recording itself is safe"));
 }
 
 }  // namespace

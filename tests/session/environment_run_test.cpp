@@ -37,10 +37,6 @@ class Pushed : public Recorded {
   }
 };
 
-Vec3 at(const record::SampleRows& rows, std::size_t row, std::size_t column) {
-  return {rows.at(row, column), rows.at(row, column + 1), rows.at(row, column + 2)};
-}
-
 TEST_F(Pushed, TheForceOfEveryRowIsTheLawOfTheHandInThatRow) {
   const record::RunLog log =
       recorded(R"("environment": [{ "kind": "viscous", "matrix_n_s_per_m": [[0, 13, 0], [-13, 0, 0], [0, 0, 0]] }])");
@@ -53,8 +49,8 @@ TEST_F(Pushed, TheForceOfEveryRowIsTheLawOfTheHandInThatRow) {
     EXPECT_EQ(trial.result.outcome, trial::Outcome::Success);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (rows.at(i, phase) != 3 || rows.ticks[i] < trial.result.onsetTick + 20 || rows.ticks[i] > trial.lastTick) continue;
-      const Vec3 v = at(rows, i, velocity);
-      EXPECT_NEAR(norm(at(rows, i, force) - Vec3{13 * v.y, -13 * v.x, 0}), 0, 1e-12);
+      const Vec3 v = rows.vectorAt(i, velocity);
+      EXPECT_NEAR(norm(rows.vectorAt(i, force) - Vec3{13 * v.y, -13 * v.x, 0}), 0, 1e-12);
       ++whole;
     }
   }
@@ -70,8 +66,8 @@ TEST_F(Pushed, TheCursorOfEveryRowIsTheHandRotatedAboutTheStart) {
   const record::SampleRows rows = log.allRows();
   const std::size_t cursor = table.indexOf("cursor_pos_x"), hand = table.indexOf("hand_pos_x");
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Vec3 h = at(rows, i, hand), expected{-0.1 - 2 * h.y, 2 * (h.x + 0.1), 2 * h.z};
-    EXPECT_NEAR(norm(at(rows, i, cursor) - expected), 0, 1e-15);
+    const Vec3 h = rows.vectorAt(i, hand), expected{-0.1 - 2 * h.y, 2 * (h.x + 0.1), 2 * h.z};
+    EXPECT_NEAR(norm(rows.vectorAt(i, cursor) - expected), 0, 1e-15);
   }
   EXPECT_TRUE(record::replayRun(log).identical());
   EXPECT_THROW(table.indexOf("environment_force_x"), Error) << "columns are there only where the experiment has them";

@@ -1,16 +1,17 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <sstream>
 
 #include "base/fault.h"
+#include "base/table_text.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/export/bids.h"
-#include "sim/record/export/tidy_csv.h"
+#include "sim/record/export/run_tables.h"
 #include "sim/record/recover.h"
 #include "sim/record/replay.h"
 #include "sim/record/trial_index.h"
 #include "tests/session/kinds_block.h"
+#include "tests/refusal.h"
 
 // A block of several kinds of trials from the plan to log, replay, tables and analysis.
 namespace reachlab::session {
@@ -106,28 +107,19 @@ TEST_F(Kinds, EveryTableNamesKindTargetAndCondition) {
   ASSERT_TRUE(record());
   const std::vector<record::RunLog> runs = logs();
   const std::vector<std::string> kinds = kindsOf(runs[0]);
-  const std::string events = record::textOf(record::eventsTsv, runs[0]);
-  std::string csv;
-  record::trialsCsv(runs, [&](std::string_view piece) { csv += piece; });
-  const auto columnOf = [](const std::string& text, char separator, const std::string& name) {
-    std::vector<std::string> cells;
-    std::size_t column = std::string::npos;
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-      std::istringstream fields(line + separator);
-      std::vector<std::string> row;
-      for (std::string field; std::getline(fields, field, separator);) row.push_back(field);
-      if (column == std::string::npos) column = static_cast<std::size_t>(std::find(row.begin(), row.end(), name) - row.begin());
-      else cells.push_back(row.at(column));
-    }
-    return cells;
+  const TsvTable events = parseTsv(record::textOf(record::eventsTsv, runs[0]));
+  const record::ColumnTable trials = record::trialTable(runs[0]);  // as every export has them
+  const auto ofTrials = [&](const std::string& name) {
+    return std::find_if(trials.columns().begin(), trials.columns().end(), [&](const auto& c) { return c.name == name; })->texts;
   };
   for (const char* name : {"kind", "condition"}) {
-    EXPECT_EQ(columnOf(csv, ',', name), kinds) << name;
-    EXPECT_EQ(columnOf(events, '\t', name), kinds) << name;
+    EXPECT_EQ(ofTrials(name), kinds) << name;
+    const auto column = std::find(events.columns.begin(), events.columns.end(), name) - events.columns.begin();
+    ASSERT_EQ(events.rows.size(), kinds.size());
+    for (std::size_t i = 0; i < kinds.size(); ++i) EXPECT_EQ(events.rows[i].at(static_cast<std::size_t>(column)), kinds[i]) << name;
   }
-  EXPECT_EQ(columnOf(csv, ',', "target"), std::vector<std::string>(12, "1"));
-  EXPECT_NE(record::eventsJson(runs[0]).find("\"kind\""), std::string::npos);
+  EXPECT_EQ(ofTrials("target"), std::vector<std::string>(12, "1"));
+  EXPECT_TRUE(holds(record::eventsJson(runs[0]), "\"kind\""));
   const record::TrialIndex index = record::openTrialIndex(request_.place.data, folder_ / "index");
   const record::TrialIndex again = record::openTrialIndex(request_.place.data, folder_ / "index");
   EXPECT_EQ(again.read, 0u);

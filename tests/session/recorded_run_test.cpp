@@ -92,7 +92,7 @@ TEST_F(Recorded, TheVirtualClockIsRefusedToAHandInRealTimeBeforeAnythingIsWritte
   real->about.virtualHand = false;
   const Fault fault = faultsToldBy([&] { RecordedRun run(block(), std::move(real), options()); }).at(0);
   EXPECT_EQ(fault.key, "fast");
-  EXPECT_NE(fault.what.find("scripted"), std::string::npos);
+  EXPECT_TRUE(holds(fault.what, "scripted"));
   EXPECT_TRUE(recordedRuns(request_.place).empty());
 }
 

@@ -15,7 +15,7 @@
 namespace reachlab::session {
 namespace {
 
-using haptics::test::ScriptedDevice;
+using haptics::test::SetDevice;
 using test::goodHand;
 using test::kEasy;
 using test::kNeverStop;
@@ -116,30 +116,16 @@ TEST_F(Conducted, AStopKeepsTheTrialAsInterruptedAndLeavesTheRestToBeResumed) {
   EXPECT_EQ(RecordedSession(programme, request_, maker()).blocksLeft(), 0u);
 }
 
-// Pulled out in the first movement.
-class LostHand final : public haptics::HapticDevice {
- public:
-  haptics::DeviceInfo info() const override { return reach_.info(); }
-  haptics::DeviceHealth health() const noexcept override { return isLost() ? haptics::DeviceHealth::Lost : haptics::DeviceHealth::Ready; }
-  void cue(haptics::Cue cue) noexcept override { reach_.cue(cue); }
-  haptics::DeviceSample read() noexcept override {
-    if (!isLost()) last_ = reach_.read();
-    ++reads_;
-    last_.valid = !isLost();
-    return last_;
-  }
-  void write(const Vec3& force) noexcept override { reach_.write(force); }
-
- private:
-  bool isLost() const { return reads_ >= 100; }
-  ScriptedDevice reach_{-0.1, 0.1, 300};
-  haptics::DeviceSample last_;
-  std::atomic<int> reads_{0};
-};
-
 TEST_F(Conducted, ALostDeviceEndsTheRunWithTheTrialItWasLostIn) {
-  RecordedSession session(easy_, request_, [](const std::string&, std::span<const experiment::CompiledExperiment>, std::uint64_t) {
-    return std::unique_ptr<haptics::HapticDevice>(std::make_unique<LostHand>());
+  RecordedSession session(easy_, request_, [](const auto&...) {
+    auto hand = std::make_unique<SetDevice>(Vec3{-0.1, 0, 0});
+    hand->about.virtualHand = true;
+    hand->whileItIsRead = [own = hand.get()] {
+      if (own->reads < 50) return;  // it is pulled out in the trial
+      own->sample.valid = false;
+      own->is = haptics::DeviceHealth::Lost;
+    };
+    return hand;
   });
   EXPECT_THROW(conduct(session, kNeverStop, words()), ResourceError);
   EXPECT_EQ(told_, (std::vector<std::string>{"opened 1", "1", "in order", "closed"}));
@@ -148,8 +134,7 @@ TEST_F(Conducted, ALostDeviceEndsTheRunWithTheTrialItWasLostIn) {
 
 TEST_F(Conducted, ABlockWhoseDeviceCannotBeHadIsStillLeft) {
   RecordedSession session(easy_, request_,
-                          [](const std::string&, std::span<const experiment::CompiledExperiment>,
-                             std::uint64_t) -> std::unique_ptr<haptics::HapticDevice> { throw ResourceError("not plugged in"); });
+                          [](const auto&...) -> std::unique_ptr<haptics::HapticDevice> { throw ResourceError("not plugged in"); });
   EXPECT_THROW(session.openNext(), ResourceError);
   EXPECT_EQ(session.blocksLeft(), 1u);
   EXPECT_TRUE(recordedRuns(request_.place).empty());
@@ -242,7 +227,7 @@ TEST_F(Conducted, ThePlansRestLiesBetweenBlocksInRealTime) {
 TEST_F(Conducted, ATrialThatWaitsForItsHandIsSaidToWait) {
   request_.fast = false;
   request_.trials = 1;
-  RecordedSession session(easy_, request_, [](const auto&...) { return std::make_unique<haptics::test::SetDevice>(Vec3{0.05, 0, 0}); });
+  RecordedSession session(easy_, request_, [](const auto&...) { return std::make_unique<SetDevice>(Vec3{0.05, 0, 0}); });
   std::atomic<bool> stop{false};
   SessionWords said = words();
   said.waiting = [&](const RecordedRun& run) {

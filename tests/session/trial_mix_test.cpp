@@ -15,6 +15,7 @@
 #include "sim/session/trial_order.h"
 #include "tests/refusal.h"
 #include "tests/temporary_folder.h"
+#include "tests/text_parts.h"
 
 // The order of kinds and targets within a block, counted trial by trial.
 namespace reachlab::session {
@@ -79,17 +80,17 @@ TEST(TrialMix, OfMoreEntriesThanABlockCanHaveScenesIsRefused) {
   const auto place = [](int i) { return "[" + std::to_string(i) + ",0,0]"; };
   const auto kind = [](int i) { return "\"k" + std::to_string(i) + "\": {}"; };
   const auto name = [](int) { return std::string("\"field\""); };
-  EXPECT_NE(faultsOf(kThreeKinds + R"(, "trials": 6, "mix": [)" + list(65536, heavy) + "]").find("has 65536 entries"), std::string::npos);
-  EXPECT_NE(faultsOf(R"("trials": 6, "targets": [)" + list(300'000, place) + "]").find("has 300000 entries"), std::string::npos);
-  EXPECT_NE(faultsOf(R"("trials": 6, "kinds": {)" + list(100'000, kind) + "}").find("has 100000 entries"), std::string::npos);
-  EXPECT_NE(faultsOf(kSevenToOne + R"(, "trials": 8, "not_twice": [)" + list(2001, name) + "]").find("2000 at most"), std::string::npos);
+  EXPECT_TRUE(holds(faultsOf(kThreeKinds + R"(, "trials": 6, "mix": [)" + list(65536, heavy) + "]"), "has 65536 entries"));
+  EXPECT_TRUE(holds(faultsOf(R"("trials": 6, "targets": [)" + list(300'000, place) + "]"), "has 300000 entries"));
+  EXPECT_TRUE(holds(faultsOf(R"("trials": 6, "kinds": {)" + list(100'000, kind) + "}"), "has 100000 entries"));
+  EXPECT_TRUE(holds(faultsOf(kSevenToOne + R"(, "trials": 8, "not_twice": [)" + list(2001, name) + "]"), "2000 at most"));
 }
 
 // Their runs were recorded, and reach analyze could not write a file of such a name.
 TEST(TrialMix, OfAConditionThatIsNoPartOfAFileNameIsRefused) {
   const auto named = [](std::size_t length) { return faultsOf(R"("trials": 1, "condition": ")" + std::string(length, 'c') + "\""); };
   EXPECT_EQ(named(100), "");
-  EXPECT_NE(named(101).find("condition: has 101 bytes"), std::string::npos);
+  EXPECT_TRUE(holds(named(101), "condition: has 101 bytes"));
 }
 
 TEST(TrialMix, OfMoreThanAThousandBlocksIsRefusedBeforeTheyAreLookedAt) {
@@ -99,7 +100,7 @@ TEST(TrialMix, OfMoreThanAThousandBlocksIsRefusedBeforeTheyAreLookedAt) {
     return refusalOf<FaultError>([&] { (void)parsePlan(text + "] }", "p.json"); });
   };
   EXPECT_EQ(faultOf(1000), "");
-  EXPECT_NE(faultOf(1001).find("blocks: has 1001 blocks"), std::string::npos) << faultOf(1001);
+  EXPECT_TRUE(holds(faultOf(1001), "blocks: has 1001 blocks"));
 }
 
 // Were the cost of a draw not in proportion to the number of kinds, this would take minutes, and the test its time-out.
@@ -175,10 +176,7 @@ TEST(TrialMix, AsWrittenRepeatsTheMixAndGoesThroughTheTargets) {
 }
 
 TEST(TrialMix, RefusesWithKeyAndReasonWhatNoOrderCanDo) {
-  const auto refused = [](const std::string& settings, const std::vector<std::string>& parts) {
-    const std::string faults = faultsOf(settings);
-    for (const std::string& part : parts) EXPECT_NE(faults.find(part), std::string::npos) << settings << "\n" << part << "\n" << faults;
-  };
+  const auto refused = [](const std::string& settings, const std::vector<std::string>& parts) { expectIn(faultsOf(settings), parts); };
   refused(kSevenToOne + R"(, "trials": 100)", {"trials: is 100", "a cycle of the mix has 8", "96 or 104"});
   refused(R"("trials": 10, "targets": { "ring": { "count": 4 } })", {"trials: is 10", "4 targets", "8 or 12"});
   refused(kThreeKinds + R"(, "trials": 8, "mix": [{ "kind": "chanel", "count": 8 }])",
@@ -269,22 +267,20 @@ std::string scenesRefused(const std::string& experiment, const std::string& sett
 }
 
 TEST(BlockScenes, RefuseChangesThatTheExperimentOrTheRecordDoesNotAllow) {
-  const auto refused = [](const std::string& said, const std::vector<std::string>& parts) {
-    for (const std::string& part : parts) EXPECT_NE(said.find(part), std::string::npos) << part << "\n" << said;
+  const auto refused = [](const std::string& experiment, const std::string& settings, const std::vector<std::string>& parts) {
+    expectIn(scenesRefused(experiment, settings), parts);
   };
-  refused(scenesRefused("free-point", R"("trials": 1, "kinds": { "a": { "object.masses_kg[0]": -1 } })"),
-          {"kinds.a.object.masses_kg[0]", "-1"});
-  refused(scenesRefused("free-point", R"("trials": 1, "kinds": { "a": { "object.mass": 1 } })"), {"kinds.a.object.mass"});
-  refused(scenesRefused("chain-fast", R"("trials": 1, "kinds": { "a": { "velocity_estimator": { "kind": "difference" } } })"),
+  refused("free-point", R"("trials": 1, "kinds": { "a": { "object.masses_kg[0]": -1 } })", {"kinds.a.object.masses_kg[0]", "-1"});
+  refused("free-point", R"("trials": 1, "kinds": { "a": { "object.mass": 1 } })", {"kinds.a.object.mass"});
+  refused("chain-fast", R"("trials": 1, "kinds": { "a": { "velocity_estimator": { "kind": "difference" } } })",
           {"kinds.a.velocity_estimator", "same value in every kind"});
-  refused(scenesRefused("free-point", R"("trials": 1, "kinds": { "a": { "force_limit_n": 3 } })"), {"kinds.a.force_limit_n"});
-  refused(scenesRefused("chain-fast", R"("trials": 4, "targets": { "ring": { "count": 4 } })"), {"targets.ring", "free"});
-  refused(scenesRefused("chain-fast", R"("trials": 2, "targets": [[3], [1, 2]])"), {"targets[1]"});
-  refused(scenesRefused("archimedean-spiral", R"("trials": 2, "targets": [[6], [40]])"), {"targets[1]"});
-  refused(scenesRefused("free-point", R"("trials": 2, "targets": [[-0.1, 0, 0], [0, 0, 0]])"), {"targets[0]"});  // the start itself
-  refused(
-      scenesRefused("free-point", R"("trials": 2, "targets": [[0, 0, 0], [0, 0, 0.1]], "kinds": { "a": { "task.target": [1, 0, 0] } })"),
-      {"kinds.a.task.target"});
+  refused("free-point", R"("trials": 1, "kinds": { "a": { "force_limit_n": 3 } })", {"kinds.a.force_limit_n"});
+  refused("chain-fast", R"("trials": 4, "targets": { "ring": { "count": 4 } })", {"targets.ring", "free"});
+  refused("chain-fast", R"("trials": 2, "targets": [[3], [1, 2]])", {"targets[1]"});
+  refused("archimedean-spiral", R"("trials": 2, "targets": [[6], [40]])", {"targets[1]"});
+  refused("free-point", R"("trials": 2, "targets": [[-0.1, 0, 0], [0, 0, 0]])", {"targets[0]"});  // the start itself
+  refused("free-point", R"("trials": 2, "targets": [[0, 0, 0], [0, 0, 0.1]], "kinds": { "a": { "task.target": [1, 0, 0] } })",
+          {"kinds.a.task.target"});
   EXPECT_EQ(scenesRefused("chain-fast", R"("trials": 2, "targets": [[3], [6]])"), "");
 }
 
@@ -296,8 +292,8 @@ TEST(BlockScenes, ACheckedPlanNamesTheLineOfAKindOfThePlanOrOfTheBlock) {
                "  \"blocks\": [ { \"experiment\": \"free-point\" }, { \"experiment\": \"free-point\" },\n"
                "    { \"experiment\": \"free-point\", \"kinds\": { \"a\": {},\n      \"c\": { \"object.kind\": \"chain\" } } } ] }");
   const std::string said = refusalOf<FaultError>([&] { checkedProgramme(file); });
-  EXPECT_NE(said.find("p.json:3:"), std::string::npos) << said;
-  EXPECT_NE(said.find("p.json:6:"), std::string::npos) << said;
+  EXPECT_TRUE(holds(said, "p.json:3:"));
+  EXPECT_TRUE(holds(said, "p.json:6:"));
   EXPECT_EQ(said.find("p.json:3:"), said.rfind("p.json:3:")) << "told once for both blocks\n" << said;
 }
 
