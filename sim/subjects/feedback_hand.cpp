@@ -91,10 +91,10 @@ void FeedbackHand::learnFromTrace() {
   const FeedbackSpec& person = state_->person;
   trace_.steps = traceSteps_.load(std::memory_order_acquire);
   if (trace_.steps == 0) return;
-  if (person.learnFast > 0 || person.learnSlow > 0) {
+  if (person.learning.learnFast > 0 || person.learning.learnSlow > 0) {
     const ModelError step = computeModelStep(playing_.gains, trace_, playing_.used, inField(person.arm, playing_.believed), task_->object,
                                              person.senses, task_->cost.distance);
-    learn({person.learnFast, person.keepFast, person.learnSlow, person.keepSlow}, step, state_->model);
+    learn(person.learning, step, state_->model);
   }
   learn(person.environment, errorsAtStep_[static_cast<std::size_t>(trace_.steps - 1)].error(), state_->environment);
   ++state_->model.trials;

@@ -7,7 +7,6 @@
 #include "base/fault.h"
 #include "base/math/elementary.h"
 #include "sim/subjects/feedback_hand.h"
-#include "sim/subjects/subject_kinds.h"
 #include "sim/subjects/subject_parameters.h"
 
 namespace reachlab::subjects {
@@ -28,8 +27,8 @@ constexpr double kStiffnessSd = 0.45, kMassSd = 0.28, kNoiseSd = 0.24, kGainSd =
 FeedbackSpec withPerson(FeedbackSpec spec, const Person& person) {
   spec.first = {spec.first.stiffness + person.stiffness, spec.first.mass + person.mass};
   spec.noiseScale = person.noise;
-  spec.learnFast *= person.gain;
-  spec.learnSlow *= person.gain;
+  spec.learning.learnFast *= person.gain;
+  spec.learning.learnSlow *= person.gain;
   return spec;
 }
 
@@ -57,8 +56,8 @@ FeedbackSpec parseFeedbackSubject(const std::string& text) {
   FeedbackSpec spec;
   const std::string subject = options.word("subject", {"practised", "1", "2", "3", "4", "5", "drawn"});
   const bool learner = subject != "practised";
-  const auto learning = [&](std::string_view key, double ofLearners) {
-    return options.number(key, learner ? std::optional(ofLearners) : std::nullopt);
+  const auto ofLearners = [&](std::string_view key, double usual) {
+    return options.number(key, learner ? std::optional(usual) : std::nullopt);
   };
   const std::string criterion = options.take("criterion").value_or("effort");
   if (criterion != "effort") {
@@ -82,13 +81,11 @@ FeedbackSpec parseFeedbackSubject(const std::string& text) {
   spec.timeSd = number("time-sd");
   spec.reaction = number("reaction");
   spec.planSd = {number("plan-sd-stiffness"), number("plan-sd-mass")};
-  spec.practice = learning("practice", kPracticeOfLearners);
+  spec.practice = ofLearners("practice", kPracticeOfLearners);
   spec.practiceTrials = number("practice-trials");
   spec.first = {number("model-stiffness"), number("model-mass")};
-  spec.learnFast = learning("learn-fast", kFastOfLearners);
-  spec.keepFast = number("keep-fast");
-  spec.learnSlow = learning("learn-slow", kSlowOfLearners);
-  spec.keepSlow = number("keep-slow");
+  spec.learning = {ofLearners("learn-fast", kFastOfLearners), number("keep-fast"), ofLearners("learn-slow", kSlowOfLearners),
+                   number("keep-slow")};
   spec.environment = {number("field-learn-fast"), number("field-keep-fast"), number("field-learn-slow"), number("field-keep-slow")};
   spec.noise = number("noise");
   options.done();
@@ -115,10 +112,6 @@ MakeSubject prepareFeedbackSubjects(const experiment::CompiledExperiment& experi
     }
     return std::make_unique<FeedbackHand>(task, state, seed);
   };
-}
-
-MakeSubject prepareFeedbackSubjects(const experiment::CompiledExperiment& experiment, const std::string& options) {
-  return prepareFeedbackSubjects(experiment, parseFeedbackSubject(options));
 }
 
 }  // namespace reachlab::subjects

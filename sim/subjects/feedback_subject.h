@@ -16,12 +16,12 @@ struct FeedbackSpec {
   SenseSpec senses;
   double motorNoise = 0, forceNoise = 0;  // s_u [1], s_a [N]
   double effort = 0, criterionEffort = 0, criterionWeight = 0;
-  std::optional<predict::Criterion> criterion;  // nullopt: effort alone
-  double timeSd = 0, reaction = 0;              // [1], [s]
-  ModelError planSd;                            // from trial to trial, for a practised subject
-  double practice = 0, practiceTrials = 1;      // SD is larger by a factor 1 + practice exp(-n / practiceTrials)
-  ModelError first;                             // theta_0
-  double learnFast = 0, keepFast = 0, learnSlow = 0, keepSlow = 1;
+  std::optional<predict::Criterion> criterion;         // nullopt: effort alone
+  double timeSd = 0, reaction = 0;                     // [1], [s]
+  ModelError planSd;                                   // from trial to trial, for a practised subject
+  double practice = 0, practiceTrials = 1;             // SD is larger by a factor 1 + practice exp(-n / practiceTrials)
+  ModelError first;                                    // theta_0
+  LearningRates learning;                              // of the object
   LearningRates environment{0.21, 0.59, 0.02, 0.992};  // of a field on the hand and of a cursor's angle
   double noiseScale = 1;                               // factor on this person's noise, senses and planSd
   bool drawn = false;                                  // this person is drawn from the seed

@@ -16,7 +16,6 @@
 #include "sim/haptics/blind_hand.h"
 #include "sim/subjects/plans/sampled_plan.h"
 #include "sim/subjects/plans/subject_draws.h"
-#include "sim/subjects/subject_kinds.h"
 #include "sim/subjects/subject_parameters.h"
 #include "sim/trial/protocol.h"
 
@@ -78,8 +77,8 @@ class ImpedanceHand final : public haptics::HapticDevice, public haptics::BlindH
  public:
   ImpedanceHand(std::shared_ptr<const ImpedanceTask> task, std::uint64_t seed)
       : task_(std::move(task)), known_(dynamics::compileScene(task_->known, task_->constraint)), seed_(seed),
-        arm_(stepArm({task_->spec.arm.mass, task_->spec.arm.damping, task_->spec.arm.muscle}, kTickSeconds)),
-        delayTicks_(static_cast<std::size_t>(std::lround(task_->spec.delay / kTickSeconds))), before_(delayTicks_ + 1) {
+        arm_(stepArm(task_->spec.arm, kTickSeconds)), delayTicks_(static_cast<std::size_t>(std::lround(task_->spec.delay / kTickSeconds))),
+        before_(delayTicks_ + 1) {
     prepareTrial(0);
     std::swap(playing_, prepared_);
     firstIsThere_ = true;
@@ -228,10 +227,6 @@ MakeSubject prepareImpedanceSubjects(const experiment::CompiledExperiment& exper
       std::make_shared<const ImpedanceTask>(ImpedanceTask{spec, SampledPlan(makeReachPlan(experiment, spec.criterion, spec.handMass)),
                                                           knownTo(spec, experiment.experiment()), experiment.constraint()});
   return [task](std::uint64_t seed, int, std::shared_ptr<void>&) { return std::make_unique<ImpedanceHand>(task, seed); };
-}
-
-MakeSubject prepareImpedanceSubjects(const experiment::CompiledExperiment& experiment, const std::string& options) {
-  return prepareImpedanceSubjects(experiment, parseImpedanceSubject(options));
 }
 
 }  // namespace reachlab::subjects

@@ -62,11 +62,10 @@ ModelError computeModelStep(const FeedbackGains& gains, const TrialTrace& trace,
 }
 
 void learn(const LearningRates& rates, const ModelError& step, LearntModel& model) {
-  const auto add = [](double keep, double gain, double by, double& state) { state = keep * state + gain * by; };
-  add(rates.keepFast, rates.learnFast, step.stiffness, model.fast.stiffness);
-  add(rates.keepFast, rates.learnFast, step.mass, model.fast.mass);
-  add(rates.keepSlow, rates.learnSlow, step.stiffness, model.slow.stiffness);
-  add(rates.keepSlow, rates.learnSlow, step.mass, model.slow.mass);
+  for (double ModelError::*of : {&ModelError::stiffness, &ModelError::mass}) {
+    model.fast.*of = rates.keepFast * (model.fast.*of) + rates.learnFast * (step.*of);
+    model.slow.*of = rates.keepSlow * (model.slow.*of) + rates.learnSlow * (step.*of);
+  }
 }
 
 }  // namespace reachlab::subjects

@@ -5,7 +5,9 @@
 #include "base/device_options.h"
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
+#include "sim/subjects/feedback_subject.h"
 #include "sim/subjects/hands_in_scenes.h"
+#include "sim/subjects/impedance_subject.h"
 
 namespace reachlab::subjects {
 
@@ -33,8 +35,8 @@ MakeSubject prepareSubjects(const experiment::CompiledExperiment& experiment, co
   requireStraightWay(experiment.experiment());
   const std::string options = name == device ? "" : device.substr(name.size() + 1);
   const std::string kind = DeviceOptions(options, "device simulated").word("kind", {"plan", "impedance", "ofc"});
-  if (kind == "ofc") return prepareFeedbackSubjects(experiment, options);
-  if (kind == "impedance") return prepareImpedanceSubjects(experiment, options);
+  if (kind == "ofc") return prepareFeedbackSubjects(experiment, parseFeedbackSubject(options));
+  if (kind == "impedance") return prepareImpedanceSubjects(experiment, parseImpedanceSubject(options));
   requireNothingPushes(experiment.experiment());
   return prepareSubjects(experiment, parseSubject(options));
 }

@@ -10,9 +10,5 @@ namespace reachlab::subjects {
 MakeSubject prepareSubjects(const experiment::CompiledExperiment& experiment, const std::string& device);
 /// The same for the scenes of a block. The hand does each trial in the scene of its number, and keeps what it learns from one to the next.
 MakeSubject prepareSubjects(std::span<const experiment::CompiledExperiment> scenes, const std::string& device);
-/// Subjects of `kind=ofc` and of `kind=impedance`, by their options as text (feedback_subject.h, impedance_subject.h). Throw FaultError or
-/// RefusedError.
-MakeSubject prepareFeedbackSubjects(const experiment::CompiledExperiment& experiment, const std::string& options);
-MakeSubject prepareImpedanceSubjects(const experiment::CompiledExperiment& experiment, const std::string& options);
 
 }  // namespace reachlab::subjects

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "sim/haptics/run_conductor.h"
+#include "sim/haptics/tick_order.h"
 
 /// Trials that a virtual subject does on the virtual clock.
 namespace reachlab::subjects {
@@ -21,6 +22,24 @@ inline std::vector<haptics::ConductedTrial> conduct(const experiment::CompiledEx
   std::vector<haptics::ConductedTrial> results;
   while (const auto trial = run.runTrial(stop)) results.push_back(*trial);
   return results;
+}
+
+/// Does one trial of the hand on the engine, whose forces it feels and whose masses it sees. After each tick `look` gets the hand's sample
+/// and its cue, if any. The trial ends by itself, or when `look` says false.
+template <class Look>
+void reachTickByTick(haptics::TickEngine& engine, haptics::HapticDevice& hand, Look&& look) {
+  const haptics::TickState& state = engine.state();
+  haptics::TickInput input;
+  input.command = trial::Command::NextTrial;
+  for (int tick = 0; tick < 20'000 && state.phase != trial::Phase::Done; ++tick) {
+    input.devices[0] = hand.read();
+    haptics::runTick(engine, input);
+    input.command = trial::Command::None;
+    hand.write(state.hands[0].deviceForce);
+    if (const auto cue = engine.cue()) hand.cue(*cue);
+    hand.see({state.masses.data(), static_cast<std::size_t>(state.massCount)});
+    if (!look(input.devices[0], engine.cue())) return;
+  }
 }
 
 inline int successes(const std::vector<haptics::ConductedTrial>& trials) {

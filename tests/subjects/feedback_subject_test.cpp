@@ -7,7 +7,6 @@
 #include "cli/bench/allocation_count.h"
 #include "devices/make_device.h"
 #include "sim/experiment/experiment.h"
-#include "sim/haptics/tick_order.h"
 #include "sim/predict/predict.h"
 #include "sim/subjects/feedback_hand.h"
 #include "sim/subjects/subject_kinds.h"
@@ -38,25 +37,19 @@ Watched watch(const std::string& name, const std::string& options, double pulse 
   auto& hand = dynamic_cast<FeedbackHand&>(*made);
   haptics::TickEngine engine(experiment.experiment(), haptics::engineOptions(hand));
   hand.prepareTrial(0);
-  haptics::TickInput input;
-  input.command = trial::Command::NextTrial;
   Watched out;
   bool gone = false;
-  for (int tick = 0, since = 0; since < 3000 && tick < 10000; ++tick) {
-    if (gone) hand.push(since >= pulseAt && since < pulseAt + pulseTicks ? pulse : 0);
-    input.devices[0] = hand.read();
-    haptics::runTick(engine, input);
-    input.command = trial::Command::None;
-    hand.write(engine.state().hands[0].deviceForce);
+  reachTickByTick(engine, hand, [&](const haptics::DeviceSample& sample, std::optional<haptics::Cue> cue) {
     if (gone) {
-      out.speed.push_back(input.devices[0].velocity.x), out.place.push_back(input.devices[0].position.x),
-          out.command.push_back(hand.command());
-      ++since;
+      out.speed.push_back(sample.velocity.x);
+      out.place.push_back(sample.position.x);
+      out.command.push_back(hand.command());
     }
-    if (const auto cue = engine.cue()) hand.cue(*cue), gone = *cue == haptics::Cue::Go;
-    hand.see({engine.state().masses.data(), static_cast<std::size_t>(engine.state().massCount)});
-    if (engine.state().phase == trial::Phase::Done) break;
-  }
+    if (cue) gone = *cue == haptics::Cue::Go;
+    const int since = static_cast<int>(out.speed.size());
+    if (gone) hand.push(since >= pulseAt && since < pulseAt + pulseTicks ? pulse : 0);
+    return since < 3000;
+  });
   return out;
 }
 

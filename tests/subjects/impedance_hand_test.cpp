@@ -10,11 +10,10 @@
 #include <vector>
 
 #include "base/fault.h"
-#include "sim/haptics/tick_engine.h"
-#include "sim/haptics/tick_order.h"
 #include "sim/subjects/feedback_hand.h"
 #include "sim/subjects/impedance_subject.h"
 #include "sim/subjects/subject_parameters.h"
+#include "tests/subjects/conducted.h"
 #include "tests/subjects/short_reach.h"
 
 namespace reachlab::subjects {
@@ -172,19 +171,14 @@ TEST(ImpedanceHand, CarriesItsPlanOutWhereItKnowsTheObject) {
   const auto plan = prepareSubjects(experiment, parseSubject("noise=0,reaction=0.001"))(1, 0, learnt);
   haptics::TickEngine engine(experiment, haptics::engineOptions(*hand));
   hand->prepareTrial(0), plan->prepareTrial(0);
-  haptics::TickInput input;
-  input.command = trial::Command::NextTrial;
   double worst = 0;
   int since = -1;
-  for (int tick = 0; since < 1500 && tick < 6000; ++tick) {
-    input.devices[0] = hand->read();
+  reachTickByTick(engine, *hand, [&](const haptics::DeviceSample& sample, std::optional<haptics::Cue> cue) {
     const Vec3 meant = plan->read().position;
-    haptics::runTick(engine, input);
-    input.command = trial::Command::None;
-    hand->write(engine.state().hands[0].deviceForce);
-    if (since >= 0) ++since, worst = std::max(worst, norm(input.devices[0].position - meant));
-    if (const auto cue = engine.cue()) hand->cue(*cue), plan->cue(*cue), since = *cue == haptics::Cue::Go ? 0 : since;
-  }
+    if (since >= 0) ++since, worst = std::max(worst, norm(sample.position - meant));
+    if (cue) plan->cue(*cue), since = *cue == haptics::Cue::Go ? 0 : since;
+    return since < 1500;
+  });
   EXPECT_EQ(since, 1500);
   EXPECT_LT(worst, 5e-4) << worst;
 }

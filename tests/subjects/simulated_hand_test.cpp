@@ -11,7 +11,6 @@
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
-#include "sim/haptics/tick_order.h"
 #include "sim/subjects/plans/played_hand.h"
 #include "sim/subjects/plans/sampled_plan.h"
 #include "sim/subjects/subject_kinds.h"
@@ -121,7 +120,7 @@ TEST(SimulatedHand, RefusesACriterionWhereItFollowsNone) {
   const experiment::Experiment torus = experiment::readExperiment("torus");
   EXPECT_NO_THROW(devices::makeDevice("simulated:noise=0", torus, 1));
   for (const char* device : {"simulated:criterion=min-hand-jerk", "simulated:criterion=min-crackle", "simulated:hand-mass=1"}) {
-    EXPECT_NE(refusalOf([&] { devices::makeDevice(device, torus, 1); }).find("not on the surface"), std::string::npos);
+    EXPECT_TRUE(holds(refusalOf([&] { devices::makeDevice(device, torus, 1); }), "not on the surface"));
   }
   for (const char* bent : {"ellipse", "chain-on-ellipse"})
     EXPECT_THROW(devices::makeDevice("simulated:criterion=min-crackle", experiment::readExperiment(bent), 1), RefusedError) << bent;
@@ -135,22 +134,19 @@ TEST(SimulatedHand, OnACurveTheObjectMovesAsTheCriterionPredicts) {
     haptics::TickEngine engine(experiment.experiment(), {{{.virtualHand = true}}});
     const auto hand = devices::makeDevice("simulated:noise=0,reaction=0,criterion=min-hand-jerk", experiment, 1);
     hand->prepareTrial(0);
-    haptics::TickInput input;
-    input.command = trial::Command::NextTrial;
     double worst = 0, peak = 0;
-    for (int tick = 0, since = -1; since < static_cast<int>(prediction->duration * 1000) && tick < 5000; ++tick) {
-      input.devices[0] = hand->read();
-      haptics::runTick(engine, input);
-      input.command = trial::Command::None;
-      if (engine.state().phase == trial::Phase::Done) break;
+    int since = -1;
+    reachTickByTick(engine, *hand, [&](const haptics::DeviceSample&, std::optional<haptics::Cue> cue) {
+      if (engine.state().phase == trial::Phase::Done) return false;
       if (since >= 0) ++since;
-      if (const auto cue = engine.cue()) hand->cue(*cue), since = *cue == haptics::Cue::Go ? 0 : -1;
-      if (since <= 0) continue;
+      if (cue) since = *cue == haptics::Cue::Go ? 0 : -1;
+      if (since <= 0) return true;
       const double moved = norm(engine.state().masses[static_cast<std::size_t>(engine.state().massCount) - 1].v);
       const double predicted = std::abs(prediction->objectVelocityAt(since * 1e-3));
       worst = std::max(worst, std::abs(moved - predicted));
       peak = std::max(peak, predicted);
-    }
+      return since < static_cast<int>(prediction->duration * 1000);
+    });
     ASSERT_GT(peak, 0.1) << bent;
     // One mass: the coupling's damper left out of the lead would make it 1 % on the ellipse and 4.7 % on the helix, where the lead turns
     // fastest. Several masses have no lead: their plan counts on the springs alone, and the damper makes 1 %.
