@@ -53,9 +53,12 @@ std::vector<int> choices(const std::vector<int>& left, const Rules& rules, int b
   return found;
 }
 
-std::vector<int> countsOf(const std::vector<KindCount>& cycle, const std::vector<std::string>& kinds) {
+// How many trials of each kind are shuffled together: those of a cycle, or of the whole block.
+std::vector<int> countsTogether(const TrialMix& mix, const std::vector<std::string>& kinds, int trials) {
   std::vector<int> counts(kinds.size(), 0);
-  for (const KindCount& some : cycle) counts[static_cast<std::size_t>(placeOf(kinds, some.kind))] += some.count;
+  for (const KindCount& some : cycleOf(mix)) counts[static_cast<std::size_t>(placeOf(kinds, some.kind))] += some.count;
+  const int cycles = mix.order == TrialOrder::Shuffled ? trials / std::accumulate(counts.begin(), counts.end(), 0) : 1;
+  for (int& count : counts) count *= cycles;
   return counts;
 }
 
@@ -68,12 +71,8 @@ std::vector<int> asWritten(const std::vector<KindCount>& cycle, const std::vecto
 
 std::vector<int> orderKinds(const TrialMix& mix, const std::vector<std::string>& kinds, int trials, std::uint64_t seed) {
   if (mix.kinds.empty()) return std::vector<int>(static_cast<std::size_t>(trials), 0);
-  const std::vector<KindCount> cycle = cycleOf(mix);
-  if (mix.order == TrialOrder::AsWritten) return asWritten(cycle, kinds, trials);
-  std::vector<int> counts = countsOf(cycle, kinds);
-  const int cycles = trials / std::accumulate(counts.begin(), counts.end(), 0);
-  if (mix.order == TrialOrder::Shuffled)
-    for (int& count : counts) count *= cycles;
+  if (mix.order == TrialOrder::AsWritten) return asWritten(cycleOf(mix), kinds, trials);
+  const std::vector<int> counts = countsTogether(mix, kinds, trials);
   const Rules rules(mix, kinds);
   Draws draws(seed, kKindStream);
   std::vector<int> order;
@@ -146,10 +145,9 @@ std::vector<MixedTrial> orderTrials(const TrialMix& mix, int trials, std::uint64
 std::optional<Fault> orderFault(const TrialMix& mix, int trials) {
   if (mix.kinds.empty()) return std::nullopt;
   const std::vector<std::string> kinds = kindsInUse(mix);
-  const std::vector<KindCount> cycle = cycleOf(mix);
   const Rules rules(mix, kinds);
   if (mix.order == TrialOrder::AsWritten) {
-    const std::vector<int> written = asWritten(cycle, kinds, trials);
+    const std::vector<int> written = asWritten(cycleOf(mix), kinds, trials);
     if (rules.notFirst[static_cast<std::size_t>(written.front())])
       return Fault{"not_first",
                    fmt::format("forbids {} as the first trial, and the mix is written with it first",
@@ -164,23 +162,16 @@ std::optional<Fault> orderFault(const TrialMix& mix, int trials) {
     }
     return std::nullopt;
   }
-  std::vector<int> counts = countsOf(cycle, kinds);
-  const int total = std::accumulate(counts.begin(), counts.end(), 0), cycles = trials / total;
-  const bool whole = mix.order == TrialOrder::Shuffled;  // one shuffled stretch of all trials
-  const bool several = !whole && cycles > 1;             // the next cycle may begin with any kind
+  const std::vector<int> counts = countsTogether(mix, kinds, trials);
+  const int total = std::accumulate(counts.begin(), counts.end(), 0);
+  const int most = trials > total ? total / 2 : (total + 1) / 2;  // the next cycle may begin with any kind
   for (std::size_t k = 0; k < kinds.size(); ++k) {
-    const int most = several ? total / 2
-                     : whole ? (total * cycles + 1) / 2
-                             : (total + 1) / 2,
-              have = whole ? counts[k] * cycles : counts[k];
-    if (!rules.notTwice[k] || have <= most) continue;
+    if (!rules.notTwice[k] || counts[k] <= most) continue;
     return Fault{"not_twice",
-                 fmt::format("keeps {} from following itself, which no order can do: it is {} of {} trials of {}", kinds[k], have,
-                             whole ? trials : total, whole ? "the block" : "a cycle"),
+                 fmt::format("keeps {} from following itself, which no order can do: it is {} of {} trials of {}", kinds[k], counts[k],
+                             total, mix.order == TrialOrder::Shuffled ? "the block" : "a cycle"),
                  fmt::format("at most {} of them, or {} without not_twice", most, kinds[k])};
   }
-  if (whole)
-    for (int& count : counts) count *= cycles;
   if (choices(counts, rules, -1, true).empty())
     return Fault{"not_first", "leaves no kind that the block can begin with", "at least one kind of the mix that may be first"};
   return std::nullopt;

@@ -24,18 +24,12 @@ bool isKindName(const std::string& name) {
          std::all_of(name.begin(), name.end(), [](unsigned char c) { return c < 128 && (std::isalnum(c) || c == '-' || c == '_'); });
 }
 
-std::string listOfKinds(const TrialMix& mix) {
-  std::vector<std::string> names;
-  for (const TrialKind& kind : mix.kinds) names.push_back(kind.name);
-  return names.empty() ? "none, since the block has no kinds" : fmt::format("{}", fmt::join(names, ", "));
-}
-
-void checkNames(const std::string& key, const std::vector<std::string>& names, const std::vector<std::string>& known, const TrialMix& mix,
-                std::vector<Fault>& faults) {
-  for (std::size_t i = 0; i < names.size(); ++i)
-    if (mix.kinds.empty() || std::find(known.begin(), known.end(), names[i]) == known.end())
-      faults.push_back({fmt::format("{}[{}]", key, i), fmt::format("is \"{}\", which is no kind of this block's mix", names[i]),
-                        mix.kinds.empty() ? listOfKinds(mix) : fmt::format("{}", fmt::join(known, ", "))});
+// `known` is empty where the block has no kinds.
+void checkKind(const std::string& key, const std::string& name, const std::vector<std::string>& known, const char* what,
+               std::vector<Fault>& faults) {
+  if (std::find(known.begin(), known.end(), name) == known.end())
+    faults.push_back({key, fmt::format("is \"{}\", which is no kind of {}", name, what),
+                      known.empty() ? "none, since the block has no kinds" : fmt::format("{}", fmt::join(known, ", "))});
 }
 
 std::string nearestMultiples(int trials, int of) {
@@ -150,11 +144,11 @@ std::vector<Fault> problems(const TrialMix& mix, int trials, const std::string& 
   std::vector<Fault> faults;
   const std::string key = prefix.empty() ? "" : prefix + ".";
   // Before anything is compared with everything else, and before counts are added.
-  for (const auto& [list, length] : std::initializer_list<std::pair<const char*, std::size_t>>{{"kinds", mix.kinds.size()},
-                                                                                               {"mix", mix.cycle.size()},
-                                                                                               {"targets", mix.targets.size()},
-                                                                                               {"not_first", mix.notFirst.size()},
-                                                                                               {"not_twice", mix.notTwice.size()}})
+  for (const auto& [list, length] : {std::pair{"kinds", mix.kinds.size()},
+                                     {"mix", mix.cycle.size()},
+                                     {"targets", mix.targets.size()},
+                                     {"not_first", mix.notFirst.size()},
+                                     {"not_twice", mix.notTwice.size()}})
     if (length > kMaxScenes) faults.push_back({key + list, fmt::format("has {} entries", length), fmt::format("{} at most", kMaxScenes)});
   if (!faults.empty()) return faults;
   for (const TrialKind& kind : mix.kinds)
@@ -163,14 +157,13 @@ std::vector<Fault> problems(const TrialMix& mix, int trials, const std::string& 
   std::vector<std::string> known;
   for (const TrialKind& kind : mix.kinds) known.push_back(kind.name);
   for (std::size_t i = 0; i < mix.cycle.size(); ++i) {
-    const KindCount& some = mix.cycle[i];
-    if (std::find(known.begin(), known.end(), some.kind) == known.end())
-      faults.push_back(
-          {fmt::format("{}mix[{}].kind", key, i), fmt::format("is \"{}\", which is no kind of this block", some.kind), listOfKinds(mix)});
-    checkNumber(fmt::format("{}mix[{}].count", key, i), some.count, wholeNumber(1, kMaxCount), faults);
+    checkKind(fmt::format("{}mix[{}].kind", key, i), mix.cycle[i].kind, known, "this block", faults);
+    checkNumber(fmt::format("{}mix[{}].count", key, i), mix.cycle[i].count, wholeNumber(1, kMaxCount), faults);
   }
-  checkNames(key + "not_first", mix.notFirst, kindsInUse(mix), mix, faults);
-  checkNames(key + "not_twice", mix.notTwice, kindsInUse(mix), mix, faults);
+  if (!known.empty()) known = kindsInUse(mix);
+  for (const auto& [list, names] : {std::pair{"not_first", &mix.notFirst}, {"not_twice", &mix.notTwice}})
+    for (std::size_t i = 0; i < names->size(); ++i)
+      checkKind(fmt::format("{}{}[{}]", key, list, i), (*names)[i], known, "this block's mix", faults);
   for (std::size_t i = 0; i < mix.targets.size(); ++i) {
     const std::vector<double>& target = mix.targets[i];
     const std::string which = fmt::format("{}targets[{}]", key, i);
