@@ -56,13 +56,6 @@ struct OpenTrial {
   }
 };
 
-// A record whose place is known from elsewhere (the closing record, a trial's link): false unless it is good and of that type.
-bool readAt(LogReader& reader, std::uint64_t offset, std::uint32_t sequence, RecordType type, RecordView& record) {
-  if (offset < kLogHeaderBytes || offset >= reader.fileSize()) return false;
-  reader.seek(offset, sequence);
-  return reader.next(record) && record.type == type;
-}
-
 // Looks backwards from the end of a log that was not closed for its last trial record.
 bool findLastTrial(LogReader& reader, TrialLink& link) {
   ByteWriter payload;
@@ -139,7 +132,8 @@ bool RunLog::readChain(LogReader& reader) {
   else if (!findLastTrial(reader, link)) return false;
   const TrialLink last = link;
   while (link.offset != 0) {
-    if (!readAt(reader, link.offset, link.sequence, RecordType::Trial, record)) return false;
+    reader.seek(link.offset, link.sequence);
+    if (!reader.next(record) || record.type != RecordType::Trial) return false;
     const std::uint64_t at = link.offset;
     trials_.push_back(decodeTrial(record.payload, link));
     if (link.offset >= at) return false;
