@@ -24,9 +24,8 @@ std::vector<std::string> writeBids(const std::vector<RunLog>& runs, const std::s
 std::string experimentPath(const RunConfiguration& configuration);
 /// The experiment as it was recorded, as an experiment file under `experiment`, with its constraint's definition, and the run's settings.
 std::string experimentJson(const RunConfiguration& configuration);
-/// Reads it back. Throws FaultError naming `origin`.
-experiment::CompiledExperiment experimentFromJson(const std::string& text, const std::string& origin);
-/// The same for the scenes of the run, in the order of `configuration`, by kind and target. A run of one scene has one experiment.
+/// Reads back the experiments of the run's scenes, in the order of `configuration`, by kind and target. A run of one scene has one. Throws
+/// FaultError naming `origin`.
 std::vector<experiment::CompiledExperiment> experimentsFromJson(const std::string& text, const std::string& origin,
                                                                 const RunConfiguration& configuration);
 /// TaskDescription of motion.json: the experiment's name, and sentences about object and task.

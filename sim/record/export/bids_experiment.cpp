@@ -76,43 +76,29 @@ std::string experimentJson(const RunConfiguration& c) {
 
 namespace {
 
-/// Calls `work` with the parsed file.
-template <class Work>
-auto ofDataset(const std::string& text, const std::string& origin, const Work& work) {
-  try {
-    const Json j = Json::parse(text);
-    return work(j);
-  } catch (const nlohmann::json::exception&) {
-    throw FaultError(fileFault(origin, "is no experiment of a dataset", "what reach export writes into code/experiments"));
-  }
-}
-
 experiment::CompiledExperiment opened(const Json& experiment, const Json& file, const std::string& origin) {
   return experiment::openExperimentText(experiment.dump(2), origin, file.at("definition").is_null() ? "" : file.at("definition").dump(2));
 }
 
 }  // namespace
 
-experiment::CompiledExperiment experimentFromJson(const std::string& text, const std::string& origin) {
-  return ofDataset(text, origin, [&](const Json& j) { return opened(j.at("experiment"), j, origin); });
-}
-
 std::vector<experiment::CompiledExperiment> experimentsFromJson(const std::string& text, const std::string& origin,
-                                                                const RunConfiguration& c) {
-  if (!c.scenes) return {experimentFromJson(text, origin)};
-  return ofDataset(text, origin, [&](const Json& j) {
-    std::vector<experiment::CompiledExperiment> experiments;
-    for (const RunScene& scene : *c.scenes) {
-      const Json& all = j.at("scenes");
-      const auto found = std::find_if(all.begin(), all.end(), [&](const Json& one) {
-        return one.at("kind") == orNull(scene.kind) && one.at("target") == orNull(scene.target);
-      });
-      if (found == all.end())
-        throw FaultError(fileFault(origin, fmt::format("has no scene for the condition {} of events.tsv", scene.condition)));
-      experiments.push_back(opened(found->at("experiment"), j, origin));
-    }
-    return experiments;
-  });
+                                                                const RunConfiguration& c) try {
+  const Json j = Json::parse(text);
+  std::vector<experiment::CompiledExperiment> experiments;
+  if (!c.scenes) experiments.push_back(opened(j.at("experiment"), j, origin));
+  for (const RunScene& scene : c.scenes.value_or(std::vector<RunScene>())) {
+    const Json& all = j.at("scenes");
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Json& one) {
+      return one.at("kind") == orNull(scene.kind) && one.at("target") == orNull(scene.target);
+    });
+    if (found == all.end())
+      throw FaultError(fileFault(origin, fmt::format("has no scene for the condition {} of events.tsv", scene.condition)));
+    experiments.push_back(opened(found->at("experiment"), j, origin));
+  }
+  return experiments;
+} catch (const nlohmann::json::exception&) {
+  throw FaultError(fileFault(origin, "is no experiment of a dataset", "what reach export writes into code/experiments"));
 }
 
 }  // namespace reachlab::record

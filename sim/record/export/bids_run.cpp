@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -9,8 +10,8 @@
 #include "sim/record/export/bids.h"
 #include "sim/record/export/run_tables.h"
 #include "sim/record/export/tidy_csv.h"
+#include "sim/record/export/trial_row.h"
 #include "sim/record/log/atomic_file.h"
-#include "sim/record/log/trial_measures.h"
 
 namespace reachlab::record {
 namespace {
@@ -53,6 +54,39 @@ Json described(const std::string& description, const std::string& units = "") {
   if (!units.empty()) entry["Units"] = units;
   return entry;
 }
+
+/// A column of events.tsv, and the one of trials.csv that has its cells. Those before them are made in eventsTsv.
+struct EventColumn {
+  std::string_view name, ofTrials, description, unit = {};
+};
+constexpr EventColumn kEventColumns[] = {
+    {"trial", "trial", "Trial number within the block, from 1"},
+    {"block", "block", "Block of the session's plan, from 1"},
+    {"phase", "phase", "Whether the block counts"},
+    {"condition", "condition",
+     "Kind and target of the trial where its block has several, else condition of the plan, else the experiment's name"},
+    {"outcome", "outcome", "How the trial ended"},
+    {"reason", "reason", "Which tolerance was missed or what stopped the trial"},
+    {"mass", "mass", "Mass that missed the tolerance, from 1; 0: none"},
+    {"by", "by", "Excess over the tolerance: m for position, m/s for velocity, s for time_short"},
+    {"movement_time", "movement_time_s", "From movement onset to the end of the trial", "s"},
+    {"reaction_time", "task_reaction_time_s", "From the go signal to movement onset", "s"},
+    {"go", "go_s", "Go signal, since the first sample of the recording", "s"},
+    {"foreperiod", "foreperiod_s", "Planned time from arming to the go signal", "s"},
+    {"peak_hand_speed", "peak_hand_speed_m_per_s", "Largest estimated speed of the hand, every tick, unfiltered", "m/s"},
+    {"hand_path", "hand_path_m", "Length of the hand's path during the movement", "m"},
+    {"peak_force", "peak_force_n", "Largest coupling force", "N"},
+    {"missed_ticks", "missed_ticks", "Ticks of 1 ms that were skipped in the trial"},
+    {"armed", "armed_s", "When the hand was at the start and the trial could begin, since the first sample of the recording", "s"},
+    {"mean_force", "mean_force_n", "Mean coupling force over every tick of the movement", "N"},
+    {"day", "day", "Day of the session's plan; 0: the plan gives none"},
+    {"dropped_samples", "dropped_samples", "Ticks of 1 ms that were simulated but not recorded, because the disk was too slow"},
+    {"elapsed_s", "elapsed_s", "From the go signal to the end of the trial by the computer's clock", "s"},
+    {"channel_broken", "channel_broken", "1: the hand left the walls of a channel, which let go; 0: it did not"},
+    {"kind", "kind", "Kind of the trial in the session's plan; n/a: the block has no kinds"},
+    {"target", "target",
+     "Target of the trial in the session's plan, from 1, such as 3, and 3-back on the way back from it; n/a: the block has one scene"},
+};
 
 }  // namespace
 
@@ -131,35 +165,24 @@ std::string channelsJson() {
 }
 
 void eventsTsv(const RunLog& run, const TakePiece& take) {
-  const RunConfiguration& c = run.configuration();
+  const std::vector<std::string>& names = trialColumnNames();
+  const auto columnOf = [&](std::string_view name) {
+    return static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin());
+  };
+  const std::size_t start = columnOf("start_s"), taskOnset = columnOf("task_onset_s"), end = columnOf("end_s"),
+                    isCatch = columnOf("catch_trial");
   TableText table('\t', "n/a");
-  table.row(
-      {"onset",          "duration",   "trial_type",   "trial",         "block",         "phase", "condition",       "outcome",
-       "reason",         "mass",       "by",           "movement_time", "reaction_time", "go",    "foreperiod",      "peak_hand_speed",
-       "hand_path",      "peak_force", "missed_ticks", "armed",         "mean_force",    "day",   "dropped_samples", "elapsed_s",
-       "channel_broken", "kind",       "target"});
-  const std::uint64_t first = run.firstSampleTick();
-  for (const RecordedTrial& trial : run.trials()) {
-    const TrialTimes times = timesOf(trial, first);
-    const double onset = std::isfinite(times.onset) ? times.onset : times.start;
-    table.number(onset).number(std::max(0.0, times.end - onset)).cell(trial.planned.catchTrial ? "catch" : "reach");
-    table.whole(trial.trial).whole(c.block).cell(c.practice ? "practice" : "recorded").cell(conditionOf(c, trial.planned));
-    table.cell(trial::nameOf(trial.result.outcome))
-        .cell(trial::nameOf(trial.result.reason))
-        .whole(trial.result.mass)
-        .number(trial.result.by);
-    table.number(tickMeasure("movement_time_s").of(trial))
-        .number(tickMeasure("task_reaction_time_s").of(trial))
-        .number(times.go)
-        .number(secondsOf(trial.planned.foreperiodTicks));
-    table.number(trial.peakHandSpeed).number(trial.handPathLength).number(trial.peakForce);
-    table.whole(static_cast<long long>(trial.missedTicks)).number(times.armed).number(trial.meanForce).whole(c.day);
-    table.whole(static_cast<long long>(trial.droppedTicks)).number(trial.elapsed).whole(trial.channelBroken);
-    const RunScene* scene = sceneOf(c, trial.planned);
-    table.cell(scene != nullptr ? scene->kind : "").cell(scene != nullptr ? scene->target : "");
-    table.endRow();
+  table.cell("onset").cell("duration").cell("trial_type");
+  for (const EventColumn& column : kEventColumns) table.cell(column.name);
+  table.endRow();
+  eachTrial(run, [&](std::span<const TrialCell> cells) {
+    const auto number = [&](std::size_t column) { return std::get<double>(cells[column]); };
+    const double onset = std::isfinite(number(taskOnset)) ? number(taskOnset) : number(start);
+    std::vector<TrialCell> row{onset, std::max(0.0, number(end) - onset), std::string(number(isCatch) != 0 ? "catch" : "reach")};
+    for (const EventColumn& column : kEventColumns) row.push_back(cells[columnOf(column.ofTrials)]);
+    addTrial(table, row);
     take(table.takeText());
-  }
+  });
   take(table.takeText());
 }
 
@@ -170,38 +193,14 @@ std::string eventsJson(const RunLog& run) {
   j["trial_type"] = described("Kind of trial");
   j["trial_type"]["Levels"] = {{"reach", "Rest-to-rest reach; onset is the start of the movement, duration ends with the trial"},
                                {"catch", "Trial without a go signal: the hand should stay"}};
-  j["trial"] = described("Trial number within the block, from 1");
-  j["block"] = described("Block of the session's plan, from 1");
-  j["phase"] = described("Whether the block counts");
+  for (const EventColumn& column : kEventColumns)
+    j[std::string(column.name)] = described(std::string(column.description), std::string(column.unit));
   j["phase"]["Levels"] = {{"practice", "Familiarisation"}, {"recorded", "Counted in the analysis"}};
-  j["condition"] =
-      described("Kind and target of the trial where its block has several, else condition of the plan, else the experiment's name");
-  j["outcome"] = described("How the trial ended");
   j["outcome"]["Levels"] = {
       {"success", "Every mass within all tolerances"},
       {"failure", "A tolerance was missed"},
       {"aborted", "Stopped by the experimenter, or no movement"},
       {"interrupted", "Cut off by a stop of the program, a lost device or a computer too busy to keep time; counts for nothing"}};
-  j["reason"] = described("Which tolerance was missed or what stopped the trial");
-  j["mass"] = described("Mass that missed the tolerance, from 1; 0: none");
-  j["by"] = described("Excess over the tolerance: m for position, m/s for velocity, s for time_short");
-  j["movement_time"] = described("From movement onset to the end of the trial", "s");
-  j["reaction_time"] = described("From the go signal to movement onset", "s");
-  j["go"] = described("Go signal, since the first sample of the recording", "s");
-  j["foreperiod"] = described("Planned time from arming to the go signal", "s");
-  j["peak_hand_speed"] = described("Largest estimated speed of the hand, every tick, unfiltered", "m/s");
-  j["hand_path"] = described("Length of the hand's path during the movement", "m");
-  j["peak_force"] = described("Largest coupling force", "N");
-  j["missed_ticks"] = described("Ticks of 1 ms that were skipped in the trial");
-  j["armed"] = described("When the hand was at the start and the trial could begin, since the first sample of the recording", "s");
-  j["mean_force"] = described("Mean coupling force over every tick of the movement", "N");
-  j["day"] = described("Day of the session's plan; 0: the plan gives none");
-  j["dropped_samples"] = described("Ticks of 1 ms that were simulated but not recorded, because the disk was too slow");
-  j["elapsed_s"] = described("From the go signal to the end of the trial by the computer's clock", "s");
-  j["channel_broken"] = described("1: the hand left the walls of a channel, which let go; 0: it did not");
-  j["kind"] = described("Kind of the trial in the session's plan; n/a: the block has no kinds");
-  j["target"] = described(
-      "Target of the trial in the session's plan, from 1, such as 3, and 3-back on the way back from it; n/a: the block has one scene");
   j["StimulusPresentation"] = {{"SoftwareName", "reachlab"}, {"SoftwareVersion", orUnknown(c.softwareVersion)}};
   return j.dump(2) + "\n";
 }
