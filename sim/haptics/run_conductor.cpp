@@ -13,10 +13,6 @@ namespace {
 
 constexpr auto kLook = std::chrono::milliseconds(2);  // how often a waiting caller looks at the newest state
 
-std::unique_ptr<TickEngine> makeEngine(std::span<const experiment::CompiledExperiment> scenes, HapticDevice& device) {
-  return std::make_unique<TickEngine>(scenes, engineOptions(device));
-}
-
 }  // namespace
 
 RunConductor::RunConductor(std::unique_ptr<TickEngine> engine, std::unique_ptr<HapticDevice>&& device,
@@ -26,11 +22,7 @@ RunConductor::RunConductor(std::unique_ptr<TickEngine> engine, std::unique_ptr<H
 
 RunConductor::RunConductor(const experiment::CompiledExperiment& experiment, std::unique_ptr<HapticDevice> device,
                            std::vector<trial::PlannedTrial> trials, const LoopOptions& options)
-    : RunConductor(std::span(&experiment, 1), std::move(device), std::move(trials), options) {}
-
-RunConductor::RunConductor(std::span<const experiment::CompiledExperiment> scenes, std::unique_ptr<HapticDevice> device,
-                           std::vector<trial::PlannedTrial> trials, const LoopOptions& options)
-    : RunConductor(makeEngine(scenes, *device), std::move(device), std::move(trials), options) {}
+    : RunConductor(std::make_unique<TickEngine>(experiment, engineOptions(*device)), std::move(device), std::move(trials), options) {}
 
 RunConductor::~RunConductor() {
   if (loop_) loop_->stop();

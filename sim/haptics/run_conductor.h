@@ -3,7 +3,6 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -27,14 +26,12 @@ struct ConductedTrial {
 ///   run.finish();
 class RunConductor {
  public:
-  /// Compiles every scene. Throws FaultError (no task, faults of the device's arguments), RefusedError (a scene cannot be computed).
-  RunConductor(std::span<const experiment::CompiledExperiment> scenes, std::unique_ptr<HapticDevice> device,
-               std::vector<trial::PlannedTrial> trials, const LoopOptions& options = {});
-  RunConductor(const experiment::CompiledExperiment& experiment, std::unique_ptr<HapticDevice> device,
-               std::vector<trial::PlannedTrial> trials, const LoopOptions& options = {});
-  /// The same of an engine that was made elsewhere, for this device.
+  /// The engine was made for this device.
   RunConductor(std::unique_ptr<TickEngine> engine, std::unique_ptr<HapticDevice>&& device, std::vector<trial::PlannedTrial> trials,
                const LoopOptions& options);
+  /// The same for one experiment, which is compiled. Throws as TickEngine's constructor does.
+  RunConductor(const experiment::CompiledExperiment& experiment, std::unique_ptr<HapticDevice> device,
+               std::vector<trial::PlannedTrial> trials, const LoopOptions& options = {});
   ~RunConductor();
 
   const TickEngine& engine() const { return loop_ ? loop_->engine() : *engine_; }  // constants only while running

@@ -84,13 +84,11 @@ RecordedRun::RecordedRun(BlockToRun block, std::unique_ptr<haptics::HapticDevice
   if (options.virtualClock && options.instruments != nullptr)
     throw FaultError(Fault{"fast", "there are instruments, which are on the real clock", "either of them"});
   const haptics::LoopOptions loop{.virtualClock = options.virtualClock, .clock = options.clock};
-  if (options.makeEngine) {
-    requireOneScene(block_);
-    auto engine = options.makeEngine(block_.experiment, haptics::engineOptions(*device));
-    conductor_ = std::make_unique<haptics::RunConductor>(std::move(engine), std::move(device), block_.trials, loop);
-  } else {
-    conductor_ = std::make_unique<haptics::RunConductor>(block_.scenes, std::move(device), block_.trials, loop);
-  }
+  if (options.makeEngine) requireOneScene(block_);
+  const haptics::EngineOptions hands = haptics::engineOptions(*device);
+  auto engine =
+      options.makeEngine ? options.makeEngine(block_.experiment, hands) : std::make_unique<haptics::TickEngine>(block_.scenes, hands);
+  conductor_ = std::make_unique<haptics::RunConductor>(std::move(engine), std::move(device), block_.trials, loop);
   choice_ = conductor_->engine().choice();
   inDataset([this] { openLog(); });
 }
