@@ -260,6 +260,4 @@ CheckedExperiment check(const Experiment& experiment, const constraints::Constra
   return checked;
 }
 
-std::vector<Fault> problems(const Experiment& experiment) { return check(experiment).faults; }
-
 }  // namespace reachlab::experiment

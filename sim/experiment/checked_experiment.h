@@ -13,7 +13,7 @@ namespace reachlab::experiment {
 
 inline constexpr double kMaxDuration = 3600, kMaxTimeout = 86400, kMaxRestDuration = 60;  // [s]
 
-/// The faults of an experiment, each under its key, and its constraint. The constraint is missing if it is at fault itself.
+/// The faults of an experiment, each under its key as in the files, and its constraint. The constraint is missing if it is at fault itself.
 struct CheckedExperiment {
   std::vector<Fault> faults;
   std::shared_ptr<const constraints::Constraint> constraint;

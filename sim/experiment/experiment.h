@@ -68,7 +68,5 @@ Experiment parseExperiment(const std::string& text, const std::string& file, con
 std::string definitionTextOf(const Experiment& experiment);
 /// The experiment as a file that reads back equal (for saving from the window, and for the log).
 std::string toJson(const Experiment& experiment);
-/// Every fault of the value, each under its key as in the files. Empty if there is no fault. The reader adds the places.
-std::vector<Fault> problems(const Experiment& experiment);
 
 }  // namespace reachlab::experiment

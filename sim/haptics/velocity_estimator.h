@@ -24,7 +24,7 @@ class VelocityEstimator {
   static constexpr int kMaxWindowDuration = 32;    // [ticks]
   static constexpr double kWindowNoise = 0.06e-3;  // [m] half a step of the coarsest encoders of docs/devices.md, and a little
 
-  /// Cutoff in (0, 500) Hz. problems(Experiment) reports other values.
+  /// Cutoff in (0, 500) Hz. check(Experiment) reports other values.
   explicit VelocityEstimator(const experiment::VelocityEstimatorSpec& spec);
   void reset() noexcept { count_ = 0; }
   /// Velocity at this sample [m/s], world frame.

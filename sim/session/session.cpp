@@ -267,8 +267,6 @@ std::uint64_t drawSeed() {
   return (static_cast<std::uint64_t>(entropy()) << 21) ^ entropy();  // at most 2^53, so that every reader of the dataset keeps it exact
 }
 
-SessionToRun planSession(const SessionRequest& request) { return planSession(request, readProgramme(request.what)); }
-
 SessionToRun planSession(const SessionRequest& request, const Programme& programme) {
   checkPeople(request);
   const Plan plan = planOf(request, programme);

@@ -57,8 +57,6 @@ struct SessionToRun {
 /// Plans the session: draws the order, chooses run numbers, and with `resume` leaves out recorded trials. Throws FaultError with every
 /// fault. The key of a fault of the request is its member's name.
 SessionToRun planSession(const SessionRequest& request, const Programme& programme);
-/// The same for the file or name in `request.what`.
-SessionToRun planSession(const SessionRequest& request);
 
 /// Throws FaultError where a recording of this programme could not be read again. planSession checks the same.
 void checkRecordable(const Programme& programme);

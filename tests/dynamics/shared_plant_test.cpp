@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include "sim/experiment/compiled_experiment.h"
+#include "sim/experiment/checked_experiment.h"
+#include "sim/experiment/experiment.h"
 #include "tests/dynamics/held_segment.h"
 #include "tests/dynamics/make_experiment.h"
+#include "tests/refusal.h"
 
 namespace reachlab::dynamics {
 namespace {
@@ -154,8 +157,8 @@ TEST(SharedPlant, RefusesWhatItCannotDo) {
   chain.method = "exact";
   EXPECT_THROW(compileScene(chain), RefusedError);
   EXPECT_THROW(compileScene(withHands("torus", hands(1))), Error);
-  EXPECT_FALSE(experiment::problems(withHands("torus", hands(1))).empty());
-  EXPECT_FALSE(experiment::problems(withHands("chain-moderate", hands(6))).empty());
+  EXPECT_FALSE(experiment::check(withHands("torus", hands(1))).faults.empty());
+  EXPECT_FALSE(experiment::check(withHands("chain-moderate", hands(6))).faults.empty());
 }
 
 // RK4 in phi divides by |r_phi|: where that vanishes it was wrong without a word.

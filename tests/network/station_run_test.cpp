@@ -44,7 +44,7 @@ class OneStation : public testing::Test {
     setup.link.software = software_;
     setup.link.device = device_;
     setup.wait = wait;
-    const session::BlockToRun block = session::planSession(request).blocks.at(0);
+    const session::BlockToRun block = session::planSession(request, session::readProgramme(request.what)).blocks.at(0);
     station_ = std::make_unique<StationRun>(setup, block.experiment);
     session::RecordedRunOptions options;
     options.place = request.place;

@@ -25,6 +25,8 @@ namespace {
 
 std::string contentOf(const std::string& file) { return readTextFile(file); }
 
+SessionToRun planSession(const SessionRequest& request) { return session::planSession(request, readProgramme(request.what)); }
+
 std::vector<int> indicesOf(const BlockToRun& block) {
   std::vector<int> indices;
   for (const trial::PlannedTrial& planned : block.trials) indices.push_back(planned.index);
@@ -229,7 +231,7 @@ TEST_F(PlannedSession, GivesItsBlocksRunNumbersInTurn) {
   const SessionToRun first = planSession(r);
   EXPECT_EQ(runs(first), (std::vector<std::array<int, 3>>{{1, 1, 1}, {2, 2, 2}, {3, 3, 3}}));
   for (const BlockToRun& block : first.blocks)
-    EXPECT_NE(block.logPath.find("_run-0" + std::to_string(block.configuration.run) + "_log"), std::string::npos) << block.logPath;
+    EXPECT_TRUE(holds(block.logPath, "_run-0" + std::to_string(block.configuration.run) + "_log"));
   for (const BlockToRun& block : first.blocks) EXPECT_EQ(block.configuration.seed, blockSeed(first.seed, block.configuration.block));
 
   recordOutcomes(first.blocks[0], {trial::Outcome::Success, trial::Outcome::Failure});
@@ -288,7 +290,7 @@ TEST_F(PlannedSession, RefusesToResumeWhatWasChangedSince) {
     const Fault fault = faultsToldBy([&] { planSession(r); }).at(0);
     EXPECT_EQ(fault.key, "resume") << toText(fault);
     if (what != changed) {
-      EXPECT_NE(fault.what.find("mine"), std::string::npos) << toText(fault);
+      EXPECT_TRUE(holds(fault.what, "mine")) << toText(fault);
     }
   }
 }
@@ -399,7 +401,7 @@ TEST_F(PlannedSession, LeavesALogThatCannotBeReadOutAndSaysSo) {
   r.resume = true;
   const SessionToRun session = planSession(r);
   ASSERT_EQ(session.notice.unreadable.size(), 1u);
-  EXPECT_NE(session.notice.unreadable[0].find("run-02"), std::string::npos) << session.notice.unreadable[0];
+  EXPECT_TRUE(holds(session.notice.unreadable[0], "run-02"));
   EXPECT_EQ(session.blocks[0].configuration.run, 3);
   EXPECT_EQ(indicesOf(session.blocks[0]), (std::vector<int>{1, 2}));
 }

@@ -17,6 +17,7 @@
 #include "gui/widgets/key_field.h"
 #include "gui/widgets/number_list_edit.h"
 #include "gui/widgets/unit_spin_box.h"
+#include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "tests/gui/at_the_window.h"
 
@@ -50,7 +51,7 @@ class EnvironmentDockTest : public ::testing::Test {
   void showExperiment(const experiment::Experiment& e) { dock_->showExperiment(experiment::CompiledExperiment(e), true); }
   // The user's change, taken over as the window takes it.
   void takeOver() {
-    ASSERT_TRUE(experiment::problems(told_).empty());
+    ASSERT_TRUE(experiment::check(told_).faults.empty());
     showExperiment(told_);
   }
   template <class Widget>
@@ -136,7 +137,7 @@ TEST_F(EnvironmentDockTest, AnEntryThatIsRefusedAloneHoldsWithTheNext) {
   choose("forceKind", 4);
   takeOver();
   numbersOf("pulse.rise_s")[0]->setValue(0.08);
-  const QStringList faults = widgets::inWords(experiment::problems(told_));
+  const QStringList faults = widgets::inWords(experiment::check(told_).faults);
   ASSERT_EQ(faults.size(), 1);
   EXPECT_TRUE(faults[0].startsWith(QStringLiteral("force 1, duration: is 0.1, shorter than rise and fall"))) << faults[0].toStdString();
   dock_->showFaults(faults);
