@@ -25,8 +25,8 @@ bool isKindName(const std::string& name) {
 }
 
 // `known` is empty where the block has no kinds.
-void checkKind(const std::string& key, const std::string& name, const std::vector<std::string>& known, const char* what,
-               std::vector<Fault>& faults) {
+void checkKnown(const std::string& key, const std::string& name, const std::vector<std::string>& known, const char* what,
+                std::vector<Fault>& faults) {
   if (std::find(known.begin(), known.end(), name) == known.end())
     faults.push_back({key, fmt::format("is \"{}\", which is no kind of {}", name, what),
                       known.empty() ? "none, since the block has no kinds" : fmt::format("{}", fmt::join(known, ", "))});
@@ -157,13 +157,13 @@ std::vector<Fault> problems(const TrialMix& mix, int trials, const std::string& 
   std::vector<std::string> known;
   for (const TrialKind& kind : mix.kinds) known.push_back(kind.name);
   for (std::size_t i = 0; i < mix.cycle.size(); ++i) {
-    checkKind(fmt::format("{}mix[{}].kind", key, i), mix.cycle[i].kind, known, "this block", faults);
+    checkKnown(fmt::format("{}mix[{}].kind", key, i), mix.cycle[i].kind, known, "this block", faults);
     checkNumber(fmt::format("{}mix[{}].count", key, i), mix.cycle[i].count, wholeNumber(1, kMaxCount), faults);
   }
   if (!known.empty()) known = kindsInUse(mix);
   for (const auto& [list, names] : {std::pair{"not_first", &mix.notFirst}, {"not_twice", &mix.notTwice}})
     for (std::size_t i = 0; i < names->size(); ++i)
-      checkKind(fmt::format("{}{}[{}]", key, list, i), (*names)[i], known, "this block's mix", faults);
+      checkKnown(fmt::format("{}{}[{}]", key, list, i), (*names)[i], known, "this block's mix", faults);
   for (std::size_t i = 0; i < mix.targets.size(); ++i) {
     const std::vector<double>& target = mix.targets[i];
     const std::string which = fmt::format("{}targets[{}]", key, i);
