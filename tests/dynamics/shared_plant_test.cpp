@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/checked_experiment.h"
+#include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "tests/dynamics/held_segment.h"
 #include "tests/dynamics/make_experiment.h"
