@@ -12,8 +12,8 @@ namespace reachlab::haptics {
 
 /// The sample of a device at one tick. World frame, SI. A lost device repeats its last sample with valid = false.
 struct DeviceSample {
-  Vec3 position;  // [m] raw, unfiltered
-  Vec3 velocity;  // [m/s] if the device measures it (hasVelocity)
+  Vec3 position = {};  // [m] raw, unfiltered
+  Vec3 velocity = {};  // [m/s] if the device measures it (hasVelocity)
   std::uint32_t buttons = 0;
   bool hasVelocity = false;
   bool valid = true;
