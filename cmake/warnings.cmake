@@ -51,18 +51,19 @@ if(REACHLAB_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
 endif()
 
 # reachlab_precompile(<target> <headers…>): large headers of libraries that most files of a target include are read once. Each file still
-# includes what it uses. A compiler cache does better, and precompiled headers would get in its way.
+# includes what it uses. Sources that are compiled as one read them once anyway. A compiler cache does better, and precompiled headers would get
+# in its way.
 function(reachlab_precompile target)
-  if(NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  if(NOT CMAKE_CXX_COMPILER_LAUNCHER AND NOT REACHLAB_UNITY)
     target_precompile_headers(${target} PRIVATE ${ARGN})
   endif()
 endfunction()
 
 # reachlab_unity(<target>): with REACHLAB_UNITY several sources are compiled as one, which spares time in a first build. Names in the unnamed
-# namespaces of a library must then differ.
+# namespaces of a target must then differ.
 function(reachlab_unity target)
   if(REACHLAB_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 32)
   endif()
 endfunction()
 
@@ -101,6 +102,7 @@ function(reachlab_test folder)
     return()
   endif()
   add_executable(test_${folder} ${sources})
+  reachlab_unity(test_${folder})
   target_link_libraries(test_${folder} PRIVATE ${ARGN} GTest::gtest GTest::gtest_main reachlab_warnings)
   target_include_directories(test_${folder} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/tests)
   target_compile_options(test_${folder} PRIVATE -O1)  # what a test itself computes is short; it compiles in two thirds of the time
