@@ -21,12 +21,12 @@
 namespace reachlab::cli {
 namespace {
 
-std::string number(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : std::string("null"); }
-std::string triple(const Vec3& r) { return fmt::format("[{}, {}, {}]", number(r.x), number(r.y), number(r.z)); }
+std::string jsonNumber(double value) { return std::isfinite(value) ? fmt::format("{:.17g}", value) : std::string("null"); }
+std::string triple(const Vec3& r) { return fmt::format("[{}, {}, {}]", jsonNumber(r.x), jsonNumber(r.y), jsonNumber(r.z)); }
 std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
 std::string list(const std::vector<double>& values) {
   std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + number(value);
+  for (const double value : values) text += (text.empty() ? "" : ", ") + jsonNumber(value);
   return "[" + text + "]";
 }
 // For a person; machines ask for --json.
@@ -98,9 +98,9 @@ void showJson(const constraints::Definition& d, const constraints::Constraint& c
   for (const std::string& line : d.coordinates) coordinates += (coordinates.empty() ? "" : ", ") + quoted(line);
   for (const constraints::ShapeParameter& p : d.shape)
     shape += fmt::format("{}    {}: {{\"default\": {}, \"min\": {}, \"max\": {}, \"unit\": {}, \"meaning\": {}{}}}",
-                         shape.empty() ? "\n" : ",\n", quoted(p.name), number(p.defaultValue), number(p.min), number(p.max), quoted(p.unit),
-                         quoted(p.meaning), p.whole ? ", \"whole\": true" : "");
-  const auto domain = [&](std::size_t k) { return fmt::format("[{}, {}]", number(c.domain[k].lo), number(c.domain[k].hi)); };
+                         shape.empty() ? "\n" : ",\n", quoted(p.name), jsonNumber(p.defaultValue), jsonNumber(p.min), jsonNumber(p.max),
+                         quoted(p.unit), quoted(p.meaning), p.whole ? ", \"whole\": true" : "");
+  const auto domain = [&](std::size_t k) { return fmt::format("[{}, {}]", jsonNumber(c.domain[k].lo), jsonNumber(c.domain[k].hi)); };
   const auto periodic = [&](std::size_t k) { return std::string(c.domain[k].periodic ? "true" : "false"); };
   const auto atEnd = [&](std::size_t k) {
     return std::string(c.domain[k].atEnd == constraints::AtEnd::Bounce ? "\"bounce\"" : "\"stop\"");
@@ -195,7 +195,7 @@ void eval(const ConstraintOptions& o) {
   if (o.json) fmt::print("{{\"at\": {}", list(q));
   for (const auto& [name, value] : rows) {
     if (o.json) fmt::print(", \"{}\": {}", name, triple(value));
-    else fmt::print("{:<9} {} {} {}\n", name, number(value.x), number(value.y), number(value.z));
+    else fmt::print("{:<9} {} {} {}\n", name, jsonNumber(value.x), jsonNumber(value.y), jsonNumber(value.z));
   }
   if (o.json) fmt::print("}}\n");
 }

@@ -112,8 +112,9 @@ std::string preflightText(const std::vector<devices::PreflightLine>& lines) {
   return text;
 }
 
+using Json = nlohmann::ordered_json;
+
 std::string preflightJson(const std::vector<devices::PreflightLine>& lines) {
-  using Json = nlohmann::ordered_json;
   Json rows = Json::array();
   for (const devices::PreflightLine& line : lines)
     rows.push_back({{"hand", std::max(line.hand, 1)},

@@ -13,9 +13,9 @@
 namespace reachlab::cli {
 namespace {
 
-std::string number(double value) { return fmt::format("{:.17g}", value); }
-std::string orEmpty(const std::optional<double>& value) { return value ? number(*value) : ""; }
-std::string orNull(const std::optional<double>& value) { return value ? number(*value) : "null"; }
+std::string digits(double value) { return fmt::format("{:.17g}", value); }
+std::string digitsOrEmpty(const std::optional<double>& value) { return value ? digits(*value) : ""; }
+std::string digitsOrNull(const std::optional<double>& value) { return value ? digits(*value) : "null"; }
 std::string asJsonText(std::string_view text) { return nlohmann::json(text).dump(); }
 
 double sampleTime(const predict::Prediction& prediction, int i, int samples) {
@@ -58,8 +58,8 @@ std::string writePredictionCsv(const predict::Prediction& prediction, int sample
     const double t = sampleTime(prediction, i, samples);
     const predict::PredictedHand hand = prediction.handAt(t);
     prediction.massesAt(t, x, v);
-    out += number(t) + ',' + number(hand.position) + ',' + number(hand.velocity) + ',' + number(hand.acceleration);
-    for (size_t m = 0; m < n; ++m) out += ',' + number(x[m]) + ',' + number(v[m]);
+    out += digits(t) + ',' + digits(hand.position) + ',' + digits(hand.velocity) + ',' + digits(hand.acceleration);
+    for (size_t m = 0; m < n; ++m) out += ',' + digits(x[m]) + ',' + digits(v[m]);
     out += '\n';
   }
   return out;
@@ -71,18 +71,18 @@ std::string writePredictionJson(const predict::Prediction& p) {
   std::string out = "{\n";
   const auto line = [&](std::string_view key, const std::string& value) { out += fmt::format("  \"{}\": {},\n", key, value); };
   line("criterion", asJsonText(predict::nameOf(p.criterion)));
-  line("duration_s", number(p.duration));
-  line("distance_m", number(p.distance));
-  line("cost", number(p.cost));
-  line("hand_peak_m_per_s", number(p.handPeak));
-  line("hand_peak_s", number(p.handPeakTime));
-  line("object_peak_m_per_s", number(p.objectPeak));
-  line("hand_jump_m", orNull(p.handJump));
-  line("hand_jump_m_per_s", orNull(p.handVelocityJump));
-  line("condition", number(p.condition));
-  line("profile_error", orNull(p.profileError));
+  line("duration_s", digits(p.duration));
+  line("distance_m", digits(p.distance));
+  line("cost", digits(p.cost));
+  line("hand_peak_m_per_s", digits(p.handPeak));
+  line("hand_peak_s", digits(p.handPeakTime));
+  line("object_peak_m_per_s", digits(p.objectPeak));
+  line("hand_jump_m", digitsOrNull(p.handJump));
+  line("hand_jump_m_per_s", digitsOrNull(p.handVelocityJump));
+  line("condition", digits(p.condition));
+  line("profile_error", digitsOrNull(p.profileError));
   line("point", p.point ? asJsonText(nameOf(*p.point)) : "null");
-  line("travel_time_s", orNull(p.travelTime));
+  line("travel_time_s", digitsOrNull(p.travelTime));
   out += fmt::format("  \"warnings\": [{}]\n}}\n", warnings);
   return out;
 }
@@ -92,11 +92,12 @@ std::string writeSweepCsv(const predict::Sweep& sweep, const std::vector<predict
                     ",cost,hand_peak_m_per_s,hand_peak_s,object_peak_m_per_s,hand_jump_m,hand_jump_m_per_s,condition,travel_time_s,"
                     "hand_velocity_peaks,hand_reverses,refused\n";
   for (const predict::SweepRow& row : rows) {
-    out += number(row.value);
+    out += digits(row.value);
     if (row.prediction) {
       const predict::Prediction& p = *row.prediction;
-      for (const double value : {p.cost, p.handPeak, p.handPeakTime, p.objectPeak}) out += ',' + number(value);
-      out += ',' + orEmpty(p.handJump) + ',' + orEmpty(p.handVelocityJump) + ',' + number(p.condition) + ',' + orEmpty(p.travelTime);
+      for (const double value : {p.cost, p.handPeak, p.handPeakTime, p.objectPeak}) out += ',' + digits(value);
+      out += ',' + digitsOrEmpty(p.handJump) + ',' + digitsOrEmpty(p.handVelocityJump) + ',' + digits(p.condition) + ',' +
+             digitsOrEmpty(p.travelTime);
       out += fmt::format(",{},{},0\n", row.shape.velocityPeaks, row.shape.reverses ? 1 : 0);
     } else {
       out += ",,,,,,,,,,,1\n";

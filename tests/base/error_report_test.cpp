@@ -25,31 +25,31 @@ namespace {
 using testing::ExitedWithCode;
 
 template <class E>
-std::string told(const E& error) {
+std::string reported(const E& error) {
   const ErrorReport report = errorReportOf(error);
   return std::to_string(report.exitCode) + " " + report.sentence;
 }
 
 TEST(ErrorReport, TellsOursAsTheyStandAndOthersInOurWords) {
-  EXPECT_EQ(told(FaultError(Fault{"a", "is 1"})), "2 a: is 1");
-  EXPECT_EQ(told(ResourceError("no device")), "3 no device");
-  EXPECT_EQ(told(RefusedError("singular")), "4 singular");
-  EXPECT_EQ(told(Error("something")), "3 something");
+  EXPECT_EQ(reported(FaultError(Fault{"a", "is 1"})), "2 a: is 1");
+  EXPECT_EQ(reported(ResourceError("no device")), "3 no device");
+  EXPECT_EQ(reported(RefusedError("singular")), "4 singular");
+  EXPECT_EQ(reported(Error("something")), "3 something");
   const std::string noMemory = "3 there is not enough memory for this. The recorded data are safe";
-  EXPECT_EQ(told(std::bad_alloc()), noMemory);
-  EXPECT_EQ(told(std::length_error("vector")), noMemory);
+  EXPECT_EQ(reported(std::bad_alloc()), noMemory);
+  EXPECT_EQ(reported(std::length_error("vector")), noMemory);
   const std::error_code gone = std::make_error_code(std::errc::no_such_file_or_directory);
-  EXPECT_EQ(told(std::filesystem::filesystem_error("open", "/a/b", gone)), "3 /a/b: cannot be used: No such file or directory");
-  EXPECT_EQ(told(std::filesystem::filesystem_error("open", gone)), "3 cannot be used: No such file or directory");
-  EXPECT_EQ(told(std::system_error(gone, "thread")), "3 the operating system refuses: No such file or directory");
+  EXPECT_EQ(reported(std::filesystem::filesystem_error("open", "/a/b", gone)), "3 /a/b: cannot be used: No such file or directory");
+  EXPECT_EQ(reported(std::filesystem::filesystem_error("open", gone)), "3 cannot be used: No such file or directory");
+  EXPECT_EQ(reported(std::system_error(gone, "thread")), "3 the operating system refuses: No such file or directory");
   try {
     std::ignore = nlohmann::json::parse("{");
   } catch (const std::exception& error) {
-    EXPECT_EQ(told(error), "2 a file that was read does not hold what Reachlab wrote there, or should find there");
+    EXPECT_EQ(reported(error), "2 a file that was read does not hold what Reachlab wrote there, or should find there");
   }
   const std::string own = "70 stopped by a fault of the program itself. The recorded data are safe. Please report what you did";
-  EXPECT_EQ(told(std::runtime_error("x")), own);
-  EXPECT_EQ(told(std::out_of_range("x")), own);
+  EXPECT_EQ(reported(std::runtime_error("x")), own);
+  EXPECT_EQ(reported(std::out_of_range("x")), own);
   EXPECT_EQ(ErrorReport{}.exitCode, 0);
 }
 

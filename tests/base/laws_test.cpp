@@ -44,9 +44,9 @@ TEST(MinimumJerk, IsHeldBeyondItsEndsAndKeepsItsDigitsNearThem) {
   EXPECT_EQ(heldMinimumJerk(-0.1).value, 0);
   EXPECT_EQ(heldMinimumJerk(1.1).value, 1);
   EXPECT_EQ(heldMinimumJerk(1.1).rate, 0);
-  using Wide = boost::multiprecision::cpp_bin_float_50;
+  using FiftyDigits = boost::multiprecision::cpp_bin_float_50;
   for (double x = 0.01; x < 1; x += 0.01)
-    EXPECT_NEAR(heldMinimumJerk(x).value, static_cast<double>(minimumJerk(Wide(x))), 2.5e-16) << "a rounding of 1";
+    EXPECT_NEAR(heldMinimumJerk(x).value, static_cast<double>(minimumJerk(FiftyDigits(x))), 2.5e-16) << "a rounding of 1";
 }
 
 // |H(f)|^2 = 1/(1 + (W(f)/W(fc))^4) with W(f) = tan(pi f dt), the axis that the bilinear transform warps.

@@ -33,44 +33,44 @@ struct Program {
   }
 };
 
-std::string told(const std::string& line) {
+std::string faultIn(const std::string& line) {
   Program program;
   try {
     program.app.parse(line);
     return "no error";
   } catch (const CLI::ParseError& error) {
-    return toText(faultOf(program.app, error));
+    return toText(reachlab::faultOf(program.app, error));
   }
 }
 
 }  // namespace
 
 TEST(ParseFault, SaysInOurWordsWhatIsWrongWithAValue) {
-  EXPECT_EQ(told("run a --trials 0"), "--trials: is 0; allowed: a whole number, 1 to 9");
-  EXPECT_EQ(told("run a --trials many"), "--trials: is many; allowed: a whole number, 1 to 9");
-  EXPECT_EQ(told("run a --gain -1"), "--gain: is -1; allowed: a number, 0 or more");
-  EXPECT_EQ(told("run a --gain high"), "--gain: is high; allowed: a number, 0 or more");
-  EXPECT_EQ(told("run a --side up"), "--side: is up; allowed: L or R");
-  EXPECT_EQ(told("run a --seed x"), "--seed: is x; allowed: a seed") << "a rule of our own";
+  EXPECT_EQ(faultIn("run a --trials 0"), "--trials: is 0; allowed: a whole number, 1 to 9");
+  EXPECT_EQ(faultIn("run a --trials many"), "--trials: is many; allowed: a whole number, 1 to 9");
+  EXPECT_EQ(faultIn("run a --gain -1"), "--gain: is -1; allowed: a number, 0 or more");
+  EXPECT_EQ(faultIn("run a --gain high"), "--gain: is high; allowed: a number, 0 or more");
+  EXPECT_EQ(faultIn("run a --side up"), "--side: is up; allowed: L or R");
+  EXPECT_EQ(faultIn("run a --seed x"), "--seed: is x; allowed: a seed") << "a rule of our own";
 }
 
 TEST(ParseFault, SaysWhatIsMissing) {
-  EXPECT_EQ(told("run"), "what: is missing; what: The experiment");
-  EXPECT_EQ(told(""), "a command is missing; `made --help` explains the commands; allowed: run or show");
-  EXPECT_EQ(told("show"), "show: a command is missing; `made show --help` explains the commands; allowed: log");
-  EXPECT_EQ(told("run a --trials"), "--trials: has the wrong number of values; --trials: Number of trials");
-  EXPECT_EQ(told("run a --at 1"), "--at: has the wrong number of values; --at: Two numbers");
-  EXPECT_EQ(told("run a --twice"), "--twice: is given without --trials; give --trials, too, or leave --twice out");
-  EXPECT_EQ(told("run a --still --fast"), "--fast: is given together with --still; leave out one of the two");
+  EXPECT_EQ(faultIn("run"), "what: is missing; what: The experiment");
+  EXPECT_EQ(faultIn(""), "a command is missing; `made --help` explains the commands; allowed: run or show");
+  EXPECT_EQ(faultIn("show"), "show: a command is missing; `made show --help` explains the commands; allowed: log");
+  EXPECT_EQ(faultIn("run a --trials"), "--trials: has the wrong number of values; --trials: Number of trials");
+  EXPECT_EQ(faultIn("run a --at 1"), "--at: has the wrong number of values; --at: Two numbers");
+  EXPECT_EQ(faultIn("run a --twice"), "--twice: is given without --trials; give --trials, too, or leave --twice out");
+  EXPECT_EQ(faultIn("run a --still --fast"), "--fast: is given together with --still; leave out one of the two");
 }
 
 TEST(ParseFault, ProposesTheNearestWord) {
-  EXPECT_EQ(told("rum a"), "rum: is not a command; did you mean run?; allowed: run or show");
-  EXPECT_EQ(told("run a --tirals 3"), "--tirals: is not a known option; did you mean --trials?; `made run --help` lists the options");
-  EXPECT_EQ(told("run --tirals=3"), "--tirals=3: is not a known option; did you mean --trials?; `made run --help` lists the options")
+  EXPECT_EQ(faultIn("rum a"), "rum: is not a command; did you mean run?; allowed: run or show");
+  EXPECT_EQ(faultIn("run a --tirals 3"), "--tirals: is not a known option; did you mean --trials?; `made run --help` lists the options");
+  EXPECT_EQ(faultIn("run --tirals=3"), "--tirals=3: is not a known option; did you mean --trials?; `made run --help` lists the options")
       << "and not: what is missing";
-  EXPECT_EQ(told("run a b"), "b: is one word too many; `made run --help` shows the form of the command");
-  EXPECT_EQ(told("show lag"), "lag: is not a command; did you mean log?; allowed: log");
+  EXPECT_EQ(faultIn("run a b"), "b: is one word too many; `made run --help` shows the form of the command");
+  EXPECT_EQ(faultIn("show lag"), "lag: is not a command; did you mean log?; allowed: log");
 }
 
 TEST(ParseFault, AnOptionNamesItsRange) {

@@ -14,9 +14,9 @@ namespace {
 using namespace experiment;
 
 constexpr double kPi = std::numbers::pi;
-const Vec3 kStart{}, kTarget{0, 0, -0.1};
+const Vec3 kReachStart{}, kReachTarget{0, 0, -0.1};
 
-ForceField fieldOf(const HandForce& force, const Arm& arm = {}) { return {{force}, arm, kStart, kTarget}; }
+ForceField fieldOf(const HandForce& force, const Arm& arm = {}) { return {{force}, arm, kReachStart, kReachTarget}; }
 
 /// B of a curl field: the force stands at right angles to the velocity in the horizontal plane.
 ViscousForce curl(double b) { return {{{{0, 0, b}, {0, 0, 0}, {-b, 0, 0}}}}; }
@@ -24,11 +24,11 @@ ViscousForce curl(double b) { return {{{{0, 0, b}, {0, 0, 0}, {-b, 0, 0}}}}; }
 HandTick moving(const Vec3& position, const Vec3& velocity) { return {true, true, position, velocity}; }
 
 void letGrow(ForceField& field, int ticks = ForceField::kRampTicks) {
-  for (int i = 0; i < ticks; ++i) field.step(moving(kStart, {}));
+  for (int i = 0; i < ticks; ++i) field.step(moving(kReachStart, {}));
 }
 
 TEST(ForceField, NothingActsWithoutForcesOrBeforeTheTrial) {
-  ForceField none({}, {}, kStart, kTarget);
+  ForceField none({}, {}, kReachStart, kReachTarget);
   EXPECT_EQ(none.step(moving({1, 2, 3}, {1, 2, 3})), Vec3{});
   ForceField field = fieldOf({curl(13)});
   EXPECT_EQ(field.step({false, false, {}, {1, 0, 0}}), Vec3{});

@@ -16,11 +16,10 @@
 #include "sim/experiment/resources.h"
 #include "sim/experiment/scene_look.h"
 
-using namespace reachlab;
-using namespace reachlab::experiment;
-using Json = nlohmann::json;
-
+namespace reachlab::experiment {
 namespace {
+
+using Json = nlohmann::json;
 
 class ShippedSchema : public testing::Test {
  protected:
@@ -35,8 +34,6 @@ class ShippedSchema : public testing::Test {
  private:
   valijson::Schema schema_;
 };
-
-}  // namespace
 
 TEST_F(ShippedSchema, AcceptsWhatTheReaderAccepts) {
   for (const std::string& name : shippedExperiments()) {
@@ -60,8 +57,6 @@ TEST_F(ShippedSchema, AcceptsALookThatTheReaderTakesAndTheWriterKeeps) {
   EXPECT_EQ(lookOf(withLook(read, {})), SceneLook{});
   EXPECT_EQ(lookOf(readExperiment("chain-moderate")), SceneLook{});
 }
-
-namespace {
 
 Json resolved(const Json& root, const Json& node) {
   if (node.contains("$ref")) {
@@ -149,8 +144,6 @@ void expectDefaults(const Json& root, const Json& object, const Json& written, c
   }
 }
 
-}  // namespace
-
 TEST_F(ShippedSchema, HasTheKeysOfTheReaderWithTheirRangesNamesAndDefaults) {
   const Json schema = Json::parse(readTextFile(resourceFolder() + "/schemas/experiment.schema.json"));
   const Experiment whole = wholeExperiment();
@@ -158,3 +151,6 @@ TEST_F(ShippedSchema, HasTheKeysOfTheReaderWithTheirRangesNamesAndDefaults) {
   BesideSchema{schema, schema, "", keys}.compare(schema, "", whole);
   expectDefaults(schema, schema, Json::parse(toJson(whole)), "");
 }
+
+}  // namespace
+}  // namespace reachlab::experiment

@@ -15,7 +15,7 @@ namespace {
 
 using namespace experiment;
 
-constexpr double kLimit = 12;  // [N]
+constexpr double kForceLimit = 12;  // [N]
 
 Cursor cursorOf(double rotation, double gain = 1, CursorJudge judge = CursorJudge::Cursor) {
   Cursor cursor;
@@ -37,7 +37,7 @@ Experiment judgedReach() {
 class Reach {
  public:
   explicit Reach(const Experiment& e)
-      : engine(e, EngineOptions{{{.maxForce = kLimit, .virtualHand = true, .rendersForce = true}}}), hand(engine.protocol().start) {}
+      : engine(e, EngineOptions{{{.maxForce = kForceLimit, .virtualHand = true, .rendersForce = true}}}), hand(engine.protocol().start) {}
 
   const TickState& tick(trial::Command command = trial::Command::None) {
     TickInput input;
@@ -117,7 +117,7 @@ TEST(EngineEnvironment, ItsForceObeysTheLimitAndTheSlewOfTheSafetyLayer) {
   double most = 0, asked = 0;
   run.reach({0, 0, -0.1}, [&](const TickState& state) {
     const Vec3 force = state.hands[0].deviceForce;
-    EXPECT_LE(norm(force), kLimit * (1 + 1e-12));
+    EXPECT_LE(norm(force), kForceLimit * (1 + 1e-12));
     if (norm(force) > 0) {
       EXPECT_LE(norm(force - last), ForceSafety::kSlewPerTick * (1 + 1e-12));
     }
@@ -125,8 +125,8 @@ TEST(EngineEnvironment, ItsForceObeysTheLimitAndTheSlewOfTheSafetyLayer) {
     most = std::max(most, norm(force));
     asked = std::max(asked, norm(state.hands[0].feedbackForce));
   });
-  EXPECT_GT(asked, 3 * kLimit);
-  EXPECT_NEAR(most, kLimit, 1e-9);
+  EXPECT_GT(asked, 3 * kForceLimit);
+  EXPECT_NEAR(most, kForceLimit, 1e-9);
 }
 
 TEST(EngineEnvironment, AChannelThatIsLeftIsMarkedUntilTheNextTrial) {

@@ -21,9 +21,11 @@ namespace {
 constexpr double kStart = 0;
 
 /// A copy of the study's chain with one peer, and time.
-struct Station {
-  explicit Station(const experiment::Experiment& e = makeSharedExperiment(SharedObject::Chain)) : Station(e, copySettingsFor(e)) {}
-  Station(const experiment::Experiment& e, const CopySettings& settings) : copy(e, constraints::makeConstraint(e.constraint), 0, settings) {
+struct CopyWithPeer {
+  explicit CopyWithPeer(const experiment::Experiment& e = makeSharedExperiment(SharedObject::Chain))
+      : CopyWithPeer(e, copySettingsFor(e)) {}
+  CopyWithPeer(const experiment::Experiment& e, const CopySettings& settings)
+      : copy(e, constraints::makeConstraint(e.constraint), 0, settings) {
     copy.placeAtRest(std::array{kStart});
     peer = told();
   }
@@ -52,7 +54,7 @@ struct Station {
 };
 
 TEST(CoupledCopy, AnObjectAtRestStaysAtRest) {
-  Station s;
+  CopyWithPeer s;
   for (int i = 0; i < 500; ++i) {
     s.hear();
     ASSERT_EQ(s.step(), dynamics::StepStatus::Ok);
@@ -64,7 +66,7 @@ TEST(CoupledCopy, AnObjectAtRestStaysAtRest) {
 }
 
 TEST(CoupledCopy, APeerNeverHeardIsLostToo) {
-  Station s;
+  CopyWithPeer s;
   dynamics::StepStatus status = dynamics::StepStatus::Ok;
   int ticks = 0;
   for (; status == dynamics::StepStatus::Ok && ticks < 1000; ++ticks) status = s.step();
@@ -73,9 +75,9 @@ TEST(CoupledCopy, APeerNeverHeardIsLostToo) {
 }
 
 TEST(CoupledCopy, WhatIsNoNewerIsCountedAndChangesNothing) {
-  Station s, other;
+  CopyWithPeer s, other;
   for (int i = 0; i < 200; ++i) {
-    for (Station* station : {&s, &other}) {
+    for (CopyWithPeer* station : {&s, &other}) {
       station->peer.hand.x = 0.001 * i;
       station->hear();
     }
@@ -95,7 +97,7 @@ TEST(CoupledCopy, WhatIsNoNewerIsCountedAndChangesNothing) {
 // One tick after rest a mass in the middle, which no hand holds, has the speed that its acceleration makes in a millisecond.
 TEST(CoupledCopy, IsDrawnToThePeersPlaceAndSpeedByTheDesignsLaw) {
   const auto speedAfter = [](double apart, double faster, double frequency, double roundTrip) {
-    Station s;
+    CopyWithPeer s;
     s.copy.setFrequency(frequency);
     for (std::size_t i = 0; i < 5; ++i) s.peer.places[i] += apart, s.peer.rates[i] += faster;
     s.hear(0.01, roundTrip);
@@ -113,7 +115,7 @@ TEST(CoupledCopy, EveryPeerHasItsShareOfTheSynchronisation) {
   experiment::Experiment three = makeSharedExperiment(SharedObject::Chain);
   three.hands.push_back({1, {600}, {0}, {}});
   const auto speedAfter = [&](const std::vector<double>& apart) {
-    Station s(three);
+    CopyWithPeer s(three);
     EXPECT_EQ(s.copy.peerCount(), 2);
     s.copy.beginTick(kTickSeconds);
     for (std::size_t k = 0; k < apart.size(); ++k) {
@@ -135,7 +137,7 @@ TEST(CoupledCopy, EveryPeerHasItsShareOfTheSynchronisation) {
 TEST(CoupledCopy, WhatNoHandHasPutInIsTakenOut) {
   const experiment::Experiment chain = makeSharedExperiment(SharedObject::Chain);
   const auto after = [&](double peersWork, const CopySettings& settings, bool heard = true) {
-    Station s(chain, settings);
+    CopyWithPeer s(chain, settings);
     s.copy.place(std::array{kStart}, std::array{1.0});
     s.peer = s.told();
     s.peer.work = peersWork;
@@ -156,7 +158,7 @@ TEST(CoupledCopy, WhatNoHandHasPutInIsTakenOut) {
 }
 
 TEST(CoupledCopy, AFadeFollowsTheSilenceBeyondTheUsualAge) {
-  Station s;
+  CopyWithPeer s;
   for (int i = 0; i < 200; ++i) s.hear(0.012), (void)s.step();
   for (int i = 0; i < 130; ++i) {
     (void)s.step();
@@ -175,7 +177,7 @@ TEST(CoupledCopy, AFadeFollowsTheSilenceBeyondTheUsualAge) {
 }
 
 TEST(CoupledCopy, TheUsualAgeIsTheMedianOfThoseLately) {
-  Station s;
+  CopyWithPeer s;
   const auto hear = [&](int times, double age) {
     for (int i = 0; i < times; ++i) s.hear(age), (void)s.step();
   };
@@ -192,7 +194,7 @@ TEST(CoupledCopy, TheUsualAgeIsTheMedianOfThoseLately) {
 }
 
 TEST(CoupledCopy, LossIsTheShareOfASecondsSamplesThatDidNotCome) {
-  Station s;
+  CopyWithPeer s;
   s.peer.sequence = 1000;
   EXPECT_EQ(s.copy.link(0).loss, -1) << "not known yet";
   const auto run = [&](int ticks, int lostOf) {  // every fourth tick one is sent
@@ -212,7 +214,7 @@ TEST(CoupledCopy, LossIsTheShareOfASecondsSamplesThatDidNotCome) {
 }
 
 TEST(CoupledCopy, TheRoundTripIsFilteredOverASecond) {
-  Station s;
+  CopyWithPeer s;
   s.hear(0.01, -1);
   EXPECT_EQ(s.copy.link(0).roundTrip, 0) << "not known";
   s.hear(0.01, 0.02);
@@ -224,7 +226,7 @@ TEST(CoupledCopy, TheRoundTripIsFilteredOverASecond) {
 }
 
 TEST(CoupledCopy, TheNextTrialKnowsTheLineAndNothingOfTheLastOne) {
-  Station s;
+  CopyWithPeer s;
   for (int i = 0; i < 1200; ++i) {
     s.peer.places[0] = 0.001;
     s.hear();
@@ -251,7 +253,7 @@ TEST(CoupledCopy, TheNextTrialKnowsTheLineAndNothingOfTheLastOne) {
 
 // What it is told of itself, as late as the link makes it, is no distance.
 TEST(CoupledCopy, IsComparedWithWhatItWasWhenTheSampleWasTaken) {
-  Station s;
+  CopyWithPeer s;
   s.copy.place(std::array{kStart}, std::array{0.5});
   std::vector<CopySample> past;
   for (int i = 0; i < 300; ++i) {
@@ -275,7 +277,7 @@ TEST(CoupledCopy, IsComparedWithWhatItWasWhenTheSampleWasTaken) {
 }
 
 TEST(CoupledCopy, ASampleIsItsOwnHandWorkAndCoordinates) {
-  Station s;
+  CopyWithPeer s;
   for (int i = 0; i < 5; ++i) s.hear();
   dynamics::HandSegment hand;
   hand.position[0] = {0.01, 0, 0};
@@ -323,11 +325,11 @@ TEST(CoupledCopy, SaysWhyItCannotBe) {
 
 TEST(CoupledCopy, AHandIsMovedOnByItsSpeedForUpTo60Milliseconds) {
   for (const auto& [age, moved] : {std::pair{0.02, 0.02}, {0.2, 0.06}}) {
-    Station s, still;
+    CopyWithPeer s, still;
     s.peer.handVelocity.x = 0.1;
     still.peer.hand.x = 0.1 * moved;
     still.peer.handVelocity.x = 0.1;
-    for (Station* station : {&s, &still}) {
+    for (CopyWithPeer* station : {&s, &still}) {
       station->hear(station == &s ? age : 0);
       ASSERT_EQ(station->step(), dynamics::StepStatus::Ok);
     }
@@ -340,7 +342,7 @@ TEST(CoupledCopy, TheFrequencyIsThatOfTheObjectOrAQuarterOfTheLoop) {
   EXPECT_EQ(chain.frequency, 3);
   EXPECT_EQ(copySettingsFor(makeSharedExperiment(SharedObject::Parallel)).frequency, 1);
   EXPECT_NEAR(synchronisationLimit(chain, 0.197), 0.25 / 0.2, 1e-12) << "with a tick and a half at either end";
-  Station s;
+  CopyWithPeer s;
   s.hear(0.01, 0.197);
   s.copy.setFrequency(1);
   EXPECT_EQ(s.copy.link(0).frequency, 1);

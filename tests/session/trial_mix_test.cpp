@@ -28,7 +28,7 @@ PlanBlock blockOf(const std::string& settings) {
       .blocks.at(0);
 }
 
-std::string faultsOf(const std::string& settings) {
+std::string faultsOfBlock(const std::string& settings) {
   return refusalOf<FaultError>([&] { blockOf(settings); });
 }
 
@@ -80,15 +80,15 @@ TEST(TrialMix, OfMoreEntriesThanABlockCanHaveScenesIsRefused) {
   const auto place = [](int i) { return "[" + std::to_string(i) + ",0,0]"; };
   const auto kind = [](int i) { return "\"k" + std::to_string(i) + "\": {}"; };
   const auto name = [](int) { return std::string("\"field\""); };
-  EXPECT_TRUE(holds(faultsOf(kThreeKinds + R"(, "trials": 6, "mix": [)" + list(65536, heavy) + "]"), "has 65536 entries"));
-  EXPECT_TRUE(holds(faultsOf(R"("trials": 6, "targets": [)" + list(300'000, place) + "]"), "has 300000 entries"));
-  EXPECT_TRUE(holds(faultsOf(R"("trials": 6, "kinds": {)" + list(100'000, kind) + "}"), "has 100000 entries"));
-  EXPECT_TRUE(holds(faultsOf(kSevenToOne + R"(, "trials": 8, "not_twice": [)" + list(2001, name) + "]"), "2000 at most"));
+  EXPECT_TRUE(holds(faultsOfBlock(kThreeKinds + R"(, "trials": 6, "mix": [)" + list(65536, heavy) + "]"), "has 65536 entries"));
+  EXPECT_TRUE(holds(faultsOfBlock(R"("trials": 6, "targets": [)" + list(300'000, place) + "]"), "has 300000 entries"));
+  EXPECT_TRUE(holds(faultsOfBlock(R"("trials": 6, "kinds": {)" + list(100'000, kind) + "}"), "has 100000 entries"));
+  EXPECT_TRUE(holds(faultsOfBlock(kSevenToOne + R"(, "trials": 8, "not_twice": [)" + list(2001, name) + "]"), "2000 at most"));
 }
 
 // Their runs were recorded, and reach analyze could not write a file of such a name.
 TEST(TrialMix, OfAConditionThatIsNoPartOfAFileNameIsRefused) {
-  const auto named = [](std::size_t length) { return faultsOf(R"("trials": 1, "condition": ")" + std::string(length, 'c') + "\""); };
+  const auto named = [](std::size_t length) { return faultsOfBlock(R"("trials": 1, "condition": ")" + std::string(length, 'c') + "\""); };
   EXPECT_EQ(named(100), "");
   EXPECT_TRUE(holds(named(101), "condition: has 101 bytes"));
 }
@@ -176,7 +176,7 @@ TEST(TrialMix, AsWrittenRepeatsTheMixAndGoesThroughTheTargets) {
 }
 
 TEST(TrialMix, RefusesWithKeyAndReasonWhatNoOrderCanDo) {
-  const auto refused = [](const std::string& settings, const std::vector<std::string>& parts) { expectIn(faultsOf(settings), parts); };
+  const auto refused = [](const std::string& settings, const std::vector<std::string>& parts) { expectIn(faultsOfBlock(settings), parts); };
   refused(kSevenToOne + R"(, "trials": 100)", {"trials: is 100", "a cycle of the mix has 8", "96 or 104"});
   refused(R"("trials": 10, "targets": { "ring": { "count": 4 } })", {"trials: is 10", "4 targets", "8 or 12"});
   refused(kThreeKinds + R"(, "trials": 8, "mix": [{ "kind": "chanel", "count": 8 }])",
@@ -206,9 +206,10 @@ TEST(TrialMix, RefusesWithKeyAndReasonWhatNoOrderCanDo) {
   refused(R"("trials": 8, "targets": { "rings": {} })", {"rings", "ring"});
   refused(R"("trials": 8, "return": "walk")", {"return", "reach"});
   refused(R"("trials": 8, "return": "reach", "catch_share": 0.25)", {"return", "catch"});
-  EXPECT_EQ(faultsOf(kSevenToOne + R"(, "trials": 240, "targets": { "ring": { "count": 8, "radius_m": 0.1 } }, "order": "shuffled-cycles",
+  EXPECT_EQ(
+      faultsOfBlock(kSevenToOne + R"(, "trials": 240, "targets": { "ring": { "count": 8, "radius_m": 0.1 } }, "order": "shuffled-cycles",
     "not_first": ["channel"], "not_twice": ["channel"], "return": "reach")"),
-            "");
+      "");
 }
 
 TEST(TrialMix, APlanWithKindsReadsBackEqual) {

@@ -19,13 +19,13 @@ namespace {
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
-constexpr int kMaxIterations = 25;
-constexpr int kMaxUnknowns = 300, kMaxIntervals = 4000;
-constexpr double kSettled = 3e-6;       // change of the unknowns, relative: Newton's error is its square
+constexpr int kMostNewtonSteps = 25;
+constexpr int kMostUnknowns = 300, kMaxIntervals = 4000;
+constexpr double kCurveSettled = 3e-6;  // change of the unknowns, relative: Newton's error is its square
 constexpr double kLeastError = 1e-12;   // of the profile, of its peak: rounding
-constexpr double kProfile = 2e-9;       // error of the profile, of its peak, that is aimed at
+constexpr double kCurveProfile = 2e-9;  // error of the profile, of its peak, that is aimed at
 constexpr double kArrived = 1e-11;      // of the way, by any mass on the finer intervals
-constexpr double kRounding = 1e-9;      // of the way, beyond the end of a curve whose target is its end
+constexpr double kEndRounding = 1e-9;   // of the way, beyond the end of a curve whose target is its end
 constexpr double kIntervalPhase = 2.5;  // fastest rate times the width of a interval
 constexpr int kFinerIntervals = 4;
 constexpr double kUnknownsPerPhase = 0.45;  // fewer do not follow the fastest mode of the object
@@ -112,7 +112,7 @@ Optimum Search::solve(int unknowns, int intervals, const Vector& guess, const Ve
   Vector gradient;
   Matrix hessian;
   double size = 0, miss = 0;
-  for (int iteration = 1; iteration <= kMaxIterations; ++iteration) {
+  for (int iteration = 1; iteration <= kMostNewtonSteps; ++iteration) {
     problem_.work->spend(stepped);
     found.cost = cost.expand(found.unknowns, gradient, hessian);
     const Vector off = scale_ * (motion.end() - target_);
@@ -137,7 +137,7 @@ Optimum Search::solve(int unknowns, int intervals, const Vector& guess, const Ve
 
     // Shorter where the object would not follow, or miss the target by far more than before.
     size = step.norm(), miss = off.norm();
-    const double small = kSettled * (found.unknowns.norm() + 1e-3 * curve_.length());
+    const double small = kCurveSettled * (found.unknowns.norm() + 1e-3 * curve_.length());
     double length = 1;
     while (
         !(follow(found.unknowns + length * step) && (scale_ * (motion.end() - target_)).norm() <= 2 * miss + 0.1 * std::sqrt(found.cost))) {
@@ -156,7 +156,7 @@ Optimum Search::solve(int unknowns, int intervals, const Vector& guess, const Ve
   throw RefusedError(
       fmt::format("no minimum was found within {} steps with {} unknowns (last step {:.1e} of the motion, conditions missed by "
                   "{:.1e}); a longer time or a less bent way may help",
-                  kMaxIterations, unknowns, size / found.unknowns.norm(), miss));
+                  kMostNewtonSteps, unknowns, size / found.unknowns.norm(), miss));
 }
 
 CurveMotion Search::follow(const Optimum& optimum, int intervals) const {
@@ -262,14 +262,14 @@ std::unique_ptr<Prediction> makeCurveObjectPrediction(const constraints::ArcCurv
   }
   while (unknowns == 0) {
     n += n / 2;
-    if (n > kMaxUnknowns) break;
+    if (n > kMostUnknowns) break;
     Optimum finer = search.solve(n, intervals, best.unknowns, best.multiplier);
     MotionSeries changed = seriesOf(finer, curve.length(), duration);
     const double change = compare(hand.velocity, changed.velocity);
     error = estimateError(change, before);
     bound = boundError(change, std::exchange(before, change));
     best = std::move(finer), hand = std::move(changed);
-    if (error < kProfile) break;
+    if (error < kCurveProfile) break;
   }
   auto fine = std::make_unique<CurveMotion>(search.follow(best, kFinerIntervals * intervals));
   double miss = search.missOf(*fine) / curve.length();
@@ -280,7 +280,7 @@ std::unique_ptr<Prediction> makeCurveObjectPrediction(const constraints::ArcCurv
     const double missed = std::exchange(miss, search.missOf(*fine) / curve.length());
     if (miss > 0.5 * missed) break;  // rounding, not the intervals
   }
-  const double rounding = kRounding * curve.length();
+  const double rounding = kEndRounding * curve.length();
   if (fine->lowest() < curve.lowest() - rounding || fine->highest() > curve.highest() + rounding)
     throw RefusedError(
         fmt::format("the object would leave the smooth part of the curve: it moves from {:.3g} to {:.3g} m of arc length, the curve "
@@ -292,7 +292,7 @@ std::unique_ptr<Prediction> makeCurveObjectPrediction(const constraints::ArcCurv
   prediction->cost = best.cost;
   prediction->condition = best.condition;
   if (bound > 0) prediction->profileError = bound;
-  if (error >= kProfile)
+  if (error >= kCurveProfile)
     prediction->warnings.push_back(fmt::format("the profile is known to {:.0e} of its peak only: the way bends too sharply for {} unknowns",
                                                error, best.unknowns.size()));
   if (miss > 1e-8) prediction->warnings.push_back(fmt::format("the masses miss the target by {:.0e} of the way", miss));
