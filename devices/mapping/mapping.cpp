@@ -17,25 +17,25 @@
 namespace reachlab::devices {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using OrderedJson = nlohmann::ordered_json;
 
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kLeastScale = 0.01, kMostScale = 100, kFarthest = 10;
 
-std::string shown(const Json& value) { return std::string("is ") + (value.is_number() ? value.dump() : value.type_name()); }
+std::string shown(const OrderedJson& value) { return std::string("is ") + (value.is_number() ? value.dump() : value.type_name()); }
 
-double numberFrom(const Json& value, const std::string& key, double least, double most) {
+double numberFrom(const OrderedJson& value, const std::string& key, double least, double most) {
   const double x = value.is_number() ? value.get<double>() : NAN;
   if (!(x >= least) || !(x <= most)) throw FaultError(Fault{key, shown(value), fmt::format("a number from {} to {}", least, most)});
   return x;
 }
 
-Vec3 vectorFrom(const Json& value, const std::string& key, double most) {
+Vec3 vectorFrom(const OrderedJson& value, const std::string& key, double most) {
   if (!value.is_array() || value.size() != 3) throw FaultError(Fault{key, shown(value), "three numbers"});
   return {numberFrom(value[0], key, -most, most), numberFrom(value[1], key, -most, most), numberFrom(value[2], key, -most, most)};
 }
 
-Mapping fromJson(const Json& json) {
+Mapping fromJson(const OrderedJson& json) {
   if (!json.is_object()) throw FaultError(Fault{.what = "is no JSON object of a mapping"});
   Mapping m;
   for (const auto& [key, value] : json.items()) {
@@ -61,7 +61,7 @@ std::array<Vec3, 3> directions(const Mapping& mapping) noexcept {
 }
 
 std::string toJson(const Mapping& m) {
-  const Json json = {{"scale", m.scale},
+  const OrderedJson json = {{"scale", m.scale},
                      {"offset_m", {m.offset.x, m.offset.y, m.offset.z}},
                      {"rotation_deg", {m.rotation.x / kDegree, m.rotation.y / kDegree, m.rotation.z / kDegree}},
                      {"mirror_x", m.mirrorX}};
@@ -70,7 +70,7 @@ std::string toJson(const Mapping& m) {
 
 Mapping mappingFromJson(const std::string& text, const std::string& origin) {
   try {
-    return fromJson(Json::parse(text, nullptr, false));
+    return fromJson(OrderedJson::parse(text, nullptr, false));
   } catch (const FaultError& error) {
     throw FaultError(inFile(origin, error.faults));
   }
