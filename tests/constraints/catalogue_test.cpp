@@ -6,6 +6,7 @@
 #include "base/fault.h"
 #include "constraints/catalogue/generated_catalogue.h"
 #include "constraints/regularity/analysis.h"
+#include "tests/constraints/made_constraints.h"
 #include "tests/refusal.h"
 
 namespace reachlab::constraints {
@@ -62,12 +63,11 @@ TEST(Catalogue, DefinitionReadsBackEqualFromItsJson) {
 }
 
 TEST(Catalogue, UnknownNamesAndShapeKeysTellTheNearest) {
-  const auto message = [](const ConstraintSpec& spec) { return refusalOf([&] { makeConstraint(spec, "here"); }, "accepted"); };
-  EXPECT_TRUE(holds(message({.name = "elipse"}), "did you mean ellipse?"));
-  EXPECT_TRUE(holds(message({.name = "torus", .shape = {{"mayor_m", 0.1}}}), "did you mean major_m?"));
-  EXPECT_TRUE(holds(message({.name = "circle", .shape = {{"radius_m", -1}}}), "allowed: 0.01 to 1000 m"));
-  EXPECT_TRUE(holds(message({.name = "torus-knot", .shape = {{"p", 1.5}}}), "allowed: a whole number"));
-  EXPECT_TRUE(holds(message({.name = "../secret"}), "there is no constraint"));
+  EXPECT_TRUE(holds(refusalOfConstraint({.name = "elipse"}), "did you mean ellipse?"));
+  EXPECT_TRUE(holds(refusalOfConstraint({.name = "torus", .shape = {{"mayor_m", 0.1}}}), "did you mean major_m?"));
+  EXPECT_TRUE(holds(refusalOfConstraint({.name = "circle", .shape = {{"radius_m", -1}}}), "allowed: 0.01 to 1000 m"));
+  EXPECT_TRUE(holds(refusalOfConstraint({.name = "torus-knot", .shape = {{"p", 1.5}}}), "allowed: a whole number"));
+  EXPECT_TRUE(holds(refusalOfConstraint({.name = "../secret"}), "there is no constraint"));
 }
 
 TEST(Definition, SaysOfAPlaceThatIsNoConstantWhatInItIsNotKnown) {

@@ -90,8 +90,8 @@ std::shared_ptr<const CompiledFormula> compiled(ConstraintKind kind, const std::
         parameters.push_back(name);
   return compileFormula({kind, coordinates, parameters}, "here");
 }
-const std::array<std::string, 3> kCurve{"a*cos(phi) + double", "a*sin(phi)*exp(0.3*phi)", "abs(phi - 1)*sin(3*phi)"};
-const std::array<std::string, 3> kSurface{"a*cos(u)*v^2", "double*sin(u + 2*v)", "atan2(u, v)*a"};
+const std::array<std::string, 3> kCurveCoordinates{"a*cos(phi) + double", "a*sin(phi)*exp(0.3*phi)", "abs(phi - 1)*sin(3*phi)"};
+const std::array<std::string, 3> kSurfaceCoordinates{"a*cos(u)*v^2", "double*sin(u + 2*v)", "atan2(u, v)*a"};
 constexpr double kShapeOf[] = {0.7, 1.3};
 
 /// What stands behind `before`, up to `end`.
@@ -122,7 +122,7 @@ void expectVector(const std::vector<double>& got, const Vec3& expected, const st
 }
 
 TEST(WrittenCode, OfACurveIsItsPointSinglyAndInLanes) {
-  const auto formula = compiled(ConstraintKind::Curve, kCurve);
+  const auto formula = compiled(ConstraintKind::Curve, kCurveCoordinates);
   const double phi = 1.7;
   CurvePoint point;
   evaluateCurveProgram(&formula->program, kShapeOf, phi, point);
@@ -154,7 +154,7 @@ TEST(WrittenCode, OfACurveIsItsPointSinglyAndInLanes) {
 }
 
 TEST(WrittenCode, OfASurfaceIsItsPoint) {
-  const auto formula = compiled(ConstraintKind::Surface, kSurface);
+  const auto formula = compiled(ConstraintKind::Surface, kSurfaceCoordinates);
   SurfacePoint point;
   evaluateSurfaceProgram(&formula->program, kShapeOf, 0.6, 1.4, point);
   const std::string code = withShape(writeEvaluator(*formula, "evaluateOwn"));
@@ -167,7 +167,7 @@ TEST(WrittenCode, OfASurfaceIsItsPoint) {
 
 // Eq. (11): m |r'|^2 phi'' + lambda |r'|^2 phi' + m (r'.r'') phi'^2 = r'.f.
 TEST(WrittenCode, OfACurvesDynamicsHasItsCoefficients) {
-  const auto formula = compiled(ConstraintKind::Curve, kCurve);
+  const auto formula = compiled(ConstraintKind::Curve, kCurveCoordinates);
   const std::string code = writeDynamicsCode(*formula, "own-curve", {0.25});
   EXPECT_EQ(code.find("#include <cmath>\n\n// own-curve: r(phi) = {a*cos(phi) + double, "), 0u) << code;
   EXPECT_TRUE(holds(code, "struct OwnCurveDynamics {\n  double x, y, z, M, L, V, Q;\n};\n"));
@@ -194,7 +194,7 @@ TEST(WrittenCode, OfACurvesDynamicsHasItsCoefficients) {
 
 // Eq. (13): G = J'J, C = J' (r_uu u'^2 + 2 r_uv u'v' + r_vv v'^2), Q = J' f.
 TEST(WrittenCode, OfASurfacesDynamicsHasItsCoefficients) {
-  const auto formula = compiled(ConstraintKind::Surface, kSurface);
+  const auto formula = compiled(ConstraintKind::Surface, kSurfaceCoordinates);
   const std::string code = writeDynamicsCode(*formula, "own-surface", {0.7, 1.3});
   EXPECT_TRUE(holds(code, "// own-surface: r(u, v) = {"));
   EXPECT_TRUE(holds(code, "/*----- Surface coordinates and dynamic parameters -----*/\n"));

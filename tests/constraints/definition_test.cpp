@@ -4,7 +4,6 @@
 
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <optional>
 
 #include "base/fault.h"
@@ -17,32 +16,30 @@
 namespace reachlab::constraints {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 std::string replaced(std::string text, const std::string& from, const std::string& to) {
   const std::size_t at = text.find(from);
   EXPECT_NE(at, std::string::npos) << from;
   return at == std::string::npos ? text : text.replace(at, from.size(), to);
 }
 
-const std::string kCurve = R"j({"schema_version": 1, "name": "own-arc", "kind": "curve",
+const std::string kArcDefinition = R"j({"schema_version": 1, "name": "own-arc", "kind": "curve",
 "curve": ["a_m*cos(phi)", "a_m*sin(n*phi)", "0"],
 "shape": {"a_m": {"default": 0.2, "min": 0.1, "max": 0.5, "unit": "m", "meaning": "size"}, "n": {"default": 2, "min": 1, "max": 4, "unit": "1", "meaning": "waves", "whole": true}},
 "domain": [-1, "n*pi"], "periodic": false, "at_end": "bounce",
 "start": ["pi/4"], "target": [2], "sentence": "An arc.", "source": "by hand"})j";
-const std::string kSurface = R"j({"schema_version": 1, "name": "own-tube", "kind": "surface",
+const std::string kTubeDefinition = R"j({"schema_version": 1, "name": "own-tube", "kind": "surface",
 "surface": ["0.1*cos(u)", "v", "0.1*sin(u)"],
 "domain": [[0, "2*pi"], [-1, null]], "periodic": [true, false], "at_end": ["stop", "bounce"],
 "start": [7, 0.5], "target": [1, 2], "sentence": "A tube.", "source": "by hand"})j";
 
-std::string refusal(const std::string& text) {
-  return reachlab::refusalOf([&] { (void)parseDefinition(text, "d"); });
+std::string refusalOfDefinition(const std::string& text) {
+  return refusalOf([&] { (void)parseDefinition(text, "d"); });
 }
-std::string curveWith(const std::string& from, const std::string& to) { return refusal(replaced(kCurve, from, to)); }
-std::string surfaceWith(const std::string& from, const std::string& to) { return refusal(replaced(kSurface, from, to)); }
+std::string curveWith(const std::string& from, const std::string& to) { return refusalOfDefinition(replaced(kArcDefinition, from, to)); }
+std::string surfaceWith(const std::string& from, const std::string& to) { return refusalOfDefinition(replaced(kTubeDefinition, from, to)); }
 
 TEST(DefinitionFile, IsReadAsItStands) {
-  const Definition curve = parseDefinition(kCurve, "d");
+  const Definition curve = parseDefinition(kArcDefinition, "d");
   EXPECT_EQ(curve.name, "own-arc");
   EXPECT_EQ(curve.kind, ConstraintKind::Curve);
   EXPECT_EQ(curve.coordinates[1], "a_m*sin(n*phi)");
@@ -59,7 +56,7 @@ TEST(DefinitionFile, IsReadAsItStands) {
   EXPECT_EQ(curve.start, std::vector<double>{kPi / 4});
   EXPECT_EQ(curve.target, std::vector<double>{2});
   EXPECT_EQ(curve.sentence + curve.source, "An arc.by hand");
-  const Definition surface = parseDefinition(kSurface, "d");
+  const Definition surface = parseDefinition(kTubeDefinition, "d");
   EXPECT_EQ(surface.kind, ConstraintKind::Surface);
   EXPECT_TRUE(surface.domain[0].periodic);
   EXPECT_FALSE(surface.domain[1].periodic);
@@ -67,29 +64,29 @@ TEST(DefinitionFile, IsReadAsItStands) {
   EXPECT_EQ(surface.domain[1].atEnd, AtEnd::Bounce);
   EXPECT_EQ(surface.domain[1].hi, "");
   EXPECT_EQ(surface.start, (std::vector<double>{7, 0.5})) << "beyond the range of a parameter that goes round";
-  for (const std::string& text : {kCurve, kSurface}) {
+  for (const std::string& text : {kArcDefinition, kTubeDefinition}) {
     const Definition definition = parseDefinition(text, "d");
     EXPECT_EQ(toJson(parseDefinition(toJson(definition), "again")), toJson(definition));
   }
 }
 
 TEST(DefinitionFile, OneValueIsThatOfBothParameters) {
-  const std::string both = replaced(replaced(kSurface, "[true, false]", "false"), "[\"stop\", \"bounce\"]", "\"bounce\"");
+  const std::string both = replaced(replaced(kTubeDefinition, "[true, false]", "false"), "[\"stop\", \"bounce\"]", "\"bounce\"");
   const Definition surface = parseDefinition(replaced(both, "[7, 0.5]", "[1, 0.5]"), "d");
   for (const DomainText& domain : surface.domain) {
     EXPECT_FALSE(domain.periodic);
     EXPECT_EQ(domain.atEnd, AtEnd::Bounce);
   }
-  const Definition endless = parseDefinition(replaced(kCurve, "[-1, \"n*pi\"]", "null"), "d");
+  const Definition endless = parseDefinition(replaced(kArcDefinition, "[-1, \"n*pi\"]", "null"), "d");
   EXPECT_EQ(endless.domain[0].lo + endless.domain[0].hi, "");
   EXPECT_EQ(domainOf(endless, defaultsOf(endless))[0].lo, -std::numeric_limits<double>::infinity());
-  const Definition silent = parseDefinition(replaced(kCurve, "\"periodic\": false, \"at_end\": \"bounce\",", ""), "d");
+  const Definition silent = parseDefinition(replaced(kArcDefinition, "\"periodic\": false, \"at_end\": \"bounce\",", ""), "d");
   EXPECT_EQ(silent.domain[0].atEnd, AtEnd::Stop);
   EXPECT_FALSE(silent.domain[0].periodic);
 }
 
 TEST(DefinitionFile, IsRefusedInWords) {
-  EXPECT_EQ(refusal("[1]"), "d:1:1: file: is an array; allowed: an object { … }");
+  EXPECT_EQ(refusalOfDefinition("[1]"), "d:1:1: file: is an array; allowed: an object { … }");
   EXPECT_EQ(curveWith("\"schema_version\": 1", "\"schema_version\": 2"),
             "d:1:20: schema_version: is 2; allowed: 1, the version that this program reads");
   EXPECT_EQ(curveWith("\"name\": \"own-arc\", ", ""), "d:1:1: name: is missing; allowed: the definition's name");
@@ -146,7 +143,7 @@ TEST(DefinitionFile, OfASurfaceIsRefusedInWords) {
 }
 
 TEST(DefinitionNames, AreOfLowerCaseLettersDigitsAndDashes) {
-  Definition definition = parseDefinition(kCurve, "d");
+  Definition definition = parseDefinition(kArcDefinition, "d");
   const auto fine = [&](const std::string& name) {
     definition.name = name;
     return problems(definition).empty();
@@ -159,36 +156,37 @@ TEST(DefinitionNames, AreOfLowerCaseLettersDigitsAndDashes) {
 }
 
 TEST(Shape, IsGivenByNameAndHeldWithinItsRange) {
-  const Definition definition = parseDefinition(kCurve, "d");
+  const Definition definition = parseDefinition(kArcDefinition, "d");
   EXPECT_EQ(shapeOf(definition, {}, "c")[0], 0.2);
   EXPECT_EQ(shapeOf(definition, {{"n", 3}}, "c")[1], 3);
   EXPECT_EQ(shapeOf(definition, {{"a_m", 0.1}}, "c")[0], 0.1);
   EXPECT_EQ(shapeOf(definition, {{"a_m", 0.5}}, "c")[0], 0.5);
   const auto refused = [&](const std::map<std::string, double>& shape, const Definition& of) -> std::string {
-    return reachlab::refusalOf([&] { (void)makeConstraint(of, shape, "c"); });
+    return refusalOf([&] { (void)makeConstraint(of, shape, "c"); });
   };
   EXPECT_EQ(refused({{"a_m", 0.6}}, definition), "c.shape.a_m: is 0.6; allowed: 0.1 to 0.5 m");
   EXPECT_EQ(refused({{"a_m", 0.05}}, definition), "c.shape.a_m: is 0.05; allowed: 0.1 to 0.5 m");
   EXPECT_EQ(refused({{"n", 1.5}}, definition), "c.shape.n: is 1.5; allowed: a whole number, 1 to 4");
   EXPECT_EQ(refused({{"b_m", 1}}, definition), "c.shape.b_m: own-arc has no such parameter; did you mean a_m?; allowed: a_m or n");
-  EXPECT_EQ(refused({{"whatever", 1}}, parseDefinition(kSurface, "d")), "c.shape.whatever: own-tube has no such parameter; allowed: none");
+  EXPECT_EQ(refused({{"whatever", 1}}, parseDefinition(kTubeDefinition, "d")),
+            "c.shape.whatever: own-tube has no such parameter; allowed: none");
 }
 
 TEST(Periods, HaveToRepeatThePlace) {
   const auto refused = [](const std::string& text) -> std::string {
-    return reachlab::refusalOf([&] { (void)makeConstraint(parseDefinition(text, "d"), {}, "c"); });
+    return refusalOf([&] { (void)makeConstraint(parseDefinition(text, "d"), {}, "c"); });
   };
-  EXPECT_EQ(refused(kSurface), "");
+  EXPECT_EQ(refused(kTubeDefinition), "");
   const std::string round =
-      replaced(kCurve, "\"domain\": [-1, \"n*pi\"], \"periodic\": false", "\"domain\": [0, \"2*pi\"], \"periodic\": true");
+      replaced(kArcDefinition, "\"domain\": [-1, \"n*pi\"], \"periodic\": false", "\"domain\": [0, \"2*pi\"], \"periodic\": true");
   EXPECT_EQ(refused(round), "");
   const std::string told = refused(replaced(round, "2*pi", "pi"));
   EXPECT_EQ(told.find("c.periodic: is true, but r does not repeat itself: its places at phi = "), 0u) << told;
   EXPECT_TRUE(holds(told, "m apart; allowed: true for a formula of that period; else false, with at_end stop or bounce"));
-  const std::string tube = refused(replaced(kSurface, "\"2*pi\"", "\"pi\""));
+  const std::string tube = refused(replaced(kTubeDefinition, "\"2*pi\"", "\"pi\""));
   EXPECT_EQ(tube.find("c.periodic[0]: is true, but r does not repeat itself: its places at u = "), 0u) << tube;
   EXPECT_TRUE(holds(tube, " are 0.2 m apart")) << "opposite sides of the tube";
-  const std::string across = refused(replaced(replaced(kSurface, "[-1, null]", "[-1, 3]"), "[true, false]", "[true, true]"));
+  const std::string across = refused(replaced(replaced(kTubeDefinition, "[-1, null]", "[-1, 3]"), "[true, false]", "[true, true]"));
   EXPECT_EQ(across.find("c.periodic[1]: is true, but r does not repeat itself: its places at v = "), 0u) << across;
   EXPECT_TRUE(holds(across, " are 4 m apart"));
 }
@@ -210,8 +208,8 @@ TEST(UserDefinitions, AreFoundInTheFolderThatTheEnvironmentNames) {
 
   const TemporaryFolder folder;
   EXPECT_TRUE(readDefinitionFolder(folder / "none").empty()) << "there is none";
-  folder.write("own-tube.json", kSurface);
-  folder.write("own-arc.json", kCurve);
+  folder.write("own-tube.json", kTubeDefinition);
+  folder.write("own-arc.json", kArcDefinition);
   folder.write("read.me", "no definition");
   const std::vector<Definition> all = readDefinitionFolder(folder.path());
   ASSERT_EQ(all.size(), 2u);
@@ -234,35 +232,33 @@ TEST(UserDefinitions, AreFoundInTheFolderThatTheEnvironmentNames) {
   }
 }
 
-std::string refusalOf(const ConstraintSpec& spec) {
-  return reachlab::refusalOf([&] { (void)makeConstraint(spec, "c"); });
-}
 ConstraintSpec typed(const std::vector<std::string>& curve, const std::map<std::string, double>& shape = {}) {
   return {.curve = curve, .shape = shape};
 }
 
 TEST(TypedConstraint, IsRefusedInWords) {
-  EXPECT_EQ(refusalOf(typed({"phi", "0"})), "c: has 2 formulas; allowed: three, one a coordinate");
-  EXPECT_EQ(refusalOf({.name = "free", .shape = {{"a", 1}}}), "c.shape: free has no shape; allowed: no shape");
-  EXPECT_EQ(refusalOf(typed({"phi", "0", "0"}, {{"a", 1}})),
+  EXPECT_EQ(refusalOfConstraint(typed({"phi", "0"})), "c: has 2 formulas; allowed: three, one a coordinate");
+  EXPECT_EQ(refusalOfConstraint({.name = "free", .shape = {{"a", 1}}}), "c.shape: free has no shape; allowed: no shape");
+  EXPECT_EQ(refusalOfConstraint(typed({"phi", "0", "0"}, {{"a", 1}})),
             "c.curve: shape.a is used by no coordinate; allowed: names that the formula uses");
-  EXPECT_EQ(refusalOf(typed({"a*phi", "0", "0"}, {{"a", std::nan("")}})), "c.shape.a: is nan; allowed: any finite number");
-  EXPECT_EQ(refusalOf(typed({"phi", "1 +", "0"})),
+  EXPECT_EQ(refusalOfConstraint(typed({"a*phi", "0", "0"}, {{"a", std::nan("")}})), "c.shape.a: is nan; allowed: any finite number");
+  EXPECT_EQ(refusalOfConstraint(typed({"phi", "1 +", "0"})),
             "c.curve[1], character 4: unexpected end of the formula; expected a number, a name, a function or '('");
-  EXPECT_EQ(refusalOf(typed({"1", "2", "3"})),
+  EXPECT_EQ(refusalOfConstraint(typed({"1", "2", "3"})),
             "c: degenerates everywhere: r_phi is zero at every phi; allowed: a formula that moves with phi");
-  EXPECT_EQ(refusalOf({.surface = {"u", "2*u", "3*u"}}),
+  EXPECT_EQ(refusalOfConstraint({.surface = {"u", "2*u", "3*u"}}),
             "c: degenerates everywhere: r_u x r_v is zero at every u, v; allowed: a formula that spans a surface");
   for (const char* nowhere : {"1/0", "phi + 0*log(0)", "-1/0 + phi", "sqrt(-1)"})
-    EXPECT_EQ(refusalOf(typed({"phi", nowhere, "0"})).substr(0, 55), "c.curve[1], character 1: has no finite value anywhere: ") << nowhere;
-  EXPECT_EQ(refusalOf(typed({"phi", "1e-300/1e-310", "0"})), "");
-  EXPECT_EQ(refusalOf(typed({"phi", "0", "0*log(phi)"})),
+    EXPECT_EQ(refusalOfConstraint(typed({"phi", nowhere, "0"})).substr(0, 55), "c.curve[1], character 1: has no finite value anywhere: ")
+        << nowhere;
+  EXPECT_EQ(refusalOfConstraint(typed({"phi", "1e-300/1e-310", "0"})), "");
+  EXPECT_EQ(refusalOfConstraint(typed({"phi", "0", "0*log(phi)"})),
             "c.curve[2], character 1: log(phi) cancels out, and what is left would go on where the formula as written has no value; "
             "allowed: a formula without it");
   for (const char* cancels : {"0*sqrt(phi)", "0*asin(phi)", "0*acos(phi)", "0*phi^0.3"})
-    EXPECT_TRUE(holds(refusalOf(typed({"phi", cancels, "0"})), "c.curve[1], character 1: ")) << cancels;
+    EXPECT_TRUE(holds(refusalOfConstraint(typed({"phi", cancels, "0"})), "c.curve[1], character 1: ")) << cancels;
   for (const char* whole : {"0*sqrt(phi^2 + 1)", "0*sin(phi)", "0*log(exp(phi))", "0*atan(phi)"})
-    EXPECT_EQ(refusalOf(typed({"phi", whole, "0"})), "") << whole;
+    EXPECT_EQ(refusalOfConstraint(typed({"phi", whole, "0"})), "") << whole;
   std::map<std::string, double> shape;
   std::string sum = "phi";
   for (char name = 'a'; name <= 'h'; ++name) {
@@ -271,16 +267,16 @@ TEST(TypedConstraint, IsRefusedInWords) {
     sum += std::string("+") + name + "*phi";
   }
   shape["i"] = 2, sum += "+i*phi";
-  EXPECT_EQ(refusalOf(typed({sum, "0", "0"}, shape)), "") << "eight names";
+  EXPECT_EQ(refusalOfConstraint(typed({sum, "0", "0"}, shape)), "") << "eight names";
   shape["j"] = 2, sum += "+j*phi";
-  EXPECT_EQ(refusalOf(typed({sum, "0", "0"}, shape)), "c.curve: has 9 shape parameters; allowed: 8");
+  EXPECT_EQ(refusalOfConstraint(typed({sum, "0", "0"}, shape)), "c.curve: has 9 shape parameters; allowed: 8");
 }
 
 TEST(TypedConstraint, HasToBeFiniteWhereItIsUsed) {
   const auto used = [](const std::string& y, double lo, double hi) {
     ConstraintSpec spec = typed({"phi", y, "0"});
     spec.inUse = std::array<Domain, 2>{Domain{lo, hi, false}, Domain{0, 0, false}};
-    return refusalOf(spec);
+    return refusalOfConstraint(spec);
   };
   const std::string range = ", which no mass can cross; allowed: a range (from start to target, or the domain) without such a place";
   EXPECT_EQ(used("1/(phi - 1)", 0, 2), "c: not finite at phi = 1: pole of 1/(phi - 1)" + range);
@@ -304,7 +300,7 @@ TEST(TypedConstraint, KnowsItsNameItsKindAndItsOrder) {
   EXPECT_EQ(free.name, "free");
   EXPECT_EQ(free.parameterCount(), 0);
   EXPECT_EQ(ConstraintSpec{}.name, "line");
-  EXPECT_EQ(makeConstraint({.name = "own-arc", .definition = kCurve}).name, "own-arc");
+  EXPECT_EQ(makeConstraint({.name = "own-arc", .definition = kArcDefinition}).name, "own-arc");
 }
 
 }  // namespace

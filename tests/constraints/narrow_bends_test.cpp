@@ -13,7 +13,7 @@
 namespace reachlab::constraints {
 namespace {
 
-Constraint surface(const std::string& z, const std::string& x = "u", const std::string& y = "v") { return constraints::surface({x, y, z}); }
+Constraint graphOf(const std::string& z) { return surface({"u", "v", z}); }
 
 SurfaceWatch::Motion motion(double u, double v, double uRate, double vRate) {
   return {{u, v}, {uRate, vRate}, {}, {1, 1}, std::hypot(uRate, vRate)};
@@ -23,7 +23,7 @@ SurfaceWatch::Motion motion(double u, double v, double uRate, double vRate) {
 TEST(SurfaceWatch, SeesARidgeOnTheWayWhereverItLies) {
   for (const double ridge : {0.31, -7.8, 120.0})
     for (const char* q : {"u", "v", "u + v"}) {
-      const auto watch = SurfaceWatch::make(surface(fmt::format("1e-6*exp(-(({} - {})/1e-5)^2)", q, ridge)));
+      const auto watch = SurfaceWatch::make(graphOf(fmt::format("1e-6*exp(-(({} - {})/1e-5)^2)", q, ridge)));
       const double u = q == std::string("v") ? 0 : ridge - 1.0003e-4, v = q == std::string("v") ? ridge - 1.0003e-4 : 0;
       const SurfaceWatch::Motion towards = motion(u, v, 0.4, 0.4), away = motion(u - 1e-3, v - 1e-3, -0.4, -0.4);
       EXPECT_FALSE(watch->allows(towards, 1e-3)) << q << " " << ridge;
@@ -36,7 +36,7 @@ TEST(SurfaceWatch, SeesARidgeOnTheWayWhereverItLies) {
 
 TEST(SurfaceWatch, AllowsStepsOverWhatBendsGently) {
   for (const char* z : {"u*v", "sin(3*u) + cos(2*v)", "0.01*exp(-((u - 0.3)/0.05)^2)", "sqrt(1 + u^2)", "0.1*abs(u)"}) {
-    const auto watch = SurfaceWatch::make(surface(z));
+    const auto watch = SurfaceWatch::make(graphOf(z));
     for (double u = -1; u < 1; u += 0.0137) EXPECT_TRUE(watch->allows(motion(u, 0.2, 0.4, -0.3), 1e-3)) << z << " " << u;
   }
   EXPECT_EQ(SurfaceWatch::make(named("gaussian-hill")), nullptr) << "the catalogue is known";
@@ -44,7 +44,7 @@ TEST(SurfaceWatch, AllowsStepsOverWhatBendsGently) {
 
 // What was learnt about some ticks ahead holds for no other place and no faster motion.
 TEST(SurfaceWatch, KnowsOnlyWhereItLooked) {
-  const auto watch = SurfaceWatch::make(surface("1e-6*exp(-((u - 0.31)/1e-5)^2)"));
+  const auto watch = SurfaceWatch::make(graphOf("1e-6*exp(-((u - 0.31)/1e-5)^2)"));
   ASSERT_TRUE(watch->allows(motion(0, 0, 0.4, 0), 1e-3));
   EXPECT_TRUE(watch->knows({0.001, 0}, {0.4, 0}, 1e-3));
   EXPECT_FALSE(watch->knows({0.31, 0}, {0.4, 0}, 1e-3));
@@ -57,26 +57,26 @@ WayPoint straight(double share) { return {{share, 0.2 + 0.5 * share}, {1, 0.5}, 
 
 TEST(HiddenBend, IsFoundBetweenTheSamples) {
   for (const char* bump : {"1e-9*exp(-((u - 0.4003)/1e-5)^2)", "1e-9*exp(-((v - 0.40015)/5e-6)^2)"}) {
-    const auto hidden = findHiddenBend(surface(bump), straight, 1e-3);
+    const auto hidden = findHiddenBend(graphOf(bump), straight, 1e-3);
     ASSERT_TRUE(hidden) << bump;
     EXPECT_TRUE(hidden->found);
     EXPECT_NEAR(hidden->at[0], 0.4003, 1e-4) << bump;
     EXPECT_NEAR(hidden->at[1], 0.2 + 0.5 * hidden->at[0], 1e-12) << "on the way";
   }
-  EXPECT_TRUE(findHiddenBend(surface("u*v + 1e-9*exp(-((u - v - 0.10015)/1e-5)^2)"), straight, 1e-3)) << "across both";
+  EXPECT_TRUE(findHiddenBend(graphOf("u*v + 1e-9*exp(-((u - v - 0.10015)/1e-5)^2)"), straight, 1e-3)) << "across both";
 }
 
 TEST(HiddenBend, IsNoneWhereTheSamplesTellAll) {
-  EXPECT_FALSE(findHiddenBend(surface("sin(3*u)*cos(2*v)"), straight, 1e-3));
-  EXPECT_FALSE(findHiddenBend(surface("u*v + u^3 - v^2"), straight, 1e-3));
-  EXPECT_FALSE(findHiddenBend(surface("u + v"), straight, 0)) << "a plane has none at all";
-  EXPECT_FALSE(findHiddenBend(surface("1e-9*exp(-((u - 0.4003)/1e-5)^2)"), straight, 1e9)) << "less than what matters";
+  EXPECT_FALSE(findHiddenBend(graphOf("sin(3*u)*cos(2*v)"), straight, 1e-3));
+  EXPECT_FALSE(findHiddenBend(graphOf("u*v + u^3 - v^2"), straight, 1e-3));
+  EXPECT_FALSE(findHiddenBend(graphOf("u + v"), straight, 0)) << "a plane has none at all";
+  EXPECT_FALSE(findHiddenBend(graphOf("1e-9*exp(-((u - 0.4003)/1e-5)^2)"), straight, 1e9)) << "less than what matters";
   EXPECT_FALSE(findHiddenBend(named("gaussian-hill"), straight, 1e-3)) << "the catalogue is known";
-  EXPECT_FALSE(findHiddenBend(surface("1e-9*exp(-((u - 3)/1e-5)^2)"), straight, 1e-3)) << "not on the way";
+  EXPECT_FALSE(findHiddenBend(graphOf("1e-9*exp(-((u - 3)/1e-5)^2)"), straight, 1e-3)) << "not on the way";
 }
 
 TEST(HiddenBend, IsNotToldAwayWhereNothingIsKnown) {
-  const auto edge = findHiddenBend(surface("sqrt(0.5003 - u)"), straight, 1e-3);
+  const auto edge = findHiddenBend(graphOf("sqrt(0.5003 - u)"), straight, 1e-3);
   ASSERT_TRUE(edge);
   EXPECT_NEAR(edge->at[0], 0.5003, 2e-3) << "the slope grows without bound";
 }

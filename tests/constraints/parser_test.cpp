@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "constraints/formula/formula.h"
+#include "tests/constraints/made_constraints.h"
 #include "tests/refusal.h"
 
 namespace reachlab::constraints {
@@ -25,8 +26,6 @@ FormulaFault fault(const std::string& text) {
   EXPECT_TRUE(parsed.fault) << text << " was accepted";
   return parsed.fault.value_or(FormulaFault{});
 }
-
-constexpr double kRounding = 1e-15;
 
 TEST(Formula, PowersBindTighterThanSignsAndGroupToTheRight) {
   EXPECT_EQ(value("-2^2"), -4);

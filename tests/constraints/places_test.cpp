@@ -7,7 +7,6 @@
 #include <limits>
 #include <map>
 #include <memory>
-#include <numbers>
 
 #include "base/fault.h"
 #include "constraints/catalogue/definition.h"
@@ -18,12 +17,10 @@
 namespace reachlab::constraints {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
-Constraint curve(const std::string& x, const std::string& y, const std::string& z = "0") { return constraints::curve({x, y, z}); }
+Constraint typedCurve(const std::string& x, const std::string& y, const std::string& z = "0") { return curve({x, y, z}); }
 std::vector<std::string> placesOf(const std::string& y, double from = -1.01, double to = 2.02) {
   std::vector<std::string> told;
-  for (const Place& place : placesBetween(computeRegularity(curve("phi/10", y), 0.4), from, to))
+  for (const Place& place : placesBetween(computeRegularity(typedCurve("phi/10", y), 0.4), from, to))
     told.push_back(describe(place, ConstraintKind::Curve));
   return told;
 }
@@ -55,18 +52,18 @@ TEST(Places, WhereAMovementBeginsOrEndsAreNotBetween) {
 // What lies far away has the same places: |r| says nothing of how far apart two sides are.
 TEST(Places, AJumpOfCentimetresIsOneAThousandKilometresAway) {
   for (const char* far : {"0", "1e6", "1e8"}) {
-    const CurveRegularity r = computeRegularity(curve("phi/10", "0.02*abs(atan2(phi, phi))^2", far), 0.5);
+    const CurveRegularity r = computeRegularity(typedCurve("phi/10", "0.02*abs(atan2(phi, phi))^2", far), 0.5);
     ASSERT_EQ(r.places.size(), 1u) << far;
     EXPECT_EQ(r.places[0].kind, PlaceKind::Jump) << far;
-    EXPECT_EQ(computeRegularity(curve("phi/10", "0.1*sqrt(abs(phi))", far), 0.5).places[0].kind, PlaceKind::Spike) << far;
-    EXPECT_EQ(computeRegularity(curve("phi/10", "0.1*abs(phi)", far), 0.5).places[0].kind, PlaceKind::Kink) << far;
-    EXPECT_EQ(computeRegularity(curve("phi/10", "0.1*sin(phi)/phi", far), 0.5).places[0].kind, PlaceKind::Hole) << far;
+    EXPECT_EQ(computeRegularity(typedCurve("phi/10", "0.1*sqrt(abs(phi))", far), 0.5).places[0].kind, PlaceKind::Spike) << far;
+    EXPECT_EQ(computeRegularity(typedCurve("phi/10", "0.1*abs(phi)", far), 0.5).places[0].kind, PlaceKind::Kink) << far;
+    EXPECT_EQ(computeRegularity(typedCurve("phi/10", "0.1*sin(phi)/phi", far), 0.5).places[0].kind, PlaceKind::Hole) << far;
   }
 }
 
 TEST(Places, StillPlacesAreToldApart) {
   const auto kindAtZero = [](const std::string& x, const std::string& y) {
-    const CurveRegularity r = computeRegularity(curve(x, y), 0.5);
+    const CurveRegularity r = computeRegularity(typedCurve(x, y), 0.5);
     return r.places.size() == 1 && std::abs(r.places[0].at) < 1e-9 ? nameOf(r.places[0].kind) : "none";
   };
   EXPECT_STREQ(kindAtZero("phi^2", "phi^3"), "cusp");
@@ -78,15 +75,15 @@ TEST(Places, StillPlacesAreToldApart) {
 TEST(Places, WhatOnlyLooksBrokenIsSmooth) {
   for (const char* y : {"sqrt(1 + phi^2)", "1/(2 + sin(phi))", "abs(2 + cos(phi))", "log(1.5 - tanh(phi))", "asin(0.9*sin(phi))", "phi^9",
                         "(2 + cos(phi))^1.5", "atan2(phi, 1 + phi^2)"})
-    EXPECT_TRUE(computeRegularity(curve("phi/10", y), 0).whole) << y;
+    EXPECT_TRUE(computeRegularity(typedCurve("phi/10", y), 0).whole) << y;
   EXPECT_TRUE(placesOf("cos(atan2(sin(phi), cos(phi)))", -300, 300).empty());
 }
 
 TEST(Places, AStraightLineHasNoKinks) {
-  EXPECT_TRUE(curve("phi/10", "0.2*phi").straight);
-  EXPECT_FALSE(curve("phi/10", "0.05*abs(phi)").straight);
-  EXPECT_FALSE(curve("phi/10", "0.05*sign(phi)").straight);
-  EXPECT_FALSE(curve("phi/10", "0.1*atan2(sin(phi), cos(phi))").straight);
+  EXPECT_TRUE(typedCurve("phi/10", "0.2*phi").straight);
+  EXPECT_FALSE(typedCurve("phi/10", "0.05*abs(phi)").straight);
+  EXPECT_FALSE(typedCurve("phi/10", "0.05*sign(phi)").straight);
+  EXPECT_FALSE(typedCurve("phi/10", "0.1*atan2(sin(phi), cos(phi))").straight);
 }
 
 TEST(Places, EveryCurveOfTheCatalogueIsSmoothButForStillPlaces) {
@@ -144,7 +141,7 @@ TEST(Places, LinesOfASurfaceAreKnown) {
 }
 
 TEST(Places, AreTheBoundariesOfPiecesThatGoOnBeyondThem) {
-  const CurveRegularity r = computeRegularity(curve("phi/10", "abs(phi - 1)/10 + 0.2*abs(phi - 3)"), 0.5);
+  const CurveRegularity r = computeRegularity(typedCurve("phi/10", "abs(phi - 1)/10 + 0.2*abs(phi - 3)"), 0.5);
   ASSERT_EQ(r.places.size(), 2u);
   ASSERT_EQ(r.pieces.size(), 3u);
   EXPECT_FALSE(r.whole || r.smooth);
@@ -168,17 +165,17 @@ TEST(Places, AreTheBoundariesOfPiecesThatGoOnBeyondThem) {
   EXPECT_EQ(r.pieceAt(1), 1) << "on a boundary the one above";
   EXPECT_EQ(r.pieceAt(3.1), 2);
   EXPECT_EQ(r.pieceAt(1e6), -1);
-  const CurveRegularity slow = computeRegularity(curve("phi/1000", "abs(phi - 1)/1e6"), 0.5);
+  const CurveRegularity slow = computeRegularity(typedCurve("phi/1000", "abs(phi - 1)/1e6"), 0.5);
   EXPECT_NEAR(slow.hi, 0.5 + 10 / std::hypot(1e-3, 1e-6), 1e-6) << "at least 10 m";
 }
 
 TEST(Places, ThatNoMassCrossesEndTheirPieces) {
-  const CurveRegularity jump = computeRegularity(curve("phi/10", "0.1*sign(phi - 1)"), 0.5);
+  const CurveRegularity jump = computeRegularity(typedCurve("phi/10", "0.1*sign(phi - 1)"), 0.5);
   ASSERT_EQ(jump.pieces.size(), 2u);
   EXPECT_FALSE(jump.pieces[0].passedAtHi || jump.pieces[1].passedAtLo);
   EXPECT_NEAR(jump.pieces[0].hi, 1, 1e-12);
 
-  const CurveRegularity root = computeRegularity(curve("phi/10", "0.1*sqrt(phi - 1)"), 2);
+  const CurveRegularity root = computeRegularity(typedCurve("phi/10", "0.1*sqrt(phi - 1)"), 2);
   ASSERT_EQ(root.pieces.size(), 1u) << "below it has no value";
   const CurvePiece& piece = root.pieces[0];
   EXPECT_EQ(piece.placeAtLo, 0);
@@ -189,14 +186,14 @@ TEST(Places, ThatNoMassCrossesEndTheirPieces) {
   EXPECT_NEAR(norm(beyond.r - (at.r - 0.5 * at.rPhi)), 0, 1e-9 * norm(at.rPhi)) << "by its tangent";
   EXPECT_EQ(beyond.rPhiPhi, Vec3{});
 
-  const CurveRegularity pole = computeRegularity(curve("phi/10", "0.1/(phi - 1)"), 2);
+  const CurveRegularity pole = computeRegularity(typedCurve("phi/10", "0.1/(phi - 1)"), 2);
   ASSERT_EQ(pole.pieces.size(), 2u);
   EXPECT_LT(pole.pieces[0].hi, 1);
   EXPECT_GT(pole.pieces[1].lo, 1);
   EXPECT_LT(pole.pieces[1].lo - pole.pieces[0].hi, 1e-2);
   EXPECT_EQ(pole.pieceAt(1), -1);
 
-  const CurveRegularity hole = computeRegularity(curve("phi/10", "0.1*sin(phi)/phi"), 2);
+  const CurveRegularity hole = computeRegularity(typedCurve("phi/10", "0.1*sin(phi)/phi"), 2);
   ASSERT_EQ(hole.pieces.size(), 2u);
   EXPECT_TRUE(hole.pieces[0].passedAtHi && hole.pieces[1].passedAtLo);
   for (const CurvePiece& one : hole.pieces) EXPECT_NEAR(evaluate(one.curve, 0).r.y, 0.1, 1e-9) << "its limit";
@@ -206,7 +203,7 @@ TEST(Places, ThatNoMassCrossesEndTheirPieces) {
 TEST(Places, WhereACurveComesToRestAreItsFarEnds) {
   const auto ends = [](const std::string& x) {
     std::vector<double> at;
-    const CurveRegularity r = computeRegularity(curve(x, "0"), 0);
+    const CurveRegularity r = computeRegularity(typedCurve(x, "0"), 0);
     EXPECT_TRUE(r.whole) << x;
     for (const Place& place : r.places) {
       if (std::isfinite(place.at)) continue;
@@ -222,24 +219,24 @@ TEST(Places, WhereACurveComesToRestAreItsFarEnds) {
   EXPECT_EQ(ends("0.1*exp(phi)"), std::vector<double>{-kInf});
   EXPECT_EQ(ends("0.1*phi"), std::vector<double>{});
   EXPECT_EQ(ends("0.1*sin(phi) + 0.2*phi"), std::vector<double>{});
-  EXPECT_NEAR(computeRegularity(curve("0.1*tanh(phi) + 1", "2"), 0).places.back().r.x, 1.1, 1e-12);
+  EXPECT_NEAR(computeRegularity(typedCurve("0.1*tanh(phi) + 1", "2"), 0).places.back().r.x, 1.1, 1e-12);
 }
 
 TEST(Places, StillPlacesHaveTheirPointAndGoAlongWithKinks) {
-  const CurveRegularity r = computeRegularity(curve("(phi - 1)^2/10", "(phi - 1)^3/10 + 0.1*(abs(phi + 2) - phi - 2)", "5"), 0.5);
+  const CurveRegularity r = computeRegularity(typedCurve("(phi - 1)^2/10", "(phi - 1)^3/10 + 0.1*(abs(phi + 2) - phi - 2)", "5"), 0.5);
   ASSERT_EQ(r.places.size(), 2u) << "in order of phi";
   EXPECT_EQ(describe(r.places[0], ConstraintKind::Curve), "kink at phi = -2: abs(phi + 2)");
   EXPECT_EQ(describe(r.places[1], ConstraintKind::Curve), "cusp at phi = 1: r_phi = 0");
   EXPECT_EQ(r.pieces.at(0).placeAtHi, 0);
-  const CurveRegularity still = computeRegularity(curve("(phi - 1)^2/10", "(phi - 1)^3/10", "5"), 0.5);
+  const CurveRegularity still = computeRegularity(typedCurve("(phi - 1)^2/10", "(phi - 1)^3/10", "5"), 0.5);
   ASSERT_EQ(still.places.size(), 1u);
   EXPECT_EQ(describe(still.places[0], ConstraintKind::Curve), "cusp at phi = 1: r_phi = 0");
   EXPECT_EQ(still.places[0].r, (Vec3{0, 0, 5}));
-  EXPECT_TRUE(computeRegularityWithin(curve("(phi - 1)^2/10", "(phi - 1)^3/10", "5"), 0, 2).places.empty()) << "not looked for";
+  EXPECT_TRUE(computeRegularityWithin(typedCurve("(phi - 1)^2/10", "(phi - 1)^3/10", "5"), 0, 2).places.empty()) << "not looked for";
 }
 
 TEST(Places, OfPiecesAreThoseOfTheWholeListWhicheverComesFirst) {
-  const CurveRegularity r = computeRegularity(curve("(phi - 1)^2/10", "(phi - 1)^3/10 + 0.1*(abs(phi - 3) + phi - 3)"), 0.5);
+  const CurveRegularity r = computeRegularity(typedCurve("(phi - 1)^2/10", "(phi - 1)^3/10 + 0.1*(abs(phi - 3) + phi - 3)"), 0.5);
   ASSERT_EQ(r.places.size(), 2u);
   EXPECT_EQ(r.places[0].kind, PlaceKind::Cusp);
   EXPECT_EQ(r.places[1].kind, PlaceKind::Kink);
@@ -248,14 +245,14 @@ TEST(Places, OfPiecesAreThoseOfTheWholeListWhicheverComesFirst) {
 }
 
 TEST(Places, WhereACycloidStandsStillAreToldOnFourTurnsEitherWay) {
-  const CurveRegularity r = computeRegularity(curve("0.1*(phi - sin(phi))", "0.1*(1 - cos(phi))"), 1);
+  const CurveRegularity r = computeRegularity(typedCurve("0.1*(phi - sin(phi))", "0.1*(1 - cos(phi))"), 1);
   EXPECT_TRUE(r.whole);
   ASSERT_EQ(r.places.size(), 8u);
   for (int k = 0; k < 8; ++k) EXPECT_NEAR(r.places[k].at, 2 * kPi * (k - 3), 1e-6);
 }
 
 TEST(Places, OfAStretchAreThoseInIt) {
-  const Constraint two = curve("phi/10", "abs(phi - 1)/10 + 0.2*abs(phi - 3)");
+  const Constraint two = typedCurve("phi/10", "abs(phi - 1)/10 + 0.2*abs(phi - 3)");
   const CurveRegularity within = computeRegularityWithin(two, 0, 2);
   EXPECT_EQ(within.lo, 0);
   EXPECT_EQ(within.hi, 2);

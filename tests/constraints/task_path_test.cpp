@@ -11,8 +11,6 @@
 namespace reachlab::constraints {
 namespace {
 
-constexpr double kRounding = 1e-15;
-
 TEST(PlaceOn, IsTheParametersPointOrNowhere) {
   EXPECT_EQ(placeOn(named("free"), std::array{1.0, 2.0, 3.0}), (Vec3{1, 2, 3}));
   const Constraint circle = named("circle"), sphere = named("sphere");

@@ -11,8 +11,6 @@
 namespace reachlab::constraints {
 namespace {
 
-constexpr double kRounding = 1e-15;  // a few roundings of numbers below 1
-
 // 0*log(phi) is 0 where it has a value, and it has none below 0: simplified to 0 it would go on there without a word.
 TEST(TypedFormula, WhatCancelsOutWithTheEndOfItsDomainIsRefused) {
   const auto faultOf = [](const std::string& y) -> std::string {
