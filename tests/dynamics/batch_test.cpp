@@ -11,7 +11,7 @@
 namespace reachlab::dynamics {
 namespace {
 
-constexpr double kRounding = 1e-12;  // of the largest rate: another order of the same sums
+constexpr double kReordering = 1e-12;  // of the largest rate: another order of the same sums
 
 /// The two forms of the same equations at random states.
 template <int Batches, bool Tangential>
@@ -54,8 +54,8 @@ void expectSameRates(int n, bool parallel, unsigned seed) {
     double largest = 0;
     for (int i = 0; i < 2 * n; ++i) largest = std::max(largest, std::abs(dy[i]));
     for (int i = 0; i < n; ++i) {
-      EXPECT_NEAR(dyo[i], dy[i], kRounding * largest) << n << " masses, place " << i;
-      EXPECT_NEAR(dyo[batches.rates() + i], dy[plain.rates() + i], kRounding * largest) << n << " masses, rate " << i;
+      EXPECT_NEAR(dyo[i], dy[i], kReordering * largest) << n << " masses, place " << i;
+      EXPECT_NEAR(dyo[batches.rates() + i], dy[plain.rates() + i], kReordering * largest) << n << " masses, rate " << i;
     }
     for (int i = n; i < batches.rates(); ++i) {
       EXPECT_EQ(dyo[i], 0) << "an empty lane moves";

@@ -8,7 +8,7 @@
 namespace reachlab::dynamics {
 namespace {
 
-constexpr double kStep = 0.5;  // [s]
+constexpr double kSceneStep = 0.5;  // [s]
 
 /// One mass of 2 kg whose mode is `reach` rad a step; more of them, each on its own spring, when `count` says so.
 ObjectModel oscillating(double reach, int count = 1) {
@@ -16,15 +16,15 @@ ObjectModel oscillating(double reach, int count = 1) {
   ObjectModel model;
   model.kind = count > 1 ? experiment::ObjectKind::Parallel : experiment::ObjectKind::Point;
   model.mass.assign(n, 2);
-  model.handStiffness.assign(n, 2 * (reach / kStep) * (reach / kStep));
+  model.handStiffness.assign(n, 2 * (reach / kSceneStep) * (reach / kSceneStep));
   model.handDamping.assign(n, 0);
   return model;
 }
 MethodChoice chosen(const std::string& asked, const ObjectModel& model, SceneFacts facts = {}) {
-  facts.step = kStep;
+  facts.step = kSceneStep;
   return chooseMethod(asked, model, facts);
 }
-std::string refused(const std::string& asked, const ObjectModel& model, const SceneFacts& facts = {}) {
+std::string refusalOfMethod(const std::string& asked, const ObjectModel& model, const SceneFacts& facts = {}) {
   return refusalOf([&] { (void)chosen(asked, model, facts); });
 }
 
@@ -46,7 +46,7 @@ TEST(ChooseMethod, ElasticEndsAreLeftToSubSteps) {
   EXPECT_EQ(chosen("auto", oscillating(101), elastic).method, "stiff");
   EXPECT_TRUE(holds(chosen("auto", oscillating(0.1), elastic).reason, "the ends are elastic"));
   EXPECT_FALSE(holds(chosen("auto", oscillating(1)).reason, "elastic"));
-  EXPECT_TRUE(holds(refused("exact", oscillating(0.1), elastic), "does not know elastic ends; use auto or adaptive"));
+  EXPECT_TRUE(holds(refusalOfMethod("exact", oscillating(0.1), elastic), "does not know elastic ends; use auto or adaptive"));
 }
 
 TEST(ChooseMethod, TheReasonTellsTheNumbersAndWhatFollowsFromThem) {
@@ -68,43 +68,44 @@ TEST(ChooseMethod, EveryMethodForetellsItsError) {
   EXPECT_EQ(chosen("adaptive", oscillating(1)).predictedError, 1e-11);
   const ObjectModel model = oscillating(0.1);
   const SceneFacts facts{.length = 0.3, .duration = 70};
-  EXPECT_EQ(chosen("rk4", model, facts).predictedError, predictRk4Error(computeEigenvalues(model), kStep, 0.3, 70));
+  EXPECT_EQ(chosen("rk4", model, facts).predictedError, predictRk4Error(computeEigenvalues(model), kSceneStep, 0.3, 70));
   EXPECT_GT(chosen("rk4", model, facts).predictedError, 0);
 }
 
 // |R(3i)| = |-0.125 - 1.5 i|, R(-3) = 1.375.
 TEST(ChooseMethod, AnUnstableRk4IsRefusedWithItsFastestModeItsGrowthAndItsLongestStep) {
-  const std::string undamped = refused("rk4", oscillating(3));
+  const std::string undamped = refusalOfMethod("rk4", oscillating(3));
   EXPECT_TRUE(holds(undamped, "the fastest mode times the step is 3, its limit 2.828 (an undamped mode)"));
   EXPECT_TRUE(holds(undamped, "multiplies that mode by 1.505"));
   EXPECT_TRUE(holds(undamped, "use method auto, or a step below 0.471 s"));
   ObjectModel damped = oscillating(0);
   damped.viscosity = 12;
-  const std::string real = refused("rk4", damped);
+  const std::string real = refusalOfMethod("rk4", damped);
   EXPECT_TRUE(holds(real, "times the step is 3, its limit 2.785 (a real mode: light mass, strong damper)"));
   EXPECT_TRUE(holds(real, "multiplies that mode by 1.375"));
   EXPECT_TRUE(holds(real, "a step below 0.464 s"));
-  EXPECT_EQ(refused("rk4", oscillating(2.82)), "");
+  EXPECT_EQ(refusalOfMethod("rk4", oscillating(2.82)), "");
   damped.viscosity = 11.1;
-  EXPECT_EQ(refused("rk4", damped), "");
+  EXPECT_EQ(refusalOfMethod("rk4", damped), "");
   ObjectModel two = oscillating(3, 3);  // the one that grows most is told, wherever it stands
   two.handStiffness[1] *= 4;
-  EXPECT_TRUE(holds(refused("rk4", two), "the fastest mode times the step is 6,"));
+  EXPECT_TRUE(holds(refusalOfMethod("rk4", two), "the fastest mode times the step is 6,"));
 }
 
 TEST(ChooseMethod, WhatAMethodCannotDoIsRefusedWithWhatCan) {
-  EXPECT_TRUE(holds(refused("exact", oscillating(0.1)), "method exact is for linear scenes"));
-  EXPECT_TRUE(holds(refused("euler", oscillating(0.1)), "there is no method 'euler'; allowed: auto, rk4, exact, abm, adaptive, stiff"));
-  EXPECT_EQ(refused("stiff", oscillating(10, 24)), "");
-  EXPECT_TRUE(holds(refused("stiff", oscillating(10, 25)), "for up to 24 masses, and here are 25; use auto, or fewer masses"));
+  EXPECT_TRUE(holds(refusalOfMethod("exact", oscillating(0.1)), "method exact is for linear scenes"));
+  EXPECT_TRUE(
+      holds(refusalOfMethod("euler", oscillating(0.1)), "there is no method 'euler'; allowed: auto, rk4, exact, abm, adaptive, stiff"));
+  EXPECT_EQ(refusalOfMethod("stiff", oscillating(10, 24)), "");
+  EXPECT_TRUE(holds(refusalOfMethod("stiff", oscillating(10, 25)), "for up to 24 masses, and here are 25; use auto, or fewer masses"));
   for (const char* method : {"abm", "adaptive"}) {
-    EXPECT_EQ(refused(method, oscillating(449)), "") << method;
-    const std::string words = refused(method, oscillating(460));
+    EXPECT_EQ(refusalOfMethod(method, oscillating(449)), "") << method;
+    const std::string words = refusalOfMethod(method, oscillating(460));
     EXPECT_TRUE(holds(words, std::string("method ") + method + " would need more than 1000 right-hand sides a tick"));
     EXPECT_TRUE(holds(words, "times step 460, limit 450; use method stiff, or a smaller step"));
-    EXPECT_TRUE(holds(refused(method, oscillating(460), {.linear = true}), "use method exact, or"));
-    EXPECT_EQ(refused(method, oscillating(460, 24)), words);
-    EXPECT_TRUE(holds(refused(method, oscillating(460, 25)), "use method stiff with at most 24 masses, or"));
+    EXPECT_TRUE(holds(refusalOfMethod(method, oscillating(460), {.linear = true}), "use method exact, or"));
+    EXPECT_EQ(refusalOfMethod(method, oscillating(460, 24)), words);
+    EXPECT_TRUE(holds(refusalOfMethod(method, oscillating(460, 25)), "use method stiff with at most 24 masses, or"));
   }
 }
 

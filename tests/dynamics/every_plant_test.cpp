@@ -13,7 +13,7 @@ namespace {
 using experiment::Experiment;
 using experiment::ObjectKind;
 
-struct Case {
+struct MovingPlant {
   const char* name;
   Experiment experiment;
   std::vector<double> q, rate;
@@ -47,8 +47,8 @@ Experiment surface(const char* x, const char* y, const char* z) {
 }
 
 /// With gravity, so that nothing is in a plane.
-std::vector<Case> cases() {
-  std::vector<Case> all{
+std::vector<MovingPlant> movingPlants() {
+  std::vector<MovingPlant> all{
       {"line", chain(3), {0.5}, {2}, {0.05, 0.02, 0}},
       {"line, parallel", parallel(3), {0.5}, {2}, {0.05, 0.02, 0}},
       {"free point", free(point()), {0.1, 0.2, -0.1}, {0.3, -0.2, 0.4}, {0.2, 0.1, 0.1}},
@@ -82,12 +82,12 @@ std::vector<Case> cases() {
        {-5, 0.4},
        {0.05, 0.1, -0.2}},
       {"crease", surface("0.1*u", "0.1*v", "0.04*abs(u - 0.5) + 0.02*v^3 + 0.02*u*v"), {0.2, 0.1}, {3, 1}, {0.1, 0.1, 0.05}}};
-  for (Case& c : all) c.experiment.object.gravity = {0.5, -1.2, -0.8};
+  for (MovingPlant& c : all) c.experiment.object.gravity = {0.5, -1.2, -0.8};
   return all;
 }
 
 /// Compiled and set going with its hand at rest; nothing where the method is not for it.
-Scene begun(const Case& c, const char* method, double step) {
+Scene begun(const MovingPlant& c, const char* method, double step) {
   Scene scene;
   try {
     scene = compileScene(c.experiment, {method, step, 0});
@@ -101,7 +101,7 @@ Scene begun(const Case& c, const char* method, double step) {
 
 // Springs, gravity and motion change among each other: what is held by a hand at rest keeps their sum.
 TEST(EveryPlant, KeepsItsEnergyWhereNothingTakesIt) {
-  for (const Case& c : cases())
+  for (const MovingPlant& c : movingPlants())
     for (const char* method : {"auto", "abm", "adaptive", "stiff"}) {
       const Scene scene = begun(c, method, 1e-3);
       if (!scene.plant) continue;
@@ -117,7 +117,7 @@ TEST(EveryPlant, KeepsItsEnergyWhereNothingTakesIt) {
 // Every damper and a force from outside: by Simpson's rule over ticks of a tenth of a millisecond.
 TEST(EveryPlant, LosesWhatItsDampersTakeAndGainsWhatAForceGives) {
   constexpr double kStep = 2e-4;
-  for (Case c : cases()) {
+  for (MovingPlant c : movingPlants()) {
     Experiment& e = c.experiment;
     experiment::Object& o = e.object;
     o.viscosity = 0.8;
@@ -159,7 +159,7 @@ TEST(EveryPlant, LosesWhatItsDampersTakeAndGainsWhatAForceGives) {
 // By central differences over steps of 20 us, whose own error is their square.
 TEST(EveryPlant, VelocitiesAndAccelerationsAreTheRatesOfThePlaces) {
   constexpr double kStep = 2e-5;
-  for (Case c : cases()) {
+  for (MovingPlant c : movingPlants()) {
     c.experiment.object.viscosity = 0.8;
     for (const char* method : {"auto", "adaptive"}) {
       const Scene scene = begun(c, method, kStep);
@@ -188,7 +188,7 @@ TEST(EveryPlant, VelocitiesAndAccelerationsAreTheRatesOfThePlaces) {
 
 // Whoever is let go feels no hand, and whoever is held again feels it as before.
 TEST(EveryPlant, TheCouplingForceIsTheSpringsAndDampersOfTheHand) {
-  for (Case c : cases()) {
+  for (MovingPlant c : movingPlants()) {
     Experiment& e = c.experiment;
     const bool side = e.object.kind == ObjectKind::Parallel;
     if (side) e.object.damping.assign(e.object.stiffness.size(), 3);
@@ -216,7 +216,7 @@ TEST(EveryPlant, TheCouplingForceIsTheSpringsAndDampersOfTheHand) {
 
 // Neither the method's history, nor a chart, a branch or what was met on the way is left in it.
 TEST(EveryPlant, ThatIsPutUpAgainMovesToTheBitAsANewOneDoes) {
-  for (const Case& c : cases())
+  for (const MovingPlant& c : movingPlants())
     for (const char* method : {"auto", "abm", "adaptive", "stiff"}) {
       const Scene used = begun(c, method, 1e-3), fresh = begun(c, method, 1e-3);
       if (!used.plant) continue;
@@ -238,7 +238,7 @@ TEST(EveryPlant, ThatIsPutUpAgainMovesToTheBitAsANewOneDoes) {
 
 // The same scene by ever shorter ticks of RK4 comes to where the adaptive method is.
 TEST(EveryPlant, Rk4ComesToTheSamePlace) {
-  for (const Case& c : cases()) {
+  for (const MovingPlant& c : movingPlants()) {
     if (std::string(c.name).starts_with("kink") || std::string(c.name) == "crease") continue;  // a fixed step knows no corner's moment
     const HandFunction hand = [&](double t) { return HandSample{c.hand + t * Vec3{0.3, -0.2, 0.1}, {0.3, -0.2, 0.1}, true}; };
     const Scene rk4 = begun(c, "rk4", 2e-4), sure = begun(c, "adaptive", 1e-3);

@@ -17,6 +17,8 @@
 
 namespace reachlab::dynamics {
 
+inline constexpr double kTick = 1e-3;  // [s] a servo cycle
+
 inline experiment::Experiment makeExperiment(experiment::ObjectKind kind, std::vector<double> masses, std::vector<double> stiffness,
                                              experiment::Coupling coupling = {600, 0}) {
   experiment::Experiment e;
@@ -106,6 +108,11 @@ inline Scene freeScene(const experiment::Experiment& e, const std::vector<double
   scene.plant->setCoupled(false);
   scene.plant->place(q, rate);
   return scene;
+}
+
+/// The sentence with which the scene of an experiment is refused. Empty if it is compiled.
+inline std::string refusalOfScene(const experiment::Experiment& e, const SceneOptions& options = {}) {
+  return refusalOf([&] { (void)compileScene(e, options); });
 }
 
 }  // namespace reachlab::dynamics

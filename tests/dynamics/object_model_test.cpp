@@ -13,7 +13,7 @@ namespace {
 
 using experiment::ObjectKind;
 
-std::string refused(const experiment::Experiment& e) {
+std::string refusalOfObject(const experiment::Experiment& e) {
   return refusalOf([&] { (void)makeObjectModel(e); });
 }
 
@@ -48,9 +48,9 @@ TEST(ObjectModel, OfSeveralHandsASpringIsTheSum) {
   EXPECT_EQ(model.handStiffness, (std::vector<double>{110, 20, 230}));
   EXPECT_EQ(model.handDamping, (std::vector<double>{1.1, 0.2, 2.3}));
   e.hands[1].stiffness = {-1};
-  EXPECT_TRUE(holds(refused(e), "the hand's stiffness of spring 3 is -1"));
+  EXPECT_TRUE(holds(refusalOfObject(e), "the hand's stiffness of spring 3 is -1"));
   e.hands[1] = {3, {1}, {-2}, {}};
-  EXPECT_TRUE(holds(refused(e), "the hand's damping of spring 3 is -2"));
+  EXPECT_TRUE(holds(refusalOfObject(e), "the hand's damping of spring 3 is -2"));
 }
 
 TEST(ObjectModel, WhatNoMethodCanIntegrateIsRefusedByItsNameAndPlace) {
@@ -76,16 +76,16 @@ TEST(ObjectModel, WhatNoMethodCanIntegrateIsRefusedByItsNameAndPlace) {
                              "stiffness_n_per_m has 2 numbers where 1 are needed"}}) {
     experiment::Experiment e = good;
     c.spoil(e);
-    EXPECT_TRUE(holds(refused(e), c.words)) << c.words;
+    EXPECT_TRUE(holds(refusalOfObject(e), c.words)) << c.words;
   }
-  EXPECT_EQ(refused(good), "");
-  EXPECT_EQ(refused(makeExperiment(ObjectKind::Chain, {1, 2}, {0}, {0, 0})), "") << "no spring at all is allowed";
-  EXPECT_TRUE(holds(refused(makeExperiment(ObjectKind::Parallel, {1, 2}, {40})), "has 1 numbers where 2 are needed"));
+  EXPECT_EQ(refusalOfObject(good), "");
+  EXPECT_EQ(refusalOfObject(makeExperiment(ObjectKind::Chain, {1, 2}, {0}, {0, 0})), "") << "no spring at all is allowed";
+  EXPECT_TRUE(holds(refusalOfObject(makeExperiment(ObjectKind::Parallel, {1, 2}, {40})), "has 1 numbers where 2 are needed"));
 }
 
 TEST(ObjectModel, FiveHundredAndTwelveMassesAreTheMost) {
-  EXPECT_EQ(refused(makeChain(512, 0.1, 600)), "");
-  EXPECT_EQ(refused(makeChain(513, 0.1, 600)), "more than 512 masses");
+  EXPECT_EQ(refusalOfObject(makeChain(512, 0.1, 600)), "");
+  EXPECT_EQ(refusalOfObject(makeChain(513, 0.1, 600)), "more than 512 masses");
 }
 
 // Of the hand 100 and 2, of the neighbours 30, 50 and 4, 6, of the medium 1: Gershgorin's disc of each mass in turn decides.

@@ -47,7 +47,7 @@ std::vector<double> followed(const ObjectModel& m, bool coupled, double dt, cons
   return y;
 }
 
-ObjectModel chain(int n, double stiffness) {
+ObjectModel chainModel(int n, double stiffness) {
   ObjectModel m;
   m.kind = experiment::ObjectKind::Chain;
   m.viscosity = 0.4;
@@ -90,20 +90,20 @@ TEST(Propagator, IsWhatManyShortStepsComeTo) {
   for (const int n : {1, 2, 3, 5})
     for (const bool coupled : {true, false}) {
       SCOPED_TRACE(n);
-      expectFollowed(chain(n, 200), coupled, 5e-3, 400, 1e-12);
+      expectFollowed(chainModel(n, 200), coupled, 5e-3, 400, 1e-12);
     }
 }
 
 // Over a whole turn of the fastest mode: by halved steps that are doubled back.
 TEST(Propagator, OfALongStepIsThatOfManyAsWell) {
-  for (const bool coupled : {true, false}) expectFollowed(chain(3, 200), coupled, 0.2, 4000, 1e-10);
+  for (const bool coupled : {true, false}) expectFollowed(chainModel(3, 200), coupled, 0.2, 4000, 1e-10);
 }
 
 // Above 24 masses in 64 bits.
 TEST(Propagator, OfManyMassesIsTheSame) {
   for (const int n : {24, 25}) {
     SCOPED_TRACE(n);
-    expectFollowed(chain(n, 200), true, 0.02, 400, 1e-11);
+    expectFollowed(chainModel(n, 200), true, 0.02, 400, 1e-11);
   }
 }
 

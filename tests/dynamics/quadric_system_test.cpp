@@ -21,7 +21,7 @@ void evaluateSphere(const void*, const double*, double u, double v, constraints:
   p.rV = kRadius * Vec3{cv * cu, cv * su, -sv};
 }
 
-constraints::Constraint sphere() {
+constraints::Constraint countedSphere() {
   constraints::Constraint c;
   c.surface.function = evaluateSphere;
   c.domain[0] = {0, 2 * std::numbers::pi, true};
@@ -29,7 +29,7 @@ constraints::Constraint sphere() {
   return c;
 }
 
-ObjectModel bead() {
+ObjectModel beadModel() {
   ObjectModel model;
   model.mass = {1};
   model.handStiffness = {600};
@@ -39,8 +39,8 @@ ObjectModel bead() {
 
 // On a sphere the state is a place, from which the formula's parameters are searched: a few evaluations, many times what a step costs.
 TEST(QuadricSystem, OnlyWhoObservesPaysForTheSearchOfParameters) {
-  const constraints::Constraint on = sphere();
-  const ObjectModel model = bead();
+  const constraints::Constraint on = countedSphere();
+  const ObjectModel model = beadModel();
   const QuadricSystem system(model, on, *fitQuadric(on.surface, on.domain, {0.4, 1}));
   const std::unique_ptr<Plant> plant = makePlant<SystemPlant<QuadricSystem>>(model, system, {"auto", 0});
   const std::array start{0.4, 1.0};

@@ -5,10 +5,11 @@
 
 #include <numbers>
 
+#include "tests/constraints/made_constraints.h"
+
 namespace reachlab::dynamics {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 // Ten coefficients found to 1e-15 of a surface of 0.1 m.
 constexpr double kOffSurface = 1e-15;  // [m]
 
@@ -24,13 +25,14 @@ constraints::Surface ellipsoid() {
   });
 }
 const std::array<constraints::Domain, 2> kAnywhere{};
-const std::array<constraints::Domain, 2> kRound{constraints::Domain{0, 2 * kPi, true}, constraints::Domain{0, kPi, false}};
+const std::array<constraints::Domain, 2> kRound{constraints::Domain{0, 2 * std::numbers::pi, true},
+                                                constraints::Domain{0, std::numbers::pi, false}};
 
 TEST(Quadric, HoldsTheSphereAndPointsOutward) {
   const std::optional<Quadric> q = fitQuadric(sphere(), kRound, {0, 1});
   ASSERT_TRUE(q);
   for (double u = 0.05; u < 6; u += 0.31)
-    for (double v = 0.0; v <= kPi; v += 0.17) {
+    for (double v = 0.0; v <= std::numbers::pi; v += 0.17) {
       const Vec3 r = constraints::evaluate(sphere(), u, v).r;
       EXPECT_LT(std::abs(q->value(r)), kOffSurface);
       const Vec3 gradient = q->gradient(r);
@@ -72,7 +74,6 @@ TEST(Quadric, ItsGradientIsTheSlopeOfItsValueAndOfOrderOne) {
 
 /// The quadric of a typed surface, over the whole plane.
 std::optional<Quadric> fitted(const constraints::Constraint& c) { return fitQuadric(c.surface, c.domain, {0.3, 0.2}); }
-constraints::Constraint typed(const char* x, const char* y, const char* z) { return constraints::makeConstraint({.surface = {x, y, z}}); }
 
 TEST(Quadric, IsProvedOfEveryFormOfSecondDegree) {
   for (const auto& [x, y, z] : {std::tuple{"0.1*cos(u)*cos(v)", "0.08*sin(u)*cos(v)", "0.06*sin(v)"},
@@ -83,7 +84,7 @@ TEST(Quadric, IsProvedOfEveryFormOfSecondDegree) {
                                 {"0.1*cos(u)*cos(v) + 0.03*sin(v)", "0.08*sin(u)*cos(v) + 0.02*sin(v)", "0.06*sin(v) + 0.01*cos(u)*cos(v)"},
                                 {"v*cos(u)/10", "v*sin(u)/10", "v/10"},
                                 {"0.1*cosh(v)*cos(u)", "0.1*cosh(v)*sin(u)", "0.1*sinh(v)"}}) {
-    const constraints::Constraint c = typed(x, y, z);
+    const constraints::Constraint c = constraints::surface({x, y, z});
     const std::optional<Quadric> q = fitted(c);
     ASSERT_TRUE(q) << z;
     EXPECT_TRUE(provesQuadric(c, *q)) << x << ", " << y << ", " << z;
@@ -105,7 +106,7 @@ TEST(Quadric, IsProvedOfEveryFormOfSecondDegree) {
 
 // Between the samples a bump may stand that no sample sees.
 TEST(Quadric, ABumpBetweenTheSamplesIsNotOfSecondDegree) {
-  const constraints::Constraint c = typed("0.1*u", "0.1*v", "0.05*(u^2 + v^2) + 0.01*exp(-1e6*(u - 0.0123)^2)");
+  const constraints::Constraint c = constraints::surface({"0.1*u", "0.1*v", "0.05*(u^2 + v^2) + 0.01*exp(-1e6*(u - 0.0123)^2)"});
   const std::optional<Quadric> q = fitted(c);
   ASSERT_TRUE(q);
   EXPECT_FALSE(provesQuadric(c, *q));
@@ -120,7 +121,7 @@ TEST(Quadric, AConeHasAnApexAndTwoPlanesALineOfThem) {
                                       {"0.1*cos(u)", "0.07*sin(u)", "0.1*v", false},
                                       {"0.1*u", "0.1*v", "0.05*(u^2 + v^2)", false},
                                       {"0.1*u", "0.1*v", "0.05*u*v", false}}) {
-    const std::optional<Quadric> q = fitted(typed(x, y, z));
+    const std::optional<Quadric> q = fitted(constraints::surface({x, y, z}));
     ASSERT_TRUE(q) << z;
     EXPECT_EQ(hasApex(*q), apex) << x << ", " << y << ", " << z;
   }
@@ -171,11 +172,11 @@ TEST(Quadric, RefusesWhatIsNotOfSecondDegreeOrNotUnique) {
                                       {"0.1*u", "0.1*v", "0.02*u", "a plane: many hold it"},
                                       {"0.1*u", "0.1*v", "0.05*u^2 + 0.01*sqrt(v)", "not finite everywhere"},
                                       {"0.1*u", "0.1*v", "0.05*(u^2 + v^2) + 1e-6*u^3", "nearly"}})
-    EXPECT_FALSE(fitted(typed(x, y, z))) << what;
+    EXPECT_FALSE(fitted(constraints::surface({x, y, z}))) << what;
   const auto ends = [](double lo, double hi) { return std::array{constraints::Domain{lo, hi}, constraints::Domain{lo, hi}}; };
-  const constraints::Constraint root = typed("0.1*u", "0.1*v", "0.05*sqrt(2 + u^2 + v^2 - u)");
+  const constraints::Constraint root = constraints::surface({"0.1*u", "0.1*v", "0.05*sqrt(2 + u^2 + v^2 - u)"});
   EXPECT_TRUE(fitQuadric(root.surface, ends(-5, 5), {0, 0}));
-  const constraints::Constraint half = typed("0.1*u", "0.1*v", "0.05*sqrt(u)");
+  const constraints::Constraint half = constraints::surface({"0.1*u", "0.1*v", "0.05*sqrt(u)"});
   EXPECT_TRUE(fitQuadric(half.surface, {constraints::Domain{0, 4}, constraints::Domain{}}, {7, 0})) << "sampled within its domain";
   EXPECT_TRUE(fitQuadric(half.surface, kAnywhere, {3, 0})) << "or three to either side of the start";
   EXPECT_FALSE(fitQuadric(half.surface, kAnywhere, {2, 0}));

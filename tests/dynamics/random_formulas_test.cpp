@@ -17,13 +17,12 @@
 namespace reachlab::dynamics {
 namespace {
 
-constexpr double kKept = 1e-9;         // of the energy, over 2 s
-constexpr double kMostStopped = 0.05;  // of those proved smooth
-constexpr double kRounding = 1e-13;    // of a place: some formulas lie 1e6 m away
-constexpr double kSpeed = 0.3;         // [m/s]
+constexpr double kKept = 1e-9;            // of the energy, over 2 s
+constexpr double kMostStopped = 0.05;     // of those proved smooth
+constexpr double kPlaceRounding = 1e-13;  // of a place: some formulas lie 1e6 m away
+constexpr double kSpeed = 0.3;            // [m/s]
 constexpr int kTicks = 2000;
-constexpr double kTick = 1e-3;  // [s]
-constexpr double kBox = 1;      // about the start, where a surface is to be proved smooth
+constexpr double kBox = 1;  // about the start, where a surface is to be proved smooth
 
 class Writer {
  public:
@@ -141,7 +140,7 @@ void tryOne(std::uint64_t seed, Tally& tally) {
     }
     const Vec3 last = masses[0].r;
     scene.plant->observe({}, masses);
-    if (const double way = norm(masses[0].r - last); !(way <= kSpeed * kTick * (1 + 1e-6) + kRounding * norm(last))) {
+    if (const double way = norm(masses[0].r - last); !(way <= kSpeed * kTick * (1 + 1e-6) + kPlaceRounding * norm(last))) {
       ADD_FAILURE() << "jumped by " << way << " m after " << i + 1 << " ms, " << scene.choice.form << ", " << describe(status);
       return;
     }

@@ -11,14 +11,14 @@
 namespace reachlab::dynamics {
 namespace {
 
-constexpr double kTooLow = 3;        // times: how far the estimate may fall short of the truth
-constexpr double kStep = 0.01;       // [s] long enough for errors far above rounding
-constexpr double kRounding = 1e-10;  // [m]
+constexpr double kTooLow = 3;               // times: how far the estimate may fall short of the truth
+constexpr double kLongStep = 0.01;          // [s] long enough for errors far above rounding
+constexpr double kNegligibleError = 1e-10;  // [m]
 
 /// Largest distance from the adaptive method's places over the reach along the chord.
 double trueError(const experiment::Experiment& e) {
   const experiment::Task& task = *e.task;
-  Scene rk4 = compileScene(e, {"rk4", kStep, 0}), exact = compileScene(e, {"adaptive", kStep, 0});
+  Scene rk4 = compileScene(e, {"rk4", kLongStep, 0}), exact = compileScene(e, {"adaptive", kLongStep, 0});
   const constraints::Constraint& c = *rk4.constraint;
   const Vec3 start = placeOn(c, task.start), chord = placeOn(c, task.target) - start;
   const HandFunction hand = [&](double t) {
@@ -27,9 +27,9 @@ double trueError(const experiment::Experiment& e) {
   };
   double most = 0;
   std::vector<MassState> a(1), b(1);
-  for (int i = 0; i < static_cast<int>(task.duration / kStep); ++i) {
-    const HandSegment segment = makeSegment(hand, i * kStep, kStep);
-    if (rk4.plant->step(segment, kStep) != StepStatus::Ok || exact.plant->step(segment, kStep) != StepStatus::Ok) break;
+  for (int i = 0; i < static_cast<int>(task.duration / kLongStep); ++i) {
+    const HandSegment segment = makeSegment(hand, i * kLongStep, kLongStep);
+    if (rk4.plant->step(segment, kLongStep) != StepStatus::Ok || exact.plant->step(segment, kLongStep) != StepStatus::Ok) break;
     rk4.plant->observe({}, a);
     exact.plant->observe({}, b);
     most = std::max(most, norm(a[0].r - b[0].r));
@@ -48,12 +48,12 @@ TEST(Rk4Error, IsForetoldToAFactorOfThreeOnTheCatalogue) {
     e.task = task;
     double foretold = 0;
     try {
-      foretold = compileScene(e, {"rk4", kStep, 0}).choice.predictedError;
+      foretold = compileScene(e, {"rk4", kLongStep, 0}).choice.predictedError;
     } catch (const std::exception&) {
       continue;  // refused in words: a start on a cusp, say
     }
     const double error = trueError(e);
-    if (error < kRounding) continue;
+    if (error < kNegligibleError) continue;
     ++judged;
     EXPECT_GT(foretold * kTooLow, error) << d.name;
   }

@@ -14,58 +14,55 @@ using experiment::Experiment;
 using experiment::ObjectKind;
 
 Experiment bead() { return makePoint(1, {600, 5}); }
-std::string refused(const Experiment& e, const SceneOptions& options = {}) {
-  return refusalOf([&] { (void)compileScene(e, options); });
-}
 Experiment ellipse(double a, double b) { return onCurve(bead(), std::to_string(a) + "*cos(phi)", std::to_string(b) + "*sin(phi)", "0"); }
 
 TEST(Scene, AStepIsAboveNothingAndFinite) {
   for (const double step : {0.0, -1e-3, std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
-    EXPECT_TRUE(holds(refused(bead(), {"", step, 0}), "the step must be positive, not ")) << step;
-  EXPECT_EQ(refused(bead(), {"", 1e-9, 0}), "");
+    EXPECT_TRUE(holds(refusalOfScene(bead(), {"", step, 0}), "the step must be positive, not ")) << step;
+  EXPECT_EQ(refusalOfScene(bead(), {"", 1e-9, 0}), "");
   EXPECT_EQ(SceneOptions{}.step, 0.001);
   EXPECT_EQ(SceneOptions{}.tolerance, 0);
 }
 
 TEST(Scene, AStartHasAsManyNumbersAsTheConstraint) {
   const Experiment line = bead(), open = free(bead()), sphere = onSurface("0.1*cos(u)*cos(v)", "0.1*sin(u)*cos(v)", "0.1*sin(v)");
-  EXPECT_EQ(refused(from(line, {1}, {2})), "");
-  EXPECT_EQ(refused(from(sphere, {1, 0.2}, {2, 0.1})), "");
-  EXPECT_EQ(refused(from(open, {1, 2, 3}, {2, 1, 0})), "");
-  EXPECT_TRUE(holds(refused(from(line, {1, 2}, {2})), "the start has 2 numbers where the constraint has 1"));
-  EXPECT_TRUE(holds(refused(from(sphere, {1}, {2, 0.1})), "the start has 1 numbers where the constraint has 2"));
-  EXPECT_TRUE(holds(refused(from(open, {1, 2}, {2, 1, 0})), "the start has 2 numbers where the constraint has 3"));
-  EXPECT_EQ(refused(from(open, {-1, 2, std::numeric_limits<double>::quiet_NaN()}, {2, 1, 0})), "the start is not finite");
+  EXPECT_EQ(refusalOfScene(from(line, {1}, {2})), "");
+  EXPECT_EQ(refusalOfScene(from(sphere, {1, 0.2}, {2, 0.1})), "");
+  EXPECT_EQ(refusalOfScene(from(open, {1, 2, 3}, {2, 1, 0})), "");
+  EXPECT_TRUE(holds(refusalOfScene(from(line, {1, 2}, {2})), "the start has 2 numbers where the constraint has 1"));
+  EXPECT_TRUE(holds(refusalOfScene(from(sphere, {1}, {2, 0.1})), "the start has 1 numbers where the constraint has 2"));
+  EXPECT_TRUE(holds(refusalOfScene(from(open, {1, 2}, {2, 1, 0})), "the start has 2 numbers where the constraint has 3"));
+  EXPECT_EQ(refusalOfScene(from(open, {-1, 2, std::numeric_limits<double>::quiet_NaN()}, {2, 1, 0})), "the start is not finite");
 }
 
 TEST(Scene, AStartLiesWithinTheDomainOrOnItsEnds) {
   const Experiment curve = onDefinition(bead(), "curve", R"(["0.1*phi", "0.1*phi^2", "0"])", "[-1, 2]", "stop");
-  for (const double start : {-1.0, 0.3, 2.0}) EXPECT_EQ(refused(from(curve, {start}, {1})), "") << start;
+  for (const double start : {-1.0, 0.3, 2.0}) EXPECT_EQ(refusalOfScene(from(curve, {start}, {1})), "") << start;
   for (const double start : {-1.01, 2.01})
-    EXPECT_TRUE(holds(refused(from(curve, {start}, {1})), "lies outside the constraint's domain, -1 to 2")) << start;
+    EXPECT_TRUE(holds(refusalOfScene(from(curve, {start}, {1})), "lies outside the constraint's domain, -1 to 2")) << start;
   const Experiment patch = onDefinition(bead(), "surface", R"(["0.1*u", "0.1*v", "0.05*u*v^2"])", "[[-1, 1], [-2, 2]]", "stop");
-  EXPECT_EQ(refused(from(patch, {1, -2}, {0, 0})), "");
-  EXPECT_TRUE(holds(refused(from(patch, {0, 2.1}, {0, 0})), "the start 2.1 lies outside the constraint's domain, -2 to 2"));
-  EXPECT_TRUE(holds(refused(from(patch, {1.1, 0}, {0, 0})), "the start 1.1 lies outside"));
-  EXPECT_EQ(refused(from(ellipse(0.1, 0.06), {20}, {21})), "") << "a period has no ends";
+  EXPECT_EQ(refusalOfScene(from(patch, {1, -2}, {0, 0})), "");
+  EXPECT_TRUE(holds(refusalOfScene(from(patch, {0, 2.1}, {0, 0})), "the start 2.1 lies outside the constraint's domain, -2 to 2"));
+  EXPECT_TRUE(holds(refusalOfScene(from(patch, {1.1, 0}, {0, 0})), "the start 1.1 lies outside"));
+  EXPECT_EQ(refusalOfScene(from(ellipse(0.1, 0.06), {20}, {21})), "") << "a period has no ends";
 }
 
 TEST(Scene, ObjectsAreRefusedWhereTheyCannotMove) {
   Experiment body = makeExperiment(ObjectKind::Body, {2}, {}, {600, 0});
   body.object.inertia = {{{0.01, 0, 0}, {0, 0.02, 0}, {0, 0, 0.025}}};
-  EXPECT_EQ(refused(onCurve(body, "0.1*cos(phi)", "0.1*sin(phi)", "0")),
+  EXPECT_EQ(refusalOfScene(onCurve(body, "0.1*cos(phi)", "0.1*sin(phi)", "0")),
             "a body moves in free space only; use point, chain or parallel on a curve");
   Experiment chain = onSurface("0.1*cos(u)*cos(v)", "0.1*sin(u)*cos(v)", "0.1*sin(v)");
   chain.object = makeChain(2, 0.5, 100).object;
-  EXPECT_EQ(refused(chain), "on a surface only a point moves; use a curve, or one mass");
+  EXPECT_EQ(refusalOfScene(chain), "on a surface only a point moves; use a curve, or one mass");
   body.constraint.surface = chain.constraint.surface;
-  EXPECT_EQ(refused(body), "on a surface only a point moves; use a curve, or one mass");
-  EXPECT_TRUE(holds(refused(from(onSurface("u/10", "v/10", "sqrt(u)"), {-0.5, 0}, {1, 1})),
+  EXPECT_EQ(refusalOfScene(body), "on a surface only a point moves; use a curve, or one mass");
+  EXPECT_TRUE(holds(refusalOfScene(from(onSurface("u/10", "v/10", "sqrt(u)"), {-0.5, 0}, {1, 1})),
                     "the surface has no value at the start u = -0.5, v = 0"));
 }
 
 TEST(Scene, AnInertiaIsSymmetricAndPositiveDefinite) {
-  const auto with = [](const std::array<std::array<double, 3>, 3>& inertia) { return refused(makeBody(inertia)); };
+  const auto with = [](const std::array<std::array<double, 3>, 3>& inertia) { return refusalOfScene(makeBody(inertia)); };
   EXPECT_EQ(with({{{2, 0.3, 0.1}, {0.3, 3, 0.2}, {0.1, 0.2, 4}}}), "");
   EXPECT_EQ(with({{{2, 0, 0}, {0, 3, 0}, {0, 0, 2e-12}}}), "") << "thin, but a body";
   for (const auto& wrong : {std::array<std::array<double, 3>, 3>{{{2, 0.3, 0.1}, {0.31, 3, 0.2}, {0.1, 0.2, 4}}},
@@ -104,7 +101,7 @@ TEST(Scene, AStraightLineWithElasticEndsIsLeftToSubSteps) {
   EXPECT_EQ(chosen("[-1, 2]", "stop").method, "exact");
   EXPECT_EQ(compileScene(bead()).choice.method, "exact");
   Experiment still = onCurve(bead(), "0.1", "0.2", "0.3");
-  EXPECT_NE(refused(still), "");
+  EXPECT_NE(refusalOfScene(still), "");
 }
 
 // |r_phi| of an ellipse goes from b to a.
@@ -143,7 +140,7 @@ TEST(Scene, TheLargestSpeedCountsUpToEightTimesTheUsualOne) {
 // 2^-53 phi 0.1 m are 1e-13 m, and 1e-15 of |r|, at phi = 9016; of a circle whole turns are taken off.
 TEST(Scene, ASpiralsStartIsNotSoFarThatItsPhiIsRounded) {
   const auto starting = [](double phi, const char* z) {
-    return refused(from(onCurve(bead(), "0.1*cos(phi)", "0.1*sin(phi)", z), {phi}, {phi + 1}));
+    return refusalOfScene(from(onCurve(bead(), "0.1*cos(phi)", "0.1*sin(phi)", z), {phi}, {phi + 1}));
   };
   EXPECT_EQ(starting(9010, "phi/1e7"), "");
   EXPECT_TRUE(holds(starting(9025, "phi/1e7"), "is so far from 0 that a rounding of phi moves the mass by 1e-13 m"));
@@ -187,28 +184,28 @@ TEST(Scene, SeveralHandsAreComputedByRk4Alone) {
     EXPECT_TRUE(scene.choice.reason.starts_with("several hands hold the object: rk4, one step a tick; ")) << scene.choice.reason;
     EXPECT_EQ(static_cast<Plant*>(scene.shared), scene.plant.get());
   }
-  EXPECT_TRUE(holds(refused(e, {"abm", 1e-3, 0}), "method abm is for one hand; several hands are computed by rk4: use auto or rk4"));
+  EXPECT_TRUE(holds(refusalOfScene(e, {"abm", 1e-3, 0}), "method abm is for one hand; several hands are computed by rk4: use auto or rk4"));
   EXPECT_EQ(compileScene(ellipse(0.1, 0.06)).shared, nullptr);
 }
 
 TEST(Scene, SeveralHandsNeedASmoothCurveThatMovesOnEvenly) {
-  EXPECT_TRUE(holds(refused(twoHands(ellipse(0.1, 0.00099))), "|r_phi| falls to 0.0099 of its largest (a cusp, or nearly one)"));
-  EXPECT_FALSE(holds(refused(twoHands(ellipse(0.1, 0.00101))), "falls to"));
-  EXPECT_TRUE(holds(refused(twoHands(onCurve(bead(), "phi/10", "0.05*abs(phi - 2)", "0"))),
+  EXPECT_TRUE(holds(refusalOfScene(twoHands(ellipse(0.1, 0.00099))), "|r_phi| falls to 0.0099 of its largest (a cusp, or nearly one)"));
+  EXPECT_FALSE(holds(refusalOfScene(twoHands(ellipse(0.1, 0.00101))), "falls to"));
+  EXPECT_TRUE(holds(refusalOfScene(twoHands(onCurve(bead(), "phi/10", "0.05*abs(phi - 2)", "0"))),
                     "several hands need a curve that is smooth throughout"));
   const auto ended = [](const char* atEnd) {
-    return refused(twoHands(onDefinition(bead(), "curve", R"(["0.1*phi", "0.1*phi^2", "0"])", "[-1, 2]", atEnd)));
+    return refusalOfScene(twoHands(onDefinition(bead(), "curve", R"(["0.1*phi", "0.1*phi^2", "0"])", "[-1, 2]", atEnd)));
   };
   EXPECT_TRUE(holds(ended("bounce"), "several hands need a curve without elastic ends"));
   EXPECT_EQ(ended("stop"), "");
-  EXPECT_TRUE(holds(refused(twoHands(onSurface("u/10", "v/10", "0.05*sin(u)*v"))), "and in free space, not on surfaces"));
+  EXPECT_TRUE(holds(refusalOfScene(twoHands(onSurface("u/10", "v/10", "0.05*sin(u)*v"))), "and in free space, not on surfaces"));
 }
 
 TEST(Scene, SeveralHandsAreWarnedAboveAMicrometreAndRefusedAboveATenthOfAMillimetre) {
   const Experiment e = from(twoHands(ellipse(0.1, 0.06)), {0.2}, {2});
   int silent = 0, warned = 0, without = 0;
   for (double step = 1e-3; step < 0.08; step *= 1.25) {
-    const std::string words = refused(e, {"", step, 0});
+    const std::string words = refusalOfScene(e, {"", step, 0});
     if (!words.empty()) {
       if (holds(words, "unstable")) break;
       ++without;

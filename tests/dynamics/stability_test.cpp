@@ -10,7 +10,6 @@
 namespace reachlab::dynamics {
 namespace {
 
-constexpr double kStep = 1e-3;
 constexpr double kWithin = 0.01;  // the analysis is asked to be this near to where RK4 really breaks
 
 struct Limit {
@@ -45,7 +44,7 @@ double findLimit(const Limit& limit) {
   double stable = limit.stable, unstable = limit.unstable;
   for (int round = 0; round < 100 && std::abs(unstable - stable) > 1e-9 * std::abs(stable); ++round) {
     const double middle = 0.5 * (stable + unstable);
-    (isRk4Stable(computeEigenvalues(makeObjectModel(limit.experiment(middle))), kStep) ? stable : unstable) = middle;
+    (isRk4Stable(computeEigenvalues(makeObjectModel(limit.experiment(middle))), kTick) ? stable : unstable) = middle;
   }
   return stable;
 }
@@ -61,7 +60,7 @@ double energyGrowth(const experiment::Experiment& e) {
   const HandSegment held = heldSegment(hand.position);
   double early = 0;
   for (int i = 0; i < 20000; ++i) {
-    if (plant->step(held, kStep) != StepStatus::Ok) return std::numeric_limits<double>::infinity();
+    if (plant->step(held, kTick) != StepStatus::Ok) return std::numeric_limits<double>::infinity();
     if (i == 1000) early = plant->energy(hand);
   }
   const double growth = plant->energy(hand) / early;
@@ -144,8 +143,8 @@ TEST(Stability, OfManyMassesAStrongDamperIsSeenAsWell) {
   experiment::Experiment e = makeChain(101, 0.5, 0, {0, 0});
   e.object.viscosity = 0.5 * 2800;
   const auto eigenvalues = computeEigenvalues(makeObjectModel(e));
-  EXPECT_FALSE(isRk4Stable(eigenvalues, kStep));
-  EXPECT_TRUE(isRk4Stable(eigenvalues, kStep * 2.78 / 2.8));
+  EXPECT_FALSE(isRk4Stable(eigenvalues, kTick));
+  EXPECT_TRUE(isRk4Stable(eigenvalues, kTick * 2.78 / 2.8));
   EXPECT_NEAR(findRk4StepLimit(eigenvalues), kRk4RealLimit / 2800, 1e-9 / 2800);
 }
 

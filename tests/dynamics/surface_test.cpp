@@ -5,6 +5,7 @@
 #include "sim/dynamics/rk4_error.h"
 #include "sim/dynamics/systems/quadric.h"
 #include "sim/experiment/experiment.h"
+#include "tests/constraints/made_constraints.h"
 #include "tests/dynamics/make_experiment.h"
 
 namespace reachlab::dynamics {
@@ -21,7 +22,6 @@ ObjectModel held() {
   m.gravity = {0.5, -1.2, -0.8};
   return m;
 }
-constraints::Constraint typed(const char* x, const char* y, const char* z) { return constraints::makeConstraint({.surface = {x, y, z}}); }
 
 /// One surface of second degree, in its own parameters and in world coordinates.
 struct Both {
@@ -58,7 +58,7 @@ TEST(Surface, OfSecondDegreeIsTheSameInItsParametersAndInTheWorld) {
                                 {"0.1*cos(u)", "0.07*sin(u) + 0.02*cos(u)", "0.1*v"}})
     for (const char* method : {"adaptive", "abm"}) {
       SCOPED_TRACE(testing::Message() << x << ", " << y << ", " << z << " by " << method);
-      Both both(held(), typed(x, y, z), false, method);
+      Both both(held(), constraints::surface({x, y, z}), false, method);
       const HandFunction hand = [](double t) {
         return HandSample{{0.12 - 0.1 * t, 0.1 * std::sin(3 * t), 0.05 + 0.2 * t}, {-0.1, 0.3 * std::cos(3 * t), 0.2}, true};
       };
@@ -74,7 +74,7 @@ TEST(Surface, OfSecondDegreeIsTheSameInItsParametersAndInTheWorld) {
 }
 
 constraints::Constraint patch(constraints::AtEnd atEnd) {
-  constraints::Constraint c = typed("0.1*u + 0.03*v", "0.1*v", "0.05*u*v + 0.02*u^2");
+  constraints::Constraint c = constraints::surface({"0.1*u + 0.03*v", "0.1*v", "0.05*u*v + 0.02*u^2"});
   c.domain = {constraints::Domain{-1, 0.8, false, atEnd}, constraints::Domain{-0.6, 0.9, false, atEnd}};
   return c;
 }
@@ -137,7 +137,7 @@ TEST(Surface, ElasticEdgesThrowAMassBackAlikeInBothForms) {
 
 // Far from where the parameters were known last the nearest place of the surface is looked for.
 TEST(Surface, WhoLooksSeldomIsToldTheParametersAsWell) {
-  const constraints::Constraint c = typed("0.1*cos(u)*cos(v)", "0.08*sin(u)*cos(v)", "0.06*sin(v)");
+  const constraints::Constraint c = constraints::surface({"0.1*cos(u)*cos(v)", "0.08*sin(u)*cos(v)", "0.06*sin(v)"});
   Both both(held(), c, false);
   both.each([](Plant& p) {
     p.setCoupled(false);
