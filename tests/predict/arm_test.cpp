@@ -26,7 +26,7 @@ std::array<double, 2> anglesOf(const experiment::Arm& arm, double x, double y) {
 // Everything by differences. Those that straddle the ends, where the hand's jerk begins at once, cost an error of the order of the step.
 constexpr double kUsualStep = 1e-3;
 
-double computeCost(const experiment::Arm& arm, double duration, const LineMotion& motion, double step = kUsualStep) {
+double computeTorqueCost(const experiment::Arm& arm, double duration, const LineMotion& motion, double step = kUsualStep) {
   const auto torque = [&](double t) {
     const auto at = [&](double s) { return anglesOf(arm, -0.1 + motion.position(s) - arm.shoulder[0], -arm.shoulder[1]); };
     const auto q = at(t), before = at(t - step), after = at(t + step);
@@ -69,7 +69,7 @@ TEST(Arm, CostIsTheSquaredTorqueChangeOfThePrintedEquations) {
   for (const experiment::Experiment& e : {dingwell(), away}) {
     const auto p = predict(e, Criterion::MinTorqueChange);
     const LineMotion motion = motionOf(*p, e);
-    const double coarse = computeCost(e.arm, p->duration, motion, 1e-3), fine = computeCost(e.arm, p->duration, motion, 5e-4);
+    const double coarse = computeTorqueCost(e.arm, p->duration, motion, 1e-3), fine = computeTorqueCost(e.arm, p->duration, motion, 5e-4);
     EXPECT_NEAR((2 * fine - coarse) / p->cost, 1, 1e-4);  // extrapolated to step 0
   }
 }
@@ -78,7 +78,7 @@ TEST(Arm, NoSeededPerturbationLowersTheCost) {
   const experiment::Experiment e = dingwell();
   const auto p = predict(e, Criterion::MinTorqueChange);
   const LineMotion best = motionOf(*p, e);
-  const double least = computeCost(e.arm, p->duration, best), T = p->duration;
+  const double least = computeTorqueCost(e.arm, p->duration, best), T = p->duration;
   std::mt19937 random(11);
   std::uniform_real_distribution<double> size(1e-4, 1e-3);  // [m] of the mass
   for (int trial = 0; trial < 12; ++trial) {
@@ -91,7 +91,7 @@ TEST(Arm, NoSeededPerturbationLowersTheCost) {
     const auto shift = [=](double t) { return t < 0 || t > T ? 0 : b * std::pow(std::sin(w * t), 6); };
     const LineMotion changed{[&](double t) { return best.position(t) + shift(t) + lag * acceleration(t); },
                              [&](double t) { return best.force(t) + 3 * acceleration(t); }};
-    EXPECT_GT(computeCost(e.arm, T, changed), least);
+    EXPECT_GT(computeTorqueCost(e.arm, T, changed), least);
   }
 }
 

@@ -15,8 +15,6 @@
 namespace reachlab::predict {
 namespace {
 
-constexpr double kProfile = 1e-8;  // of the peak: what the number of unknowns is chosen for
-
 experiment::Experiment onCircle(experiment::Experiment e, double radius) {
   const std::string r = std::to_string(radius);
   return onCurve(std::move(e), {r + "*sin(phi)", r + "*(1 - cos(phi))", "0"}, 0, 0.2 / radius);
@@ -88,12 +86,12 @@ TEST(CurveObject, OnWiderAndWiderCirclesItComesToTheLineWithTheSquareOfTheCurvat
   }
 }
 
-struct Arrival {
+struct CurveArrival {
   double position = 0, velocity = 0;  // largest error of any mass [m], [m/s]
   double along = 0;                   // largest distance of any mass from where it is predicted on the way [m]
 };
 
-Arrival simulate(const experiment::Experiment& e, const Prediction& p) {
+CurveArrival simulateOnCurve(const experiment::Experiment& e, const Prediction& p) {
   const dynamics::Scene scene = dynamics::compileScene(e, {"adaptive", 0.001, 1e-13});
   const constraints::ArcCurve curve(*scene.constraint, e.task->start[0], e.task->target[0]);
   scene.plant->placeAtRest(e.task->start);
@@ -107,7 +105,7 @@ Arrival simulate(const experiment::Experiment& e, const Prediction& p) {
   const auto n = static_cast<size_t>(p.massCount());
   std::vector<dynamics::MassState> masses(n);
   std::vector<double> x(n), v(n);
-  Arrival arrival;
+  CurveArrival arrival;
   for (int i = 0; i < kSteps; ++i) {
     if (scene.plant->step(dynamics::makeSegment(hand, T * i / kSteps, T / kSteps), T / kSteps) != dynamics::StepStatus::Ok)
       return {1, 1, 1};
@@ -131,7 +129,7 @@ TEST(CurveObject, ArrivesAtRestInTheSimulator) {
        {onEllipse(chainModerate()), onEllipse(damped(chainModerate(), 1, 5)), onEllipse(parallelPair()), onCircle(chainModerate(), 0.08),
         onCurve(damped(parallelPair(), 1, 5), {"0.05*cos(phi)", "0.02*phi", "0.05*sin(phi)"}, 1, 4)}) {
     const auto p = predict(e, Criterion::MinHandJerk);
-    const Arrival arrival = simulate(e, *p);
+    const CurveArrival arrival = simulateOnCurve(e, *p);
     EXPECT_LT(arrival.position, kAtRest);
     EXPECT_LT(arrival.velocity, kAtRest);
     EXPECT_LT(arrival.along, kOnTheWay);

@@ -44,7 +44,7 @@ double massVelocity(const Prediction& p, int mass, double t) {
   return v[mass];
 }
 
-double minimumJerk(double distance, double T, double t) { return 30 * distance / T * std::pow(t / T, 2) * std::pow(1 - t / T, 2); }
+double minimumJerkVelocity(double distance, double T, double t) { return 30 * distance / T * std::pow(t / T, 2) * std::pow(1 - t / T, 2); }
 
 TEST(Laws, HandDampingKeepsTheSymmetryAndObjectDampingBreaksIt) {
   const auto handDamped = predictWith(chainModerate(), MinHandForceChange, 1, 5);
@@ -59,7 +59,7 @@ TEST(Laws, StiffSpringsGiveTheMinimumJerkOfTheHand) {
   const experiment::Experiment stiff = makeChain(2, 0.5, 1e9, 1);
   const auto jerk = predict(stiff, MinHandJerk);
   EXPECT_LT(difference(
-                1, [](double t) { return minimumJerk(0.2, 1, t); }, handOf(*jerk)),
+                1, [](double t) { return minimumJerkVelocity(0.2, 1, t); }, handOf(*jerk)),
             1e-6);
   EXPECT_NEAR(jerk->cost / (720 * 0.04), 1, 1e-6);
   EXPECT_NEAR(predict(stiff, MinComAcceleration)->cost / (12 * 0.04), 1, 1e-6);

@@ -6,6 +6,8 @@
 
 namespace reachlab::predict {
 
+inline constexpr double kProfile = 1e-8;  // of the peak: what the number of unknowns is chosen for
+
 /// An experiment on the line of 0.2 m, from one end to the other.
 inline experiment::Experiment makeLineExperiment(experiment::Object object, double couplingStiffness, double duration) {
   experiment::Experiment e;

@@ -15,8 +15,6 @@
 namespace reachlab::predict {
 namespace {
 
-constexpr double kProfile = 1e-8;  // of the peak: what the number of unknowns is chosen for
-
 experiment::Experiment makeCurveExperiment(std::vector<std::string> formula, double from, double to, double duration) {
   return onCurve(makeChain(1, 1, 600, duration), std::move(formula), from, to);
 }
@@ -55,7 +53,7 @@ TEST(SurfaceJerk, OnAPlaneUnevenlyCoveredIsTheMinimumJerkAlongTheChord) {
 struct Motion {
   double rate, acceleration, jerk;
 };
-double computeCost(double curvature, double torsion, double T, const std::function<Motion(double)>& motion) {
+double computeJerkCost(double curvature, double torsion, double T, const std::function<Motion(double)>& motion) {
   const GaussRule rule = makeGaussRule(80);
   double sum = 0;
   for (size_t i = 0; i < rule.node.size(); ++i) {
@@ -93,21 +91,21 @@ TEST_P(Helix, CostIsTheFormulaInCurvatureAndTorsionAndNoneIsLower) {
     return Motion{h.velocity + bend * rate, h.acceleration + bend * acceleration, jerk + bend * third};
   };
   constexpr double kDifferences = 5e-6;  // the jerk extrapolated at the ends limits this, not the prediction
-  EXPECT_NEAR(computeCost(curvature, torsion, 1, [&](double t) { return predicted(t, 0, 1); }) / p->cost, 1, kDifferences);
+  EXPECT_NEAR(computeJerkCost(curvature, torsion, 1, [&](double t) { return predicted(t, 0, 1); }) / p->cost, 1, kDifferences);
 
   // Minimum jerk in arc length is not optimal on a bent curve.
   const double length = p->distance;
-  EXPECT_GT(computeCost(curvature, torsion, 1,
-                        [&](double t) {
-                          return Motion{30 * length * t * t * (1 - t) * (1 - t), 60 * length * t * (1 - t) * (1 - 2 * t),
-                                        60 * length * (1 - 6 * t + 6 * t * t)};
-                        }),
+  EXPECT_GT(computeJerkCost(curvature, torsion, 1,
+                            [&](double t) {
+                              return Motion{30 * length * t * t * (1 - t) * (1 - t), 60 * length * t * (1 - t) * (1 - 2 * t),
+                                            60 * length * (1 - 6 * t + 6 * t * t)};
+                            }),
             p->cost * 1.0001);
   std::mt19937 random(7);
   std::uniform_real_distribution<double> bend(0.003, 0.01);
   for (int trial = 0; trial < 12; ++trial) {
     const double size = (trial % 2 ? 1 : -1) * bend(random) * length;
-    EXPECT_GT(computeCost(curvature, torsion, 1, [&](double t) { return predicted(t, size, 1 + trial % 3); }), p->cost);
+    EXPECT_GT(computeJerkCost(curvature, torsion, 1, [&](double t) { return predicted(t, size, 1 + trial % 3); }), p->cost);
   }
 }
 INSTANTIATE_TEST_SUITE_P(Pitches, Helix, testing::Values(0.0, 0.05));
@@ -127,8 +125,8 @@ TEST(SurfaceJerk, OnACylinderCostsNoMoreThanAlongTheHelixBetweenTheSamePoints) {
   EXPECT_GT(free->cost, 720 * (std::pow(2 * 0.1 * std::sin(0.75), 2) + 0.01));  // of the chord, which leaves the cylinder
 }
 
-std::string refusalOf(const experiment::Experiment& e) {
-  return reachlab::refusalOf<RefusedError>([&] { (void)predict(e, Criterion::MinHandJerk); });
+std::string refusalOfJerk(const experiment::Experiment& e) {
+  return refusalOf<RefusedError>([&] { (void)predict(e, Criterion::MinHandJerk); });
 }
 
 // Wherever the place lies: at a border of the pieces that the curve is taken in, or within one.
@@ -151,7 +149,7 @@ TEST(CurveJerk, IsRefusedWhereTheCurveIsNotSmoothWithKindAndPlace) {
                                {{"0.1*phi^3", "0.1*phi^2", "0"}, -1, 1, "a cusp", "phi = 0"}}) {
     for (const auto& e : {makeCurveExperiment(broken.formula, broken.from, broken.to, 1),
                           onCurve(chainModerate(), broken.formula, broken.from, broken.to)}) {
-      const std::string refusal = refusalOf(e);
+      const std::string refusal = refusalOfJerk(e);
       EXPECT_TRUE(holds(refusal, broken.kind)) << broken.formula[0] << ", " << broken.formula[1];
       EXPECT_TRUE(holds(refusal, broken.place)) << broken.formula[0] << ", " << broken.formula[1];
     }
@@ -175,21 +173,21 @@ TEST(CurveJerk, PassesAChangeOfPaceOfTheParameter) {
 // The nodes of a motion of few unknowns lie on either side of it.
 TEST(CurveJerk, DoesNotStepOverANarrowBump) {
   const std::string formula = "0.001*exp(-(phi - 0.0137)^2/(2*0.0005^2))";
-  EXPECT_NE(refusalOf(makeCurveExperiment({"phi/10", formula, "0"}, -1, 1, 1)), "");
+  EXPECT_NE(refusalOfJerk(makeCurveExperiment({"phi/10", formula, "0"}, -1, 1, 1)), "");
   const auto wide =
       predict(makeCurveExperiment({"phi/10", "0.001*exp(-(phi - 0.137)^2/(2*0.1^2))", "0"}, -1, 1, 1), Criterion::MinHandJerk);
   EXPECT_GT(wide->cost, 28.8 * 1.01);
 }
 
 TEST(SurfaceJerk, IsRefusedAcrossARidgeOrAStep) {
-  EXPECT_TRUE(holds(refusalOf(makeSurfaceExperiment({"u", "0.1 - 0.5*abs(u)", "v"}, {-0.1, 0}, {0.1, 0.05}, 1)), "a kink, a jump"));
-  EXPECT_TRUE(holds(refusalOf(makeSurfaceExperiment({"u", "0.01*sign(u - 0.013)", "v"}, {-0.1, 0}, {0.1, 0.05}, 1)), "a kink, a jump"));
+  EXPECT_TRUE(holds(refusalOfJerk(makeSurfaceExperiment({"u", "0.1 - 0.5*abs(u)", "v"}, {-0.1, 0}, {0.1, 0.05}, 1)), "a kink, a jump"));
+  EXPECT_TRUE(holds(refusalOfJerk(makeSurfaceExperiment({"u", "0.01*sign(u - 0.013)", "v"}, {-0.1, 0}, {0.1, 0.05}, 1)), "a kink, a jump"));
 }
 
 // What two samples of the way have between them is seen by the sides of the formula's own operations.
 TEST(SurfaceJerk, IsRefusedAcrossAKinkThatNoSampleSees) {
   const std::string refusal =
-      refusalOf(makeSurfaceExperiment({"u", "0.5*(abs(u - 0.0123) - abs(u - 0.0123 - 1e-9))", "v"}, {-0.1, 0}, {0.1, 0.05}, 1));
+      refusalOfJerk(makeSurfaceExperiment({"u", "0.5*(abs(u - 0.0123) - abs(u - 0.0123 - 1e-9))", "v"}, {-0.1, 0}, {0.1, 0.05}, 1));
   EXPECT_TRUE(holds(refusal, "a kink, a jump"));
   EXPECT_TRUE(holds(refusal, "abs("));
 }
@@ -201,7 +199,7 @@ TEST(SurfaceJerk, IsRefusedOverABumpThatNoNodeSees) {
     const std::string ridge = "0.02*" + width + "*exp(-((u - 0.0111)/" + width + ")^2 - ((v - 0.0165)/0.003)^2)";
     return makeSurfaceExperiment({"u", "v", "0.1*u*v + " + ridge}, {-0.1, 0}, {0.1, 0.03}, 1);
   };
-  const std::string refusal = refusalOf(over("1e-9"));
+  const std::string refusal = refusalOfJerk(over("1e-9"));
   EXPECT_TRUE(holds(refusal, "a bump too narrow to be resolved at u = 0.0111"));
   const auto broad = predict(over("0.03"), Criterion::MinHandJerk);
   for (const std::string& warning : broad->warnings) EXPECT_EQ(warning.find("too narrow"), std::string::npos) << warning;

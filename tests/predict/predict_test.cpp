@@ -20,14 +20,14 @@ namespace {
 
 using enum Criterion;
 
-experiment::Experiment damped(experiment::Experiment e) {
+experiment::Experiment unevenlyDamped(experiment::Experiment e) {
   for (std::size_t i = 0; i < e.object.damping.size(); ++i) e.object.damping[i] = 1.5 + static_cast<double>(i);
   if (e.coupling) e.coupling->damping = 3;
   e.object.viscosity = 0.4;
   return e;
 }
 
-experiment::Experiment uneven() {
+experiment::Experiment unevenChain() {
   experiment::Experiment e = makeChain(3, 1, 100, 1.5);
   e.object.masses = {0.5, 1, 1.4};
   e.object.stiffness = {300, 500};
@@ -44,11 +44,11 @@ std::vector<Family> families() {
   for (const Criterion c : {MinHandJerk, MinCrackle, MinHandForce, MinHandForceChange, MinComAcceleration, MinHandCrackle}) {
     const std::string name(nameOf(c));
     const PredictOptions heavy{.handMass = 0.8, .handDamping = 2};
-    all.push_back({"chain " + name, [=] { return predict(uneven(), c); }});
+    all.push_back({"chain " + name, [=] { return predict(unevenChain(), c); }});
     all.push_back({"pair with hand " + name, [=] { return predict(parallelPair(), c, heavy); }});
-    all.push_back({"damped chain " + name, [=] { return predict(damped(uneven()), c, heavy); }});
+    all.push_back({"damped chain " + name, [=] { return predict(unevenlyDamped(unevenChain()), c, heavy); }});
   }
-  all.push_back({"damped pair", [] { return predict(damped(parallelPair()), MinHandForceChange); }});
+  all.push_back({"damped pair", [] { return predict(unevenlyDamped(parallelPair()), MinHandForceChange); }});
   all.push_back({"merged", [] { return predict(makeParallel({3, 1, 2}, {60, 20, 90}, 2), MinHandJerk); }});
   all.push_back({"hand", [] { return predict(makeChain(1, 2, 600, 1.3), MinHandJerk, asHand()); }});
   all.push_back({"hand by force", [] { return predict(makeChain(1, 2, 600, 1.3), MinHandForce, asHand()); }});
@@ -58,7 +58,7 @@ std::vector<Family> families() {
                    return predict(onCurve(makeChain(1, 1, 600, 1.2), {"0.1*cos(phi)", "0.06*sin(phi)", "0.02*phi"}, 0.3, 2), MinHandJerk);
                  }});
   all.push_back({"object on a curve", [] {
-                   return predict(onCurve(damped(uneven()), {"0.1*cos(phi)", "0.06*sin(phi)", "0"}, 0.3, 2), MinHandJerk);
+                   return predict(onCurve(unevenlyDamped(unevenChain()), {"0.1*cos(phi)", "0.06*sin(phi)", "0"}, 0.3, 2), MinHandJerk);
                  }});
   all.push_back(
       {"surface", [] {
@@ -184,7 +184,7 @@ TEST(Predictions, TheWayBackIsTheWayThereInReverse) {
   for (const Way& way :
        {Way{still, MinTorqueChange}, Way{freely(still, {-0.1, 0, 0}, {0.05, 0, -0.08}), MinTorqueChange}, Way{surface, MinHandJerk},
         Way{onCurve(makeChain(1, 1, 600, 1.2), {"0.1*cos(phi)", "0.06*sin(phi)", "0.02*phi^2"}, 0.3, 2), MinHandJerk},
-        Way{onCurve(uneven(), {"0.1*cos(phi)", "0.06*sin(phi)", "0.02*phi"}, 0.3, 2), MinHandJerk}}) {
+        Way{onCurve(unevenChain(), {"0.1*cos(phi)", "0.06*sin(phi)", "0.02*phi"}, 0.3, 2), MinHandJerk}}) {
     const PredictOptions options{.unknowns = 36};
     experiment::Experiment back = way.experiment;
     std::swap(back.task->start, back.task->target);
@@ -199,9 +199,9 @@ TEST(Predictions, TheWayBackIsTheWayThereInReverse) {
 }
 
 // A hand whose velocities are what the test says.
-class MadePrediction final : public Prediction {
+class PairPrediction final : public Prediction {
  public:
-  MadePrediction(double seconds, double fastest, std::function<double(double)> velocity, std::function<double(double)> acceleration)
+  PairPrediction(double seconds, double fastest, std::function<double(double)> velocity, std::function<double(double)> acceleration)
       : velocity_(std::move(velocity)), acceleration_(std::move(acceleration)) {
     duration = seconds;
     fastest_ = fastest;
@@ -218,13 +218,13 @@ class MadePrediction final : public Prediction {
   std::function<double(double)> velocity_, acceleration_;
 };
 
-MadePrediction sines(double seconds, double a, double wa, double b, double wb, double phase = 0) {
+PairPrediction sines(double seconds, double a, double wa, double b, double wb, double phase = 0) {
   return {seconds, std::max(wa, wb), [=](double t) { return a * std::sin(wa * t + phase) + b * std::sin(wb * t); },
           [=](double t) { return a * wa * std::cos(wa * t + phase) + b * wb * std::cos(wb * t); }};
 }
 
 TEST(Peaks, LieBetweenTheSamplesToTheLastDigits) {
-  MadePrediction p = sines(1.7, 0.4, 2.9, 0, 1);
+  PairPrediction p = sines(1.7, 0.4, 2.9, 0, 1);
   findPeaks(p);
   EXPECT_NEAR(p.handPeak, 0.4, 1e-15);
   EXPECT_NEAR(p.handPeakTime, std::numbers::pi / 2 / 2.9, 1e-9);
@@ -232,24 +232,24 @@ TEST(Peaks, LieBetweenTheSamplesToTheLastDigits) {
 }
 
 TEST(Peaks, AreWithTheirSignAndTheEarliestOfEqualOnes) {
-  MadePrediction back = sines(1, -0.7, 2 * std::numbers::pi, 0, 1);
+  PairPrediction back = sines(1, -0.7, 2 * std::numbers::pi, 0, 1);
   findPeaks(back);
   EXPECT_NEAR(back.handPeak, -0.7, 1e-12);
   EXPECT_NEAR(back.handPeakTime, 0.25, 1e-9);
-  MadePrediction later = sines(1, 0.7, 3 * std::numbers::pi, -0.2, std::numbers::pi);  // 0.5 in the middle of the first half, -0.9 at 0.5
+  PairPrediction later = sines(1, 0.7, 3 * std::numbers::pi, -0.2, std::numbers::pi);  // 0.5 in the middle of the first half, -0.9 at 0.5
   findPeaks(later);
   EXPECT_NEAR(later.handPeakTime, 0.5, 1e-9);
   EXPECT_NEAR(later.handPeak, -0.9, 1e-12);
 }
 
 TEST(Peaks, MayStandAtTheVeryEnds) {
-  MadePrediction falling(
+  PairPrediction falling(
       2, 1, [](double t) { return 3 - t; }, [](double) { return -1.0; });
   findPeaks(falling);
   EXPECT_EQ(falling.handPeak, 3);
   EXPECT_EQ(falling.handPeakTime, 0);
   EXPECT_EQ(falling.objectPeak, -9);
-  MadePrediction rising(
+  PairPrediction rising(
       2, 1, [](double t) { return 0.5 + t; }, [](double) { return 1.0; });
   findPeaks(rising);
   EXPECT_EQ(rising.handPeak, 2.5);
@@ -258,7 +258,7 @@ TEST(Peaks, MayStandAtTheVeryEnds) {
 
 // Samples 48 to the second and more with the fastest frequency: an inner maximum between two that are lower at their samples.
 TEST(Peaks, AreFoundAmongWavesOfTheFastestFrequency) {
-  MadePrediction p = sines(1, 1, std::numbers::pi, 0.3, 211);
+  PairPrediction p = sines(1, 1, std::numbers::pi, 0.3, 211);
   findPeaks(p);
   double most = 0;
   for (int i = 0; i <= 200'000; ++i) most = std::max(most, std::abs(p.handAt(i / 200'000.0).velocity));
@@ -437,7 +437,7 @@ TEST(StraightTasks, GravityAlongTheWayIsSaid) {
 }
 
 TEST(TravelTime, IsTwiceTheSumOfEachMasssOnItsSpring) {
-  experiment::Experiment e = uneven();
+  experiment::Experiment e = unevenChain();
   const double once = std::sqrt(0.5 / 700) + std::sqrt(1.0 / 300) + std::sqrt(1.4 / 500);
   EXPECT_NEAR(*predict(e, MinHandJerk)->travelTime, 2 * once, 1e-15);
   PredictOptions options{.duration = 2 * once * 1.0001};
@@ -476,7 +476,7 @@ TEST(EqualFrequencies, OfMassesThatDifferAreOneMassOfTheirSum) {
 }
 
 TEST(LineObject, IsTheExperimentsSpringsFromTheHandOn) {
-  experiment::Experiment e = uneven();
+  experiment::Experiment e = unevenChain();
   e.object.damping = {4, 6};
   e.coupling->damping = 2;
   e.object.viscosity = 0.3;
@@ -488,7 +488,7 @@ TEST(LineObject, IsTheExperimentsSpringsFromTheHandOn) {
   EXPECT_EQ(object.viscosity, (std::vector<double>{0.3, 0.3, 0.3}));
   EXPECT_EQ(object.source, (std::vector<int>{0, 1, 2}));
   EXPECT_NEAR(object.totalMass(), 3.1, 1e-15);
-  LineObject still = makeLineObject(uneven(), 0.2, 0);
+  LineObject still = makeLineObject(unevenChain(), 0.2, 0);
   EXPECT_FALSE(still.damped(true));
   still.handDamping = 1;
   EXPECT_TRUE(still.damped(true));

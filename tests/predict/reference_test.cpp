@@ -16,8 +16,8 @@ namespace reachlab::predict {
 namespace {
 
 using Real = boost::multiprecision::number<boost::multiprecision::cpp_bin_float<160>, boost::multiprecision::et_off>;
-using Row = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
-using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
+using RealRow = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
+using RealMatrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
 // Of the hand's and the masses' largest speed (or of the distance); the costs likewise. The table of docs/benchmarks/predictions.md has 1e-9.
 constexpr double kOfThePeak = 1e-11;
@@ -26,9 +26,9 @@ const Real kNegligible("1e-85");
 
 struct Reference {
   int n = 0;
-  std::vector<Row> a;  // n rows of n + 1 coefficients, the last of u
-  Row goal;
-  std::vector<Row> output;  // positions of hand and masses, n + 1 coefficients
+  std::vector<RealRow> a;  // n rows of n + 1 coefficients, the last of u
+  RealRow goal;
+  std::vector<RealRow> output;  // positions of hand and masses, n + 1 coefficients
   double distance = 0.2, duration = 0;
 };
 
@@ -52,16 +52,16 @@ Reference makeReference(const experiment::Experiment& e, Criterion criterion, do
   Reference r;
   r.n = 2 * N + handStates + (forceState ? 1 : 0);
   r.duration = e.task->duration;
-  r.a.assign(r.n, Row::Zero(r.n + 1));
-  r.goal = Row::Zero(r.n);
-  const auto state = [&](int i) -> Row { return Row::Unit(r.n + 1, i); };
+  r.a.assign(r.n, RealRow::Zero(r.n + 1));
+  r.goal = RealRow::Zero(r.n);
+  const auto state = [&](int i) -> RealRow { return RealRow::Unit(r.n + 1, i); };
   const auto x = [&](int i) { return state(i); };
   const auto v = [&](int i) { return state(N + i); };
-  const Row control = state(r.n), none = Row::Zero(r.n + 1);
+  const RealRow control = state(r.n), none = RealRow::Zero(r.n + 1);
   Real total = handMass;
   for (const Real& mass : m) total += mass;
 
-  Row h = none, hRate = none, force = none;
+  RealRow h = none, hRate = none, force = none;
   if (handStates > 0) h = state(2 * N);
   if (byHand || handMass > 0) hRate = state(2 * N + 1);
   if (!byHand) {
@@ -71,17 +71,17 @@ Reference makeReference(const experiment::Experiment& e, Criterion criterion, do
       for (int i = 0; i < N; ++i) force = force + viscosity * v(i);
     }
     if (handMass == 0) {  // F = sum k (h - x) + b (h' - v) + b_hand h'
-      Row rest = force;
+      RealRow rest = force;
       for (int i = 0; i < (parallel ? N : 1); ++i) rest = rest + k[i] * x(i) + b[i] * v(i);
       if (slow) hRate = (Real(1) / hub) * (rest - stiffness * h);
       else h = (Real(1) / stiffness) * rest;
     }
   }
-  std::vector<Row> push(N, none);  // on each mass
-  Row contact = none;              // of the hand on the object
+  std::vector<RealRow> push(N, none);  // on each mass
+  RealRow contact = none;              // of the hand on the object
   for (int i = 0; i < N; ++i) {
     const bool toHand = parallel || i == 0;
-    const Row pull = k[i] * ((toHand ? h : x(i - 1)) - x(i)) + b[i] * ((toHand ? hRate : v(i - 1)) - v(i));
+    const RealRow pull = k[i] * ((toHand ? h : x(i - 1)) - x(i)) + b[i] * ((toHand ? hRate : v(i - 1)) - v(i));
     push[i] = push[i] + pull;
     if (toHand) contact = contact + pull;
     else push[i - 1] = push[i - 1] - pull;
@@ -107,12 +107,12 @@ Reference makeReference(const experiment::Experiment& e, Criterion criterion, do
 }
 
 // Taylor coefficients of (x, p) from (0, p0): x' = A x + b u, p' = -A^T p, u = b^T p, in units of T.
-struct Series {
-  std::vector<Row> x, p;
+struct TaylorSeries {
+  std::vector<RealRow> x, p;
   std::vector<Real> u;
 };
 
-Series expand(const Reference& r, const Row& p0) {
+TaylorSeries expand(const Reference& r, const RealRow& p0) {
   struct Entry {
     int row, column;
     Real value;
@@ -121,8 +121,8 @@ Series expand(const Reference& r, const Row& p0) {
   for (int i = 0; i < r.n; ++i)
     for (int j = 0; j < r.n; ++j)
       if (r.a[i][j] != 0) entries.push_back({i, j, r.a[i][j]});
-  Series s;
-  s.x = {Row::Zero(r.n)};
+  TaylorSeries s;
+  s.x = {RealRow::Zero(r.n)};
   s.p = {p0};
   Real biggest = 0;
   for (int k = 0;; ++k) {
@@ -130,7 +130,7 @@ Series expand(const Reference& r, const Row& p0) {
     for (int i = 0; i < r.n; ++i) u += r.a[i][r.n] * s.p[k][i];
     s.u.push_back(u);
     const Real factor = Real(r.duration) / (k + 1);
-    Row x(r.n), p = Row::Zero(r.n);
+    RealRow x(r.n), p = RealRow::Zero(r.n);
     for (int i = 0; i < r.n; ++i) x[i] = r.a[i][r.n] * u;
     for (const Entry& e : entries) {
       x[e.row] += e.value * s.x[k][e.column];
@@ -149,17 +149,17 @@ Series expand(const Reference& r, const Row& p0) {
   return s;
 }
 
-Row atEnd(const std::vector<Row>& terms) { return std::accumulate(terms.begin() + 1, terms.end(), terms[0]); }
+RealRow atEnd(const std::vector<RealRow>& terms) { return std::accumulate(terms.begin() + 1, terms.end(), terms[0]); }
 
 struct ReferenceProfile {
   Reference problem;
-  Series series;
+  TaylorSeries series;
   double cost = 0;
 
   // Position and velocity of output o (0 the hand) at s = t/T.
   std::pair<double, double> at(int o, const Real& s) const {
     Real x = 0, rate = 0;
-    const Row& c = problem.output[o];
+    const RealRow& c = problem.output[o];
     for (size_t k = series.u.size(); k-- > 0;) {
       rate = rate * s + x;
       x = x * s + c[problem.n] * series.u[k] + c.head(problem.n).dot(series.x[k]);
@@ -171,8 +171,8 @@ struct ReferenceProfile {
 ReferenceProfile computeReference(const experiment::Experiment& e, Criterion criterion, double handMass, double handDamping) {
   ReferenceProfile profile;
   Reference& r = profile.problem = makeReference(e, criterion, handMass, handDamping);
-  Matrix reach(r.n, r.n);
-  for (int j = 0; j < r.n; ++j) reach.col(j) = atEnd(expand(r, Row::Unit(r.n, j)).x);
+  RealMatrix reach(r.n, r.n);
+  for (int j = 0; j < r.n; ++j) reach.col(j) = atEnd(expand(r, RealRow::Unit(r.n, j)).x);
   profile.series = expand(r, reach.partialPivLu().solve(r.goal));
   profile.cost = static_cast<double>(r.goal.dot(atEnd(profile.series.p)));
   return profile;
@@ -288,7 +288,7 @@ INSTANTIATE_TEST_SUITE_P(Cases, AgainstReference, testing::ValuesIn(cases()),
 
 // Criterion 3 by its boundary system: z a polynomial of degree 4N+5 in t/T, 2N+3 conditions at each end; the rest follows by
 // differentiating it through the equations of motion.
-using Polynomial = Row;
+using Polynomial = RealRow;
 
 Polynomial derivative(const Polynomial& p, const Real& T) {
   Polynomial d = Polynomial::Zero(p.size());
@@ -296,7 +296,7 @@ Polynomial derivative(const Polynomial& p, const Real& T) {
   return d;
 }
 
-Real valueAt(const Polynomial& p, const Real& s) {
+Real polynomialAt(const Polynomial& p, const Real& s) {
   Real value = 0;
   for (Eigen::Index i = p.size(); i-- > 0;) value = value * s + p[i];
   return value;
@@ -304,7 +304,7 @@ Real valueAt(const Polynomial& p, const Real& s) {
 
 Polynomial solveBoundarySystem(int conditions, const Real& distance) {
   const int unknowns = 2 * conditions;
-  Matrix matrix = Matrix::Zero(unknowns, unknowns);
+  RealMatrix matrix = RealMatrix::Zero(unknowns, unknowns);
   for (int order = 0; order < conditions; ++order)
     for (int power = order; power < unknowns; ++power) {
       Real c = 1;
@@ -312,7 +312,7 @@ Polynomial solveBoundarySystem(int conditions, const Real& distance) {
       if (power == order) matrix(order, power) = c;
       matrix(conditions + order, power) = c;
     }
-  return matrix.partialPivLu().solve(distance * Row::Unit(unknowns, conditions));
+  return matrix.partialPivLu().solve(distance * RealRow::Unit(unknowns, conditions));
 }
 
 TEST(ObjectCrackle, AgreesWithItsBoundarySystem) {
@@ -349,11 +349,11 @@ TEST(ObjectCrackle, AgreesWithItsBoundarySystem) {
       const PredictedHand hand = prediction->handAt(t);
       const double tolerance = kOfThePeak * std::abs(prediction->handPeak);
       const Real s = Real(i) / 32;
-      EXPECT_NEAR(hand.velocity, static_cast<double>(valueAt(derivative(node[0], T), s)), tolerance);
-      EXPECT_NEAR(hand.position, static_cast<double>(valueAt(node[0], s)), tolerance);
+      EXPECT_NEAR(hand.velocity, static_cast<double>(polynomialAt(derivative(node[0], T), s)), tolerance);
+      EXPECT_NEAR(hand.position, static_cast<double>(polynomialAt(node[0], s)), tolerance);
       for (int m = 0; m < n; ++m) {
-        EXPECT_NEAR(v[m], static_cast<double>(valueAt(derivative(node[m + 1], T), s)), tolerance);
-        EXPECT_NEAR(x[m], static_cast<double>(valueAt(node[m + 1], s)), tolerance);
+        EXPECT_NEAR(v[m], static_cast<double>(polynomialAt(derivative(node[m + 1], T), s)), tolerance);
+        EXPECT_NEAR(x[m], static_cast<double>(polynomialAt(node[m + 1], s)), tolerance);
       }
     }
   }

@@ -14,11 +14,11 @@ namespace {
 
 using enum Criterion;
 
-struct Arrival {
+struct LineArrival {
   double position = 0, velocity = 0;  // largest error of any mass [m], [m/s]
 };
 
-Arrival simulate(const experiment::Experiment& e, const Prediction& prediction) {
+LineArrival simulateOnLine(const experiment::Experiment& e, const Prediction& prediction) {
   const dynamics::Scene scene = dynamics::compileScene(e);
   const double start = -0.1, T = prediction.duration;  // [m] of the line's beginning
   scene.plant->placeAtRest(e.task->start);
@@ -31,7 +31,7 @@ Arrival simulate(const experiment::Experiment& e, const Prediction& prediction) 
     if (scene.plant->step(dynamics::makeSegment(hand, T * i / kSteps, T / kSteps), T / kSteps) != dynamics::StepStatus::Ok) return {1, 1};
   std::vector<dynamics::MassState> masses(prediction.massCount());
   scene.plant->observe(hand(T), masses);
-  Arrival arrival;
+  LineArrival arrival;
   for (const dynamics::MassState& m : masses) {
     arrival.position = std::max(arrival.position, std::abs(m.r.x - 0.1));
     arrival.velocity = std::max(arrival.velocity, std::abs(m.v.x));
@@ -52,7 +52,7 @@ TEST(Simulator, ArrivesAtRestUnderEveryCriterion) {
     for (const double handMass : {0.0, 1.0})
       for (const Criterion c : {MinHandJerk, MinCrackle, MinHandForce, MinHandForceChange, MinComAcceleration, MinHandCrackle}) {
         const auto prediction = predict(e, c, {.handMass = handMass});
-        const Arrival arrival = simulate(e, *prediction);
+        const LineArrival arrival = simulateOnLine(e, *prediction);
         EXPECT_LT(arrival.position, kAtRest) << nameOf(c) << " hand " << handMass << " masses " << prediction->massCount();
         EXPECT_LT(arrival.velocity, kAtRest) << nameOf(c) << " hand " << handMass << " masses " << prediction->massCount();
         const PredictedHand first = prediction->handAt(0), last = prediction->handAt(prediction->duration);

@@ -61,14 +61,14 @@ TEST(Transcription, WhatIsSaidOfAMotionIsWhatIsKnown) {
   EXPECT_TRUE(holds(describe()->warnings[0], "known to 3e-09 of its peak only: the path bends too sharply for 7 unknowns"));
 }
 
-PathPoint onCircle(double t) {
+PathPoint pointOnCircle(double t) {
   constexpr double r = 0.3, w = 2;
   const double s = std::sin(w * t), c = std::cos(w * t);
   return {{r * c, r * s, 0}, {-r * w * s, r * w * c, 0}, {-r * w * w * c, -r * w * w * s, 0}, {r * w * w * w * s, -r * w * w * w * c, 0}};
 }
 
 TEST(PathCheck, AMovementWhoseDerivativesBelongTogetherIsSmooth) {
-  const PathCheck check = checkPath(1.4, onCircle);
+  const PathCheck check = checkPath(1.4, pointOnCircle);
   EXPECT_TRUE(check.smooth);
   EXPECT_NEAR(check.cost, std::pow(0.3 * 8, 2) * 1.4, 1e-12) << "the square of its jerk, which does not change";
   EXPECT_EQ(check.brokenAt, 0);
@@ -82,7 +82,7 @@ TEST(PathCheck, TellsWhereADerivativeIsNotTheIntegralOfTheNext) {
   for (int kind = 0; kind < 4; ++kind)
     for (const double place : {0.005, 0.7, 0.931, 1.39}) {
       const auto broken = [&](double t) {
-        PathPoint p = onCircle(t);
+        PathPoint p = pointOnCircle(t);
         Vec3& part = kind == 0 ? p.r : kind == 1 ? p.velocity : kind == 2 ? p.acceleration : p.jerk;
         if (kind < 3 && t > place) part.z += 0.01;
         if (kind == 3 && std::abs(t - place) < 0.004) part.y = std::numeric_limits<double>::quiet_NaN();
@@ -93,7 +93,7 @@ TEST(PathCheck, TellsWhereADerivativeIsNotTheIntegralOfTheNext) {
       EXPECT_NEAR(check.brokenAt, place, 1.4 / 96) << kind;
     }
   const PathCheck atEnd = checkPath(1.4, [](double t) {
-    PathPoint p = onCircle(t);
+    PathPoint p = pointOnCircle(t);
     if (t > 1.4 - 1e-9) p.velocity.x = std::numeric_limits<double>::infinity();
     return p;
   });
