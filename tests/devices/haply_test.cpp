@@ -24,13 +24,13 @@ namespace {
 using test::FakeHaply;
 using test::until;
 
-std::unique_ptr<haptics::HapticDevice> open(const FakeHaply& service, const std::string& id = "") {
+std::unique_ptr<haptics::HapticDevice> openHaply(const FakeHaply& service, const std::string& id = "") {
   return makeDevice(fmt::format("haply:{}{}port={}", id, id.empty() ? "" : ",", service.port()), experiment::readExperiment("chain-slow"),
                     1);
 }
 
-std::string refusal(const FakeHaply& service, const std::string& id = "") {
-  return reachlab::refusalOf([&] { open(service, id); }, "it was opened");
+std::string refusalOfHaply(const FakeHaply& service, const std::string& id = "") {
+  return refusalOf([&] { openHaply(service, id); }, "it was opened");
 }
 
 TEST(HaplyMessage, PlacesAndForcesKeepTheirAxes) {
@@ -70,7 +70,7 @@ TEST(HaplyMessage, WhatIsNoStateIsNotBelieved) {
   EXPECT_EQ(state.position, (Vec3{0, 0, 0.1})) << "what is left out is zero";
 }
 
-HaplyState read(const std::string& message, const std::string& id = "", const std::string& grip = "") {
+HaplyState stateIn(const std::string& message, const std::string& id = "", const std::string& grip = "") {
   HaplyState state;
   state.buttons = 99;
   EXPECT_EQ(readHaplyMessage(message, id, state, grip), HaplyAnswer::State) << message;
@@ -80,19 +80,19 @@ HaplyState read(const std::string& message, const std::string& id = "", const st
 TEST(HaplyMessage, AStateIsOfTheDeviceThatIsAskedFor) {
   const std::string two = R"({"inverse3":[7,{"device_id":""},{"device_id":"A","state":{"cursor_position":{"x":1,"y":2,"z":3}}},
     {"device_id":"B","state":{"cursor_position":{"x":4},"cursor_velocity":{"y":5}}}]})";
-  EXPECT_EQ(read(two).id, "A") << "the first that has a name";
-  EXPECT_EQ(read(two).position, (Vec3{1, 2, 3}));
-  EXPECT_FALSE(read(two).velocity);
-  EXPECT_EQ(read(two).buttons, 0u);
-  EXPECT_EQ(read(two, "B").id, "B");
-  EXPECT_EQ(read(two, "B").position, (Vec3{4, 0, 0}));
-  EXPECT_EQ(read(two, "B").velocity, (Vec3{0, 5, 0}));
+  EXPECT_EQ(stateIn(two).id, "A") << "the first that has a name";
+  EXPECT_EQ(stateIn(two).position, (Vec3{1, 2, 3}));
+  EXPECT_FALSE(stateIn(two).velocity);
+  EXPECT_EQ(stateIn(two).buttons, 0u);
+  EXPECT_EQ(stateIn(two, "B").id, "B");
+  EXPECT_EQ(stateIn(two, "B").position, (Vec3{4, 0, 0}));
+  EXPECT_EQ(stateIn(two, "B").velocity, (Vec3{0, 5, 0}));
   EXPECT_EQ(readHaplyService(two).devices, (std::vector<std::string>{"A", "B"}));
   EXPECT_TRUE(readHaplyService("{}").devices.empty());
   EXPECT_TRUE(readHaplyService(R"({"inverse3":{}})").devices.empty());
   for (const char* key : {"cursor_velocity", "current_cursor_force", "current_cursor_position", "body_orientation", "control_mode",
                           "control_domain", "angular_position", "angular_velocity", "transform", "mode"})
-    EXPECT_EQ(read(fmt::format(R"({{"inverse3":[{{"device_id":"A","state":{{"{}":1}}}}]}})", key)).position, Vec3{}) << key;
+    EXPECT_EQ(stateIn(fmt::format(R"({{"inverse3":[{{"device_id":"A","state":{{"{}":1}}}}]}})", key)).position, Vec3{}) << key;
 }
 
 // The grip of that name, wireless or on a cable; without a name the only one.
@@ -102,11 +102,11 @@ TEST(HaplyMessage, AGripsButtonsAreOfTheOneThatIsHeld) {
   };
   const std::string one = R"({"device_id":"g1","state":{"buttons":{"a":false,"b":true,"c":true}}})";
   const std::string other = R"({"device_id":"g2","state":{"buttons":{"a":true,"b":1}}})";
-  EXPECT_EQ(read(with(R"("wireless_verse_grip":[3,)" + one + "]")).buttons, 0b110u);
+  EXPECT_EQ(stateIn(with(R"("wireless_verse_grip":[3,)" + one + "]")).buttons, 0b110u);
   const std::string both = with(R"("wireless_verse_grip":[)" + one + R"(],"verse_grip":[)" + other + "]");
-  EXPECT_EQ(read(both).buttons, 0u) << "none of two";
-  EXPECT_EQ(read(both, "", "g2").buttons, 1u) << "a number is no button that is pressed";
-  EXPECT_EQ(read(both, "", "g3").buttons, 0u);
+  EXPECT_EQ(stateIn(both).buttons, 0u) << "none of two";
+  EXPECT_EQ(stateIn(both, "", "g2").buttons, 1u) << "a number is no button that is pressed";
+  EXPECT_EQ(stateIn(both, "", "g3").buttons, 0u);
   EXPECT_EQ(readHaplyService(both).grips, (std::vector<std::string>{"g1", "g2"}));
   EXPECT_TRUE(readHaplyService("[]").grips.empty());
 }
@@ -226,7 +226,7 @@ TEST(Haply, GivesItsPlaceAndGetsItsForceInItsOwnAxes) {
   for (const auto speaks : {FakeHaply::Speaks::AnswersOnly, FakeHaply::Speaks::GreetsFirst}) {
     FakeHaply service(speaks);
     service.moveTo({0.01, -0.02, 0.03});
-    const auto device = open(service, "049D");
+    const auto device = openHaply(service, "049D");
     ASSERT_TRUE(until([&] { return norm(device->read().position - Vec3{0.01, 0.03, 0.02}) < 1e-12; }));
     const haptics::DeviceSample sample = device->read();
     EXPECT_EQ(sample.buttons, 0b101u);
@@ -284,19 +284,19 @@ TEST(Haply, TwoAtOneServiceAreTwoHandsEachWithItsPlaceForceAndGrip) {
 
 TEST(Haply, OfSeveralGripsOnlyTheOneThatIsNamedIsTaken) {
   FakeHaply service(FakeHaply::Speaks::AnswersOnly, {"049D", "06A1"});
-  const auto device = open(service, "049D");
+  const auto device = openHaply(service, "049D");
   ASSERT_TRUE(until([&] { return device->read().reports > 5; }));
   EXPECT_EQ(device->read().buttons, 0u) << "a dead-man's button of the other hand would be none";
-  EXPECT_TRUE(holds(refusal(service, "049D,grip=1"), "there is: 61548, 61549"));
+  EXPECT_TRUE(holds(refusalOfHaply(service, "049D,grip=1"), "there is: 61548, 61549"));
 }
 
 TEST(Haply, WhatCannotBeHadIsRefusedInWords) {
-  EXPECT_TRUE(holds(refusal(FakeHaply(FakeHaply::Speaks::OldObjects)), "another version"));
-  EXPECT_TRUE(holds(refusal(FakeHaply(FakeHaply::Speaks::Garbage)), "no Inverse service"));
-  EXPECT_TRUE(holds(refusal(FakeHaply(FakeHaply::Speaks::NoDevice)), "no Inverse3 is connected"));
-  EXPECT_TRUE(holds(refusal(FakeHaply(FakeHaply::Speaks::NoWebsocket)), "not as a websocket"));
-  EXPECT_TRUE(holds(refusal(FakeHaply(FakeHaply::Speaks::ClosesAtOnce)), "closed"));
-  EXPECT_TRUE(holds(refusal(FakeHaply(), "FFFF"), "there is: 049D"));
+  EXPECT_TRUE(holds(refusalOfHaply(FakeHaply(FakeHaply::Speaks::OldObjects)), "another version"));
+  EXPECT_TRUE(holds(refusalOfHaply(FakeHaply(FakeHaply::Speaks::Garbage)), "no Inverse service"));
+  EXPECT_TRUE(holds(refusalOfHaply(FakeHaply(FakeHaply::Speaks::NoDevice)), "no Inverse3 is connected"));
+  EXPECT_TRUE(holds(refusalOfHaply(FakeHaply(FakeHaply::Speaks::NoWebsocket)), "not as a websocket"));
+  EXPECT_TRUE(holds(refusalOfHaply(FakeHaply(FakeHaply::Speaks::ClosesAtOnce)), "closed"));
+  EXPECT_TRUE(holds(refusalOfHaply(FakeHaply(), "FFFF"), "there is: 049D"));
 }
 
 TEST(Haply, NobodyThereIsSaidInTheSystemsWords) {
@@ -305,8 +305,7 @@ TEST(Haply, NobodyThereIsSaidInTheSystemsWords) {
     return service.port();
   }();
   EXPECT_TRUE(
-      holds(reachlab::refusalOf([&] { makeDevice(fmt::format("haply:port={}", gone), experiment::readExperiment("chain-slow"), 1); }),
-            "refused"));
+      holds(refusalOf([&] { makeDevice(fmt::format("haply:port={}", gone), experiment::readExperiment("chain-slow"), 1); }), "refused"));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "devices/io/polled_device.h"
 #include "devices/io/rate_hand.h"
+#include "tests/devices/invented_clock.h"
 #include "tests/refusal.h"
 #include "tests/until.h"
 
@@ -19,10 +20,6 @@ namespace {
 
 using haptics::DeviceHealth;
 using test::until;
-
-thread_local std::int64_t clockNs = 0;
-std::int64_t now() { return clockNs; }
-constexpr std::int64_t kMs = 1'000'000;
 
 /// Answers as the test says, and keeps what it was told.
 struct Scripted final : Transport {
@@ -57,16 +54,16 @@ struct Scripted final : Transport {
 
 class Polled : public ::testing::Test {
  protected:
-  Polled() { clockNs = 1000 * kMs; }
+  Polled() { inventedNs = 1000 * kMs; }
   std::shared_ptr<Scripted> transport = std::make_shared<Scripted>();
-  PolledDevice device{transport, now};
+  PolledDevice device{transport, inventedNow};
 };
 
 TEST_F(Polled, EachReportIsCountedAndStampedWithItsTime) {
   EXPECT_EQ(device.info().name, "scripted");
   transport->place = {1, 2, 3};
   device.step();
-  clockNs += 7;
+  inventedNs += 7;
   EXPECT_EQ(device.read().position, (Vec3{1, 2, 3}));
   EXPECT_EQ(device.read().reports, 1u);
   EXPECT_EQ(device.read().takenNs, 1000 * kMs);
@@ -90,7 +87,7 @@ TEST_F(Polled, AForceHoldsForTwentyMilliseconds) {
   EXPECT_EQ(transport->told, Vec3{}) << "none was left yet";
   device.write({1, -2, 3});
   const auto toldAfter = [&](std::int64_t ns) {
-    clockNs = 1000 * kMs + ns;
+    inventedNs = 1000 * kMs + ns;
     device.step();
     return transport->told;
   };
@@ -132,17 +129,17 @@ TEST_F(Polled, ALostDeviceIsToldZeroUntilItTakesItAndAskedForEveryFifthOfASecond
   EXPECT_EQ(transport->zeros, 3);
   EXPECT_EQ(transport->reopened, 0);
   EXPECT_EQ(transport->exchanges, 2);
-  clockNs += 200 * kMs - 1;
+  inventedNs += 200 * kMs - 1;
   device.step();
   EXPECT_EQ(transport->reopened, 0);
-  clockNs += 1;
+  inventedNs += 1;
   device.step();
   EXPECT_EQ(transport->reopened, 1);
   device.step();
-  clockNs += 199 * kMs;
+  inventedNs += 199 * kMs;
   device.step();
   EXPECT_EQ(transport->reopened, 1);
-  clockNs += kMs;
+  inventedNs += kMs;
   transport->comesBack = true;
   transport->answer = Exchange::Report;
   device.write({3, 0, 0});
@@ -159,19 +156,19 @@ TEST_F(Polled, OneThatIsLostAgainAtItsFirstExchangeIsAskedForLater) {
   transport->answer = Exchange::Lost;
   transport->comesBack = true;
   device.step();
-  clockNs += 200 * kMs;
+  inventedNs += 200 * kMs;
   device.step();
   EXPECT_EQ(transport->reopened, 1);
   EXPECT_EQ(transport->exchanges, 2);
   EXPECT_EQ(transport->zeros, 2);
-  clockNs += 199 * kMs;
+  inventedNs += 199 * kMs;
   device.step();
   EXPECT_EQ(transport->reopened, 1);
 }
 
 TEST(PolledDevice, IsClosedAtItsEnd) {
   const auto transport = std::make_shared<Scripted>();
-  { const PolledDevice device(transport, now); }
+  { const PolledDevice device(transport, inventedNow); }
   EXPECT_EQ(transport->closed, 1);
   { PolledDevice device(transport); }
   EXPECT_EQ(transport->closed, 2);

@@ -180,9 +180,9 @@ TEST(HandSettings, AreTakenBeforeTheDriversOwn) {
   EXPECT_THROW(makeDevice("virtual:omni,colour=red,scale=2", experiment, 1), FaultError);
 }
 
-std::string refusalOf(const std::string& options) {
+std::string refusalOfSettings(const std::string& options) {
   DeviceOptions asked(options, "device x");
-  return reachlab::refusalOf(
+  return refusalOf(
       [&] {
         (void)takeHandSettings(asked);
         asked.done();
@@ -200,18 +200,18 @@ TEST(HandSettings, AreBoundedAndNoneIsNone) {
   for (const char* good : {"scale=0.01", "scale=100", "offset=10/-10/0", "rotation=360/0/-360", "mirror=no", "mirror=x", "wall=yes",
                            "wall=no", "wall=10", "wall=0.001", "speed-limit=0.01", "speed-limit=20", "stylus-mass=0", "stylus-mass=2",
                            "passivity=observe", "passivity=control", "dead-man-button=1", "dead-man-button=32"})
-    EXPECT_EQ(refusalOf(good), "taken") << good;
+    EXPECT_EQ(refusalOfSettings(good), "taken") << good;
   for (const char* bad :
        {"scale=0.009",        "scale=101",        "offset=10.1/0/0", "offset=0/0/-10.1", "offset=1/2/3/4",    "offset=1/2/3x",
         "offset=1/2",         "offset=1",         "offset=/1/2",     "offset=1,2,3",     "rotation=361/0/0",  "rotation=0/-361/0",
         "mirror=y",           "wall=0",           "wall=-1",         "wall=10.1",        "wall=1x",           "speed-limit=0.009",
         "speed-limit=21",     "stylus-mass=-0.1", "stylus-mass=2.1", "passivity=yes",    "dead-man-button=0", "dead-man-button=33",
         "dead-man-button=1.5"})
-    EXPECT_NE(refusalOf(bad), "taken") << bad;
-  EXPECT_TRUE(holds(refusalOf("offset=1/2"), "offset=1/2; allowed: X/Y/Z, each within 10"));
-  EXPECT_TRUE(holds(refusalOf("rotation=a/b/c"), "each within 360"));
-  EXPECT_TRUE(holds(refusalOf("wall=maybe"), "wall=maybe; allowed: yes, no or a radius up to 10 m"));
-  EXPECT_TRUE(holds(refusalOf("dead-man-button=1.5"), "dead-man-button=1.5; allowed: a button's number, 1 to 32"));
+    EXPECT_NE(refusalOfSettings(bad), "taken") << bad;
+  EXPECT_TRUE(holds(refusalOfSettings("offset=1/2"), "offset=1/2; allowed: X/Y/Z, each within 10"));
+  EXPECT_TRUE(holds(refusalOfSettings("rotation=a/b/c"), "each within 360"));
+  EXPECT_TRUE(holds(refusalOfSettings("wall=maybe"), "wall=maybe; allowed: yes, no or a radius up to 10 m"));
+  EXPECT_TRUE(holds(refusalOfSettings("dead-man-button=1.5"), "dead-man-button=1.5; allowed: a button's number, 1 to 32"));
 }
 
 TEST(HandSettings, SayWhatWasAskedFor) {
@@ -240,7 +240,7 @@ TEST(HandSettings, SayWhatWasAskedFor) {
 
 TEST(HandSettings, AWallNeedsAWorkspaceOrARadius) {
   const auto refusal = [](const HandSettings& options) {
-    return reachlab::refusalOf([&] { (void)guardDevice(std::make_unique<test::DiaryDevice>("unknown"), options); }, "made");
+    return refusalOf([&] { (void)guardDevice(std::make_unique<test::DiaryDevice>("unknown"), options); }, "made");
   };
   HandSettings options;
   options.wall = 0;

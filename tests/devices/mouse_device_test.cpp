@@ -13,24 +13,22 @@
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/tick_engine.h"
 #include "sim/haptics/tick_order.h"
+#include "tests/devices/invented_clock.h"
 
 namespace reachlab::devices {
 namespace {
-
-thread_local std::int64_t clockNs = 0;  // the tests' own
-std::int64_t now() { return clockNs; }
 
 /// A window that hands the pointer's events over once a frame, each with the tick in which it came.
 struct Window {
   // One tick, and whether a frame ends with it.
   void tick(MouseDevice& mouse, bool frameEnds, double speed) {
-    waiting.push_back(clockNs);
+    waiting.push_back(inventedNs);
     if (frameEnds) {
       for (const std::int64_t ns : waiting) mouse.point({1e-9 * speed * static_cast<double>(ns % 1'000'000'000'000), 0, 0}, ns);
       waiting.clear();
     }
     mouse.read();
-    clockNs += 1'000'000;
+    inventedNs += 1'000'000;
   }
   std::vector<std::int64_t> waiting;
 };
@@ -38,17 +36,17 @@ double playbackOf(const MouseDevice& mouse) { return mouse.delay() - 2 * MouseDe
 
 class Mouse : public ::testing::Test {
  protected:
-  Mouse() { clockNs = 3'000'000'000; }
+  Mouse() { inventedNs = 3'000'000'000; }
   Vec3 placeInNextTick() {
-    clockNs += 1'000'000;
+    inventedNs += 1'000'000;
     return mouse.read().position;
   }
-  MouseDevice mouse{{-0.1, 0, 0}, now};
+  MouseDevice mouse{{-0.1, 0, 0}, inventedNow};
 };
 
 TEST_F(Mouse, StaysWhereItIsUntilThePointerIsAtAPlace) {
   for (int i = 0; i < 200; ++i) {
-    if (i == 100) mouse.point({std::numeric_limits<double>::quiet_NaN(), 0, 0}, now());
+    if (i == 100) mouse.point({std::numeric_limits<double>::quiet_NaN(), 0, 0}, inventedNow());
     EXPECT_EQ(placeInNextTick(), (Vec3{-0.1, 0, 0}));
   }
 }
@@ -75,8 +73,8 @@ struct Drag {
 // frames' ends. What the engine logs as the hand's velocity, held against the true one `delay` earlier: RMS error over RMS velocity, over the
 // drags after the first, in which the playback learns how late this window is.
 double velocityError(const Drag& drag, double& delay) {
-  clockNs = 5'000'000'000;
-  MouseDevice mouse({-0.1, 0, 0}, now);
+  inventedNs = 5'000'000'000;
+  MouseDevice mouse({-0.1, 0, 0}, inventedNow);
   haptics::TickEngine engine(experiment::readExperiment("chain-slow"), {});
   const auto place = [&](double t) {
     const double within = std::fmod(t, 2.0);
@@ -86,7 +84,7 @@ double velocityError(const Drag& drag, double& delay) {
   std::vector<std::pair<double, std::int64_t>> waiting;
   double nextEvent = 0, nextFrame = 0, squares = 0, power = 0, delays = 0;
   int counted = 0;
-  for (int tick = 0; tick < 8000; ++tick, clockNs += 1'000'000) {
+  for (int tick = 0; tick < 8000; ++tick, inventedNs += 1'000'000) {
     const double t = tick * 1e-3;
     for (; nextEvent <= t; nextEvent += 1 / drag.rate)
       waiting.emplace_back(drag.pixel * std::round(place(nextEvent) / drag.pixel),
@@ -137,12 +135,12 @@ TEST_F(Mouse, HowLateItIsChangesByAPartOfTheTimesPace) {
 
 // Events at the ticks' own rate and at once: the hand is the ramp of 12 ms of playback and twice 8 ms of smoothing ago, at its very speed.
 TEST(MouseDevice, ARampIsFollowedAtItsSpeedByItsDelay) {
-  clockNs = 3'000'000'000;
-  MouseDevice mouse({}, now);
+  inventedNs = 3'000'000'000;
+  MouseDevice mouse({}, inventedNow);
   EXPECT_NEAR(mouse.delay(), 0.012 + 2 * 0.008, 1e-15);
   const Vec3 speed{0.3, -0.2, 0.1};
-  for (int tick = 0; tick < 1000; ++tick, clockNs += 1'000'000) {
-    mouse.point(1e-3 * tick * speed, clockNs - 77'000'000'000);  // by a clock of its own
+  for (int tick = 0; tick < 1000; ++tick, inventedNs += 1'000'000) {
+    mouse.point(1e-3 * tick * speed, inventedNs - 77'000'000'000);  // by a clock of its own
     const haptics::DeviceSample sample = mouse.read();
     ASSERT_TRUE(sample.hasVelocity);
     if (tick < 300) continue;
@@ -159,7 +157,7 @@ TEST(MouseDevice, ARampIsFollowedAtItsSpeedByItsDelay) {
 // A jump, long after anything moved: x = 1 - (1 + t/T) e^{-t/T} from when it is played on, T = 8 ms.
 TEST_F(Mouse, AJumpIsTakenAsACriticallyDampedSystemDoes) {
   for (int i = 0; i < 200; ++i) placeInNextTick();
-  mouse.point({0, 0, 0}, now());
+  mouse.point({0, 0, 0}, inventedNow());
   std::vector<double> moved;
   for (int i = 0; i < 200; ++i) moved.push_back((placeInNextTick().x + 0.1) / 0.1);
   const auto begin = static_cast<std::size_t>(std::find_if(moved.begin(), moved.end(), [](double x) { return x > 0; }) - moved.begin());
@@ -176,8 +174,8 @@ TEST_F(Mouse, AJumpIsTakenAsACriticallyDampedSystemDoes) {
 // Handed over by 8 ms for a second: the playback is as late as the latest of the heap and the next one's gap, and bounded from above.
 TEST(MouseDevice, ItsPlaybackIsAsLateAsTheWindowAndNoLaterThanItMayBe) {
   for (const auto& [frame, least, most] : {std::tuple{30, 0.029, 0.034}, {100, 0.099, 0.104}, {400, 0.135, 0.15}}) {
-    clockNs = 3'000'000'000;
-    MouseDevice mouse({}, now);
+    inventedNs = 3'000'000'000;
+    MouseDevice mouse({}, inventedNow);
     Window window;
     for (int tick = 0; tick < 12'000; ++tick) window.tick(mouse, tick % frame == frame - 1, 1e-3);
     const double playback = playbackOf(mouse);

@@ -54,7 +54,7 @@ class Phantom : public ::testing::Test {
   static double feltAlongX(const std::string& name = "") { return fakeHd().devices[name].force[0]; }
 };
 
-std::string refusal(const PhantomDevice::Options& options = {}) {
+std::string refusalOfPhantom(const PhantomDevice::Options& options = {}) {
   return refusalOf([&] { const PhantomDevice device(options); });
 }
 
@@ -115,7 +115,7 @@ TEST_F(Phantom, EveryRefusalAtOpeningIsSaidInTheLibrarysWordsAndLeavesNothingOpe
   for (const char* call : {"hdInitDevice", "hdEnable"}) {
     test::resetFakeHd();
     fakeHd().failures[call] = 0x0600;
-    const std::string said = refusal();
+    const std::string said = refusalOfPhantom();
     EXPECT_TRUE(holds(said, "HD_INVALID_LICENSE (0x0600)")) << call << ": " << said;
     EXPECT_TRUE(holds(said, "device phantom"));
     EXPECT_FALSE(fakeHd().devices[""].open);
@@ -256,7 +256,7 @@ TEST_F(Phantom, ACallThatComesAfterTheEndTouchesNothing) {
 
 TEST_F(Phantom, OneThatIsInUseIsRefusedAndLeftToItsUser) {
   PhantomDevice device({});
-  EXPECT_TRUE(holds(refusal(), "another program has it"));
+  EXPECT_TRUE(holds(refusalOfPhantom(), "another program has it"));
   EXPECT_TRUE(fakeHd().devices[""].open);
   const auto rows = findDriver("phantom")->find(*findDriver("phantom"));
   ASSERT_EQ(rows.size(), 1u);
@@ -265,7 +265,7 @@ TEST_F(Phantom, OneThatIsInUseIsRefusedAndLeftToItsUser) {
 
 TEST_F(Phantom, AnErrorOfWhatIsOnlyDescribedIsNoReasonAgainstIt) {
   fakeHd().failures["hdGetString"] = 0x0100;
-  EXPECT_EQ(refusal(), "");
+  EXPECT_EQ(refusalOfPhantom(), "");
 }
 
 TEST_F(Phantom, AForceThatIsNoNumberIsNoForce) {
@@ -309,7 +309,7 @@ TEST_F(Phantom, AContinuousForceThatIsNoneIsUnknown) {
   }
   for (const double told : {-3.3, std::numeric_limits<double>::infinity()}) {
     fakeHd().maxForce = told;
-    EXPECT_TRUE(holds(refusal(), "it does not tell its largest force (HD_NOMINAL_MAX_FORCE)"));
+    EXPECT_TRUE(holds(refusalOfPhantom(), "it does not tell its largest force (HD_NOMINAL_MAX_FORCE)"));
   }
 }
 
@@ -318,11 +318,11 @@ TEST_F(Phantom, IsCalibratedByTheStyleThatNeedsTheFewestHands) {
     test::resetFakeHd();
     fakeHd().calibration = 0x5001;
     fakeHd().styles = styles;
-    EXPECT_EQ(refusal(), "");
+    EXPECT_EQ(refusalOfPhantom(), "");
     EXPECT_EQ(fakeHd().updatedBy, used) << styles;
   }
   test::resetFakeHd();
-  EXPECT_EQ(refusal(), "");
+  EXPECT_EQ(refusalOfPhantom(), "");
   EXPECT_EQ(fakeHd().updatedBy, 0u) << "nothing is to be done";
   PhantomDevice device({});
   fakeHd().calibration = 0x5001;
@@ -374,16 +374,16 @@ TEST_F(Phantom, NoneThereIsSaidInTheLibrarysWords) {
   const auto rows = driver.find(driver);
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_FALSE(rows[0].present);
-  EXPECT_TRUE(holds(refusal({"Nowhere"}), "phantom:Nowhere"));
+  EXPECT_TRUE(holds(refusalOfPhantom({"Nowhere"}), "phantom:Nowhere"));
   EXPECT_TRUE(holds(rows[0].whyNot, "HD_DEVICE_FAULT (0x0300); is it connected, switched on"));
   for (const auto& [code, hint] : {std::pair{0x0302u, "is it connected"}, {0x0303u, "is it connected"}, {0x0600u, "licence manager"}}) {
     test::resetFakeHd();
     fakeHd().failures["hdInitDevice"] = code;
-    EXPECT_TRUE(holds(refusal(), hint));
+    EXPECT_TRUE(holds(refusalOfPhantom(), hint));
   }
   test::resetFakeHd();
   fakeHd().failures["hdInitDevice"] = 0x0304;
-  EXPECT_TRUE(refusal().ends_with("HD_OTHER (0x0304)")) << "no hint where there is none";
+  EXPECT_TRUE(refusalOfPhantom().ends_with("HD_OTHER (0x0304)")) << "no hint where there is none";
 }
 
 // By themselves as the vendor's scheduler runs: the device's own clock first, then the computer's.

@@ -102,7 +102,7 @@ class Firmware {
   std::jthread thread_;
 };
 
-std::unique_ptr<haptics::HapticDevice> open(const Firmware& firmware) {
+std::unique_ptr<haptics::HapticDevice> openPolhem(const Firmware& firmware) {
   return makeDevice("polhem:" + firmware.path, experiment::readExperiment("chain-slow"), 1);
 }
 
@@ -307,7 +307,7 @@ TEST_F(SerialLine, SendsAsItIsAndIsGoneWithItsOtherEnd) {
 
 TEST(Polhem, GivesItsPlaceAndGetsItsForce) {
   Firmware firmware;
-  const auto device = open(firmware);
+  const auto device = openPolhem(firmware);
   ASSERT_TRUE(until([&] { return norm(device->read().position - Vec3{-0.01, 0.04, 0.025}) < 1e-12; }));
   ASSERT_TRUE(until([&] {
     device->write({1, 2, 3});
@@ -319,7 +319,7 @@ TEST(Polhem, GivesItsPlaceAndGetsItsForce) {
 TEST(Polhem, AnArmThatNeverReportsIsRefusedAndNamedADeviceOnce) {
   Firmware firmware;
   firmware.silent = true;
-  const std::string said = refusalOf<ResourceError>([&] { open(firmware); });
+  const std::string said = refusalOf<ResourceError>([&] { openPolhem(firmware); });
   EXPECT_TRUE(said.starts_with("device polhem:" + firmware.path + ": ")) << said;
   EXPECT_EQ(said.find("device ", 1), std::string::npos) << said;
   EXPECT_TRUE(holds(said, "no report came within 2000 ms"));

@@ -20,10 +20,10 @@ class OthersFiles : public ::testing::Test {
   TemporaryFolder folder;
 };
 
-std::vector<RecordedReach> read(const std::string& argument) { return readReaches(reachSourceOf(argument)); }
+std::vector<RecordedReach> readFrom(const std::string& argument) { return readReaches(reachSourceOf(argument)); }
 
-std::string refusalOf(const std::string& argument) {
-  return reachlab::refusalOf([&] { (void)read(argument); });
+std::string refusalToReplay(const std::string& argument) {
+  return refusalOf([&] { (void)readFrom(argument); });
 }
 
 // Two rows at 0 and 0.5 s, from (1, 2, 3) m to (4, 5, 6) m, as others write them.
@@ -35,33 +35,33 @@ void expectTwoRows(const RecordedReach& reach) {
 }
 
 TEST_F(OthersFiles, ColumnsSayTheirUnit) {
-  expectTwoRows(read(write("si.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n0.5,4,5,6\n")).front());
-  expectTwoRows(read(write("mm.csv", "time_ms,x_mm,y_mm,z_mm\n0,1000,2000,3000\n500,4000,5000,6000\n")).front());
-  expectTwoRows(read(write("cm.csv", "z_cm;frame;y_cm;x_cm;time_s\n300;1;200;100;7\n600;2;500;400;7.5\n")).front());
+  expectTwoRows(readFrom(write("si.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n0.5,4,5,6\n")).front());
+  expectTwoRows(readFrom(write("mm.csv", "time_ms,x_mm,y_mm,z_mm\n0,1000,2000,3000\n500,4000,5000,6000\n")).front());
+  expectTwoRows(readFrom(write("cm.csv", "z_cm;frame;y_cm;x_cm;time_s\n300;1;200;100;7\n600;2;500;400;7.5\n")).front());
 }
 
 TEST_F(OthersFiles, ColumnsAreNamed) {
   const std::string file = write("optotrak.csv", "Time (ms)\tHandX\tHandY\tHandZ\n0\t1000\t2000\t3000\n500\t4000\t5000\t6000\n");
-  expectTwoRows(read(file + ",time=Time (ms),time_unit=ms,x=HandX,y=HandY,z=HandZ,unit=mm").front());
+  expectTwoRows(readFrom(file + ",time=Time (ms),time_unit=ms,x=HandX,y=HandY,z=HandZ,unit=mm").front());
   const std::string untimed = write("rate.csv", "X,Y,Z\n1,2,3\n4,5,6\n");
-  expectTwoRows(read(untimed + ",rate=2,x=X,y=Y,z=Z,unit=m").front());
-  const RecordedReach plane = read(untimed + ",rate=2,x=X,y=Y,unit=m").front();
+  expectTwoRows(readFrom(untimed + ",rate=2,x=X,y=Y,z=Z,unit=m").front());
+  const RecordedReach plane = readFrom(untimed + ",rate=2,x=X,y=Y,unit=m").front();
   EXPECT_EQ(plane.position[1].z, 0) << "the hand moved in a plane";
 }
 
-TEST_F(OthersFiles, APathMayHoldCommas) { expectTwoRows(read(write("a,b.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n0.5,4,5,6\n")).front()); }
+TEST_F(OthersFiles, APathMayHoldCommas) { expectTwoRows(readFrom(write("a,b.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n0.5,4,5,6\n")).front()); }
 
 TEST_F(OthersFiles, WhatIsWrongWithATableIsSaid) {
   const std::string file = write("t.csv", "T,X,Y,Z\n0,1,2,3\n0.5,4,5,6\n");
-  EXPECT_TRUE(holds(refusalOf(file), "t.csv:1: time_s: column is missing"));
-  EXPECT_TRUE(holds(refusalOf(file + ",time=T,x=X,y=Y,z=Z"), "t.csv:1: T: the unit of time is not told; allowed: s, ms"));
-  EXPECT_TRUE(holds(refusalOf(file + ",time=T,time_unit=s,x=X,y=Y,z=Z"), "X: the unit of length is not told; allowed: m, cm, mm"));
-  EXPECT_TRUE(holds(refusalOf(file + ",time=T,time_unit=s,x=A,y=Y,z=Z,unit=m"), "A: column is missing; allowed: T, X, Y, Z"));
-  EXPECT_TRUE(holds(refusalOf(file + ",unit=inch"), "unit=inch"));
-  EXPECT_TRUE(holds(refusalOf(file + ",colour=red"), "colour is not known"));
-  EXPECT_TRUE(holds(refusalOf(file + ",rate=0"), "rate=0"));
-  EXPECT_TRUE(holds(refusalOf(write("inch.csv", "time_s,x_in,y_in,z_in\n0,1,2,3\n")), "x_m: column is missing"));
-  EXPECT_TRUE(holds(refusalOf(write("comma.csv", "time_s;x_m;y_m;z_m\n0;1,5;2;3\n")), "comma.csv:2: x_m: '1,5' is not a number"));
+  EXPECT_TRUE(holds(refusalToReplay(file), "t.csv:1: time_s: column is missing"));
+  EXPECT_TRUE(holds(refusalToReplay(file + ",time=T,x=X,y=Y,z=Z"), "t.csv:1: T: the unit of time is not told; allowed: s, ms"));
+  EXPECT_TRUE(holds(refusalToReplay(file + ",time=T,time_unit=s,x=X,y=Y,z=Z"), "X: the unit of length is not told; allowed: m, cm, mm"));
+  EXPECT_TRUE(holds(refusalToReplay(file + ",time=T,time_unit=s,x=A,y=Y,z=Z,unit=m"), "A: column is missing; allowed: T, X, Y, Z"));
+  EXPECT_TRUE(holds(refusalToReplay(file + ",unit=inch"), "unit=inch"));
+  EXPECT_TRUE(holds(refusalToReplay(file + ",colour=red"), "colour is not known"));
+  EXPECT_TRUE(holds(refusalToReplay(file + ",rate=0"), "rate=0"));
+  EXPECT_TRUE(holds(refusalToReplay(write("inch.csv", "time_s,x_in,y_in,z_in\n0,1,2,3\n")), "x_m: column is missing"));
+  EXPECT_TRUE(holds(refusalToReplay(write("comma.csv", "time_s;x_m;y_m;z_m\n0;1,5;2;3\n")), "comma.csv:2: x_m: '1,5' is not a number"));
 }
 
 struct Bids {
@@ -88,8 +88,8 @@ std::string writeBids(const TemporaryFolder& folder, const Bids& bids) {
 }
 
 TEST_F(OthersFiles, ABidsPointIsReadWithItsUnits) {
-  expectTwoRows(read(writeBids(folder, {}) + ",point=hand").front());
-  expectTwoRows(read(writeBids(folder, {}) + ",point=elbow").front());
+  expectTwoRows(readFrom(writeBids(folder, {}) + ",point=hand").front());
+  expectTwoRows(readFrom(writeBids(folder, {}) + ",point=elbow").front());
 }
 
 TEST_F(OthersFiles, EachBidsEventThatLastsIsAReach) {
@@ -99,17 +99,19 @@ TEST_F(OthersFiles, EachBidsEventThatLastsIsAReach) {
   for (int i = 0; i < 100; ++i) bids.motion += (i == 31 ? "n/a" : std::to_string(10 * i)) + "\t0\t0\t0\t0\t0\n";
   bids.events = "onset\tduration\ttrial_type\n0.5\t1\treach\n1.6\t0\tbeep\n2\t0.5\tcatch\n3\t1.5\treach\n4\tn/a\treach\n";
   const std::string file = writeBids(folder, bids);
-  EXPECT_EQ(read(file + ",point=hand").size(), 3u);
-  const std::vector<RecordedReach> reaches = read(file + ",point=hand,trial_type=reach");
+  EXPECT_EQ(readFrom(file + ",point=hand").size(), 3u);
+  const std::vector<RecordedReach> reaches = readFrom(file + ",point=hand,trial_type=reach");
   ASSERT_EQ(reaches.size(), 2u);
   EXPECT_NEAR(reaches[0].time.front(), 0.5, 1e-12);
   EXPECT_NEAR(reaches[1].time.back(), 4.5, 1e-12);
   EXPECT_NEAR(reaches[1].position.front().x, 0.6, 1e-12) << "row 60, in mm";
-  EXPECT_TRUE(holds(refusalOf(file + ",point=hand,trial_type=point"), "no event of trial_type point that lasts"));
+  EXPECT_TRUE(holds(refusalToReplay(file + ",point=hand,trial_type=point"), "no event of trial_type point that lasts"));
 }
 
 TEST_F(OthersFiles, WhatIsWrongWithBidsIsSaid) {
-  const auto refusal = [&](Bids bids, const std::string& options = ",point=hand") { return refusalOf(writeBids(folder, bids) + options); };
+  const auto refusal = [&](Bids bids, const std::string& options = ",point=hand") {
+    return refusalToReplay(writeBids(folder, bids) + options);
+  };
   EXPECT_EQ(refusal({}), "");
   EXPECT_TRUE(holds(refusal({}, ""), "has 2 tracked points, and none is named; allowed: point= with one of hand, elbow"));
   EXPECT_TRUE(holds(refusal({}, ",point=foot"), "has no x, y and z of type POS for the point foot"));
@@ -151,19 +153,19 @@ TEST_F(OthersFiles, AC3dPointIsReadAndAGapIsRefused) {
     for (const float value : {static_cast<float>(i), 2.0f, 3.0f}) c3d.places.push_back(value);
   c3d.seen[1] = c3d.seen[2 * 20 + 1] = 0;  // the first frame, and one inside
   const std::string file = write("reach.c3d", c3dBytes(c3d));
-  const RecordedReach reach = read(file + ",point=INDEX").front();
+  const RecordedReach reach = readFrom(file + ",point=INDEX").front();
   ASSERT_EQ(reach.time.size(), 58u);
   EXPECT_EQ(reach.time.front(), 0.01);
   EXPECT_NEAR(reach.position.front().x, 0.003, 1e-9) << "single precision";
-  EXPECT_TRUE(holds(refusalOf(file), "has 2 points, and none is named; allowed: point= with one of WRIST, INDEX"));
-  EXPECT_TRUE(holds(refusalOf(file + ",point=NOSE"), "has no point NOSE; allowed: point= with one of WRIST, INDEX"));
+  EXPECT_TRUE(holds(refusalToReplay(file), "has 2 points, and none is named; allowed: point= with one of WRIST, INDEX"));
+  EXPECT_TRUE(holds(refusalToReplay(file + ",point=NOSE"), "has no point NOSE; allowed: point= with one of WRIST, INDEX"));
   for (std::size_t frame = 20; frame < 40; ++frame) c3d.seen[2 * frame + 1] = 0;
-  EXPECT_TRUE(holds(refusalOf(write("gap.c3d", c3dBytes(c3d)) + ",point=INDEX"),
+  EXPECT_TRUE(holds(refusalToReplay(write("gap.c3d", c3dBytes(c3d)) + ",point=INDEX"),
                     "not seen for 0.210 s from 0.190 s; allowed: gaps of up to 0.1 s"));
   c3d.pointUnit = "furlong";
-  EXPECT_TRUE(holds(refusalOf(write("unit.c3d", c3dBytes(c3d)) + ",point=WRIST"), "the unit of length is 'furlong'"));
-  EXPECT_EQ(refusalOf(write("unit.c3d", c3dBytes(c3d)) + ",point=WRIST,unit=mm"), "");
-  EXPECT_TRUE(holds(refusalOf(write("no.c3d", "hello")), "is no C3D file"));
+  EXPECT_TRUE(holds(refusalToReplay(write("unit.c3d", c3dBytes(c3d)) + ",point=WRIST"), "the unit of length is 'furlong'"));
+  EXPECT_EQ(refusalToReplay(write("unit.c3d", c3dBytes(c3d)) + ",point=WRIST,unit=mm"), "");
+  EXPECT_TRUE(holds(refusalToReplay(write("no.c3d", "hello")), "is no C3D file"));
 }
 
 // A trial's file begins before the movement and may end after it: what is replayed is the same as from the trial's BIDS files.
@@ -171,11 +173,11 @@ TEST_F(OthersFiles, AC3dReachIsCutByItsEvents) {
   C3dFile c3d = c3dOf({{"hand"}}, 60, "m");
   c3d.places.assign(180, 1);
   c3d.events = {{"go", 0.1}, {"onset", 0.17}, {"end", 0.43}};
-  const RecordedReach reach = read(write("cut.c3d", c3dBytes(c3d))).front();
+  const RecordedReach reach = readFrom(write("cut.c3d", c3dBytes(c3d))).front();
   EXPECT_EQ(reach.time.front(), 0.17);
   EXPECT_EQ(reach.time.back(), 0.43);
   c3d.events.pop_back();
-  EXPECT_EQ(read(write("whole.c3d", c3dBytes(c3d))).front().time.size(), 60u);
+  EXPECT_EQ(readFrom(write("whole.c3d", c3dBytes(c3d))).front().time.size(), 60u);
 }
 
 TEST_F(OthersFiles, AFolderMayHoldAllKinds) {
@@ -184,35 +186,35 @@ TEST_F(OthersFiles, AFolderMayHoldAllKinds) {
   c3d.places = {1, 2, 3, 4, 5, 6};
   write("b.c3d", c3dBytes(c3d));
   write("c.txt", "no reach");
-  const std::vector<RecordedReach> reaches = read(folder.path());
+  const std::vector<RecordedReach> reaches = readFrom(folder.path());
   ASSERT_EQ(reaches.size(), 2u);
   EXPECT_TRUE(reaches[1].file.ends_with("b.c3d"));
 }
 
 TEST_F(OthersFiles, CellsMayBeQuotedAndSpacedAndColumnsMayComeInAnyUnit) {
-  expectTwoRows(read(write("q.csv", "\"time_s\" , \"x_m\",y_m,z_m\r\n \"0\",1, 2 ,3\r\n  \r\n0.5,4,5,\"6\"\r\n")).front());
+  expectTwoRows(readFrom(write("q.csv", "\"time_s\" , \"x_m\",y_m,z_m\r\n \"0\",1, 2 ,3\r\n  \r\n0.5,4,5,\"6\"\r\n")).front());
   expectTwoRows(
-      read(write("named.csv", "clock_ms,hx_cm,hy_mm,hz_m\n0,100,2000,3\n500,400,5000,6\n") + ",time=clock_ms,x=hx_cm,y=hy_mm,z=hz_m")
+      readFrom(write("named.csv", "clock_ms,hx_cm,hy_mm,hz_m\n0,100,2000,3\n500,400,5000,6\n") + ",time=clock_ms,x=hx_cm,y=hy_mm,z=hz_m")
           .front());
-  expectTwoRows(read(write("mixed.csv", "time_s,x_cm,y_mm,z_m\n0,100,2000,3\n0.5,400,5000,6\n")).front());
+  expectTwoRows(readFrom(write("mixed.csv", "time_s,x_cm,y_mm,z_m\n0,100,2000,3\n0.5,400,5000,6\n")).front());
   const std::string spreadsheet = "\xef\xbb\xbfz_m, trial, time_s, x_m, y_m\r\n3, a, 0, 1, 2\r\n\r\n6, a, 0.5, 4, 5\r\n";
-  expectTwoRows(read(write("mark.csv", spreadsheet)).front());
-  EXPECT_TRUE(holds(refusalOf(write("nan.csv", "time_s,x_m,y_m,z_m\n0,1,nan,3\n")), "nan.csv:2: y_m: "));
-  EXPECT_TRUE(holds(refusalOf(write("more.csv", "time_s,x_m,y_m,z_m\n0,1,2,3,4\n")), "more.csv:2: has 5 cells"));
-  EXPECT_TRUE(holds(refusalOf(write("end.csv", "time_s,x_m,y_m,z_m\n0,1,2,\n")), "end.csv:2: z_m: '' is not a number"));
-  EXPECT_TRUE(holds(refusalOf(write("few.csv", "time_s,x_m,y_m,z_m\n0,1,2\n")), "few.csv:2: has 3 cells; allowed: 4, as the header"));
-  EXPECT_TRUE(holds(refusalOf(write("back.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n0,4,5,6\n")), "back.csv:3: time_s: does not increase"));
-  EXPECT_TRUE(holds(refusalOf(write("none.csv", "time_s,x_m,y_m,z_m\n")), "none.csv: has no samples; allowed: at least one row"));
-  EXPECT_TRUE(holds(refusalOf(write("wide.csv", "X,Y\n1,2\n3,4\n") + ",rate=2,x=X,unit=m"), "y_m: column is missing"))
+  expectTwoRows(readFrom(write("mark.csv", spreadsheet)).front());
+  EXPECT_TRUE(holds(refusalToReplay(write("nan.csv", "time_s,x_m,y_m,z_m\n0,1,nan,3\n")), "nan.csv:2: y_m: "));
+  EXPECT_TRUE(holds(refusalToReplay(write("more.csv", "time_s,x_m,y_m,z_m\n0,1,2,3,4\n")), "more.csv:2: has 5 cells"));
+  EXPECT_TRUE(holds(refusalToReplay(write("end.csv", "time_s,x_m,y_m,z_m\n0,1,2,\n")), "end.csv:2: z_m: '' is not a number"));
+  EXPECT_TRUE(holds(refusalToReplay(write("few.csv", "time_s,x_m,y_m,z_m\n0,1,2\n")), "few.csv:2: has 3 cells; allowed: 4, as the header"));
+  EXPECT_TRUE(holds(refusalToReplay(write("back.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n0,4,5,6\n")), "back.csv:3: time_s: does not increase"));
+  EXPECT_TRUE(holds(refusalToReplay(write("none.csv", "time_s,x_m,y_m,z_m\n")), "none.csv: has no samples; allowed: at least one row"));
+  EXPECT_TRUE(holds(refusalToReplay(write("wide.csv", "X,Y\n1,2\n3,4\n") + ",rate=2,x=X,unit=m"), "y_m: column is missing"))
       << "a plane has two named axes";
 }
 
 TEST_F(OthersFiles, RatesAreBounded) {
   const std::string file = write("rate.csv", "x_m,y_m,z_m\n1,2,3\n4,5,6\n");
-  EXPECT_EQ(read(file + ",rate=1").front().time, (std::vector<double>{0, 1}));
-  EXPECT_EQ(read(file + ",rate=1000000").front().time[1], 1e-6);
-  for (const char* bad : {",rate=0.9", ",rate=1000001", ",time_unit=h", ",unit=km"}) EXPECT_THROW(read(file + bad), FaultError) << bad;
-  for (const char* good : {",unit=mm", ",unit=cm", ",time_unit=ms"}) EXPECT_EQ(refusalOf(file + ",rate=2" + good), "") << good;
+  EXPECT_EQ(readFrom(file + ",rate=1").front().time, (std::vector<double>{0, 1}));
+  EXPECT_EQ(readFrom(file + ",rate=1000000").front().time[1], 1e-6);
+  for (const char* bad : {",rate=0.9", ",rate=1000001", ",time_unit=h", ",unit=km"}) EXPECT_THROW(readFrom(file + bad), FaultError) << bad;
+  for (const char* good : {",unit=mm", ",unit=cm", ",time_unit=ms"}) EXPECT_EQ(refusalToReplay(file + ",rate=2" + good), "") << good;
 }
 
 TEST_F(OthersFiles, ABidsLatencyIsTheTimeSinceItsFirstRow) {
@@ -222,23 +224,23 @@ TEST_F(OthersFiles, ABidsLatencyIsTheTimeSinceItsFirstRow) {
       "hz\tz\tPOS\thand\tm\nhv\tx\tVEL\thand\tm\nq\tquat_w\tPOS\thand\tm\n";
   bids.motion = "10\t100\t2000\t3\t9\t9\r\nn/a\t0\t0\t0\t0\t0\n\n10.5\t400\t5000\t6\t9\t9\n";
   bids.json.clear();
-  const RecordedReach reach = read(writeBids(folder, bids)).front();
+  const RecordedReach reach = readFrom(writeBids(folder, bids)).front();
   expectTwoRows(reach);
   EXPECT_EQ(reach.time.front(), 0);
   EXPECT_EQ(reach.file.substr(reach.file.size() - 11), "_motion.tsv");
   bids.motion = "0\t1\t1\t1\t0\t0\n0\t1\t1\t1\t0\t0\n";
-  EXPECT_TRUE(holds(refusalOf(writeBids(folder, bids)), "time does not increase at 0 s"));
+  EXPECT_TRUE(holds(refusalToReplay(writeBids(folder, bids)), "time does not increase at 0 s"));
 }
 
 TEST_F(OthersFiles, TheEffectiveRateGoesBeforeTheNominalOneAndTheAskedOneBeforeBoth) {
   Bids bids;
   bids.json = R"({"SamplingFrequency": 3, "SamplingFrequencyEffective": 2})";
-  expectTwoRows(read(writeBids(folder, bids) + ",point=hand").front());
+  expectTwoRows(readFrom(writeBids(folder, bids) + ",point=hand").front());
   bids.json = R"({"SamplingFrequency": 2, "SamplingFrequencyEffective": "n/a"})";
-  expectTwoRows(read(writeBids(folder, bids) + ",point=hand").front());
-  EXPECT_EQ(read(writeBids(folder, bids) + ",point=hand,rate=4").front().time[1], 0.25);
+  expectTwoRows(readFrom(writeBids(folder, bids) + ",point=hand").front());
+  EXPECT_EQ(readFrom(writeBids(folder, bids) + ",point=hand,rate=4").front().time[1], 0.25);
   bids.json = R"({"SamplingFrequency": 0})";
-  EXPECT_TRUE(holds(refusalOf(writeBids(folder, bids) + ",point=hand"), "SamplingFrequency: is missing or no number above 0"));
+  EXPECT_TRUE(holds(refusalToReplay(writeBids(folder, bids) + ",point=hand"), "SamplingFrequency: is missing or no number above 0"));
 }
 
 TEST_F(OthersFiles, AGapOfATenthOfASecondIsLeftToTheSpline) {
@@ -247,7 +249,7 @@ TEST_F(OthersFiles, AGapOfATenthOfASecondIsLeftToTheSpline) {
     bids.json = R"({"SamplingFrequency": 100})";
     bids.motion.clear();
     for (int i = 0; i < 60; ++i) bids.motion += (i >= 20 && i < 20 + gap ? "n/a" : std::to_string(i)) + "\t0\t0\t0\t0\t0\n";
-    const std::string said = refusalOf(writeBids(folder, bids) + ",point=hand");
+    const std::string said = refusalToReplay(writeBids(folder, bids) + ",point=hand");
     EXPECT_EQ(said.empty(), isRead) << gap << ": " << said;
   }
 }
@@ -258,21 +260,21 @@ TEST_F(OthersFiles, AnEventHoldsTheSamplesFromItsOnsetToItsEnd) {
   bids.json = R"({"SamplingFrequency": 4})";
   bids.motion.clear();
   for (int i = 0; i < 40; ++i) bids.motion += std::to_string(i) + "\t0\t0\t0\t0\t0\n";
-  EXPECT_EQ(read(writeBids(folder, bids) + ",point=hand").front().time.size(), 40u);
+  EXPECT_EQ(readFrom(writeBids(folder, bids) + ",point=hand").front().time.size(), 40u);
   bids.events = "onset\tduration\n1.25\t2\n5\t0.5\n";
-  const auto reaches = read(writeBids(folder, bids) + ",point=hand");
+  const auto reaches = readFrom(writeBids(folder, bids) + ",point=hand");
   ASSERT_EQ(reaches.size(), 2u);
   EXPECT_EQ(reaches[0].time.front(), 1.25);
   EXPECT_EQ(reaches[0].time.back(), 3.25);
   EXPECT_EQ(reaches[1].time, (std::vector<double>{5, 5.25, 5.5}));
   EXPECT_TRUE(reaches[1].file.ends_with("_motion.tsv: event 2")) << reaches[1].file;
-  EXPECT_TRUE(holds(refusalOf(writeBids(folder, bids) + ",point=hand,trial_type=reach"), "no event of trial_type reach"))
+  EXPECT_TRUE(holds(refusalToReplay(writeBids(folder, bids) + ",point=hand,trial_type=reach"), "no event of trial_type reach"))
       << "a table without types has none of that type";
   bids.events = "onset\tduration\nsoon\t2\n";
-  EXPECT_TRUE(
-      holds(refusalOf(writeBids(folder, bids) + ",point=hand"), "_events.tsv:2: onset: 'soon' is not a number; allowed: a number or n/a"));
+  EXPECT_TRUE(holds(refusalToReplay(writeBids(folder, bids) + ",point=hand"),
+                    "_events.tsv:2: onset: 'soon' is not a number; allowed: a number or n/a"));
   bids.events = "onset\tduration\n1\tn/a\n1\t-1\n";
-  EXPECT_TRUE(holds(refusalOf(writeBids(folder, bids) + ",point=hand"), "has no event that lasts"));
+  EXPECT_TRUE(holds(refusalToReplay(writeBids(folder, bids) + ",point=hand"), "has no event that lasts"));
 }
 
 TEST_F(OthersFiles, AC3dFileMayEndInCapitalsAndGiveItsPlacesPointByPoint) {
@@ -281,10 +283,10 @@ TEST_F(OthersFiles, AC3dFileMayEndInCapitalsAndGiveItsPlacesPointByPoint) {
        {1.0f, 2.0f, 3.0f, 10.0f, 20.0f, 30.0f, 4.0f, 5.0f, 6.0f, 40.0f, 50.0f, 60.0f, 7.0f, 8.0f, 9.0f, 70.0f, 80.0f, 90.0f})
     c3d.places.push_back(value);
   write("UP.C3D", c3dBytes(c3d));
-  const auto reach = read(folder.path() + ",point=B").front();
+  const auto reach = readFrom(folder.path() + ",point=B").front();
   EXPECT_EQ(reach.time, (std::vector<double>{0, 0.02, 0.04}));
   EXPECT_LT(norm(reach.position[1] - Vec3{0.4, 0.5, 0.6}), 1e-12);
-  EXPECT_TRUE(holds(refusalOf(at("gone.c3d")), "gone.c3d: no such file or folder to replay"));
+  EXPECT_TRUE(holds(refusalToReplay(at("gone.c3d")), "gone.c3d: no such file or folder to replay"));
 }
 
 }  // namespace
