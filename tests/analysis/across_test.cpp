@@ -10,7 +10,7 @@
 namespace reachlab::analysis {
 namespace {
 
-constexpr double kB = 13, kDuration = 0.5;  // [N s/m], [s]
+constexpr double kB = 13, kReachSeconds = 0.5;  // [N s/m], [s]
 constexpr experiment::SquareMatrix<3> kCurl{{{0, 0, kB}, {0, 0, 0}, {-kB, 0, 0}}};
 const Vec3 kForward{0, 0, -1};
 
@@ -19,19 +19,19 @@ TrialData straightReach() {
   TrialData trial;
   trial.rate = 1000;
   trial.taskOnset = 0.1;
-  trial.taskEnd = 0.1 + kDuration;
+  trial.taskEnd = 0.1 + kReachSeconds;
   trial.start = {0.2, 0.1, 0};
   trial.target = trial.start + 0.1 * kForward;
   trial.along = {kForward};
   for (int i = 0; i <= 600; ++i) {
-    const double x = std::clamp((i / 1000.0 - 0.1) / kDuration, 0.0, 1.0);
+    const double x = std::clamp((i / 1000.0 - 0.1) / kReachSeconds, 0.0, 1.0);
     trial.hand.push_back(trial.start + 0.1 * minimumJerk(x) * kForward);
-    trial.velocity.push_back(0.1 * minimumJerkRate(x) / kDuration * kForward);
+    trial.velocity.push_back(0.1 * minimumJerkRate(x) / kReachSeconds * kForward);
   }
   return trial;
 }
 
-TrialMeasures measured(const TrialData& trial) {
+TrialMeasures measuredAcross(const TrialData& trial) {
   TrialMeasures m;
   measureAcross(trial, m);
   return m;
@@ -48,7 +48,7 @@ TrialData pressedInAChannel(double share) {
 
 TEST(MeasuresAcross, AHandThatPressesWithAShareOfTheForceHasAdaptedByIt) {
   for (const double share : {0.0, 0.5, 1.0}) {
-    const TrialMeasures m = measured(pressedInAChannel(share));
+    const TrialMeasures m = measuredAcross(pressedInAChannel(share));
     EXPECT_NEAR(m.adaptation, 100 * share, 1e-9);
     if (share > 0) EXPECT_NEAR(m.adaptationR2, 1, 1e-12);
     else EXPECT_TRUE(std::isnan(m.adaptationR2)) << "no force has no part that is explained";
@@ -60,37 +60,37 @@ TEST(MeasuresAcross, AHandThatPressesWithAShareOfTheForceHasAdaptedByIt) {
 TEST(MeasuresAcross, AForceThatDoesNotFollowTheSpeedIsExplainedLess) {
   TrialData trial = pressedInAChannel(1);
   for (std::size_t i = 0; i < trial.environment.size(); ++i) trial.environment[i] = (i % 2 == 0 ? 2.0 : 0.0) * trial.environment[i];
-  EXPECT_NEAR(measured(trial).adaptation, 100, 1);
-  EXPECT_NEAR(measured(trial).adaptationR2, 0.5, 0.01);
+  EXPECT_NEAR(measuredAcross(trial).adaptation, 100, 1);
+  EXPECT_NEAR(measuredAcross(trial).adaptationR2, 0.5, 0.01);
 }
 
 TEST(MeasuresAcross, OnlyAChannelTrialOfATrainedFieldHasAnAdaptation) {
   TrialData trial = pressedInAChannel(1);
   trial.scene.trained.reset();
-  EXPECT_TRUE(std::isnan(measured(trial).adaptation));
-  EXPECT_FALSE(std::isnan(measured(trial).channelLeak));
+  EXPECT_TRUE(std::isnan(measuredAcross(trial).adaptation));
+  EXPECT_FALSE(std::isnan(measuredAcross(trial).channelLeak));
   trial = pressedInAChannel(1);
   trial.scene.channel = false;
-  EXPECT_TRUE(std::isnan(measured(trial).adaptation));
-  EXPECT_TRUE(std::isnan(measured(trial).channelLeak));
+  EXPECT_TRUE(std::isnan(measuredAcross(trial).adaptation));
+  EXPECT_TRUE(std::isnan(measuredAcross(trial).channelLeak));
 }
 
 TEST(MeasuresAcross, ALeakIsCountedOnAllSidesOfTheLine) {
   TrialData trial = pressedInAChannel(1);
   trial.hand[300] += Vec3{0.003, 0.004, 0};
-  EXPECT_NEAR(measured(trial).channelLeak, 0.005, 1e-15);
+  EXPECT_NEAR(measuredAcross(trial).channelLeak, 0.005, 1e-15);
 }
 
 TEST(MeasuresAcross, ThereIsNoneOnABentWayOrWithoutAMovement) {
   TrialData trial = straightReach();
   trial.along.push_back(kForward);
-  EXPECT_TRUE(std::isnan(measured(trial).maxPerpendicular));
+  EXPECT_TRUE(std::isnan(measuredAcross(trial).maxPerpendicular));
   trial = straightReach();
   trial.taskOnset = kNotMeasured;
-  EXPECT_TRUE(std::isnan(measured(trial).maxPerpendicular));
+  EXPECT_TRUE(std::isnan(measuredAcross(trial).maxPerpendicular));
   trial = straightReach();
   trial.scene.normal = kForward;
-  EXPECT_TRUE(std::isnan(measured(trial).maxPerpendicular)) << "in this plane the way has no right";
+  EXPECT_TRUE(std::isnan(measuredAcross(trial).maxPerpendicular)) << "in this plane the way has no right";
 }
 
 TEST(SceneOfATrial, TellsChannelAndField) {

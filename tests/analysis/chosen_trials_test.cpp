@@ -18,12 +18,6 @@ namespace {
 
 std::string logIn(const TemporaryFolder& folder) { return folder.path() + "/sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach"; }
 
-AnalysisOptions quick() {
-  AnalysisOptions options;
-  options.criteria = {predict::Criterion::MinHandJerk};
-  return options;
-}
-
 // Bit for bit: the window's numbers are those of the whole dataset's analysis.
 TEST(ChosenTrials, AreTheTrialsOfTheDatasetAsTheAnalysisReadsThem) {
   const TemporaryFolder folder;
@@ -85,7 +79,7 @@ TEST(Marks, ExcludeATrialWithItsReasonAndMoveOnsetAndEnd) {
   const TemporaryFolder folder;
   recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 3});
   const Dataset before = openDataset(folder.path());
-  const Analysis plain = analyzeTrials(before.input, quick());
+  const Analysis plain = analyzeTrials(before.input, fewCriteria());
   const double onset = plain.trials[1].measures.onset, offset = plain.trials[1].measures.offset;
   record::RunMarks marks;
   marks.set({.trial = 1, .excluded = "talked"});
@@ -93,7 +87,7 @@ TEST(Marks, ExcludeATrialWithItsReasonAndMoveOnsetAndEnd) {
   marks.set({.trial = 3, .flagged = true, .note = "look again"});
   record::writeMarks(logIn(folder), marks);
   const Dataset after = openDataset(folder.path());
-  const Analysis analysis = analyzeTrials(after.input, quick());
+  const Analysis analysis = analyzeTrials(after.input, fewCriteria());
   EXPECT_EQ(analysis.trials[0].exclusion, "excluded: talked");
   EXPECT_FALSE(analysis.trials[0].counted) << "neither success nor failure";
   EXPECT_EQ(analysis.results[0].exclusions.at("excluded: talked"), 1u);

@@ -25,12 +25,6 @@ namespace {
 
 constexpr const char* kQuiet = "simulated:noise=0";
 
-AnalysisOptions quick() {
-  AnalysisOptions options;
-  options.criteria = {predict::Criterion::MinHandJerk, predict::Criterion::MinCrackle};
-  return options;
-}
-
 /// The exported file of a run whose name ends so.
 std::string fileOf(const std::string& folder, const std::string& ending) {
   for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
@@ -62,7 +56,7 @@ TEST(Dataset, OfLogsHasEveryTrialWithItsResult) {
     }
   }
   EXPECT_TRUE(dataset.input.trials[4].practice);
-  AnalysisOptions options = quick();
+  AnalysisOptions options = fewCriteria();
   options.includePractice = true;
   const Analysis analysis = analyzeTrials(dataset.input, options);  // where the plan gave none, sessions are days
   EXPECT_EQ(analysis.trials[0].key.day, 1);
@@ -110,11 +104,11 @@ TEST(Differences, AreOfWhatIsAskedAndNotOfHowItIsWritten) {
 TEST(Dataset, WhoseEventsAreNoTableOfEventsIsRefusedAndNotARunWithoutTrials) {
   const TemporaryFolder folder;
   removeLogs(folder.path(), recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2}));
-  ASSERT_EQ(analyzeTrials(openDataset(folder.path()).input, quick()).trials.size(), 2u);
+  ASSERT_EQ(analyzeTrials(openDataset(folder.path()).input, fewCriteria()).trials.size(), 2u);
   const std::string events = fileOf(folder.path(), "_events.tsv");
   for (const std::string& text : {std::string(), std::string(2000, '\xff'), std::string(2000, '\0'), std::string("onset\tduration\n")}) {
     std::ofstream(events, std::ios::binary) << text;
-    EXPECT_THROW(analyzeTrials(openDataset(folder.path()).input, quick()), FaultError) << text.substr(0, 40);
+    EXPECT_THROW(analyzeTrials(openDataset(folder.path()).input, fewCriteria()), FaultError) << text.substr(0, 40);
   }
 }
 
@@ -127,7 +121,8 @@ TEST(Dataset, OfBidsFilesThatAnotherProgramHasChangedIsRefusedWhereItsNumbersWou
     const std::string after = std::regex_replace(before, text, instead);
     EXPECT_NE(before, after);
     std::ofstream(file, std::ios::binary) << after;
-    const std::string refusal = reachlab::refusalOf<FaultError>([&] { (void)analyzeTrials(openDataset(folder.path()).input, quick()); });
+    const std::string refusal =
+        reachlab::refusalOf<FaultError>([&] { (void)analyzeTrials(openDataset(folder.path()).input, fewCriteria()); });
     std::ofstream(file, std::ios::binary) << before;
     return refusal;
   };
@@ -192,14 +187,14 @@ TEST(Dataset, WithADamagedLogKeepsWhatIsGoodAndSaysSo) {
   const Dataset dataset = openDataset(folder.path());
   EXPECT_FALSE(dataset.input.trials.empty());
   EXPECT_EQ(dataset.notes.size(), 1u);
-  EXPECT_NO_THROW(analyzeTrials(dataset.input, quick()));
+  EXPECT_NO_THROW(analyzeTrials(dataset.input, fewCriteria()));
 }
 
 TEST(Analysis, WritesTheSameBytesEachTimeAndEveryNumberOfAFigure) {
   const TemporaryFolder folder;
   recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 5, .seed = 3});
   Dataset dataset = openDataset(folder.path());
-  const Analysis analysis = analyzeTrials(dataset.input, quick());
+  const Analysis analysis = analyzeTrials(dataset.input, fewCriteria());
   const ReportHeader header{"dataset", "0.1.0", "reach analyze dataset"};
   const AnalysisFiles first = writeAnalysis(analysis, dataset, header, folder.path() + "/one");
   const AnalysisFiles second = writeAnalysis(analysis, dataset, header, folder.path() + "/two");
@@ -231,7 +226,7 @@ TEST(Analysis, WrittenByThreeAtOnceIsOneOfThem) {
   const Dataset dataset = openDataset(folder.path());
   std::vector<Analysis> analyses;
   for (const double cutoff : {6.0, 8.0, 10.0}) {
-    AnalysisOptions options = quick();
+    AnalysisOptions options = fewCriteria();
     options.measure.cutoff = cutoff;
     analyses.push_back(analyzeTrials(dataset.input, options));
   }

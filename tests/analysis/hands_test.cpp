@@ -7,13 +7,13 @@
 namespace reachlab::analysis {
 namespace {
 
-constexpr double kRate = 100;
+constexpr double kHandsRate = 100;
 
 /// A hand of so many samples whose speed is a bell that begins after `late` seconds.
-HandSignals bell(double late, double height = 0.4, std::size_t samples = 200) {
+HandSignals handWithBell(double late, double height = 0.4, std::size_t samples = 200) {
   HandSignals hand;
   for (std::size_t i = 0; i < samples; ++i) {
-    const double s = (static_cast<double>(i) / kRate - 0.5 - late) / 0.6;
+    const double s = (static_cast<double>(i) / kHandsRate - 0.5 - late) / 0.6;
     hand.velocity.push_back({0, s < 0 || s > 1 ? 0 : -height * 16 * s * s * (1 - s) * (1 - s), 0});
     hand.place.push_back({});
     hand.force.push_back({});
@@ -51,7 +51,7 @@ TEST(MeasureTogether, OfEachHandIsWorkedOutByHand) {
 
 TEST(MeasureTogether, TellsHowFarAHandIsBehindTheFirst) {
   for (const double late : {0.0, 0.07, -0.12, 0.033, 0.3}) {
-    const TogetherMeasures m = measureTogether({bell(0), bell(late, 0.9)}, kRate);
+    const TogetherMeasures m = measureTogether({handWithBell(0), handWithBell(late, 0.9)}, kHandsRate);
     EXPECT_NEAR(m.hands[0].lag, 0, 1e-12);
     EXPECT_NEAR(m.hands[0].lagCorrelation, 1, 1e-12);
     EXPECT_NEAR(m.hands[1].lag, late, 0.0015) << "the parabola lies between samples";
@@ -60,15 +60,15 @@ TEST(MeasureTogether, TellsHowFarAHandIsBehindTheFirst) {
 }
 
 TEST(MeasureTogether, LooksForALagWithinHalfASecondAlone) {
-  const double lag = measureTogether({bell(-0.3), bell(0.4)}, kRate).hands[1].lag;
+  const double lag = measureTogether({handWithBell(-0.3), handWithBell(0.4)}, kHandsRate).hands[1].lag;
   EXPECT_DOUBLE_EQ(lag, 0.5) << "the nearest that was tried to 0.7 s";
-  EXPECT_DOUBLE_EQ(measureTogether({bell(0.4), bell(-0.3)}, kRate).hands[1].lag, -0.5);
-  HandSignals early = bell(-0.5, 0.4, 60), later = bell(-0.1, 0.4, 60);  // 0.6 s: half of it is less
-  EXPECT_LE(std::abs(measureTogether({early, later}, kRate).hands[1].lag), 0.3);
+  EXPECT_DOUBLE_EQ(measureTogether({handWithBell(0.4), handWithBell(-0.3)}, kHandsRate).hands[1].lag, -0.5);
+  HandSignals early = handWithBell(-0.5, 0.4, 60), later = handWithBell(-0.1, 0.4, 60);  // 0.6 s: half of it is less
+  EXPECT_LE(std::abs(measureTogether({early, later}, kHandsRate).hands[1].lag), 0.3);
 }
 
 TEST(MeasureTogether, OfAStillHandOrNoWorkHasNoLagAndNoShare) {
-  const TogetherMeasures m = measureTogether({bell(0), bell(0, 0)}, kRate);
+  const TogetherMeasures m = measureTogether({handWithBell(0), handWithBell(0, 0)}, kHandsRate);
   EXPECT_TRUE(std::isnan(m.hands[1].lag));
   EXPECT_TRUE(std::isnan(m.hands[1].lagCorrelation));
   EXPECT_TRUE(std::isnan(m.hands[0].share));
@@ -78,16 +78,16 @@ TEST(MeasureTogether, OfAStillHandOrNoWorkHasNoLagAndNoShare) {
 
 // Speeds that go against each other correlate the more the farther they are apart, and below 0 at once.
 TEST(MeasureTogether, TellsTheCorrelationItself) {
-  HandSignals a = bell(0, 0, 5), b = a;
+  HandSignals a = handWithBell(0, 0, 5), b = a;
   const double first[] = {1, 2, 4, 3, 7}, second[] = {2, 3, 1, 5, 4};
   for (std::size_t i = 0; i < 5; ++i) a.velocity[i] = {first[i], 0, 0}, b.velocity[i] = {0, second[i], 0};
   // Of lags -2 … 2 the one of -1 is best: 2 4 3 7 against 2 3 1 5, whose products with their means taken off sum to 10.
-  const TogetherMeasures m = measureTogether({a, b}, kRate);
+  const TogetherMeasures m = measureTogether({a, b}, kHandsRate);
   EXPECT_NEAR(m.hands[1].lagCorrelation, 10 / std::sqrt(14 * 8.75), 1e-12);
 }
 
 TEST(MeasureTogether, OfNobodyIsNothing) {
-  const TogetherMeasures none = measureTogether({}, kRate);
+  const TogetherMeasures none = measureTogether({}, kHandsRate);
   EXPECT_TRUE(none.hands.empty());
   EXPECT_EQ(none.internalForce, 0);
   EXPECT_EQ(handsTable(DatasetIndex{}), "") << "no table where no two hands were recorded";

@@ -8,7 +8,7 @@ namespace reachlab::analysis {
 namespace {
 
 // A reach with v = 12 s^2 (1 - s) D / T, whose peak of 16/9 D / T is at s = 2/3, along a direction across all axes.
-constexpr double kRest = 0.5, kTime = 0.8, kWay = 0.25, kRate = 500;
+constexpr double kRest = 0.5, kTime = 0.8, kWay = 0.25, kReachRate = 500;
 const Vec3 kAlong{2.0 / 3, -1.0 / 3, 2.0 / 3}, kStart{0.1, 0.2, -0.3};
 constexpr double kFirst = 0.0015, kPeak = 16.0 / 9 * kWay / kTime;
 constexpr double kClose = 2e-4;  // of differences and interpolation at 500 Hz
@@ -18,7 +18,7 @@ double speedAt(double s) { return s <= 0 || s >= 1 ? 0 : 12 * s * s * (1 - s) * 
 
 TrialData reach() {
   TrialData trial;
-  trial.rate = kRate;
+  trial.rate = kReachRate;
   trial.first = kFirst;
   trial.goTime = 0.2;
   trial.taskOnset = 0.6;
@@ -28,11 +28,11 @@ TrialData reach() {
   trial.start = kStart;
   trial.target = kStart + 0.24 * kAlong;
   for (int i = 0; i <= 800; ++i) {
-    const double s = (i / kRate - kRest) / kTime;
+    const double s = (i / kReachRate - kRest) / kTime;
     trial.hand.push_back(Vec3{7, 8, 9} + placeAt(s) * kAlong);
     trial.object.push_back(kStart + 1.02 * placeAt(s) * kAlong);
     trial.objectVelocity.push_back(1.02 * speedAt(s) * kAlong);
-    trial.force.push_back(1 + i / kRate);
+    trial.force.push_back(1 + i / kReachRate);
   }
   return trial;
 }
@@ -120,7 +120,7 @@ TEST(Signals, EndWithTheTrialAndGiveWayToMarks) {
   trial.markedOnset = kNotMeasured;
   trial.markedOffset = 99;
   const TrialSignals beyond = computeSignals(trial, unfiltered());
-  EXPECT_DOUBLE_EQ(beyond.movement.offset, static_cast<double>(beyond.speed.size() - 1) / kRate) << "to the last sample, no farther";
+  EXPECT_DOUBLE_EQ(beyond.movement.offset, static_cast<double>(beyond.speed.size() - 1) / kReachRate) << "to the last sample, no farther";
   trial.markedOffset = kNotMeasured;
   trial.markedOnset = -5;
   EXPECT_EQ(computeSignals(trial, unfiltered()).movement.onset, 0);

@@ -9,12 +9,12 @@
 namespace reachlab::analysis {
 namespace {
 
-constexpr double kRate = 100;
+constexpr double kSpeedRate = 100;
 
 std::vector<double> bell(double before, double duration, double after, double height = 0.3) {
   std::vector<double> v;
-  for (int i = 0; i <= static_cast<int>(std::lround((before + duration + after) * kRate)); ++i) {
-    const double s = (i / kRate - before) / duration;
+  for (int i = 0; i <= static_cast<int>(std::lround((before + duration + after) * kSpeedRate)); ++i) {
+    const double s = (i / kSpeedRate - before) / duration;
     v.push_back(s < 0 || s > 1 ? 0 : height * 16 * s * s * (1 - s) * (1 - s));
   }
   return v;
@@ -24,18 +24,18 @@ TEST(FindMovement, SaysWhereTheSignalBeginsOrEndsTooSoon) {
   std::vector<double> v = bell(0, 1, 0);
   v.erase(v.begin(), v.begin() + 30);
   v.resize(v.size() - 30);
-  const Movement m = findMovement(v, kRate, {});
+  const Movement m = findMovement(v, kSpeedRate, {});
   EXPECT_TRUE(m.found);
   EXPECT_DOUBLE_EQ(m.onset, 0);
-  EXPECT_DOUBLE_EQ(m.offset, static_cast<double>(v.size() - 1) / kRate);
+  EXPECT_DOUBLE_EQ(m.offset, static_cast<double>(v.size() - 1) / kSpeedRate);
 }
 
 // Of a hand that trembles, 5 % of the peak speed is passed at once and at last: the whole trial would be its movement.
 TEST(FindMovement, FindsNoneWhereTheTrialEndedBecauseTheHandNeverLeft) {
   TrialData trial;
-  trial.rate = kRate;
+  trial.rate = kSpeedRate;
   for (int i = 0; i < 200; ++i) {
-    trial.hand.push_back({2e-5 * std::sin(60.0 * i / kRate), 0, 0});
+    trial.hand.push_back({2e-5 * std::sin(60.0 * i / kSpeedRate), 0, 0});
     trial.object.push_back({});
     trial.objectVelocity.push_back({});
     trial.force.push_back(0);
@@ -88,13 +88,13 @@ TEST(FindMovement, EndsAfterTheLastStretchThatIsHeld) {
   const auto offsetWith = [](std::size_t samples, double hold) {
     std::vector<double> v = tent(60, 5, 10, 15);
     for (std::size_t i = 30; i < 30 + samples; ++i) v[i] = 0.5;
-    return findMovement(v, kRate, above(0.25, hold)).offset;
+    return findMovement(v, kSpeedRate, above(0.25, hold)).offset;
   };
   EXPECT_NEAR(offsetWith(3, 0.04), 0.1375, 1e-12) << "a twitch";
   EXPECT_NEAR(offsetWith(4, 0.04), 0.335, 1e-12);
   EXPECT_NEAR(offsetWith(1, 0), 0.305, 1e-12) << "whatever is asked for, a sample is enough";
   EXPECT_NEAR(offsetWith(3, OnsetOptions{}.holdSeconds), 0.1375, 1e-12);
-  EXPECT_NEAR(findMovement(tent(30, 5, 6, 7), kRate, above(0.5, 0.04)).offset, 0.065, 1e-12) << "two samples are the movement";
+  EXPECT_NEAR(findMovement(tent(30, 5, 6, 7), kSpeedRate, above(0.5, 0.04)).offset, 0.065, 1e-12) << "two samples are the movement";
 }
 
 // The first hump that reaches half the peak begins the movement, though the hand rested between the two.
@@ -103,7 +103,7 @@ TEST(FindMovement, BeginsWithTheFirstHumpOfHalfThePeak) {
     std::vector<double> v = tent(80, 5, 15, 25, first);
     const std::vector<double> second = tent(80, 40, 50, 60, 2);
     for (std::size_t i = 0; i < v.size(); ++i) v[i] += second[i];
-    return findMovement(v, kRate, above(0.1)).onset;
+    return findMovement(v, kSpeedRate, above(0.1)).onset;
   };
   EXPECT_NEAR(onsetOf(1), 0.06, 1e-12);
   EXPECT_NEAR(onsetOf(0.99), 0.405, 1e-12);

@@ -11,7 +11,7 @@
 namespace reachlab::analysis {
 namespace {
 
-constexpr double kRate = 100, kDuration = 1, kAmplitude = 0.2;
+constexpr double kWindowRate = 100, kMovementSeconds = 1, kAmplitude = 0.2;
 
 /// Reaches of one person: the same movement, with a scatter [m/s] that grows from its beginning to its end.
 std::vector<FitWindow> reaches(std::size_t trials, double scatter) {
@@ -19,13 +19,13 @@ std::vector<FitWindow> reaches(std::size_t trials, double scatter) {
   std::normal_distribution<double> normal;
   std::vector<FitWindow> windows(trials);
   for (FitWindow& window : windows) {
-    window.rate = kRate;
+    window.rate = kWindowRate;
     window.begin = 3;
     const double phase = 3 * normal(random), size = normal(random);
     for (int k = 0; k < 160; ++k) {
-      const double s = (k / kRate - 0.3) / kDuration;
+      const double s = (k / kWindowRate - 0.3) / kMovementSeconds;
       const double noise = s < 0 || s > 1 ? 0 : scatter * s * size * std::sin(12 * s + phase);
-      window.velocity.push_back(kAmplitude / kDuration * heldMinimumJerk(s).rate + noise);
+      window.velocity.push_back(kAmplitude / kMovementSeconds * heldMinimumJerk(s).rate + noise);
     }
     window.weight.assign(window.velocity.size(), 1.0);
   }
@@ -36,7 +36,7 @@ TEST(PersonTemplate, TellsHowWellTheOtherTrialsDescribeOne) {
   double before = 1;
   for (const double scatter : {0.001, 0.02, 0.08}) {
     std::vector<FitWindow> windows = reaches(10, scatter);
-    const PersonTemplate own = makeTemplate(windows, std::vector<double>(windows.size(), kDuration));
+    const PersonTemplate own = makeTemplate(windows, std::vector<double>(windows.size(), kMovementSeconds));
     EXPECT_LT(own.ceiling, before) << scatter;
     EXPECT_GT(own.ceiling, 0.2) << scatter;
     if (scatter == 0.001) {
@@ -57,7 +57,7 @@ TEST(PersonTemplate, CountsSamplesByHowAlikeNeighboursAre) {
       for (std::size_t k = 0; k < window.velocity.size(); ++k)
         window.velocity[k] += perSample * normal(random) + (0.02 - perSample) * size * std::sin(0.15 * static_cast<double>(k) + phase);
     }
-    return makeTemplate(windows, std::vector<double>(windows.size(), kDuration)).effectiveSamples;
+    return makeTemplate(windows, std::vector<double>(windows.size(), kMovementSeconds)).effectiveSamples;
   };
   EXPECT_GT(effectiveWith(0.02), 80) << "of 160";
   EXPECT_LT(effectiveWith(0.02), 161);
@@ -72,10 +72,10 @@ TEST(PersonTemplate, DescribesAShapeThatChangesWithTheDuration) {
   for (int i = 0; i < 12; ++i) {
     const double T = 0.8 * std::pow(1.04, (5 * i) % 12);
     FitWindow window;
-    window.rate = kRate;
+    window.rate = kWindowRate;
     window.begin = 3;
-    for (int k = 0; k < (T + 0.6) * kRate; ++k) {
-      const double s = (k / kRate - 0.3) / T, inside = s > 0 && s < 1 ? 1 : 0;
+    for (int k = 0; k < (T + 0.6) * kWindowRate; ++k) {
+      const double s = (k / kWindowRate - 0.3) / T, inside = s > 0 && s < 1 ? 1 : 0;
       window.velocity.push_back(0.2 / T *
                                 (heldMinimumJerk(s).rate - inside * 3 * std::log(T) * std::pow(std::sin(std::numbers::pi * s), 2) *
                                                                std::sin(4 * std::numbers::pi * s)));

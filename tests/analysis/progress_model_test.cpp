@@ -34,7 +34,7 @@ std::vector<SuccessCell> cells() {
   return successTable(all);
 }
 
-double meanOf(const std::vector<double>& v) {
+double unweightedMean(const std::vector<double>& v) {
   double sum = 0;
   for (const double x : v) sum += x;
   return sum / static_cast<double>(v.size());
@@ -46,11 +46,11 @@ TEST(TypicalShare, IsTheMeanLogitOfPeopleBackAsAShare) {
   const std::vector<double> day{logit(4, 20), logit(0, 10), logit(6, 12)}, both{logit(13, 38), logit(10, 20), logit(9, 28)};
   std::vector<double> variance;
   for (const auto& [s, n] : {std::pair{13.0, 38.0}, {10.0, 20.0}, {9.0, 28.0}}) variance.push_back(1 / (s + 0.5) + 1 / (n - s + 0.5));
-  EXPECT_NEAR(typicalShare(all, 0, 1)->mean, back(meanOf(day)), 1e-12);
+  EXPECT_NEAR(typicalShare(all, 0, 1)->mean, back(unweightedMean(day)), 1e-12);
   EXPECT_EQ(typicalShare(all, 0, 1)->people, 3u);
   const auto share = typicalShare(all, 0);
   const PeopleMean expected = computePeopleMean(both, variance);
-  EXPECT_NEAR(share->mean, back(meanOf(both)), 1e-12);
+  EXPECT_NEAR(share->mean, back(unweightedMean(both)), 1e-12);
   EXPECT_NEAR(share->interval.low, back(expected.interval.low), 1e-12);
   EXPECT_NEAR(share->interval.high, back(expected.interval.high), 1e-12);
   EXPECT_FALSE(typicalShare(all, 1, 2)) << "one person has no typical one beside";
@@ -90,11 +90,11 @@ TEST(Effects, OfConditionsAreMeansOverCommonDays) {
   const std::vector<double> variance{1e4 * (varianceOf(5, 25) + varianceOf(4, 20) + varianceOf(11, 20) + varianceOf(9, 18)) / 4,
                                      1e4 * (varianceOf(2, 8) + varianceOf(0, 10)), 1e4 * (varianceOf(9, 15) + varianceOf(6, 12))};
   const PeopleMean expected = computePeopleMean(points, variance);
-  EXPECT_NEAR(pace.points.mean, meanOf(points), 1e-9);
+  EXPECT_NEAR(pace.points.mean, unweightedMean(points), 1e-9);
   EXPECT_NEAR(pace.pointsInterval.low, expected.interval.low, 1e-9);
   EXPECT_NEAR(pace.pointsInterval.high, expected.interval.high, 1e-9);
   const double own = (logit(5, 25) - logit(4, 20) + logit(11, 20) - logit(9, 18)) / 2;
-  EXPECT_NEAR(pace.logit.mean, meanOf({own, logit(2, 8) - logit(0, 10), logit(9, 15) - logit(6, 12)}), 1e-12);
+  EXPECT_NEAR(pace.logit.mean, unweightedMean({own, logit(2, 8) - logit(0, 10), logit(9, 15) - logit(6, 12)}), 1e-12);
   EXPECT_EQ(pace.p, pace.logit.p) << "the only one of its kind";
   EXPECT_TRUE(effectsOf({}, 3).empty());
 }

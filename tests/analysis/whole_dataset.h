@@ -2,6 +2,7 @@
 #include <string>
 #include <utility>
 
+#include "analysis/analysis.h"
 #include "analysis/dataset.h"
 
 namespace reachlab::analysis {
@@ -26,6 +27,13 @@ inline Dataset openDataset(const std::string& folder, const std::string& experim
                                                     experimentFile);
   input.conditions = dataset.conditions;
   return dataset;
+}
+
+/// For tests of what does not depend on the criteria, which take most of an analysis's computation time.
+inline AnalysisOptions fewCriteria() {
+  AnalysisOptions options;
+  options.criteria = {predict::Criterion::MinHandJerk, predict::Criterion::MinCrackle};
+  return options;
 }
 
 }  // namespace reachlab::analysis
