@@ -14,8 +14,6 @@ const std::string kTyped = "0 | 0.1*cos(phi) | 0.06*sin(phi)";
 
 class Compilations : public AtTheWindow {};
 
-}  // namespace
-
 TEST_F(Compilations, OfATypedFormulaThatIsAcceptedAreOne) {
   request_.what = "ellipse";
   request_.device = "simulated:noise=0";
@@ -54,4 +52,5 @@ TEST_F(Compilations, OfATypedFormulaThatIsAcceptedAreOne) {
   EXPECT_EQ(test::takeCompilations(), std::vector<std::string>{});
 }
 
+}  // namespace
 }  // namespace reachlab::gui::app

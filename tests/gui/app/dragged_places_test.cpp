@@ -41,7 +41,7 @@ class DraggedPlaces : public AtTheWindow {
   }
 };
 
-constexpr double kNear = 1.5;  // pixels
+constexpr double kUnderThePointer = 1.5;  // pixels
 
 TEST_F(DraggedPlaces, LieUnderThePointerOnEveryKindOfShape) {
   struct {
@@ -58,7 +58,7 @@ TEST_F(DraggedPlaces, LieUnderThePointerOnEveryKindOfShape) {
     const QPoint at = pixelOf(to);
     move(pixelOf(before), at);
     ASSERT_NE(task().target, before) << what << ": " << window_->message().toStdString();
-    EXPECT_LE(apart(task().target, at), kNear) << what;
+    EXPECT_LE(apart(task().target, at), kUnderThePointer) << what;
     window_->edits().undo();
     EXPECT_EQ(task().target, before) << what;
     window_->edits().setClean();
@@ -73,7 +73,7 @@ TEST_F(DraggedPlaces, AreShownWhileTheyAreDraggedAndGoBackWithEscape) {
   take(pixelOf(target));
   drag(at);
   const QPointF shown = view().pixelOf(view().plan().target);
-  EXPECT_LE(std::hypot(shown.x() - at.x(), shown.y() - at.y()), kNear);
+  EXPECT_LE(std::hypot(shown.x() - at.x(), shown.y() - at.y()), kUnderThePointer);
   EXPECT_EQ(task().target, target) << "not taken over yet";
   EXPECT_TRUE(find<scene::SceneOverlay>("")->label().startsWith("phi = 2.19")) << find<scene::SceneOverlay>("")->label().toStdString();
   QTest::keyClick(view().focusProxy(), Qt::Key_Escape);
@@ -81,7 +81,7 @@ TEST_F(DraggedPlaces, AreShownWhileTheyAreDraggedAndGoBackWithEscape) {
   EXPECT_EQ(task().target, target);
   EXPECT_TRUE(window_->edits().isClean());
   const QPointF back = view().pixelOf(view().plan().target) - pixelOf(target);
-  EXPECT_LE(std::hypot(back.x(), back.y()), kNear);
+  EXPECT_LE(std::hypot(back.x(), back.y()), kUnderThePointer);
   // The start takes along what rests at it. A click alone moves nothing.
   const QPoint elsewhere = pixelOf({-0.5});
   take(pixelOf(start));

@@ -17,6 +17,7 @@
 #include "gui/choosers/constraint_chooser.h"
 #include "gui/plan/plan_composer.h"
 #include "gui/subject/subject_window.h"
+#include "test_paths.h"
 #include "tests/gui/answer_box.h"
 #include "tests/gui/at_the_window.h"
 

@@ -12,10 +12,10 @@
 namespace reachlab::gui::plot {
 namespace {
 
-struct Shown {
+struct ShownPlot {
   VelocityPlot plot;
   QWidget* canvas = nullptr;
-  Shown() {
+  ShownPlot() {
     plot.resize(700, 320);
     plot.setTask(1, 0.3);
     plot.show();
@@ -32,7 +32,7 @@ struct Shown {
 
 // Columns of the small canvas of a screen of 1366 pixels in which the line has no pixel, from its first to its last.
 TEST(VelocityPlot, APredictionIsDashedHoweverSmallThePlotIs) {
-  Shown shown;
+  ShownPlot shown;
   ASSERT_NE(shown.canvas, nullptr);
   shown.plot.resize(560, 220);
   PredictedLine line{QStringLiteral("prediction"), {QColor(255, 0, 0), {5, 3}, 0}};
@@ -58,7 +58,7 @@ TEST(VelocityPlot, APredictionIsDashedHoweverSmallThePlotIs) {
 }
 
 TEST(VelocityPlot, ADragZoomsInAndNewPointsDoNotZoomOut) {
-  Shown shown;
+  ShownPlot shown;
   ASSERT_NE(shown.canvas, nullptr);
   shown.add(0, 50);
   const auto whole = shown.plot.shownTimes();
@@ -80,7 +80,7 @@ TEST(VelocityPlot, ADragZoomsInAndNewPointsDoNotZoomOut) {
 }
 
 TEST(VelocityPlot, FreezeHoldsThePictureAndLosesNothing) {
-  Shown shown;
+  ShownPlot shown;
   shown.plot.beginTrial();
   shown.add(0, 10);
   shown.freeze().setChecked(true);
@@ -93,7 +93,7 @@ TEST(VelocityPlot, FreezeHoldsThePictureAndLosesNothing) {
 }
 
 TEST(VelocityPlot, IsExportedAsItIsDrawn) {
-  Shown shown;
+  ShownPlot shown;
   shown.add(0, 30);
   shown.plot.setPredictions({{QStringLiteral("jerk"), {Qt::red, {5, 3}, 0}, false, {0, 1}, {0, 0.5}}});
   const QList<QByteArray> lines = exportedLines(shown.plot);

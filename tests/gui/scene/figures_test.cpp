@@ -6,6 +6,7 @@
 #include <QDir>
 
 #include "sim/experiment/compiled_experiment.h"
+#include "test_paths.h"
 #include "tests/gui/eyes.h"
 #include "tests/gui/scene/shown_scene.h"
 
