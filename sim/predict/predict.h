@@ -9,14 +9,14 @@
 namespace reachlab::predict {
 
 struct PredictOptions {
-  double duration = 0;             // [s] 0: the task's
-  std::optional<double> handMass;  // [kg] nullopt: the experiment's
-  double handDamping = 0;          // [N s/m] of the hand itself
-  int unknowns = 0;                // transcribed cases; 0: chosen for 1e-8
-  std::optional<PointIs> point;    // nullopt: as the constraint means it
+  double duration = 0;                  // [s] 0: the task's
+  std::optional<double> handMass = {};  // [kg] nullopt: the experiment's
+  double handDamping = 0;               // [N s/m] of the hand itself
+  int unknowns = 0;                     // transcribed cases; 0: chosen for 1e-8
+  std::optional<PointIs> point = {};    // nullopt: as the constraint means it
   /// Predictions of the same experiment, criterion and hand at other durations, or empty. Iterative solutions (joint torque change along a
   /// line) start from the polynomial in T through their unknowns. They use the same number of unknowns, unless that number is too small.
-  std::span<const Prediction* const> near;
+  std::span<const Prediction* const> near = {};
 };
 
 /// Of an experiment that has no task.
