@@ -62,9 +62,9 @@ std::array<Vec3, 3> directions(const Mapping& mapping) noexcept {
 
 std::string toJson(const Mapping& m) {
   const OrderedJson json = {{"scale", m.scale},
-                     {"offset_m", {m.offset.x, m.offset.y, m.offset.z}},
-                     {"rotation_deg", {m.rotation.x / kDegree, m.rotation.y / kDegree, m.rotation.z / kDegree}},
-                     {"mirror_x", m.mirrorX}};
+                            {"offset_m", {m.offset.x, m.offset.y, m.offset.z}},
+                            {"rotation_deg", {m.rotation.x / kDegree, m.rotation.y / kDegree, m.rotation.z / kDegree}},
+                            {"mirror_x", m.mirrorX}};
   return json.dump();
 }
 

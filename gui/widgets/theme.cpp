@@ -6,7 +6,6 @@
 #include <QStyleFactory>
 #include <clocale>
 
-
 namespace reachlab::gui::widgets {
 
 namespace {
