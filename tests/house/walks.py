@@ -48,7 +48,7 @@ WALKS = {
         ["base", "constraints"], 20),
     "click → haptic thread": (
         [("tests/gui/test_gui", "--gtest_filter=Day.EpsilonOfTheRunIsTheAnalysissAndFailedTrialsStayOut",
-          ["reachlab::gui::app::MainWindow::nextTrial(@2", "reachlab::haptics::LoopCore::tick(@1>reachlab::haptics::TickEngine::tick("])],
+          ["reachlab::gui::app::MainWindow::nextTrial(@2", "reachlab::haptics::LoopCore::tick(@1>reachlab::haptics::TickEngine::step("])],
         ["base", "devices", "sim/record"], 12),
 }
 
