@@ -8,7 +8,7 @@
 #include <set>
 #include <utility>
 
-#include "analysis/measures/across.h"
+#include "analysis/measures/deviation_and_adaptation.h"
 #include "analysis/tables.h"
 #include "analysis/trials/equal_runs.h"
 #include "analysis/trials/experiment_difference.h"

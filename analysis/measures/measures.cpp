@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "analysis/measures/across.h"
+#include "analysis/measures/deviation_and_adaptation.h"
 #include "analysis/measures/filter.h"
 #include "analysis/measures/smoothness.h"
 

@@ -4,7 +4,7 @@
 
 #include "analysis/conclusions/fit_window.h"
 #include "analysis/conclusions/person_fit.h"
-#include "analysis/measures/across.h"
+#include "analysis/measures/deviation_and_adaptation.h"
 #include "base/error.h"
 #include "sim/experiment/experiment.h"
 

@@ -20,7 +20,7 @@ struct TrialKey {
   std::string kind = {}, target = {};  // of a block that mixes them
 };
 
-/// The part of a trial's scene that measures across the way need (measures/across.h).
+/// The part of a trial's scene that measures across the way need (measures/deviation_and_adaptation.h).
 struct TrialScene {
   Vec3 normal{0, 1, 0};                                // of the task's plane
   bool channel = false;                                // a channel is the only force on the hand

@@ -17,7 +17,7 @@
 #include "bench/sampled_hand.h"
 #include "bench/suite.h"
 #include "sim/experiment/describe.h"
-#include "sim/haptics/tick_timing.h"
+#include "sim/haptics/measure_ticks.h"
 #include "sim/record/log/atomic_file.h"
 
 namespace reachlab::cli {

@@ -2,7 +2,7 @@
 #include <fmt/format.h>
 
 #include "cli/commands/commands.h"
-#include "cli/output/success_table.h"
+#include "cli/output/trial_line.h"
 #include "network/link/given_samples.h"
 #include "network/link/station_replay.h"
 #include "network/merge/station_merge.h"

@@ -8,6 +8,7 @@
 #include "base/terminal/message.h"
 #include "cli/commands/commands.h"
 #include "cli/output/success_table.h"
+#include "cli/output/trial_line.h"
 #include "cli/terminal/seed_option.h"
 #include "devices/hands/several_hands.h"
 #include "devices/instruments/instruments.h"

@@ -9,7 +9,7 @@
 #include "cli/commands/commands.h"
 #include "cli/output/json_text.h"
 #include "cli/output/readable_logs.h"
-#include "cli/output/success_table.h"
+#include "cli/output/trial_line.h"
 #include "cli/output/trial_profile.h"
 #include "cli/terminal/at_option.h"
 #include "sim/record/export/tidy_csv.h"

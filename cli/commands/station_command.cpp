@@ -10,6 +10,7 @@
 #include "base/system/stop_signals.h"
 #include "cli/commands/commands.h"
 #include "cli/output/success_table.h"
+#include "cli/output/trial_line.h"
 #include "cli/terminal/seed_option.h"
 #include "devices/make_device.h"
 #include "network/station/observer.h"

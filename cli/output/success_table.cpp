@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "sim/record/export/tidy_csv.h"
-
 namespace reachlab::cli {
 
 void SuccessTable::add(const std::string& condition, const trial::TrialResult& result) {
@@ -33,19 +31,6 @@ std::string SuccessTable::text() const {
                         c.aborted, c.interrupted, 100.0 * c.success / c.trials, reasons.empty() ? "-" : reasons);
   }
   return text;
-}
-
-std::string trialLine(int trial, const trial::TrialResult& result, const record::RunScene* scene) {
-  std::string line = fmt::format("trial={}", trial);
-  if (scene != nullptr && !scene->kind.empty()) line += " kind=" + scene->kind;
-  if (scene != nullptr && !scene->target.empty()) line += " target=" + scene->target;
-  line += fmt::format(" outcome={}", trial::nameOf(result.outcome));
-  if (result.outcome != trial::Outcome::Success) line += fmt::format(" reason={}", trial::nameOf(result.reason));
-  if (result.mass > 0) line += fmt::format(" mass={}", result.mass);
-  // For a person; the log and the exports have every digit.
-  if (result.by != 0) line += fmt::format(" by={:.3g}", result.by);
-  if (const std::string unit = record::unitOf(result.reason); result.by != 0 && !unit.empty()) line += " by_unit=" + unit;
-  return line + fmt::format(" time_s={:.3f}", result.movementTime);
 }
 
 }  // namespace reachlab::cli

@@ -13,7 +13,7 @@
 #include "base/fault.h"
 #include "base/table_text.h"
 #include "base/text_file.h"
-#include "devices/replay/recorded_reach.h"
+#include "devices/replay/reach_checks.h"
 
 namespace reachlab::devices {
 namespace {

@@ -10,7 +10,7 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/text_file.h"
-#include "devices/replay/recorded_reach.h"
+#include "devices/replay/reach_checks.h"
 
 namespace reachlab::devices {
 namespace {

@@ -7,6 +7,7 @@
 
 #include "base/csv_table.h"
 #include "base/fault.h"
+#include "devices/replay/reach_checks.h"
 
 namespace reachlab::devices {
 namespace {

@@ -11,6 +11,7 @@
 #include "base/ticks.h"
 #include "constraints/geometry/task_path.h"
 #include "devices/driver/drivers.h"
+#include "devices/replay/reach_checks.h"
 #include "devices/replay/reach_source.h"
 #include "sim/trial/protocol.h"
 

@@ -21,6 +21,7 @@
 #include "base/system/os.h"
 #include "network/endpoint/message_limit.h"
 #include "network/endpoint/peer_clock.h"
+#include "network/endpoint/probe_loss.h"
 #include "network/link/link_memory.h"
 
 /// A station's endpoint: sends what the station puts into the rings, and puts into them what comes. A process of its own, because it

@@ -1,6 +1,6 @@
 #include "base/ticks.h"
 #include "bench/suite.h"
-#include "sim/haptics/tick_timing.h"
+#include "sim/haptics/measure_ticks.h"
 
 #include <gtest/gtest.h>
 

@@ -9,6 +9,7 @@
 
 #include "base/fault.h"
 #include "cli/output/success_table.h"
+#include "cli/output/trial_line.h"
 
 namespace reachlab::cli {
 namespace {

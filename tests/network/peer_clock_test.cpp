@@ -7,6 +7,7 @@
 
 #include "base/math/seeded.h"
 #include "network/endpoint/message_limit.h"
+#include "network/endpoint/probe_loss.h"
 
 namespace reachlab::network {
 namespace {

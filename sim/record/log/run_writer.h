@@ -3,7 +3,6 @@
 #include <string>
 #include <vector>
 
-#include "base/system/os.h"
 #include "sim/record/log/records.h"
 #include "sim/record/log/tick_ring.h"
 
@@ -11,10 +10,6 @@ namespace reachlab::record {
 
 /// The configuration as a log holds it, checked by the rules of the log's reader. Throws FaultError.
 std::string readableText(const RunConfiguration& configuration, const std::string& origin);
-
-/// The reason why nothing more is written beside `path`: its disk has less than `diskReserve` [bytes], or than a twentieth of the disk,
-/// left. Empty while there is enough space, or where nothing is known of the disk.
-std::string reserveFault(const std::string& path, const os::DiskSpace& disk, std::uint64_t diskReserve);
 
 /// Writes one run's log from its ticks, in blocks. One thread. Every member may throw ResourceError.
 class RunWriter {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Measures across the way, computed again with pandas from the BIDS files of a dataset alone: across_oracle.py REACH
+"""Measures across the way, computed again with pandas from the BIDS files of a dataset alone: deviation_oracle.py REACH
 
 A virtual subject reaches in a curl field and with a rotated cursor. `reach analyze` writes its measures, and this script computes them from
 motion.tsv, channels.tsv, events.tsv and experiment.json. They agree to 1e-10."""

@@ -1,9 +1,8 @@
+#include "devices/replay/reach_checks.h"
+
 #include <fmt/format.h>
 
 #include <cmath>
-
-#include "base/fault.h"
-#include "devices/replay/recorded_reach.h"
 
 namespace reachlab::devices {
 namespace {

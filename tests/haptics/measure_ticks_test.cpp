@@ -1,4 +1,4 @@
-#include "sim/haptics/tick_timing.h"
+#include "sim/haptics/measure_ticks.h"
 
 #include <gtest/gtest.h>
 

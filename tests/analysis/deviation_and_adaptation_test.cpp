@@ -1,4 +1,4 @@
-#include "analysis/measures/across.h"
+#include "analysis/measures/deviation_and_adaptation.h"
 
 #include <gtest/gtest.h>
 
