@@ -20,21 +20,21 @@ std::vector<PlaceMark> markCurve(const constraints::Constraint& c, const constra
 
 // Where a line's argument changes its sign from one node of a grid to the next.
 std::vector<PlaceMark> markSurface(const constraints::Constraint& c, const std::array<constraints::Domain, 2>& drawn) {
-  constexpr int kAcross = 64;
+  constexpr int kPlacesAcross = 64;
   std::vector<PlaceMark> marks;
   const auto branches = constraints::computeBranches(c);
   if (branches->smooth()) return marks;
-  const auto at = [&](std::size_t k, int i) { return drawn[k].lo + (drawn[k].hi - drawn[k].lo) * i / kAcross; };
+  const auto at = [&](std::size_t k, int i) { return drawn[k].lo + (drawn[k].hi - drawn[k].lo) * i / kPlacesAcross; };
   for (std::size_t line = 0; line < branches->lines.size(); ++line)
-    for (int i = 0; i <= kAcross; ++i)
-      for (int j = 0; j <= kAcross; ++j)
+    for (int i = 0; i <= kPlacesAcross; ++i)
+      for (int j = 0; j <= kPlacesAcross; ++j)
         for (const auto& [di, dj] : {std::pair{1, 0}, {0, 1}}) {
-          if (i + di > kAcross || j + dj > kAcross || marks.size() >= kMostMarks) continue;
+          if (i + di > kPlacesAcross || j + dj > kPlacesAcross || marks.size() >= kMostMarks) continue;
           const double u = at(0, i), v = at(1, j), value = branches->at(u, v)[line].value;
           const double next = branches->at(at(0, i + di), at(1, j + dj))[line].value;
           if (!(value * next <= 0) || next == 0) continue;
           const double share = value / (value - next), size = drawn[0].hi - drawn[0].lo, height = drawn[1].hi - drawn[1].lo;
-          const Vec3 r = evaluate(c.surface, u + di * share * size / kAcross, v + dj * share * height / kAcross).r;
+          const Vec3 r = evaluate(c.surface, u + di * share * size / kPlacesAcross, v + dj * share * height / kPlacesAcross).r;
           if (isFinite(r)) marks.push_back({r, isPassed(branches->lines[line].kind)});
         }
   return marks;
