@@ -30,7 +30,7 @@ struct TrialScene {
   std::optional<experiment::SquareMatrix<3>> trained;  // [N s/m] of the viscous field that is trained
 };
 
-/// What is known of a trial beside its samples.
+/// Facts of a trial other than its samples.
 struct TrialFacts {
   TrialKey key;
   bool practice = false, catchTrial = false;

@@ -31,7 +31,7 @@ class AskedDevice : public Transport {
   virtual std::string commandOf(const Vec3& force) const = 0;
   /// Takes the newest message. Null: no message came in time.
   virtual Exchange take(const std::string* message, haptics::DeviceSample& sample) = 0;
-  /// The command was answered: the next exchange sends another one.
+  /// The command was answered: the next exchange sends the next command.
   void noteAnswer() { awaiting_ = false; }
   Exchange lose(std::string why);
 

@@ -22,7 +22,7 @@ struct Inspection {
 class Inspector : public QObject {
   Q_OBJECT
  public:
-  /// Lists the trials of a dataset, a session or a log. `indexed` follows, with what was listed if it is cancelled.
+  /// Lists the trials of a dataset, a session or a log. `indexed` follows, with the trials found so far if it is cancelled.
   void open(const QString& path);
   /// `inspected` follows when the trials are read, and once more when they are judged. The numbers are `reach analyze`'s for a dataset of just these trials.
   void begin(std::vector<analysis::ChosenTrials> chosen);

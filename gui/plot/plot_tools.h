@@ -64,7 +64,7 @@ inline void setAxisFonts(QwtPlot& plot) {
   for (const int axis : {int{QwtPlot::xBottom}, int{QwtPlot::yLeft}}) plot.setAxisFont(axis, font);
 }
 
-/// Of the lines that the plot has, and of those that it gets. The plot owns it.
+/// For present and later lines of the plot. The plot owns it.
 inline void addLegend(QwtPlot& plot) {
   auto* legend = new QwtLegend;
   legend->setDefaultItemMode(QwtLegendData::ReadOnly);

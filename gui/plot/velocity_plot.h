@@ -59,7 +59,7 @@ class VelocityPlot : public QWidget {
   std::unique_ptr<QwtPlotMarker> goal_;
   std::unique_ptr<QwtPlotCurve> hand_, last_, handBefore_, lastBefore_;
   std::vector<std::unique_ptr<QwtPlotCurve>> predictions_;
-  // What is to be drawn next; the curves hold what is drawn.
+  // The signals to draw next. The curves hold the drawn ones.
   struct Trial {
     QVector<double> times, hands, lasts;
   } now_, before_;
