@@ -69,7 +69,8 @@ void HaplyInverse3::greet(MessageLink& link) {
   garbled_ = 0;
 }
 
-std::string HaplyInverse3::commandOf(const Vec3& force) const { return haplyForceCommand(options_.id, worldToHaply(force)); }
+// The sum takes the sign off a zero.
+std::string HaplyInverse3::commandOf(const Vec3& force) const { return haplyForceCommand(options_.id, worldToHaply(force) + Vec3{}); }
 
 Exchange HaplyInverse3::take(const std::string* message, haptics::DeviceSample& sample) {
   if (message == nullptr) return Exchange::Nothing;
