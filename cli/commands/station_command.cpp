@@ -31,7 +31,7 @@ struct StationRequest {
 
 /// One station from its first word to its last; every trial is armed as soon as it can be.
 int conduct(const StationRequest& request) {
-  const session::BlockToRun block = session::planSession(request.session, {}).blocks.at(0);
+  const session::BlockToRun block = session::planSession(request.session, session::readProgramme(request.session.what)).blocks.at(0);
   session::requireOneScene(block);
   network::StationRun station(request.setup, block.experiment);
   session::RecordedRunOptions options;
@@ -70,7 +70,7 @@ int conduct(const StationRequest& request) {
 
 /// Until the conductor's last word.
 int watchStations(const StationRequest& request) {
-  const session::BlockToRun block = session::planSession(request.session, {}).blocks.at(0);
+  const session::BlockToRun block = session::planSession(request.session, session::readProgramme(request.session.what)).blocks.at(0);
   session::requireOneScene(block);
   network::Observer observer(request.setup, block.experiment);
   const StopRequest stop;
