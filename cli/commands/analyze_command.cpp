@@ -5,7 +5,6 @@
 #include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "analysis/report/alternatives.h"
 #include "analysis/report/wording.h"
@@ -19,6 +18,7 @@
 #include "cli/terminal/analysis_plan.h"
 #include "cli/terminal/at_option.h"
 #include "cli/terminal/criterion_option.h"
+#include "cli/terminal/option_words.h"
 #include "sim/record/export/exporters.h"
 
 namespace reachlab::cli {
@@ -35,8 +35,7 @@ struct AnalyzeOptions {
 
 std::vector<double> parseMasses(const std::string& text) {
   std::vector<double> masses;
-  std::istringstream parts(text + ",");  // an empty last part counts
-  for (std::string part; std::getline(parts, part, ',');) {
+  for (const std::string& part : partsBetweenCommas(text)) {
     const auto mass = asNumber<double>(part);
     if (!mass || !(*mass >= 0) || !std::isfinite(*mass))
       throw FaultError(Fault{"--hand-masses", "is " + text, "masses in kg, 0 or more, with commas between: 0,1,2,4,8"});

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "base/as_number.h"
 #include "base/fault.h"
 #include "base/json/json_tree.h"
 #include "base/text_file.h"
 #include "cli/commands/commands.h"
+#include "cli/terminal/option_words.h"
 #include "constraints/catalogue/definition.h"
 #include "constraints/formula/cpp_writer.h"
 #include "constraints/geometry/arc_length.h"
@@ -42,8 +42,7 @@ double parseNumber(const std::string& text, const std::string& option) {
 
 std::vector<double> parseNumbers(const std::string& text, const std::string& option) {
   std::vector<double> values;
-  std::istringstream parts(text + ",");  // an empty last part counts
-  for (std::string part; std::getline(parts, part, ',');) values.push_back(parseNumber(part, option));
+  for (const std::string& part : partsBetweenCommas(text)) values.push_back(parseNumber(part, option));
   return values;
 }
 

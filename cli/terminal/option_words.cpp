@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
@@ -28,6 +29,13 @@ std::string optionOf(const std::string& key) {
   std::string option = "--" + key;
   std::replace(option.begin(), option.end(), '_', '-');
   return option;
+}
+
+std::vector<std::string> partsBetweenCommas(const std::string& text) {
+  std::vector<std::string> parts;
+  std::istringstream rest(text + ",");
+  for (std::string part; std::getline(rest, part, ',');) parts.push_back(part);
+  return parts;
 }
 
 std::vector<Fault> inOptionWords(std::vector<Fault> faults) {
