@@ -1,5 +1,5 @@
-// reachlab-gltf FILE: reads a glTF 2.0 scene with TinyGLTF and writes its triangles to standard output, as gui/model/model_stream.h has them. A
-// process of its own, with bounds on time and memory: a library that falls over a damaged file takes nothing with it.
+// reachlab-gltf FILE: reads a glTF 2.0 scene with TinyGLTF and writes its triangles to standard output, as gui/model/model_stream.h has them. It
+// is a separate process with bounds on time and memory, so that a crash of the library at a damaged file does not end the window.
 #include <sys/resource.h>
 #include <tiny_gltf.h>
 

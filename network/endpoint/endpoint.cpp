@@ -24,8 +24,8 @@
 #include "network/endpoint/probe_loss.h"
 #include "network/link/link_memory.h"
 
-/// A station's endpoint: sends what the station puts into the rings, and puts into them what comes. A process of its own, because it
-/// allocates, encrypts and listens to the network; if it dies, the station loses its peers and nothing else.
+/// A station's endpoint: sends what the station puts into the rings, and puts into them what comes. It is a separate process,
+/// because it allocates, encrypts and listens to the network. If it dies, the station loses its peers and nothing else.
 namespace reachlab::network {
 namespace {
 

@@ -54,7 +54,7 @@ struct Plan {
 /// One driver on a model of its device.
 class Rig {
  public:
-  /// The device may have these faults of its own. `most`: the most that its motors may be told.
+  /// `own`: faults that the device itself may report. `most`: the largest command that its motors may get.
   Rig(std::set<DeviceFault> own, double most) : toldLimit(most), own_(std::move(own)) {}
   virtual ~Rig() = default;
   virtual std::shared_ptr<haptics::HapticDevice> open() = 0;

@@ -140,7 +140,7 @@ TEST(MouseDevice, ARampIsFollowedAtItsSpeedByItsDelay) {
   EXPECT_NEAR(mouse.delay(), 0.012 + 2 * 0.008, 1e-15);
   const Vec3 speed{0.3, -0.2, 0.1};
   for (int tick = 0; tick < 1000; ++tick, inventedNs += 1'000'000) {
-    mouse.point(1e-3 * tick * speed, inventedNs - 77'000'000'000);  // by a clock of its own
+    mouse.point(1e-3 * tick * speed, inventedNs - 77'000'000'000);  // the clock of the events is another one
     const haptics::DeviceSample sample = mouse.read();
     ASSERT_TRUE(sample.hasVelocity);
     if (tick < 300) continue;

@@ -25,7 +25,7 @@ thread_local long allocationsLeft = -1;  // until one fails, and no more than on
 namespace reachlab::experiment {
 namespace {
 
-/// Each allocation of `write` fails once, in a process of its own: a library that cannot go on ends the program, in words, but never by a signal.
+/// Each allocation of `write` fails once, in a separate process. A library that cannot go on ends the program with a message, and never by a signal.
 template <class Write>
 void expectAnEndInWords(const Write& write) {
   bool failed = true;

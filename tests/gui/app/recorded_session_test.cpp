@@ -159,7 +159,7 @@ TEST_F(RecordingWindow, AFileThatCannotBeReadIsOneSentenceAndNothingChanges) {
   EXPECT_EQ(window_->edits().count(), 0);
 }
 
-// The day at the laboratory that a killed program cuts short: not a test by itself, run by the one below.
+// A day at the laboratory that ends when the program is killed. The test below starts it as a separate process, so ctest does not run it.
 TEST_F(RecordingWindow, DISABLED_DiesInTheSecondBlockOfThePapersPlan) {
   request_.what = "paper";
   request_.place.data = qgetenv("REACHLAB_TEST_DATA").toStdString();

@@ -12,8 +12,8 @@
 namespace reachlab::gui::app {
 namespace {
 
-// The program as main() starts it, in a process of its own: not a test by itself, run by the one below. Its stage is Resting, Checking,
-// InATrial, Between, or Busy: in a trial, and the window's thread comes back from nothing any more.
+// The program as main() starts it. The test below starts it as a separate process, so ctest does not run it. REACHLAB_TEST_STAGE is Resting,
+// Checking, InATrial, Between or Busy. Busy is in a trial, with a window whose thread hangs.
 TEST(SignalledWindow, DISABLED_Lives) {
   const QByteArray stage = qgetenv("REACHLAB_TEST_STAGE");
   endOnSignals();
