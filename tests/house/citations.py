@@ -1,11 +1,13 @@
 #!/usr/bin/env python3
-"""Files, decision records and headings that comments and pages cite: exits 1 with a line for every one that is not there.
+"""Files, decision records, headings and tests that comments and pages cite: exits 1 with a line for every one that is not there.
 
   tests/house/citations.py              checks
   tests/house/citations.py --self-test  checks that it would find what it looks for
 
 A citation is a path from the repository's root (docs/theory/criteria.md, tests/long/coverage.sh), for a page also from its own folder. Behind a
-page may follow a comma and a heading in quotation marks, or # and its anchor. docs/adr/0020 stands for the record of that number."""
+page may follow a comma and a heading in quotation marks, or # and its anchor. docs/adr/0020 stands for the record of that number. A test is a `Suite.Name` in
+backticks; `Suite.*` stands for all of a suite, and `Suite.Beg…` for those that begin so."""
+import functools
 import re
 import sys
 from pathlib import Path
@@ -18,6 +20,7 @@ CODE = (".h", ".cpp", ".py", ".sh", ".cmake", ".in", ".txt")
 ENDINGS = "h|cpp|py|sh|json|md|cmake|tsv|csv|R|svg|png|bin|txt"
 PAGE = re.compile(r'(?<![\w/.:-])((?:[\w.-]+/)*[\w.-]+\.md)(?:(?:,? |\)? )"([^"]+)"|, "([^"]+)"|#([\w-]+))?')
 FILE = re.compile(rf"(?<![\w/.-])((?:{'|'.join(TOPS)})/[\w./-]+\.(?:{ENDINGS}))(?![\w*-])")
+TEST = re.compile(r"`([A-Z][A-Za-z0-9]*\.(?:\*|[A-Z][A-Za-z0-9]*…?))`")
 RECORD = re.compile(r"docs/adr/(\d{4})(?![\w-])")
 COMMENT = re.compile(r"^\s*(?:///?|\*)\s?(.*)$")
 HASH_COMMENT = re.compile(r"^\s*#\s?(.*)$")
@@ -64,6 +67,16 @@ def headings(page):
     return found
 
 
+@functools.cache
+def tests():
+    found = re.compile(r"TEST(?:_F|_P)?\(\s*(\w+),\s*(\w+)")
+    return {".".join(names) for file in (ROOT / "tests").rglob("*_test.cpp") for names in found.findall(file.read_text())}
+
+
+def is_test(cited):
+    return any(test.startswith(cited.rstrip("*…")) for test in tests()) if cited[-1] in "*…" else cited in tests()
+
+
 def faults(text, file, code):
     for number, said in comments(text, code):
         for found in PAGE.finditer(said):
@@ -86,6 +99,9 @@ def faults(text, file, code):
         for found in RECORD.finditer(said):
             if not list((ROOT / "docs/adr").glob(found[1] + "-*.md")):
                 yield number, f"docs/adr/{found[1]} is not there"
+        for found in TEST.finditer(said):
+            if not is_test(found[1]):
+                yield number, f"there is no test {found[1]}"
 
 
 def self_test():
@@ -93,7 +109,8 @@ def self_test():
             "// criteria.md 5", "int x;  // tests/long/gone.sh", "// docs/theory/criteria.md#no-such"]
     silent = ['// docs/theory/criteria.md, "Flat\n// outputs"', "// docs/adr/0020", 'auto x = "docs/nowhere.md";', "// tests/house/citations.py", "// devices/ROOM/NAME.cpp", '#include "base/gone.h"']
     return (judges_wrongly("citations.py", lambda text: list(faults(text, "x.h", COMMENT)), said, silent)
-            | judges_wrongly("citations.py", lambda text: list(faults(text, "docs/x.md", None)), ["[x](gone.md)"], ["[x](theory/motion.md#energy)"]))
+            | judges_wrongly("citations.py", lambda text: list(faults(text, "docs/x.md", None)), ["[x](gone.md)", "`Watch.GoneTest`", "`Watch.Gone…`", "`Gone.*`"],
+                            ["[x](theory/motion.md#energy)", "`Watch.PassesAnOrdinaryReachUntouched`", "`Watch.Passes…`", "`Watch.*`"]))
 
 
 def main():
