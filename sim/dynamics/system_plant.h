@@ -2,9 +2,8 @@
 #include <array>
 #include <string>
 
-#include "sim/dynamics/methods/adaptive.h"
+#include "sim/dynamics/domain_end.h"
 #include "sim/dynamics/object/plant_base.h"
-#include "sim/dynamics/systems/surface_rates.h"
 #include "sim/dynamics/systems/system.h"
 
 namespace reachlab::dynamics {
@@ -18,7 +17,7 @@ class SystemPlant : public PlantBase {
 
   SystemPlant(const ObjectModel& model, System system, double tolerance)
       : PlantBase(model), system_(std::move(system)),
-        locator_(system_, tolerance), states_{State(system_.states()), State(system_.states())} {
+        domainEnd_(system_, tolerance, model.count()), states_{State(system_.states()), State(system_.states())} {
     for (int i = 0; i < system_.states(); ++i) now()[i] = 0;
   }
 
@@ -73,7 +72,7 @@ class SystemPlant : public PlantBase {
   [[gnu::always_inline]] StepStatus finish(const HandSegment& hand, double dt, StepStatus status, std::uint64_t rhs) noexcept {
     if constexpr (kHas.ends)
       if (system_.bounded() && (status != StepStatus::Ok || !system_.inside(next()) || mayHaveTurned(dt)))
-        status = meetEnds(hand, dt, status, rhs);
+        status = meetEnd(hand, dt, status, rhs);
     if constexpr (kHas.settling)
       if (status == StepStatus::Ok) {
         const Settled settled = system_.settle(now(), next());
@@ -92,89 +91,18 @@ class SystemPlant : public PlantBase {
   System system_;
 
  private:
+  StepStatus meetEnd(const HandSegment& hand, double dt, StepStatus status, std::uint64_t& rhs) noexcept {
+    const EndMet end = domainEnd_.meet(system_, hand, dt, status, now(), next(), rhs);
+    if (end.status == StepStatus::Ok || end.status == StepStatus::AtEnd) restart();
+    if (end.status == StepStatus::AtEnd) fraction_ = end.share;
+    return end.status;
+  }
   bool mayHaveTurned(double dt) noexcept {
     if constexpr (kHas.branches) return system_.turned(now(), next(), dt);
     return false;
   }
 
-  /// The part of the tick with every mass still on the constraint, and the state at its end. At an elastic end the rest of the tick
-  /// follows.
-  StepStatus meetEnds(const HandSegment& hand, double dt, StepStatus status, std::uint64_t& rhs) noexcept {
-    const State before = now();
-    [[maybe_unused]] const auto branch = branchNow();
-    const auto takeBack = [&] {
-      now() = before;
-      if constexpr (kHas.branches) system_.takeBack(branch);
-    };
-    State at = before;
-    double begun = 0;
-    HandSegment rest = hand;
-    // Only the method knows a step over an end that is a cusp. The locator comes up to the cusp.
-    const bool seen = status == StepStatus::Ok && !system_.inside(next());
-    for (bool first = true; rhs < kMaxRhsPerTick; first = false) {
-      typename Adaptive<System>::Meeting meeting{false, 1, now()};
-      if (first && seen) meeting.beyond = next();
-      locator_.restart();
-      status = locator_.step(system_, rest, (1 - begun) * dt, now(), at, rhs, &meeting);
-      if (status == StepStatus::Ok && !meeting.met) {
-        next() = at;
-        restart();
-        return StepStatus::Ok;
-      }
-      if (!meeting.met && !(first && seen)) {  // not an end: the method itself failed
-        takeBack();
-        return status;
-      }
-      begun += meeting.share * (1 - begun);
-      now() = at;
-      if constexpr (kHas.branches) {
-        rest = part(hand, begun, 1);
-        if (system_.passEnds(meeting.beyond, now(), system_.handAt(rest, 0), dt)) continue;
-        at = now();  // masses that passed, and a place at which the formula has a limit, stay
-      }
-      system_.meetEnd(meeting.beyond, now(), system_.bounces());
-      // Where an end is degenerate (a cusp, a collapsed line) the parameters hold no velocity. The mass stops just before, elastic or not.
-      const bool degenerate = !sameSpeed(at, now()) || !hasRates(rest, now());
-      if (degenerate) now() = at;
-      if (degenerate || !system_.bounces()) {
-        fraction_ = begun;
-        restart();
-        return StepStatus::AtEnd;
-      }
-      rest = part(hand, begun, 1);
-    }
-    takeBack();
-    return StepStatus::Capped;
-  }
-
-  auto branchNow() const noexcept {
-    if constexpr (kHas.branches) return system_.branch();
-    else return 0;
-  }
-
-  /// No energy is lost between two states, to rounding.
-  bool sameSpeed(const State& a, const State& b) const noexcept {
-    constexpr double kSame = 1e-9;  // of the squares' sum
-    const auto sum = [&](const State& y) {
-      system_.locate(y, located_);
-      double squares = 0;
-      for (const MassState& mass : located_) squares += dot(mass.v, mass.v);
-      return squares;
-    };
-    const double one = sum(a), other = sum(b);
-    return std::abs(one - other) <= kSame * one;
-  }
-
-  bool hasRates(const HandSegment& hand, const State& y) const noexcept {
-    constexpr double kFastest = 1e12;  // [1/s] on a cusp, to rounding, the parameter would run at 1e16
-    State dy(system_.states());
-    system_.rate(system_.handAt(hand, 0), y, dy);
-    for (int i = 0; i < system_.states(); ++i)
-      if (!(std::abs(dy[i]) < kFastest)) return false;
-    return true;
-  }
-
-  Adaptive<System> locator_;
+  DomainEnd<System> domainEnd_;
   std::array<State, 2> states_;  // now and after the step, by turns, without copies
   int current_ = 0;
   StepStatus stopped_ = StepStatus::Ok;
