@@ -10,7 +10,7 @@
 #include "base/fault.h"
 #include "base/system/os.h"
 #include "sim/record/log/atomic_file.h"
-#include "sim/record/log/disk_reserve.h"
+#include "sim/record/log/disk_fault.h"
 #include "sim/record/log/records.h"
 #include "sim/record/log/run_writer.h"
 #include "sim/record/log/whole_file.h"

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 
 #include "base/error.h"
-#include "base/system/os.h"
 
 namespace reachlab::record {
 
@@ -28,6 +28,15 @@ void syncFolderOf(const std::string& path) {
   const std::string folder = std::filesystem::path(path).parent_path().string();
   // Some network file systems have no such thing and say EINVAL: there it is theirs to keep.
   if (!os::syncFolder(folder.empty() ? "." : folder) && errno != EINVAL) failByErrno("its name cannot be synced to the disk", path);
+}
+
+std::string reserveFault(const std::string& path, const os::DiskSpace& disk, std::uint64_t diskReserve) {
+  const std::uint64_t reserve = std::min(diskReserve, disk.size / 20);
+  if (disk.size == 0 || disk.free >= reserve) return {};
+  return fmt::format(
+      "{}: {:.3g} MB are left on the disk, less than the {:.3g} MB that are kept free; what was recorded is safe: free space, "
+      "keep less free, or choose another folder",
+      path, static_cast<double>(disk.free) * 1e-6, static_cast<double>(reserve) * 1e-6);
 }
 
 }  // namespace reachlab::record

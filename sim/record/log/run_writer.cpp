@@ -7,7 +7,7 @@
 
 #include "base/error.h"
 #include "base/fault.h"
-#include "sim/record/log/disk_reserve.h"
+#include "sim/record/log/disk_fault.h"
 
 namespace reachlab::record {
 namespace {
