@@ -9,7 +9,7 @@
 #include "base/table_text.h"
 #include "sim/experiment/experiment.h"
 #include "sim/session/block_scenes.h"
-#include "sim/session/trial_order.h"
+#include "sim/session/planned_trials.h"
 #include "sim/trial/task_check.h"
 
 namespace reachlab::study {

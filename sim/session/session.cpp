@@ -13,7 +13,7 @@
 #include "sim/record/log/append_file.h"
 #include "sim/record/log/run_writer.h"
 #include "sim/session/recorded_blocks.h"
-#include "sim/session/trial_order.h"
+#include "sim/session/planned_trials.h"
 #include "sim/trial/task_check.h"
 
 namespace reachlab::session {

@@ -9,7 +9,7 @@
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "sim/session/programme.h"
-#include "sim/session/trial_order.h"
+#include "sim/session/planned_trials.h"
 #include "test_paths.h"
 #include "tests/refusal.h"
 

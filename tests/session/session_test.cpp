@@ -15,7 +15,7 @@
 #include "base/text_file.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
-#include "sim/session/trial_order.h"
+#include "sim/session/planned_trials.h"
 #include "tests/record/configuration_keys.h"
 #include "tests/record/made_run.h"
 #include "tests/refusal.h"

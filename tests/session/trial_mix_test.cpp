@@ -12,7 +12,7 @@
 #include "sim/session/block_scenes.h"
 #include "sim/session/programme.h"
 #include "sim/session/plan.h"
-#include "sim/session/trial_order.h"
+#include "sim/session/planned_trials.h"
 #include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 #include "tests/text_parts.h"

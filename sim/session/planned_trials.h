@@ -7,8 +7,8 @@
 
 namespace reachlab::session {
 
-/// The trials of a block, in order, each with its scene (block_scenes.h). Kinds and targets, foreperiods and the places of the catch trials are drawn from the seed. Trial i's foreperiod depends on
-/// (seed, i) alone, so that a resumed block has the same foreperiods.
+/// The trials of a block, in order, each with its scene (block_scenes.h). Kinds and targets, foreperiods and the places of the catch trials are
+/// drawn from the seed. The foreperiod of trial i depends on (seed, i) alone, so that a resumed block has the same foreperiods.
 std::vector<trial::PlannedTrial> planTrials(const PlanBlock& block, std::uint64_t seed);
 
 /// The seed of a block, from the run's seed and the block's number from 1. Block 1 has the run's seed itself.

@@ -1,4 +1,4 @@
-#include "sim/session/trial_order.h"
+#include "sim/session/planned_trials.h"
 
 #include <algorithm>
 #include <cmath>
