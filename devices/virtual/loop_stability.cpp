@@ -4,26 +4,9 @@
 #include <cmath>
 
 #include "base/math/butterworth.h"
-#include "base/math/matrix.h"
-// Not before it.
-#include <unsupported/Eigen/MatrixFunctions>
+#include "base/math/eigen_solvers.h"
 
 namespace reachlab::devices {
-namespace {
-
-using Matrix = Eigen::MatrixXd;
-
-// x' = A x + B F over one tick with F held: the two blocks of the exponential of [A B; 0 0].
-Matrix heldStep(const LoopSettings& s) {
-  Matrix generator = Matrix::Zero(3, 3);
-  generator(0, 1) = 1;
-  generator(1, 0) = -s.handStiffness / s.mass;
-  generator(1, 1) = -s.friction / s.mass;
-  generator(1, 2) = 1 / s.mass;
-  return (generator * s.period).exp();
-}
-
-}  // namespace
 
 // State: x, v of the body; x(n-1); the filter's two last inputs and outputs; then the forces that are on their way.
 double spectralRadius(const LoopSettings& s) {
@@ -43,8 +26,9 @@ double spectralRadius(const LoopSettings& s) {
   const Row force = -s.stiffness * unit(kX) - s.damping * velocity;
   const Row acting = s.delayTicks == 0 ? force : unit(size - 1);
 
-  const Matrix held = heldStep(s);
-  Matrix step = Matrix::Zero(size, size);
+  const Eigen::Matrix2d body{{0, 1}, {-s.handStiffness / s.mass, -s.friction / s.mass}};
+  const Eigen::MatrixXd held = heldStep(body, Eigen::Vector2d(0, 1 / s.mass), s.period);
+  Eigen::MatrixXd step = Eigen::MatrixXd::Zero(size, size);
   step.row(kX) = held(0, 0) * unit(kX) + held(0, 1) * unit(kV) + held(0, 2) * acting;
   step.row(kV) = held(1, 0) * unit(kX) + held(1, 1) * unit(kV) + held(1, 2) * acting;
   step.row(kOldX) = unit(kX);
@@ -53,7 +37,7 @@ double spectralRadius(const LoopSettings& s) {
   step.row(kOut1) = velocity;
   step.row(kOut2) = unit(kOut1);
   for (int i = 0; i < s.delayTicks; ++i) step.row(kForces + i) = i == 0 ? force : unit(kForces + i - 1);
-  return step.eigenvalues().cwiseAbs().maxCoeff();
+  return eigenvalues(step).cwiseAbs().maxCoeff();
 }
 
 double passivityMargin(const LoopSettings& s) noexcept { return s.friction - (s.stiffness * s.period / 2 + std::abs(s.damping)); }

@@ -1,22 +1,11 @@
 #include "sim/subjects/arm_world.h"
 
 #include <cmath>
-#include <unsupported/Eigen/MatrixFunctions>
 
+#include "base/math/eigen_solvers.h"
 #include "base/math/elementary.h"
 
 namespace reachlab::subjects {
-namespace {
-
-// exp of [[A, B], [0, 0]] dt: the first rows are the step of x' = A x + B u with u held.
-Eigen::MatrixXd heldStep(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b, double dt) {
-  Eigen::MatrixXd block = Eigen::MatrixXd::Zero(a.rows() + b.cols(), a.rows() + b.cols());
-  block.topLeftCorner(a.rows(), a.cols()) = a * dt;
-  block.topRightCorner(a.rows(), b.cols()) = b * dt;
-  return Eigen::MatrixXd(block.exp()).topRows(a.rows());
-}
-
-}  // namespace
 
 ArmWorld makeArmWorld(const ArmSpec& arm, predict::LineObject object, const ModelError& error) {
   for (double& k : object.springs) k *= elementary::exp(error.stiffness);

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/math/eigen_solvers.h"
 #include "base/math/elementary.h"
-#include "base/math/matrix.h"
 
 namespace reachlab::dynamics {
 
@@ -32,7 +32,7 @@ std::vector<std::complex<double>> computeEigenvalues(const ObjectModel& model) {
   const double unit = std::max(1.0, boundFastestMode(model));
   a.topRightCorner(n, n) *= unit;
   a.bottomLeftCorner(n, n) /= unit;
-  const Eigen::VectorXcd values = a.eigenvalues();
+  const Eigen::VectorXcd values = eigenvalues(a);
   return {values.begin(), values.end()};
 }
 
