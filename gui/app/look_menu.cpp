@@ -137,7 +137,7 @@ void addScenery(MainWindow& window, QMenu& menu) {
 
 void addMovie(MainWindow& window, QMenu& menu) {
   auto* recorder = new FrameRecorder(window.view(), &window);
-  QAction* action = menu.addAction(QObject::tr("Record pictures for a film…"));
+  QAction* action = menu.addAction(QObject::tr("R&ecord pictures for a film…"));
   action->setObjectName("recordFrames");
   action->setCheckable(true);
   QObject::connect(action, &QAction::triggered, &window, [&window, recorder, action](bool on) {
@@ -164,13 +164,13 @@ void addMovie(MainWindow& window, QMenu& menu) {
 }  // namespace
 
 void addLookMenu(MainWindow& window, QMenu& menu) {
-  QMenu* cameras = menu.addMenu(QObject::tr("View &from"));
+  QMenu* cameras = menu.addMenu(QObject::tr("&View from"));
   cameras->setObjectName("cameras");
   QObject::connect(cameras, &QMenu::aboutToShow, cameras, [&window, cameras] { listCameras(window, *cameras); });
   addSwitch(window, menu, QObject::tr("&Parallel projection"), [&window](bool on) {
     window.view().setParallel(on);
   })->setObjectName("parallel");
-  addSwitch(window, menu, QObject::tr("Stereo, for red and cyan glasses"), [&window](bool on) { window.view().setStereo(on); });
+  addSwitch(window, menu, QObject::tr("Stereo, for &red and cyan glasses"), [&window](bool on) { window.view().setStereo(on); });
   QMenu* look = menu.addMenu(QObject::tr("&Look of the scene"));
   look->setObjectName("look");
   addParts(window, *look);
@@ -182,7 +182,7 @@ void addLookMenu(MainWindow& window, QMenu& menu) {
   QObject::connect(look, &QMenu::aboutToShow, colours, [&window, colours] { listColours(window, *colours); });
   look->addSeparator();
   addScenery(window, *look);
-  QAction* light = addSwitch(window, menu, QObject::tr("Light theme"), [&window](bool on) {
+  QAction* light = addSwitch(window, menu, QObject::tr("Ligh&t theme"), [&window](bool on) {
     const QString theme = on ? "light" : "dark";
     QSettings().setValue("window/theme", theme);
     window.tell(QObject::tr("The %1 theme is used when you open the window again.").arg(theme));

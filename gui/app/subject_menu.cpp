@@ -60,8 +60,8 @@ void addVolume(MainWindow& window, QMenu& menu) {
 void addSubjectMenu(MainWindow& window, QMenu& menu) {
   QMenu* where = menu.addMenu(QObject::tr("Subject's screen &on"));
   QObject::connect(where, &QMenu::aboutToShow, where, [&window, where] { listScreens(window, *where); });
-  addShown(window, *menu.addMenu(QObject::tr("Subject's screen sho&ws")));
-  addLanguages(window, *menu.addMenu(QObject::tr("Subject's &language")));
+  addShown(window, *menu.addMenu(QObject::tr("Subject's screen s&hows")));
+  addLanguages(window, *menu.addMenu(QObject::tr("Subject's lan&guage")));
   addVolume(window, *menu.addMenu(QObject::tr("So&unds")));
 }
 

@@ -72,7 +72,7 @@ void addExperimentMenu(MainWindow& window) {
     const QString folder = QFileDialog::getExistingDirectory(&window, "Analyse a dataset");
     if (!folder.isEmpty()) window.analyse(folder);
   };
-  addEntry(window, menu, "&Analyse a dataset…", analyse)->setObjectName("analyse");
+  addEntry(window, menu, "Anal&yse a dataset…", analyse)->setObjectName("analyse");
   QMenu* recent = menu.addMenu("Open &recent");
   recent->setObjectName("recent");
   QObject::connect(&menu, &QMenu::aboutToShow, recent, [&window, recent] { listRecent(window, *recent); });
@@ -139,7 +139,7 @@ void addViewMenu(MainWindow& window, TrialActions& actions) {
   int number = 1;
   for (const char axis : {'x', 'y', 'z'})
     addEntry(
-        window, menu, QStringLiteral("Along %1").arg(axis), [&view, axis] { view.lookAlong(axis); },
+        window, menu, QStringLiteral("Along &%1").arg(axis), [&view, axis] { view.lookAlong(axis); },
         QStringLiteral("Ctrl+%1").arg(number++));
   menu.addSeparator();
   QAction* aside = addSwitch(
@@ -147,7 +147,7 @@ void addViewMenu(MainWindow& window, TrialActions& actions) {
   aside->setObjectName("sideBySide");
   aside->setChecked(window.session().experiment().object.kind == experiment::ObjectKind::Parallel);
   const auto style = [&view](bool on) { view.setSurfaceStyle(on ? scene::SurfaceStyle::Wire : scene::SurfaceStyle::Glass); };
-  addSwitch(window, menu, "Surfaces as &wire frame", style, Qt::Key_W);
+  addSwitch(window, menu, "Surfaces as w&ire frame", style, Qt::Key_W);
   QAction* forces = addSwitch(window, menu, "&Forces on the hand", [&screens](bool on) { screens.setForcesShown(on); });
   forces->setObjectName("forcesShown");
   forces->setChecked(true);
@@ -158,7 +158,7 @@ void addViewMenu(MainWindow& window, TrialActions& actions) {
   addEntry(window, menu, "Save pi&cture…", &MainWindow::savePicture, QKeySequence("Ctrl+Shift+P"));
   menu.addSeparator();
   addSubjectMenu(window, menu);
-  addSwitch(window, menu, "Without s&ound", [&window](bool on) { window.sounds().setMuted(on); });
+  addSwitch(window, menu, "Without sou&nd", [&window](bool on) { window.sounds().setMuted(on); });
   menu.addSeparator();
   addDocksMenu(window, *menu.addMenu("&Docks"));  // ten of them would make the menu longer than a small screen
 }

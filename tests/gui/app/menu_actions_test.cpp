@@ -107,6 +107,20 @@ class MenuActions : public AtTheWindow {
   }
 };
 
+TEST_F(MenuActions, NoTwoOfAMenuShareALetter) {
+  open();
+  for (const QMenu* menu : window_->menuBar()->findChildren<QMenu*>()) {
+    std::map<QChar, QString> letters;
+    for (const QAction* action : menu->actions()) {
+      const QString text = action->text();
+      const int at = text.indexOf(QLatin1Char('&'));
+      if (at < 0) continue;
+      const QString& first = letters.try_emplace(text.at(at + 1).toLower(), text).first->second;
+      EXPECT_EQ(first, text) << menu->title().toStdString();
+    }
+  }
+}
+
 TEST_F(MenuActions, EachHasATest) {
   rememberFile(written("gone.json"));
   open();
