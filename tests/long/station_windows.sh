@@ -7,7 +7,7 @@
 #   tests/long/station_windows.sh [BUILD [PICTURES]]   PICTURES: a folder for pictures on the way
 set -euo pipefail
 cd "$(dirname "$0")/../.."
-build=${1:-build/dev}
+build=$(realpath "${1:-build/dev}")
 pictures=${2:-}
 source tests/gui/window_driving.sh
 need Xvfb openbox xdotool import
@@ -15,12 +15,16 @@ need Xvfb openbox xdotool import
 patient two-hands/chain-two-hands > /dev/null
 begin_display 2400x1060
 
+# window_at NUMBER ARGUMENTS…: becomes a window whose dataset and settings have this number.
+window_at() {
+  cd "$work"
+  XDG_CONFIG_HOME=$work/config$1 exec "$build/gui/reachlab" chain-two-hands.json --insecure --interface lo --peer 127.0.0.1 --domain $(($$ % 230)) --data "data$1" "${@:2}"
+}
 # begin NUMBER X ARGUMENTS…: one station's window, in its half of the screen.
 begin() {
   local number=$1 x=$2 known=" $(xdotool search --onlyvisible --name 'Reachlab$' 2> /dev/null | tr '\n' ' ')" found
   shift 2
-  XDG_CONFIG_HOME=$work/config$number "$build/gui/reachlab" "$work/chain-two-hands.json" --station "$number" --insecure --interface lo --peer 127.0.0.1 \
-    --domain $(($$ % 230)) --name "station$number" --seed 1 --data "$work/data$number" "$@" 2> "$work/said$number" &
+  window_at "$number" --station "$number" --name "station$number" --seed 1 "$@" 2> "$work/said$number" &
   window=$!
   for _ in $(seq 300); do
     for found in $(xdotool search --onlyvisible --name 'Reachlab$' 2> /dev/null); do
@@ -82,8 +86,7 @@ check "two trials succeed" test "$(outcomes 1 success)" -ge 2
 
 # A third window observes: it sees them move, and nothing of it is recorded.
 before=$(outcomes 1 "$all")
-XDG_CONFIG_HOME=$work/config3 "$build/gui/reachlab" "$work/chain-two-hands.json" --observe --insecure --interface lo --peer 127.0.0.1 \
-  --domain $(($$ % 230)) --data "$work/data3" 2> "$work/said3" & observer=$!
+window_at 3 --observe 2> "$work/said3" & observer=$!
 seen=
 for _ in $(seq 100); do seen=$(xdotool search --onlyvisible --name 'observing' 2> /dev/null | head -1 || true); [[ -n $seen ]] && break; sleep 0.2; done
 check "a third window observes" test -n "$seen"
