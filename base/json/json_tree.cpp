@@ -65,7 +65,7 @@ constexpr SyntaxFault kSyntaxFaults[] = {
     {"", "this is not a value", "a number, true, false, null, text in double quotes, [ or {"}};
 
 // Messages of nlohmann/json: "…; last read: 'TEXT'; expected …", where TEXT is of the file and tells nothing of the fault.
-const SyntaxFault& syntaxFault(std::string message) {
+SyntaxFault syntaxFault(std::string message) {
   if (const auto read = message.find("; last read"); read != std::string::npos)
     message.erase(read, std::max(message.rfind("'; expected"), read) - read);
   return *std::find_if(std::begin(kSyntaxFaults), std::end(kSyntaxFaults),
@@ -108,7 +108,7 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
     if (e.id == 406) throw FaultError(Fault{{}, "this number is beyond the range of a double", "finite numbers", place(tokenStart())});
     if (const std::size_t comma = trailingComma(end); comma != std::string::npos)
       throw FaultError(Fault{{}, "this comma has nothing behind it", "a further element, or no comma after the last one", place(comma)});
-    const SyntaxFault& fault = syntaxFault(e.what());
+    const SyntaxFault fault = syntaxFault(e.what());
     throw FaultError(Fault{{}, fault.what, fault.allowed, place(end > 0 ? end - 1 : 0)});
   }
 

@@ -18,8 +18,8 @@
 namespace reachlab::cli {
 namespace {
 
-const experiment::Task& requireTask(const experiment::Experiment& experiment, const std::string& name) {
-  if (!experiment.task) throw RefusedError("--hand " + name + " needs the experiment's task (start, target, duration_s)");
+const experiment::Task& requireTask(const experiment::Experiment& experiment, const char* name) {
+  if (!experiment.task) throw RefusedError(fmt::format("--hand {} needs the experiment's task (start, target, duration_s)", name));
   return *experiment.task;
 }
 
@@ -100,7 +100,7 @@ HandLaw makeHandLaw(const std::string& name, const experiment::Experiment& exper
   if (name == "min-jerk") return straightReach(experiment, constraint);
   if (name == "min-jerk-along") return reachAlong(experiment, constraint);
   if (name == "hold") {
-    const Vec3 start = placeOf(constraint, requireTask(experiment, name).start, "start");
+    const Vec3 start = placeOf(constraint, requireTask(experiment, name.c_str()).start, "start");
     return {[start](double) { return dynamics::HandSample{start, {}, true}; }};
   }
   return sampledHand(name);

@@ -1,5 +1,5 @@
 #!/bin/bash
-# From nothing to a first result in a bare Debian 12: a table of wall and processor time for install, build, first result, tests and packages, of a
+# From nothing to a first result in a bare Debian 12 (SUITE=trixie: Debian 13): a table of wall and processor time for install, build, first result, tests and packages, of a
 # clone as root. Then the same first result under worse conditions: from the tarball, in a folder with spaces, parentheses and an umlaut, by a user
 # with sudo, with German settings, and without network once everything is installed. Needs what packaging/bare needs, and takes hours.
 #   tests/long/bare_debian.sh [STEP...]     only these steps: first, tests, packages, user (all unless named; tests and packages need first)
@@ -11,7 +11,7 @@ root=$(mktemp -d /var/tmp/reachlab-bare-XXXXXX)
 clean_up() { umount "$root/dev/shm" "$root/proc" 2> /dev/null || true; rm -rf --one-file-system "$root"; }
 trap clean_up EXIT
 chmod 755 "$root"  # a user other than root goes through it
-"$source/packaging/bare" "$root"
+"$source/packaging/bare" "$root" "${SUITE:-bookworm}"
 mount -t proc proc "$root/proc"
 mkdir -p "$root/dev/shm" && mount -t tmpfs shm "$root/dev/shm"
 # timed WORDS COMMAND…: a row of the table. What the command says stands in a log, whose end is shown when it fails.

@@ -97,7 +97,7 @@ std::unique_ptr<Prediction> makeFreeArmPrediction(const experiment::Arm& arm, co
     const double x = (*end)[0] - arm.shoulder[0], y = (*end)[1] - arm.shoulder[1];
     requireReach(arm, x, y);
     const auto q = computeAngles(arm, x, y);
-    (end == &task.start ? problem.from : problem.to) = {q[0], q[1]};
+    (end == &task.start ? problem.from : problem.to).assign(q.begin(), q.end());
   }
   problem.takeDerivativesAsLocals();
   problem.residual = residualOf<kLocals>([&arm](const auto& a) {

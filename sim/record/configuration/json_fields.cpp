@@ -16,7 +16,7 @@ namespace {
 
 }  // namespace
 
-const nlohmann::json& memberOf(const nlohmann::json& object, const std::string& key) {
+const nlohmann::json& memberOf(const nlohmann::json& object, const char* key) {
   if (!object.is_object()) throw FaultError(Fault{key, "stands in no object"});
   const auto found = object.find(key);
   if (found == object.end()) throw FaultError(Fault{key, "is missing"});

@@ -15,7 +15,7 @@
 namespace reachlab::record {
 
 /// Throws FaultError where there is no such member.
-const nlohmann::json& memberOf(const nlohmann::json& object, const std::string& key);
+const nlohmann::json& memberOf(const nlohmann::json& object, const char* key);
 
 struct Field {
   const char* key;
