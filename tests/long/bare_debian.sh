@@ -1,7 +1,8 @@
 #!/bin/bash
-# From nothing to a first result in a bare Debian 12 (SUITE=trixie: Debian 13): a table of wall and processor time for install, build, first result, tests and packages, of a
-# clone as root. Then the same first result under worse conditions: from the tarball, in a folder with spaces, parentheses and an umlaut, by a user
-# with sudo, with German settings, and without network once everything is installed. Needs what packaging/bare needs, and takes hours.
+# From nothing to a first result in a bare Debian 12 (SUITE=trixie: Debian 13): a table of wall and processor time for install, build, first
+# result, tests and packages, of a clone as root. Then the same first result under worse conditions: from the tarball, in a folder with spaces,
+# parentheses and an umlaut, by a user with sudo, with German settings, and without network once everything is installed. Needs what
+# packaging/bare needs, and takes hours.
 #   tests/long/bare_debian.sh [STEP...]     only these steps: first, tests, packages, user (all unless named; tests and packages need first)
 set -euo pipefail
 source=$(realpath "$(dirname "$0")/../..")
