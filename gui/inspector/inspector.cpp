@@ -14,6 +14,7 @@
 #include <QSplitter>
 #include <QTableView>
 #include <QTimer>
+#include <algorithm>
 #include <cmath>
 
 #include "base/fault.h"

@@ -8,6 +8,7 @@
 #include <QTableWidget>
 #include <QVBoxLayout>
 #include <QVariant>
+#include <algorithm>
 
 #include "gui/widgets/named.h"
 #include "gui/widgets/text_table.h"

@@ -1,6 +1,7 @@
 // What is plugged in, as hidapi tells it, behind the drivers that look for it.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cerrno>
 
 #include "base/error.h"

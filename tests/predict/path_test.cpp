@@ -1,6 +1,7 @@
 // Least hand jerk along curves and on surfaces: the straight line as oracle, the formula in curvature and torsion, and optimality.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>

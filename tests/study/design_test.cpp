@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "analysis/study/chunk.h"
 #include "analysis/study/points.h"
 #include "tests/refusal.h"

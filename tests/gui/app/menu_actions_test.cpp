@@ -12,6 +12,7 @@
 #include <QSettings>
 #include <QSlider>
 #include <QWidgetAction>
+#include <algorithm>
 #include <functional>
 
 #include "gui/choosers/constraint_chooser.h"

@@ -13,6 +13,7 @@
 #include <QSlider>
 #include <QTableWidget>
 #include <QToolButton>
+#include <algorithm>
 #include <cmath>
 
 #include "analysis/tables.h"

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::plot {

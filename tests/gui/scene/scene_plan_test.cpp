@@ -5,6 +5,7 @@
 
 #include <QApplication>
 #include <QFontMetricsF>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
