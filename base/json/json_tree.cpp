@@ -48,6 +48,7 @@ struct SyntaxFault {
 };
 constexpr SyntaxFault kSyntaxFaults[] = {
     {"unexpected end of input", "the text ends before the value is complete", "one whole JSON value"},
+    {"empty input", "the text ends before the value is complete", "one whole JSON value"},
     {"missing closing quote", "a string is not closed before the end of the text", "a double quote at its end"},
     {"control character", "a string contains a control character, such as the end of its line", "\\n for a new line, \\t for a tab"},
     {"UTF-8", "a string contains bytes that are not UTF-8", "a file saved as UTF-8"},

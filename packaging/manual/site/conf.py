@@ -46,7 +46,8 @@ def mathml(source, block):
         latex2mathml.parse_latex_math(node, ACCENT.sub(r"{\g<0>{}}", source))
     except SyntaxError as error:
         raise SphinxError(f"formula {source}: {error}") from error
-    return spaced(bold(tree.toprettyxml()))
+    markup = tree.toxml() if hasattr(tree, "toxml") else tree.toprettyxml()  # the name in docutils 0.21, and before
+    return spaced(bold(markup))
 
 
 def spaced(markup):
@@ -82,9 +83,11 @@ def make_local(app, error):
     static = Path(app.outdir) / "_static"
     shutil.copy(MATH_FONT, static)
     sheet, imported = static / "styles/furo.css", "@import url(/javascript/normalize.css/normalize.css);"
-    sheet.write_text(replaced(sheet.read_text(), imported, NORMALIZE.read_text()))
+    if "normalize.css v" not in sheet.read_text():  # Debian 13's Furo holds that sheet itself
+        sheet.write_text(replaced(sheet.read_text(), imported, NORMALIZE.read_text()))
     script, spy = static / "scripts/furo.js", static / "scripts/gumshoe-patched.js"
-    script.write_text(spy.read_text() + replaced(script.read_text(), 'import Gumshoe from "./gumshoe-patched.js";', ""))
+    code = script.read_text().replace("import * as Gumshoe", "import Gumshoe")
+    script.write_text(spy.read_text() + replaced(code, 'import Gumshoe from "./gumshoe-patched.js";', ""))
     spy.unlink()
 
 
