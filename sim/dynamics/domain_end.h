@@ -1,6 +1,6 @@
 #pragma once
 #include <cmath>
-#include <vector>
+#include <span>
 
 #include "sim/dynamics/methods/adaptive.h"
 #include "sim/dynamics/systems/system.h"
@@ -19,11 +19,13 @@ class DomainEnd {
  public:
   using State = typename System::State;
 
-  DomainEnd(const System& system, double tolerance, int masses) : locator_(system, tolerance), located_(static_cast<std::size_t>(masses)) {}
+  DomainEnd(const System& system, double tolerance) : locator_(system, tolerance) {}
 
   /// `status` and `next` are what the method's step of `dt` from `now` gave. Ok: `next` is the state after the whole tick. AtEnd: `now` is the
-  /// state at the end. Every other status is that of a method which failed, and `now` is as before. `rhs` counts the right-hand sides.
-  EndMet meet(System& system, const HandSegment& hand, double dt, StepStatus status, State& now, State& next, std::uint64_t& rhs) noexcept {
+  /// state at the end. Every other status is that of a method which failed, and `now` is as before. `scratch` has room for all masses.
+  /// `rhs` counts the right-hand sides.
+  EndMet meet(System& system, const HandSegment& hand, double dt, StepStatus status, State& now, State& next, std::span<MassState> scratch,
+              std::uint64_t& rhs) noexcept {
     const State before = now;
     [[maybe_unused]] const auto branch = branchOf(system);
     const auto takeBack = [&] {
@@ -57,7 +59,7 @@ class DomainEnd {
       }
       system.meetEnd(meeting.beyond, now, system.bounces());
       // Where an end is degenerate (a cusp, a collapsed line) the parameters hold no velocity. The mass stops just before, elastic or not.
-      const bool degenerate = !sameSpeed(system, at, now) || !hasRates(system, rest, now);
+      const bool degenerate = !sameSpeed(system, at, now, scratch) || !hasRates(system, rest, now);
       if (degenerate) now = at;
       if (degenerate || !system.bounces()) return {StepStatus::AtEnd, begun};
       rest = part(hand, begun, 1);
@@ -75,12 +77,12 @@ class DomainEnd {
   }
 
   /// No energy is lost between two states, to rounding.
-  bool sameSpeed(const System& system, const State& a, const State& b) noexcept {
+  static bool sameSpeed(const System& system, const State& a, const State& b, std::span<MassState> scratch) noexcept {
     constexpr double kSame = 1e-9;  // of the squares' sum
     const auto sum = [&](const State& y) {
-      system.locate(y, located_);
+      system.locate(y, scratch);
       double squares = 0;
-      for (const MassState& mass : located_) squares += dot(mass.v, mass.v);
+      for (const MassState& mass : scratch) squares += dot(mass.v, mass.v);
       return squares;
     };
     const double one = sum(a), other = sum(b);
@@ -97,7 +99,6 @@ class DomainEnd {
   }
 
   Adaptive<System> locator_;
-  std::vector<MassState> located_;
 };
 
 }  // namespace reachlab::dynamics

@@ -17,7 +17,7 @@ class SystemPlant : public PlantBase {
 
   SystemPlant(const ObjectModel& model, System system, double tolerance)
       : PlantBase(model), system_(std::move(system)),
-        domainEnd_(system_, tolerance, model.count()), states_{State(system_.states()), State(system_.states())} {
+        domainEnd_(system_, tolerance), states_{State(system_.states()), State(system_.states())} {
     for (int i = 0; i < system_.states(); ++i) now()[i] = 0;
   }
 
@@ -92,9 +92,9 @@ class SystemPlant : public PlantBase {
 
  private:
   StepStatus meetEnd(const HandSegment& hand, double dt, StepStatus status, std::uint64_t& rhs) noexcept {
-    const EndMet end = domainEnd_.meet(system_, hand, dt, status, now(), next(), rhs);
+    const EndMet end = domainEnd_.meet(system_, hand, dt, status, now(), next(), located_, rhs);
     if (end.status == StepStatus::Ok || end.status == StepStatus::AtEnd) restart();
-    if (end.status == StepStatus::AtEnd) fraction_ = end.share;
+    fraction_ = end.share;
     return end.status;
   }
   bool mayHaveTurned(double dt) noexcept {
