@@ -9,12 +9,13 @@ source=$(realpath "$(dirname "$0")/../..")
 steps=" ${*:-first tests packages user} "
 wanted() { [[ $steps == *" $1 "* ]]; }
 root=$(mktemp -d /var/tmp/reachlab-bare-XXXXXX)
-clean_up() { umount "$root/dev/shm" "$root/proc" 2> /dev/null || true; rm -rf --one-file-system "$root"; }
+clean_up() { umount "$root/dev/pts" "$root/dev/shm" "$root/proc" 2> /dev/null || true; rm -rf --one-file-system "$root"; }
 trap clean_up EXIT
 chmod 755 "$root"  # a user other than root goes through it
 "$source/packaging/bare" "$root" "${SUITE:-bookworm}"
 mount -t proc proc "$root/proc"
 mkdir -p "$root/dev/shm" && mount -t tmpfs shm "$root/dev/shm"
+mkdir -p "$root/dev/pts" && mount -t devpts -o newinstance,ptmxmode=0666 devpts "$root/dev/pts"  # tests of serial lines open terminals
 # timed WORDS COMMAND…: a row of the table. What the command says stands in a log, whose end is shown when it fails.
 timed() {
   local words=$1 TIMEFORMAT='%0R %0U %0S' spent
