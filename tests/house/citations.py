@@ -5,8 +5,8 @@
   tests/house/citations.py --self-test  checks that it would find what it looks for
 
 A citation is a path from the repository's root (docs/theory/criteria.md, tests/long/coverage.sh), for a page also from its own folder. Behind a
-page may follow a comma and a heading in quotation marks, or # and its anchor. docs/adr/0020 stands for the record of that number. A test is a `Suite.Name` in
-backticks; `Suite.*` stands for all of a suite, and `Suite.Beg…` for those that begin so."""
+page may follow a comma and a heading in quotation marks, or # and its anchor. docs/adr/0020 stands for the record of that number. A test is a
+`Suite.Name` in backticks; `Suite.*` stands for all of a suite, and `Suite.Beg…` for those that begin so."""
 import functools
 import re
 import sys
