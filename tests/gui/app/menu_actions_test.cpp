@@ -111,13 +111,12 @@ class MenuActions : public AtTheWindow {
 TEST_F(MenuActions, NoTwoOfAMenuShareALetter) {
   open();
   for (const QMenu* menu : window_->menuBar()->findChildren<QMenu*>()) {
-    std::map<QChar, QString> letters;
+    std::map<char, std::string> letters;
     for (const QAction* action : menu->actions()) {
-      const QString text = action->text();
-      const int at = text.indexOf(QLatin1Char('&'));
-      if (at < 0) continue;
-      const QString& first = letters.try_emplace(text.at(at + 1).toLower(), text).first->second;
-      EXPECT_EQ(first, text) << menu->title().toStdString();
+      const std::string text = action->text().toLower().toStdString();
+      const auto at = text.find('&');
+      if (at == std::string::npos) continue;
+      EXPECT_EQ(letters.try_emplace(text.at(at + 1), text).first->second, text) << menu->title().toStdString();
     }
   }
 }
