@@ -100,7 +100,7 @@ HandLaw makeHandLaw(const std::string& name, const experiment::Experiment& exper
   if (name == "min-jerk") return straightReach(experiment, constraint);
   if (name == "min-jerk-along") return reachAlong(experiment, constraint);
   if (name == "hold") {
-    const Vec3 start = placeOf(constraint, requireTask(experiment, name.c_str()).start, "start");
+    const Vec3 start = placeOf(constraint, requireTask(experiment, "hold").start, "start");
     return {[start](double) { return dynamics::HandSample{start, {}, true}; }};
   }
   return sampledHand(name);

@@ -29,7 +29,7 @@ struct Refused : std::runtime_error {
 template <typename T>
 const T& at(const std::vector<T>& all, int index, const char* what) {
   if (index < 0 || static_cast<std::size_t>(index) >= all.size())
-    throw Refused(what + (" " + std::to_string(index)) + " is none of " + std::to_string(all.size()));
+    throw Refused(std::string(what) + " " + std::to_string(index) + " is none of " + std::to_string(all.size()));
   return all[static_cast<std::size_t>(index)];
 }
 

@@ -18,7 +18,8 @@ begin_display 2400x1060
 # window_at NUMBER ARGUMENTS…: becomes a window whose dataset and settings have this number.
 window_at() {
   cd "$work"
-  XDG_CONFIG_HOME=$work/config$1 exec "$build/gui/reachlab" chain-two-hands.json --insecure --interface lo --peer 127.0.0.1 --domain $(($$ % 230)) --data "data$1" "${@:2}"
+  XDG_CONFIG_HOME=$work/config$1 exec "$build/gui/reachlab" chain-two-hands.json --insecure --interface lo --peer 127.0.0.1 \
+    --domain $(($$ % 230)) --data "data$1" "${@:2}"
 }
 # begin NUMBER X ARGUMENTS…: one station's window, in its half of the screen.
 begin() {

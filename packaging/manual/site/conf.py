@@ -83,8 +83,8 @@ def make_local(app, error):
     static = Path(app.outdir) / "_static"
     shutil.copy(MATH_FONT, static)
     sheet, imported = static / "styles/furo.css", "@import url(/javascript/normalize.css/normalize.css);"
-    if "normalize.css v" not in sheet.read_text():  # Debian 13's Furo holds that sheet itself
-        sheet.write_text(replaced(sheet.read_text(), imported, NORMALIZE.read_text()))
+    if "normalize.css v" not in (css := sheet.read_text()):  # Debian 13's Furo holds that sheet itself
+        sheet.write_text(replaced(css, imported, NORMALIZE.read_text()))
     script, spy = static / "scripts/furo.js", static / "scripts/gumshoe-patched.js"
     code = script.read_text().replace("import * as Gumshoe", "import Gumshoe")
     script.write_text(spy.read_text() + replaced(code, 'import Gumshoe from "./gumshoe-patched.js";', ""))
