@@ -1,3 +1,5 @@
+#include "bench/report.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -38,6 +40,13 @@ std::vector<const Row*> worthwhile(const std::vector<Row>& rows, const std::stri
 }
 
 }  // namespace
+
+const Row* cheapest(const std::vector<Row>& rows, const std::string& scene, double error, const std::function<bool(const Row&)>& wanted) {
+  const Row* best = nullptr;
+  for (const Row& row : rows)
+    if (row.scene == scene && wanted(row) && row.error.state <= error && (!best || row.nsPerMs < best->nsPerMs)) best = &row;
+  return best;
+}
 
 std::string formatTable(const std::vector<Row>& rows) {
   std::string out = fmt::format("{:<7} {:<18} {:<10} {:>9} {:>11} {:>9} {:>19} {:>7} {:>8} {:>6}  {}\n", "scene", "method", "setting",

@@ -87,13 +87,6 @@ std::vector<Row> runSuite(const SuiteOptions& options, const std::function<void(
   return all;
 }
 
-const Row* cheapest(const std::vector<Row>& rows, const std::string& scene, double error, const std::function<bool(const Row&)>& wanted) {
-  const Row* best = nullptr;
-  for (const Row& row : rows)
-    if (row.scene == scene && wanted(row) && row.error.state <= error && (!best || row.nsPerMs < best->nsPerMs)) best = &row;
-  return best;
-}
-
 bool isPeer(const Row& row) { return contains(peerNames(), row.method); }
 
 }  // namespace reachlab::bench

@@ -15,6 +15,7 @@
 #include "cli/bench/constraint_bench.h"
 #include "network/link_check/link_bench.h"
 #include "bench/sampled_hand.h"
+#include "bench/report.h"
 #include "bench/suite.h"
 #include "sim/experiment/describe.h"
 #include "sim/haptics/measure_ticks.h"

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "bench/report.h"
 #include "bench/suite.h"
 #include "tests/refusal.h"
 
@@ -18,6 +19,21 @@ std::vector<std::string> linesOf(const std::string& text) {
     if (c == '\n') lines.push_back(std::exchange(line, {}));
     else line += c;
   return lines;
+}
+
+TEST(Report, TheCheapestRowIsTheFirstOfTheLeastPriceThatErrsNoMoreThanAllowed) {
+  const std::vector<Row> rows{row("S1", "rk4", 1e-6, 10), row("S1", "exact", 1e-12, 30), row("S1", "abm", 1e-9, 20), row("S2", "rk4", 0, 1),
+                              row("S1", "stiff", 1e-9, 20)};
+  const auto cheapestOf = [&](double error) {
+    const Row* found = cheapest(rows, "S1", error, [](const Row&) { return true; });
+    return found ? found->method : "none";
+  };
+  EXPECT_EQ(cheapestOf(1e-6), "rk4") << "just what is allowed";
+  EXPECT_EQ(cheapestOf(0.9e-6), "abm");
+  EXPECT_EQ(cheapestOf(1e-9), "abm");
+  EXPECT_EQ(cheapestOf(1e-10), "exact");
+  EXPECT_EQ(cheapestOf(1e-13), "none");
+  EXPECT_EQ(cheapest(rows, "S1", 1, [](const Row& r) { return r.method == "exact"; })->method, "exact");
 }
 
 TEST(Report, TheTableHasAColumnForEveryNumber) {

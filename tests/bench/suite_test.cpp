@@ -41,25 +41,5 @@ TEST(Suite, ATickIsTimedWithinOneTrialOnEveryScene) {
   for (const BenchScene& scene : benchScenes()) EXPECT_EQ(haptics::measureTicks(scene.experiment, 2000).trials, 1u) << scene.name;
 }
 
-TEST(Suite, TheCheapestRowIsTheFirstOfTheLeastPriceThatErrsNoMoreThanAllowed) {
-  const auto row = [](const char* scene, const char* method, double error, double price) {
-    Row made;
-    made.scene = scene, made.method = method, made.error.state = error, made.nsPerMs = price;
-    return made;
-  };
-  const std::vector<Row> rows{row("S1", "rk4", 1e-6, 10), row("S1", "exact", 1e-12, 30), row("S1", "abm", 1e-9, 20), row("S2", "rk4", 0, 1),
-                              row("S1", "stiff", 1e-9, 20)};
-  const auto cheapestOf = [&](double error) {
-    const Row* found = cheapest(rows, "S1", error, [](const Row&) { return true; });
-    return found ? found->method : "none";
-  };
-  EXPECT_EQ(cheapestOf(1e-6), "rk4") << "just what is allowed";
-  EXPECT_EQ(cheapestOf(0.9e-6), "abm");
-  EXPECT_EQ(cheapestOf(1e-9), "abm");
-  EXPECT_EQ(cheapestOf(1e-10), "exact");
-  EXPECT_EQ(cheapestOf(1e-13), "none");
-  EXPECT_EQ(cheapest(rows, "S1", 1, [](const Row& r) { return r.method == "exact"; })->method, "exact");
-}
-
 }  // namespace
 }  // namespace reachlab::bench
