@@ -63,7 +63,7 @@ endfunction()
 # namespaces of a target must then differ.
 function(reachlab_unity target)
   if(REACHLAB_UNITY)
-    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 32)
+    set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 40)
   endif()
 endfunction()
 

@@ -5,6 +5,9 @@ class App;
 
 namespace reachlab::cli {
 
+/// Parses the words and runs the command that they name. Returns the exit code.
+int runReach(int argc, char** argv);
+
 /// Each adds one subcommand to `reach`. The callback throws reachlab::Error for a fault. Other exits set `exitCode`.
 void addListCommand(CLI::App& app, int& exitCode);
 void addValidateCommand(CLI::App& app, int& exitCode);

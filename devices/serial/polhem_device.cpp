@@ -16,12 +16,12 @@
 namespace reachlab::devices {
 namespace {
 
-constexpr std::int64_t kAskAgainNs = 10'000'000;
+constexpr std::int64_t kPolhemAskAgainNs = 10'000'000;
 constexpr int kMostUnanswered = 50;  // half a second: its firmware's own watchdog has then switched it off as well
 
 }  // namespace
 
-PolhemSerial::PolhemSerial(std::string name, OpenLink open) : AskedDevice(std::move(open), kAskAgainNs), name_(std::move(name)) {
+PolhemSerial::PolhemSerial(std::string name, OpenLink open) : AskedDevice(std::move(open), kPolhemAskAgainNs), name_(std::move(name)) {
   connect();
 }
 
