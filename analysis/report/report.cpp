@@ -361,14 +361,15 @@ std::string makeReport(const ReportHeader& header, const Analysis& analysis, con
       fmt::format("{}, {}, {} recorded, {}. Reachlab {}.", plural(analysis.subjects.size(), "subject"), plural(runs.size(), "run"),
                   plural(trials, "trial"), plural(analysis.conditions.size(), "condition"), header.version),
       "quiet");
-  if (!header.learning.empty()) {
-    html.paragraph(header.learning, "answer finding");
+  const std::string learning = describeLearning(analysis);
+  if (!learning.empty()) {
+    html.paragraph(learning, "answer finding");
     addFigure(html, figures, "adaptation");
     html.heading(2, "Optimality criteria");
   }
   const std::string sentence = describeConclusion(analysis.overall, analysis.common);
   html.paragraph((analysis.conditions.size() > 1 ? "All conditions together: " : "") + sentence,
-                 header.learning.empty() ? "answer finding" : "finding");
+                 learning.empty() ? "answer finding" : "finding");
   addFigure(html, figures, "scores");
   if (analysis.overall.best) {
     html.paragraph(describeEvidence(analysis.overall, analysis.common));

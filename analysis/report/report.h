@@ -11,7 +11,6 @@ namespace reachlab::analysis {
 struct ReportHeader {
   std::string dataset, version, command;
   std::vector<std::string> plan = {};  // sentences about the analysis plan and the departures from it
-  std::string learning = {};           // describeLearning of the analysis
 };
 
 /// One self-contained HTML page. It begins with one plain sentence, a figure, and tables of the numbers. Success and learning follow, then

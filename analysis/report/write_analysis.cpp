@@ -9,6 +9,7 @@
 #include "sim/record/export/column_dictionary.h"
 #include "sim/record/log/atomic_file.h"
 #include "sim/record/log/folder_hold.h"
+#include "sim/record/log/log.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -43,6 +44,11 @@ class TableFiles {
 };
 
 }  // namespace
+
+std::string analysisFolderOf(const std::string& dataset) {
+  if (dataset.ends_with(record::kLogEnding)) return dataset.substr(0, dataset.size() - record::kLogEnding.size()) + "_report";
+  return dataset + "/derivatives/reachlab";
+}
 
 AnalysisFiles writeAnalysis(const Analysis& analysis, const DatasetIndex& dataset, const ReportHeader& header, const std::string& folder,
                             const std::optional<TruthRecovery>& recovery) {

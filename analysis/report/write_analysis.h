@@ -7,8 +7,8 @@
 
 namespace reachlab::analysis {
 
-/// The folder in a dataset that its analysis is written to.
-inline std::string analysisFolderOf(const std::string& dataset) { return dataset + "/derivatives/reachlab"; }
+/// The folder that an analysis is written to: one in the dataset, or one beside a single log.
+std::string analysisFolderOf(const std::string& dataset);
 
 struct AnalysisFiles {
   std::string report;

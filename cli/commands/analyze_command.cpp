@@ -1,8 +1,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
+#include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -15,6 +15,7 @@
 #include "base/fault.h"
 #include "cli/commands/commands.h"
 #include "cli/output/json_text.h"
+#include "cli/output/progress_line.h"
 #include "cli/terminal/analysis_plan.h"
 #include "cli/terminal/at_option.h"
 #include "cli/terminal/criterion_option.h"
@@ -200,8 +201,7 @@ Json jsonOf(const analysis::Analysis& analysis, const analysis::Effect& e) {
 }
 
 std::string summaryJson(const analysis::Analysis& analysis, const analysis::DatasetIndex& dataset, const analysis::AnalysisFiles& files,
-                        const std::optional<analysis::TruthRecovery>& recovery, const std::optional<AnalysisPlan>& plan,
-                        const std::string& learning) {
+                        const std::optional<analysis::TruthRecovery>& recovery, const std::optional<AnalysisPlan>& plan) {
   Json j = Json::object();
   if (plan) j["plan"] = {{"file", plan->file}, {"date", plan->date}, {"sha256", plan->sha256}, {"departures", plan->departures}};
   j["report"] = files.report;
@@ -209,7 +209,7 @@ std::string summaryJson(const analysis::Analysis& analysis, const analysis::Data
   j["figures"] = files.figures;
   j["runs"] = dataset.runs.size();
   j["notes"] = dataset.notes;
-  if (!learning.empty()) j["adaptation"] = learning;
+  if (const std::string learning = analysis::describeLearning(analysis); !learning.empty()) j["adaptation"] = learning;
   std::vector<double> masses;
   for (const analysis::ConditionResult& r : analysis.results)
     if (masses.empty()) masses = r.candidates.masses;
@@ -276,9 +276,9 @@ void printRecovery(const analysis::TruthRecovery& recovery) {
 }
 
 void printSummary(const analysis::Analysis& analysis, const analysis::DatasetIndex& dataset, const analysis::AnalysisFiles& files,
-                  const std::optional<analysis::TruthRecovery>& recovery, const std::string& learning) {
+                  const std::optional<analysis::TruthRecovery>& recovery) {
   for (const std::string& note : dataset.notes) fmt::print(stderr, "note: {}\n", note);
-  if (!learning.empty()) fmt::print("{}\n", learning);
+  if (const std::string learning = analysis::describeLearning(analysis); !learning.empty()) fmt::print("{}\n", learning);
   fmt::print("{}\n", analysis::describeConclusion(analysis.overall, analysis.common));
   if (const std::string evidence = analysis::describeEvidence(analysis.overall, analysis.common); !evidence.empty())
     fmt::print("{}\n", evidence);
@@ -333,9 +333,10 @@ void run(CLI::App& command, const AnalyzeOptions& o) {
     applyPlan(command, *plan);  // changes o
   }
   const analysis::AnalysisOptions options = analysisOptions(o);  // refused before hours of reading
-  const bool terminal = isatty(STDERR_FILENO) != 0;
-  const auto progress = [terminal](const char* what, std::size_t done, std::size_t of) {
-    if (terminal && of > 0) fmt::print(stderr, "\r{} {} of {} \033[K{}", what, done, of, done == of ? "\n" : "");
+  ProgressLine line(1);
+  const auto progress = [&line](const char* what, std::size_t done, std::size_t of) {
+    if (of > 0) line.tell(fmt::format("{} {} of {}", what, done, of));
+    if (done == of) line.end();
   };
   analysis::AnalysisBuilder builder(options);
   const std::vector<analysis::Alternative> alternatives =
@@ -373,16 +374,16 @@ void run(CLI::App& command, const AnalyzeOptions& o) {
     for (const analysis::AnalysedRun& r : dataset.runs) starts.push_back(r.configuration.startedUtc);
     checkDate(*plan, starts);
   }
-  const analysis::ReportHeader header{folder, REACHLAB_VERSION, commandOf(o), plan ? describePlan(*plan) : std::vector<std::string>{},
-                                      analysis::describeLearning(analysis)};
+  const analysis::ReportHeader header{folder, REACHLAB_VERSION, commandOf(o), plan ? describePlan(*plan) : std::vector<std::string>{}};
   const std::string out = o.out.empty() ? analysis::analysisFolderOf(folder) : o.out;
   const analysis::AnalysisFiles files =
       atOption("--out", [&] { return analysis::writeAnalysis(analysis, dataset, header, out, recovery); });
-  if (o.out.empty()) record::describeDerivative(out, "Analysis of reaching movements", "reachlab " REACHLAB_VERSION);
-  if (o.json) fmt::print("{}", summaryJson(analysis, dataset, files, recovery, plan, header.learning));
+  if (o.out.empty() && std::filesystem::is_directory(folder))
+    record::describeDerivative(out, "Analysis of reaching movements", "reachlab " REACHLAB_VERSION);
+  if (o.json) fmt::print("{}", summaryJson(analysis, dataset, files, recovery, plan));
   else
     for (const std::string& sentence : header.plan) fmt::print("{}\n", sentence);
-  if (!o.json) printSummary(analysis, dataset, files, recovery, header.learning);
+  if (!o.json) printSummary(analysis, dataset, files, recovery);
   if (!dataset.unreadable.empty())
     throw ResourceError(fmt::format("{} of {} runs could not be read and are not in these results: {}", dataset.unreadable.size(),
                                     dataset.unreadable.size() + dataset.runs.size(), fmt::join(dataset.unreadable, "; ")));
@@ -394,7 +395,8 @@ void addAnalyzeCommand(CLI::App& app, int&) {
   CLI::App* command = app.add_subcommand("analyze", "Tables (CSV), figures (SVG, PDF) and a report (HTML) of recorded sessions");
   const auto o = std::make_shared<AnalyzeOptions>();
   command->add_option("dataset", o->dataset, "Data folder of `reach run`, a session's folder in it, or one log")->required();
-  command->add_option("--out", o->out, "Folder to write to [default: " + analysis::analysisFolderOf("DATASET") + "]");
+  command->add_option("--out", o->out,
+                      "Folder to write to [default: " + analysis::analysisFolderOf("DATASET") + ", or beside a single log]");
   command
       ->add_option("--criterion", o->criteria,
                    "Draw this criterion and tell its ε; repeat for more. Every criterion is compared all the same [default: all]")

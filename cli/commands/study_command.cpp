@@ -9,6 +9,7 @@
 #include "analysis/study/run_study.h"
 #include "base/fault.h"
 #include "cli/commands/commands.h"
+#include "cli/output/progress_line.h"
 #include "cli/output/study_words.h"
 #include "cli/terminal/at_option.h"
 #include "sim/experiment/experiment.h"
@@ -48,7 +49,7 @@ void runStudy(const StudyRequest& request) {
                design.subjects, folder.chunks.count(), shard.of > 1 ? fmt::format(", share {} of {}", shard.index, shard.of) : "", jobs,
                jobs == 1 ? "" : "s");
     ProgressLine line;
-    study::computeShard(folder, prepare, jobs, shard, [&](const study::StudyProgress& progress) { line.tell(progress); });
+    study::computeShard(folder, prepare, jobs, shard, [&](const study::StudyProgress& progress) { line.tell(describeProgress(progress)); });
     line.end();
     if (study::mergeTables(folder)) fmt::print("{0}/trials.csv.gz {0}/trials.h5 {0}/trials.json\n", out);
     else fmt::print(stderr, "this share is done; the run that finds all chunks there writes the tables\n");

@@ -12,6 +12,7 @@
 #include "analysis/study/points.h"
 #include "analysis/study/run_study.h"
 #include "base/fault.h"
+#include "cli/output/progress_line.h"
 #include "cli/output/study_words.h"
 #include "cli/terminal/exit_code.h"
 
@@ -81,7 +82,7 @@ void conduct(const study::StudyFolder& folder, int others) {
     progress.trialsDone += trials;
     progress.trialsNow += trials;
     progress.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-    line.tell(progress);
+    line.tell(describeProgress(progress));
   };
   std::exception_ptr fault;
   std::thread worker([&] {

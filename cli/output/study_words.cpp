@@ -1,7 +1,6 @@
 #include "cli/output/study_words.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <cstdlib>
@@ -9,7 +8,6 @@
 
 #include "base/as_number.h"
 #include "base/fault.h"
-#include "base/system/os.h"
 #include "sim/subjects/subject_kinds.h"
 
 namespace reachlab::cli {
@@ -57,20 +55,9 @@ std::string describeSeconds(double seconds) {
   return fmt::format("{} s", whole);
 }
 
-ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0) {}
-
-void ProgressLine::tell(const study::StudyProgress& progress) {
-  const bool last = progress.trialsDone >= progress.trials;
-  const std::int64_t now = os::now(), period = terminal_ ? 250'000'000 : 30'000'000'000;
-  if (now < nextNs_ && !last) return;
-  nextNs_ = now + period;
-  told_ = true;
-  fmt::print(stderr, "{}{} of {} trials, {:.0f} a second, {} left{}", terminal_ ? "\r" : "", progress.trialsDone, progress.trials,
-             progress.rate(), describeSeconds(progress.secondsLeft()), terminal_ ? "\033[K" : "\n");
-}
-
-void ProgressLine::end() {
-  if (terminal_ && told_) fmt::print(stderr, "\n");
+std::string describeProgress(const study::StudyProgress& progress) {
+  return fmt::format("{} of {} trials, {:.0f} a second, {} left", progress.trialsDone, progress.trials, progress.rate(),
+                     describeSeconds(progress.secondsLeft()));
 }
 
 }  // namespace reachlab::cli

@@ -1,5 +1,4 @@
 #pragma once
-#include <cstdint>
 #include <string>
 
 #include "analysis/study/run_study.h"
@@ -12,19 +11,10 @@ study::Shard shardOf(const std::string& text);
 /// The subjects of this program's simulated device.
 study::PrepareSubjects prepareSimulated();
 
-/// Progress with rate and time left on stderr: a line that is rewritten on a terminal, and a line from time to time in a log.
-class ProgressLine {
- public:
-  ProgressLine();
-  void tell(const study::StudyProgress& progress);
-  void end();
-
- private:
-  bool terminal_, told_ = false;
-  std::int64_t nextNs_ = 0;
-};
-
 /// "1 h 02 min", "3 min 20 s", "12 s".
 std::string describeSeconds(double seconds);
+
+/// "120 of 240 trials, 40 a second, 3 s left".
+std::string describeProgress(const study::StudyProgress& progress);
 
 }  // namespace reachlab::cli

@@ -197,9 +197,6 @@ void MainWindow::wireSession() {
   timer_ = new QTimer(this);
   timer_->setTimerType(Qt::PreciseTimer);
   connect(timer_, &QTimer::timeout, this, &MainWindow::oneFrame);
-  connect(&analysis_, &DatasetAnalysis::said, this, &MainWindow::say);
-  connect(&analysis_, &DatasetAnalysis::told, this, &MainWindow::tell);
-  connect(&analysis_, &DatasetAnalysis::reported, this, [](const QString& page) { QDesktopServices::openUrl(QUrl::fromLocalFile(page)); });
   timer_->start(view_->drawsInSoftware() ? kSoftwareFrameMs : kFrameMs);
   auto* slowTimer = new QTimer(this);
   connect(slowTimer, &QTimer::timeout, this, [this] {
@@ -515,8 +512,6 @@ void MainWindow::openManual() {
     say(page.isEmpty() ? "The manual is not installed. Install the package reachlab-doc."
                        : QStringLiteral("No program opens the manual. Open this file in a browser: %1").arg(page));
 }
-
-void MainWindow::analyse(const QString& dataset) { analysis_.begin(dataset); }
 
 void MainWindow::composePlan() { plans_->compose(this, file_); }
 void MainWindow::chooseConstraint() { docks_.constraint->choose(); }

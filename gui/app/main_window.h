@@ -3,7 +3,6 @@
 #include <memory>
 #include <optional>
 
-#include "gui/app/dataset_analysis.h"
 #include "gui/app/edit_history.h"
 #include "gui/app/experiment_files.h"
 #include "gui/app/screens.h"
@@ -97,8 +96,6 @@ class MainWindow : public QMainWindow {
   void openManual();
   /// The scene as it is drawn now, as PNG.
   void savePicture();
-  /// The report opens in the desktop's browser when it is written.
-  void analyse(const QString& dataset);
 
  protected:
   void closeEvent(QCloseEvent* event) override;
@@ -156,7 +153,6 @@ class MainWindow : public QMainWindow {
   WindowLayout layout_ = WindowLayout::SetUp, reachLayout_ = WindowLayout::SetUp;  // what holds, and the one on the first page
   QString what_;                                                                   // file or shipped name that was opened
   QString file_;                                                                   // what was opened or saved; empty: shipped or new
-  DatasetAnalysis analysis_;
   std::unique_ptr<StatusLine> status_;
   SessionStrip* strip_ = nullptr;
   widgets::Messages* messages_ = nullptr;

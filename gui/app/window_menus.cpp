@@ -70,7 +70,7 @@ void addExperimentMenu(MainWindow& window) {
   addEntry(window, menu, "&Inspect a dataset…", inspect, QKeySequence("Ctrl+I"));
   const auto analyse = [&window] {
     const QString folder = QFileDialog::getExistingDirectory(&window, "Analyse a dataset");
-    if (!folder.isEmpty()) window.analyse(folder);
+    if (!folder.isEmpty()) window.inspector().report(folder);
   };
   addEntry(window, menu, "Anal&yse a dataset…", analyse)->setObjectName("analyse");
   QMenu* recent = menu.addMenu("Open &recent");

@@ -4,7 +4,6 @@
 #include <QStandardPaths>
 #include <malloc.h>
 
-#include "analysis/report/write_analysis.h"
 #include "base/fault.h"
 #include "gui/inspector/epsilon_panel.h"
 #include "sim/record/log/log.h"
@@ -82,34 +81,6 @@ void Inspector::fit(std::vector<analysis::ChosenTrials> chosen) {
     turn.goOn();
     malloc_trim(0);  // a day has hundreds of fits, each on another thread, whose heap would keep what it no longer needs
     turn.tell([this, epsilons] { Q_EMIT fitted(epsilons); });
-  });
-}
-
-void Inspector::report(const QString& path) {
-  start([this, path = path.toStdString()](const Turn& turn) {
-    const auto told = [&](const QString& what, std::size_t done, std::size_t of) {
-      turn.goOn();
-      tellProgress(turn, what, done, of);
-    };
-    analysis::AnalysisBuilder builder({});
-    const analysis::DatasetIndex dataset =
-        analysis::readDataset(path,
-                              {[&](analysis::TrialData&& trial, std::size_t condition) {
-                                 turn.goOn();
-                                 builder.add(std::move(trial), condition);
-                               },
-                               [&](std::size_t count) { builder.takeBack(count); }},
-                              "", [&](std::size_t done, std::size_t of, const std::string&) { told(tr("reading run"), done, of); });
-    const analysis::Analysis analysis =
-        builder.finish(dataset.conditions, [&](std::size_t done, std::size_t of) { told(tr("fitting trial"), done, of); });
-    std::string folder = path;
-    while (folder.size() > 1 && folder.back() == '/') folder.pop_back();
-    // As `reach analyze` chooses it, or beside a single log.
-    const std::string out = folder.ends_with(record::kLogEnding) ? folder.substr(0, folder.size() - record::kLogEnding.size()) + "_report"
-                                                                 : analysis::analysisFolderOf(folder);
-    const analysis::AnalysisFiles files =
-        analysis::writeAnalysis(analysis, dataset, {folder, REACHLAB_VERSION, "reach analyze " + folder + " --out " + out}, out);
-    turn.tell([this, file = QString::fromStdString(files.report)] { Q_EMIT reported(file); });
   });
 }
 

@@ -28,8 +28,6 @@ class Inspector : public QObject {
   void begin(std::vector<analysis::ChosenTrials> chosen);
   /// `fitted` follows, if the trials can be fitted. No sample of them stays in memory.
   void fit(std::vector<analysis::ChosenTrials> chosen);
-  /// Analyses the dataset at `path` as `reach analyze` does and writes report, tables and figures into its folder. `reported` follows.
-  void report(const QString& path);
   /// Stops the work under way. `idle` follows.
   void cancel() { work_.stop(); }
   bool busy() const { return work_.busy(); }
@@ -39,7 +37,6 @@ class Inspector : public QObject {
   void inspected(const std::shared_ptr<const reachlab::gui::inspector::Inspection>& inspection);
   /// The fitted epsilon of each criterion over the chosen trials. [m/s]
   void fitted(const std::vector<std::optional<double>>& epsilons);
-  void reported(const QString& file);
   void progressed(const QString& what, int done, int of);
   void failed(const QString& sentence);
   void idle();

@@ -101,36 +101,41 @@ void InspectorPage::wire() {
     table_->showCriterion(epsilons_->first());
     draw();
   });
-  connect(report_, &QPushButton::clicked, this, [this] {
-    report_->setEnabled(false);
-    inspector_.report(path_);
-  });
-  for (Inspector* work : {&opener_, &inspector_}) {
-    connect(cancel_, &QPushButton::clicked, work, &Inspector::cancel);
-    connect(work, &Inspector::failed, this, &InspectorPage::said);
-    connect(work, &Inspector::progressed, this, [this](const QString& what, int done, int of) {
+  connect(report_, &QPushButton::clicked, this, [this] { report(path_); });
+  const auto wireProgress = [this](auto& work) {
+    using Work = std::decay_t<decltype(work)>;
+    connect(cancel_, &QPushButton::clicked, &work, &Work::cancel);
+    connect(&work, &Work::progressed, this, [this](const QString& what, int done, int of) {
       progress_->setRange(0, of);
       progress_->setValue(done);
       progress_->setFormat(what + " %v / %m");
       progress_->show();
       cancel_->show();
     });
-    connect(work, &Inspector::idle, this, [this] {
-      progress_->hide();
-      cancel_->hide();
-      report_->setEnabled(table_->rowCount() > 0);
+    connect(&work, &Work::idle, this, [this] {
+      progress_->setVisible(analysis_.busy());
+      cancel_->setVisible(analysis_.busy());
+      report_->setEnabled(table_->rowCount() > 0 && !analysis_.busy());
     });
-  }
+  };
+  wireProgress(opener_);
+  wireProgress(inspector_);
+  wireProgress(analysis_);
+  for (Inspector* work : {&opener_, &inspector_}) connect(work, &Inspector::failed, this, &InspectorPage::said);
+  connect(&analysis_, &DatasetAnalysis::said, this, &InspectorPage::said);
+  connect(&analysis_, &DatasetAnalysis::told, this, &InspectorPage::told);
+  connect(&analysis_, &DatasetAnalysis::reported, this, &InspectorPage::reported);
   connect(&opener_, &Inspector::indexed, this, &InspectorPage::opened);
   connect(&inspector_, &Inspector::inspected, this, [this](const std::shared_ptr<const Inspection>& found) {
     inspection_ = found;
     if (found->analysis) showJudged();
     else showRead();
   });
-  connect(&inspector_, &Inspector::reported, this, [this](const QString& file) {
-    Q_EMIT told(tr("The report is in %1.").arg(file));
-    Q_EMIT reported(file);
-  });
+}
+
+void InspectorPage::report(const QString& dataset) {
+  analysis_.begin(dataset);
+  report_->setEnabled(!analysis_.busy());
 }
 
 void InspectorPage::addKeys() {
@@ -276,7 +281,7 @@ void InspectorPage::opened(const record::TrialIndex& index) {
   count_->setText(count);
   count_->setToolTip(losses.join(QLatin1Char('\n')));
   fitColumns();
-  report_->setEnabled(table_->rowCount() > 0);
+  report_->setEnabled(table_->rowCount() > 0 && !analysis_.busy());
   replay_->clear();
   draw();
   if (filter_->rowCount() > 0) view_->selectRow(0);

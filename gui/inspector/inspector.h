@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "gui/inspector/analysis_lines.h"
+#include "gui/inspector/dataset_analysis.h"
 #include "gui/inspector/trial_table.h"
 
 class QCheckBox;
@@ -35,13 +36,15 @@ class InspectorPage : public QWidget {
   /// Opens a dataset, a session or a log on another thread, with progress. Faults are shown.
   void open(const QString& path);
   QString path() const { return path_; }
+  /// Analyses it with the program `reach`, whether it is open here or not. `reported` follows.
+  void report(const QString& dataset);
   TrialTable& table() { return *table_; }
   QTableView& view() { return *view_; }
   ProfilePlot& plot() { return *plot_; }
   ReplayView& replay() { return *replay_; }
   /// The inspection of the chosen trials. Null while it is read.
   const Inspection* inspection() const { return inspection_.get(); }
-  bool busy() const { return opener_.busy() || inspector_.busy(); }
+  bool busy() const { return opener_.busy() || inspector_.busy() || analysis_.busy(); }
   /// Everything that is chosen as a figure (by the file's ending: svg, pdf, png) or as lines (csv). Throws ResourceError.
   void exportTo(const QString& file);
   /// The table's rows as they are shown. Throws ResourceError.
@@ -89,6 +92,7 @@ class InspectorPage : public QWidget {
   std::shared_ptr<const Inspection> inspection_;
   std::vector<int> inspectedRows_;  // of the table, one a trial of the inspection
   int picked_ = -1;
+  DatasetAnalysis analysis_;
   Inspector opener_, inspector_;                           // a choice of the old table's trials does not end the opening of the new one
   std::map<std::string, analysis::Recording> recordings_;  // that are being looked at
   analysis::ScenesOfRuns scenes_;

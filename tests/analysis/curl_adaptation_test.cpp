@@ -46,7 +46,7 @@ class AdaptationPlans : public session::test::Recorded {
     for (const Condition& condition : index.conditions) conditions_.insert(condition.name);
     const Analysis analysis = builder.finish(index.conditions);
     figures_ = makeFigures(analysis, {}).size();
-    report_ = makeReport({.dataset = {}, .version = {}, .command = {}, .learning = describeLearning(analysis)}, analysis, {}, {}, {});
+    report_ = makeReport({}, analysis, {}, {}, {});
     return series;
   }
   static double mean(const std::vector<TrialMeasures>& of, double TrialMeasures::*value, std::size_t from, std::size_t to) {

@@ -3,6 +3,7 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QFileInfo>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
@@ -22,6 +23,7 @@
 #include "gui/inspector/replay_view.h"
 #include "sim/record/export/bids.h"
 #include "sim/record/log/whole_file.h"
+#include "test_paths.h"
 #include "tests/analysis/recorded.h"
 #include "tests/analysis/whole_dataset.h"
 #include "tests/gui/at_the_window.h"
@@ -34,6 +36,7 @@ class Inspecting : public ::testing::Test {
   static void SetUpTestSuite() {
     folder_ = new TemporaryFolder;
     cache_ = qgetenv("XDG_CACHE_HOME");
+    qputenv("PATH", QFileInfo(QStringLiteral(REACH_PROGRAM)).path().toLocal8Bit() + ":" + qgetenv("PATH"));
     qputenv("XDG_CACHE_HOME", QByteArray::fromStdString(folder_->path() + "/cache"));
     analysis::recordRun(data(), {.experiment = "chain-moderate", .trials = 24});
     analysis::recordRun(data(), {.experiment = "torus", .device = "simulated:noise=0", .subject = "02", .trials = 2});

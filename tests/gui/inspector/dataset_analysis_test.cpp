@@ -1,15 +1,17 @@
-#include "gui/app/dataset_analysis.h"
+#include "gui/inspector/dataset_analysis.h"
 
 #include <gtest/gtest.h>
 
+#include <QFile>
 #include <QFileInfo>
 #include <QSignalSpy>
 #include <QTemporaryDir>
+#include <QTest>
 
 #include "test_paths.h"
 #include "tests/analysis/recorded.h"
 
-namespace reachlab::gui::app {
+namespace reachlab::gui::inspector {
 namespace {
 
 const QString kReach = QStringLiteral(REACH_PROGRAM);
@@ -49,5 +51,25 @@ TEST(DatasetAnalysis, SaysWhyThereIsNone) {
   EXPECT_TRUE(lastOf(noneSaid).contains("/no/such/reach")) << lastOf(noneSaid).toStdString();
 }
 
+TEST(DatasetAnalysis, SaysHowFarItIsAndCanBeCancelled) {
+  const QTemporaryDir folder;
+  QFile slow(folder.filePath("slow"));
+  ASSERT_TRUE(slow.open(QIODevice::WriteOnly));
+  slow.write("#!/bin/sh\necho 'reading run 2 of 2' >&2\necho 'fitting trial 3 of 9' >&2\nexec sleep 600\n");
+  slow.setPermissions(QFile::ReadOwner | QFile::ExeOwner);
+  slow.close();
+  DatasetAnalysis analysis(slow.fileName());
+  QSignalSpy progressed(&analysis, &DatasetAnalysis::progressed), idle(&analysis, &DatasetAnalysis::idle),
+      told(&analysis, &DatasetAnalysis::told), said(&analysis, &DatasetAnalysis::said);
+  analysis.begin(folder.path());
+  const QVariantList third{"fitting trial", 3, 9};
+  ASSERT_TRUE(QTest::qWaitFor([&] { return !progressed.isEmpty() && progressed.last() == third; }, kPatienceMs));
+  analysis.cancel();
+  ASSERT_TRUE(idle.wait(kPatienceMs));
+  EXPECT_TRUE(lastOf(told).contains("cancelled")) << lastOf(told).toStdString();
+  EXPECT_EQ(said.count(), 0) << "it was wanted";
+  EXPECT_FALSE(analysis.busy());
+}
+
 }  // namespace
-}  // namespace reachlab::gui::app
+}  // namespace reachlab::gui::inspector

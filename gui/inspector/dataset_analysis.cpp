@@ -1,13 +1,14 @@
-#include "gui/app/dataset_analysis.h"
+#include "gui/inspector/dataset_analysis.h"
 
 #include <QCoreApplication>
 #include <QFileInfo>
+#include <QRegularExpression>
 #include <QStandardPaths>
 #include <utility>
 
 #include "analysis/report/write_analysis.h"
 
-namespace reachlab::gui::app {
+namespace reachlab::gui::inspector {
 namespace {
 
 QString findReach() {
@@ -27,8 +28,11 @@ DatasetAnalysis::DatasetAnalysis(QString program, QObject* parent)
     : QObject(parent), program_(program.isEmpty() ? findReach() : std::move(program)) {
   connect(&process_, QOverload<int, QProcess::ExitStatus>::of(&QProcess::finished), this,
           [this](int code, QProcess::ExitStatus status) { end(status == QProcess::NormalExit && code == 0); });
+  connect(&process_, &QProcess::readyReadStandardError, this, &DatasetAnalysis::readProgress);
   connect(&process_, &QProcess::errorOccurred, this, [this](QProcess::ProcessError error) {
-    if (error == QProcess::FailedToStart) Q_EMIT said(tr("The analysis cannot start: %1: %2").arg(program_, process_.errorString()));
+    if (error != QProcess::FailedToStart) return;
+    Q_EMIT said(tr("The analysis cannot start: %1: %2").arg(program_, process_.errorString()));
+    Q_EMIT idle();
   });
 }
 
@@ -39,7 +43,7 @@ DatasetAnalysis::~DatasetAnalysis() {
 }
 
 void DatasetAnalysis::begin(const QString& dataset) {
-  if (process_.state() != QProcess::NotRunning) {
+  if (busy()) {
     Q_EMIT said(tr("%1 is being analysed. Wait until it is done, then analyse the other dataset.").arg(dataset_));
     return;
   }
@@ -48,19 +52,37 @@ void DatasetAnalysis::begin(const QString& dataset) {
     return;
   }
   dataset_ = dataset;
+  words_.clear();
+  cancelled_ = false;
   Q_EMIT told(tr("%1 is being analysed.").arg(dataset_));
+  Q_EMIT progressed(tr("analysing"), 0, 0);
   process_.start(program_, {"analyze", dataset_});
 }
 
-void DatasetAnalysis::end(bool good) {
-  if (good) {
-    Q_EMIT told(tr("The report is in %1.").arg(reportOf(dataset_)));
-    Q_EMIT reported(reportOf(dataset_));
-    return;
-  }
-  // The last line is the reason; progress stands before it.
-  const QString words = QString::fromUtf8(process_.readAllStandardError()).trimmed();
-  Q_EMIT said(tr("The analysis of %1 failed: %2").arg(dataset_, words.section(QLatin1Char('\n'), -1).section(QLatin1Char('\r'), -1)));
+void DatasetAnalysis::cancel() {
+  cancelled_ = busy();
+  process_.kill();
 }
 
-}  // namespace reachlab::gui::app
+// Each line says what is done, how much of it, and of how much.
+void DatasetAnalysis::readProgress() {
+  static const QRegularExpression kLine("^(.+) (\\d+) of (\\d+)$");
+  words_ += QString::fromUtf8(process_.readAllStandardError());
+  const auto line = kLine.match(words_.trimmed().section(QLatin1Char('\n'), -1));
+  if (line.hasMatch()) Q_EMIT progressed(line.captured(1), line.captured(2).toInt(), line.captured(3).toInt());
+}
+
+void DatasetAnalysis::end(bool good) {
+  readProgress();
+  if (cancelled_) {
+    Q_EMIT told(tr("The analysis of %1 is cancelled.").arg(dataset_));
+  } else if (good) {
+    Q_EMIT told(tr("The report is in %1.").arg(reportOf(dataset_)));
+    Q_EMIT reported(reportOf(dataset_));
+  } else {  // the last line is the reason
+    Q_EMIT said(tr("The analysis of %1 failed: %2").arg(dataset_, words_.trimmed().section(QLatin1Char('\n'), -1)));
+  }
+  Q_EMIT idle();
+}
+
+}  // namespace reachlab::gui::inspector
