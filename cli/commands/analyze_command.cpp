@@ -31,7 +31,7 @@ struct AnalyzeOptions {
   double percent = 5, speed = 0.01, cutoff = 10, handMass = -1, handDamping = 0;
   int bin = 10, recovery = 0, jobs = 0;
   std::uint64_t seed = 1;
-  bool includePractice = false, alternatives = false, residuals = false, json = false;
+  bool includePractice = false, alternatives = false, residuals = false, json = false, progress = false;
 };
 
 std::vector<double> parseMasses(const std::string& text) {
@@ -333,8 +333,9 @@ void run(CLI::App& command, const AnalyzeOptions& o) {
     applyPlan(command, *plan);  // changes o
   }
   const analysis::AnalysisOptions options = analysisOptions(o);  // refused before hours of reading
-  ProgressLine line(1);
-  const auto progress = [&line](const char* what, std::size_t done, std::size_t of) {
+  ProgressLine line;
+  const auto progress = [&line, told = o.progress || line.onTerminal()](const char* what, std::size_t done, std::size_t of) {
+    if (!told) return;
     if (of > 0) line.tell(fmt::format("{} {} of {}", what, done, of));
     if (done == of) line.end();
   };
@@ -436,6 +437,7 @@ void addAnalyzeCommand(CLI::App& app, int&) {
       "--plan", o->plan,
       "Analysis plan (JSON): options that were chosen before the data. The report names the plan and every departure from it");
   command->add_flag("--include-practice", o->includePractice, "Count practice blocks too");
+  command->add_flag("--progress", o->progress, "Write progress to a log or a pipe too");
   command->add_flag("--json", o->json, "Summary as JSON on stdout");
   command->footer(
       "Every number of a figure or of the report is in a CSV file; docs/analysis.md defines measures and columns. The same data and\n"

@@ -4,7 +4,6 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "base/system/os.h"
@@ -17,8 +16,7 @@ constexpr std::int64_t kShareOfTime = 20;  // the period in a log is a twentieth
 
 }  // namespace
 
-ProgressLine::ProgressLine(double quiet)
-    : terminal_(isatty(STDERR_FILENO) != 0), begunNs_(os::now()), nextNs_(begunNs_ + (terminal_ ? 0 : std::llround(quiet * 1e9))) {}
+ProgressLine::ProgressLine() : terminal_(isatty(STDERR_FILENO) != 0), begunNs_(os::now()), nextNs_(begunNs_) {}
 
 void ProgressLine::tell(std::string words) {
   words_ = std::move(words);

@@ -4,12 +4,11 @@
 
 namespace reachlab::cli {
 
-/// How far long work is, on stderr: a line that is rewritten on a terminal. In a log or a pipe it is a line less and less often, so that a
-/// log stays short and who reads a pipe is told.
+/// How far long work is, on stderr: a line that is rewritten on a terminal. In a log or a pipe there are lines, less and less often.
 class ProgressLine {
  public:
-  /// Work that is shorter than `quiet` leaves no line in a log. [s]
-  explicit ProgressLine(double quiet = 0);
+  ProgressLine();
+  bool onTerminal() const { return terminal_; }
   void tell(std::string words);
   /// Shows what was told last, and leaves its line.
   void end();

@@ -56,7 +56,7 @@ void DatasetAnalysis::begin(const QString& dataset) {
   cancelled_ = false;
   Q_EMIT told(tr("%1 is being analysed.").arg(dataset_));
   Q_EMIT progressed(tr("analysing"), 0, 0);
-  process_.start(program_, {"analyze", dataset_});
+  process_.start(program_, {"analyze", dataset_, "--progress"});
 }
 
 void DatasetAnalysis::cancel() {
