@@ -19,7 +19,8 @@ QString findReach() {
 }
 
 QString reportOf(const QString& dataset) {
-  return QString::fromStdString(analysis::analysisFolderOf(dataset.toStdString())) + "/report.html";
+  const std::string folder = analysis::analysisFolderOf(dataset.toStdString());
+  return QFileInfo(QString::fromStdString(folder) + "/report.html").absoluteFilePath();  // a browser knows no folder of ours
 }
 
 }  // namespace

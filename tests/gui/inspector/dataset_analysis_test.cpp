@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <QDir>
 #include <QFile>
 #include <QFileInfo>
 #include <QSignalSpy>
@@ -26,9 +27,10 @@ TEST(DatasetAnalysis, WritesTheReportAndSaysWhereItIs) {
   DatasetAnalysis analysis(kReach);
   QSignalSpy reported(&analysis, &DatasetAnalysis::reported), told(&analysis, &DatasetAnalysis::told),
       said(&analysis, &DatasetAnalysis::said);
-  analysis.begin(data);
+  analysis.begin(QDir::current().relativeFilePath(data));
   ASSERT_TRUE(reported.wait(kPatienceMs)) << lastOf(said).toStdString();
   EXPECT_TRUE(QFileInfo::exists(lastOf(reported)));
+  EXPECT_TRUE(QFileInfo(lastOf(reported)).isAbsolute()) << "for a browser";
   EXPECT_NE(lastOf(told).indexOf(lastOf(reported)), -1);
   EXPECT_EQ(said.count(), 0) << "a success is no alarm";
 }
