@@ -28,6 +28,7 @@ MarksPanel::MarksPanel(QWidget* parent) : QWidget(parent) {
   reason_ = widgets::named<QLineEdit>("excludeReason");
   reason_->setPlaceholderText(tr("the reason, for the report"));
   QHBoxLayout* out = widgets::rowOf({flag_, exclude_, reason_});
+  out->insertSpacing(1, 12);  // two questions
   out->setStretchFactor(reason_, 1);
   form->addRow(out);
   note_ = widgets::named<QLineEdit>("trialNote");
