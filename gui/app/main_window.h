@@ -49,6 +49,9 @@ class MainWindow : public QMainWindow {
   SoundCues& sounds() { return sounds_; }
   const QString& subjectsLanguage() const { return words_.language(); }
   QUndoStack& edits() { return edits_.stack(); }
+  /// Takes an edit back, or makes it again. Asks first if that would end a run.
+  void undo();
+  void redo();
   const scene::OverlayState& overlay() const { return screens_->overlay(); }
   /// How the scene is drawn, as the experiment has it.
   experiment::SceneLook look() const { return experiment::lookOf(session_.experiment()); }

@@ -128,6 +128,14 @@ void MainWindow::movePlace(scene::TaskPlace place, const std::vector<double>& q)
   view_->setCamera(kept);
 }
 
+void MainWindow::undo() {
+  if (mayEndRun("Undo")) edits_.stack().undo();
+}
+
+void MainWindow::redo() {
+  if (mayEndRun("Redo")) edits_.stack().redo();
+}
+
 bool MainWindow::mayEndRun(const QString& doing) {
   session::RecordedRun* run = session_.run();
   if (run == nullptr || (!run->underWay() && (run->trialsLeft() == 0 || run->latest().trial == 0))) return true;

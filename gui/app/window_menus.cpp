@@ -92,8 +92,13 @@ void addEditMenu(MainWindow& window) {
   QMenu& menu = *window.menuBar()->addMenu("E&dit");
   QAction* undo = window.edits().createUndoAction(&window, "&Undo");
   undo->setShortcut(QKeySequence::Undo);
+  undo->setObjectName("undo");
   QAction* redo = window.edits().createRedoAction(&window, "&Redo");
   redo->setShortcut(QKeySequence::Redo);
+  for (const auto& [action, does] : {std::pair{undo, &MainWindow::undo}, std::pair{redo, &MainWindow::redo}}) {
+    action->disconnect(&window.edits());  // the stack would not ask
+    QObject::connect(action, &QAction::triggered, &window, does);
+  }
   menu.addActions({undo, redo});
   menu.addSeparator();
   addEntry(window, menu, "Choose or type a &constraint…", &MainWindow::chooseConstraint, QKeySequence("Ctrl+K"));

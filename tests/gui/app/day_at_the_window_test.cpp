@@ -148,6 +148,21 @@ TEST_F(Day, AChangeInMidRunIsAskedAboutAndDroppedIfTheRunIsToGoOn) {
     type(masses, "1 1");
   }
   EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{1, 1}));
+  // Taking the edit back is an edit too.
+  window.nextTrial();
+  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  {
+    const AnswerBox box("Continue it");
+    find<QAction>("undo")->trigger();
+    EXPECT_TRUE(box.text().contains("Undo ends the run")) << box.text().toStdString();
+  }
+  EXPECT_NE(window.session().run(), nullptr);
+  EXPECT_EQ(window.session().experiment().object.masses.size(), 2u);
+  {
+    const AnswerBox box("End the run");
+    find<QAction>("undo")->trigger();
+  }
+  EXPECT_EQ(window.session().experiment().object.masses.size(), 5u);
 }
 
 TEST_F(Day, ClosingAsksWhileARunIsOpenOrAChangeUnsaved) {

@@ -133,6 +133,27 @@ TEST_F(PlannedSession, BeginsOnItsStartPageRestsAndResumes) {
   EXPECT_EQ(window->sessionDock().request().place.subject, "07");
 }
 
+TEST_F(PlannedSession, ABlockOfWhichNothingCountsIsNotSkippedBySpace) {
+  app::MainWindow* window = window_.get();
+  window->openExperiment(
+      QString::fromStdString(write("again.json", R"({"schema_version": 1, "name": "again", "repeat_aborted": true, "blocks": [
+      {"experiment": "chain-moderate", "condition": "first", "trials": 2}, {"experiment": "chain-fast", "condition": "second", "trials": 2}]})")));
+  ASSERT_TRUE(QTest::qWaitFor([&] { return page().isVisible(); }, 3000));
+  go();
+  ASSERT_NE(window->session().run(), nullptr) << window->message().toStdString();
+  window->abortTrial();
+  waitForTrials(1);
+  {
+    const AnswerBox box(QStringLiteral("End the run"));
+    window->endRun();
+  }
+  ASSERT_TRUE(QTest::qWaitFor([&] { return page().isVisible(); }, 3000));
+  EXPECT_TRUE(next().contains(QStringLiteral("block 1, first"))) << next().toStdString();
+  window->nextTrial();
+  ASSERT_NE(window->session().run(), nullptr) << window->message().toStdString();
+  EXPECT_EQ(window->session().run()->configuration().block, 1);
+}
+
 TEST_F(PlannedSession, TrialsAreFlaggedAndARepeatIsTakenBack) {
   app::MainWindow* window = window_.get();
   go();
