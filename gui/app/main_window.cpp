@@ -391,7 +391,7 @@ docks::ConstraintChooser& MainWindow::chooser() { return docks_.constraint->choo
 void MainWindow::nextTrial() {
   // As the button of the plan's page, from what is on the disk.
   if (session_.run() == nullptr && plans_->resumes()) session_.resume();
-  else if (session_.run() == nullptr && session_.isPlan()) session_.beginAnew();
+  else if (session_.run() == nullptr && session_.blocksLeft() > 0) session_.beginAnew();
   beginNext();
 }
 
