@@ -1,6 +1,5 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,6 +12,7 @@
 #include "base/number_range.h"
 #include "cli/commands/commands.h"
 #include "cli/output/predict_output.h"
+#include "cli/output/progress_line.h"
 #include "cli/terminal/criterion_option.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment.h"
@@ -62,13 +62,12 @@ std::unique_ptr<predict::Prediction> predictPatiently(const experiment::Compiled
   using namespace std::chrono_literals;
   const auto begin = std::chrono::steady_clock::now();
   auto result = std::async(std::launch::async, [&] { return predict::predict(experiment, criterion, options); });
-  bool told = false;
-  for (auto pause = 250ms; isatty(STDERR_FILENO) && result.wait_for(pause) != std::future_status::ready; pause = 500ms) {
+  ProgressLine line;
+  for (auto pause = 250ms; line.onTerminal() && result.wait_for(pause) != std::future_status::ready; pause = 500ms) {
     const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    std::cerr << fmt::format("\rcomputing {} … {:.1f} s", predict::nameOf(criterion), seconds) << std::flush;
-    told = true;
+    line.tell(fmt::format("computing {} … {:.1f} s", predict::nameOf(criterion), seconds));
   }
-  if (told) std::cerr << '\n';
+  line.end();
   return result.get();
 }
 
