@@ -389,9 +389,7 @@ void MainWindow::playGo(const haptics::TickState& state) {
 docks::ConstraintChooser& MainWindow::chooser() { return docks_.constraint->chooser(); }
 
 void MainWindow::nextTrial() {
-  // As the button of the plan's page, from what is on the disk.
   if (session_.run() == nullptr && plans_->resumes()) session_.resume();
-  else if (session_.run() == nullptr && session_.blocksLeft() > 0) session_.beginAnew();
   beginNext();
 }
 

@@ -286,6 +286,7 @@ void SessionController::endRun() {
   endAfterTrial_ = false;
   mouse_ = nullptr;
   std::unique_lock lock(changing_);
+  const bool unfinished = run()->trialsLeft() > 0;
   if (const auto wrong = putInOrder()) Q_EMIT failed(QString::fromStdString(*wrong));
   try {
     const std::string dataset = asked_.place.data;
@@ -303,6 +304,7 @@ void SessionController::endRun() {
     Q_EMIT failed(QString::fromStdString(errorReportOf(e).sentence));
   }
   stop_.reset();
+  if (unfinished) recorded_.reset();  // the next run is planned from what counts on the disk
   lock.unlock();
   Q_EMIT runClosed();
 }
