@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "base/device_options.h"
+#include "devices/driver/registry.h"
 #include "devices/hands/several_hands.h"
 #include "devices/make_device.h"
 #include "devices/mapping/mapping.h"
@@ -31,9 +32,12 @@ std::string withKeptMappings(const std::string& device, const std::string& data,
                              std::vector<std::string>& taken) {
   std::vector<std::string> hands = splitHands(device);
   for (std::string& hand : hands) {
-    const std::string kind = kindOf(hand), file = fileOf(hand, data, subject);
+    const std::string kind = kindOf(hand);
+    const DeviceDriver* driver = findDriver(kind);
+    if (driver == nullptr || !driver->takesHandSettings) continue;
+    const std::string file = fileOf(hand, data, subject);
     std::error_code error;
-    if (kind == "replay" || handSettingsOf(hand).mapped || !std::filesystem::exists(file, error)) continue;
+    if (handSettingsOf(hand).mapped || !std::filesystem::exists(file, error)) continue;
     taken.push_back(file);
     hand += (hand.size() == kind.size() ? "," : hand.back() == ':' ? "" : ",") + ("mapping=" + file);
   }

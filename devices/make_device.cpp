@@ -19,8 +19,6 @@ namespace {
 struct Spec {
   std::string name, argument;
   std::string words() const { return "device " + name; }
-  // What a replayed file is called is its own business.
-  bool takesHandSettings() const { return name != "replay"; }
 };
 Spec parse(const std::string& spec) {
   const std::size_t colon = spec.find(':');
@@ -52,7 +50,7 @@ std::unique_ptr<haptics::HapticDevice> makeInScenes(const DeviceDriver& driver, 
 }
 
 std::unique_ptr<haptics::HapticDevice> makeBy(const DeviceDriver& driver, const Spec& asked, const Block& block) {
-  if (!asked.takesHandSettings()) return makeInScenes(driver, asked, block);
+  if (!driver.takesHandSettings) return makeInScenes(driver, asked, block);
   DeviceOptions options(asked.argument, asked.words());
   const HandSettings hand = takeHandSettings(options);
   if (!hand.any()) return makeInScenes(driver, asked, block);
@@ -124,7 +122,7 @@ std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const
 
 HandSettings handSettingsOf(const std::string& spec) {
   const Spec asked = parse(spec);
-  if (!asked.takesHandSettings()) return {};
+  if (const DeviceDriver* driver = findDriver(asked.name); driver != nullptr && !driver->takesHandSettings) return {};
   DeviceOptions options(asked.argument, asked.words());
   return takeHandSettings(options);
 }

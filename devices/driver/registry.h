@@ -44,8 +44,9 @@ struct DeviceDriver {
   std::vector<FoundDevice> (*find)(const DeviceDriver& self);
   /// Throws FaultError (a wrong argument) or ResourceError (the device cannot be opened).
   std::unique_ptr<haptics::HapticDevice> (*make)(const DeviceRequest& request);
-  bool isMade = false;        // by this program: as many exist as are asked for
-  bool inWindowOnly = false;  // it cannot be opened by `make`
+  bool isMade = false;            // by this program: as many exist as are asked for
+  bool inWindowOnly = false;      // it cannot be opened by `make`
+  bool takesHandSettings = true;  // the options of every device, such as a mapping
 };
 
 /// Every driver of this program, in the order of lists.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/fault.h"
 #include "base/ticks.h"
 #include "devices/driver/drivers.h"
 
@@ -101,10 +102,12 @@ DeviceDriver mouseDriver() {
                 rows.front().rate = 125;
                 return rows;
               },
-          .make = [](const DeviceRequest&) -> std::unique_ptr<haptics::HapticDevice> {
+          .make = [](const DeviceRequest& request) -> std::unique_ptr<haptics::HapticDevice> {
+            if (!request.argument.empty()) throw FaultError(Fault{"device", "mouse has no options", "mouse"});
             throw ResourceError("device mouse: needs a window to point into; use `reachlab`");
           },
-          .inWindowOnly = true};
+          .inWindowOnly = true,
+          .takesHandSettings = false};
 }
 
 }  // namespace reachlab::devices

@@ -188,11 +188,8 @@ std::vector<RecordedReach> readBidsReaches(const std::string& motion, const Reac
   std::vector<RecordedReach> reaches;
   for (std::size_t i = 0; i < spans.size(); ++i) {
     SeenSamples reach(spans.size() == 1 ? motion : fmt::format("{}: event {}", motion, i + 1));
-    for (const Sample& sample : samples) {
-      if (sample.time < spans[i].begin || sample.time > spans[i].end) continue;
-      if (sample.seen) reach.add(sample.time, sample.position);
-      else reach.miss();
-    }
+    for (const Sample& sample : samples)
+      if (sample.seen && sample.time >= spans[i].begin && sample.time <= spans[i].end) reach.add(sample.time, sample.position);
     reaches.push_back(reach.take());
   }
   return reaches;

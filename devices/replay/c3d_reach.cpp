@@ -55,11 +55,7 @@ RecordedReach readC3dReach(const std::string& file, const ReachColumns& columns)
   for (std::size_t frame = 0; frame < c3d.frames; ++frame) {
     const std::size_t at = frame * c3d.points.size() + point;
     const double time = static_cast<double>(frame) / c3d.rate;
-    if (time < reach.begin || time > reach.end) continue;
-    if (c3d.seen[at] == 0) {
-      samples.miss();
-      continue;
-    }
+    if (time < reach.begin || time > reach.end || c3d.seen[at] == 0) continue;
     const auto metres = [&](std::size_t axis) { return unit * static_cast<double>(c3d.places[3 * at + axis]); };
     samples.add(time, {metres(0), metres(1), metres(2)});
   }

@@ -2,12 +2,26 @@
 
 #include <fmt/format.h>
 
-#include <cmath>
+#include <algorithm>
+#include <vector>
 
 namespace reachlab::devices {
 namespace {
 
-constexpr double kLongestGap = 0.1;  // [s]
+constexpr double kRounding = 1e-6;  // [s] of times that a file gives
+
+std::vector<double> gapsOf(const std::vector<double>& time) {
+  std::vector<double> gaps;
+  for (std::size_t i = 1; i < time.size(); ++i) gaps.push_back(time[i] - time[i - 1]);
+  return gaps;
+}
+
+double longestGap(std::vector<double> gaps) {
+  if (gaps.empty()) return 0.1;
+  const auto median = gaps.begin() + static_cast<std::ptrdiff_t>((gaps.size() - 1) / 2);
+  std::nth_element(gaps.begin(), median, gaps.end());
+  return std::max(0.1, 2 * *median);
+}
 
 }  // namespace
 
@@ -29,18 +43,20 @@ double secondsOfUnit(const std::string& unit, const FilePlace& place, const std:
 }
 
 void SeenSamples::add(double time, const Vec3& position) {
-  const double last = reach_.time.empty() ? -INFINITY : reach_.time.back(), gap = time - last;
-  if (!(gap > 0)) refuse({reach_.file}, fmt::format("time does not increase at {} s", time), "increasing times");
-  if (missed_ && !reach_.time.empty() && gap > kLongestGap)
-    refuse({reach_.file}, fmt::format("the point is not seen for {:.3f} s from {:.3f} s", gap, last),
-           fmt::format("gaps of up to {} s", kLongestGap));
-  missed_ = false;
+  if (!reach_.time.empty() && !(time > reach_.time.back()))
+    refuse({reach_.file}, fmt::format("time does not increase at {} s", time), "increasing times");
   reach_.time.push_back(time);
   reach_.position.push_back(position);
 }
 
 RecordedReach SeenSamples::take() {
   if (reach_.time.empty()) refuse({reach_.file}, "the point is never seen", "at least two samples");
+  const std::vector<double> gaps = gapsOf(reach_.time);
+  const double most = longestGap(gaps);
+  for (std::size_t i = 0; i < gaps.size(); ++i)
+    if (gaps[i] > most + kRounding)
+      refuse({reach_.file}, fmt::format("the point is not seen for {:.3f} s from {:.3f} s", gaps[i], reach_.time[i]),
+             fmt::format("gaps of up to {:g} s", most));
   return std::move(reach_);
 }
 

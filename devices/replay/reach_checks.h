@@ -9,18 +9,17 @@ namespace reachlab::devices {
 double metresOf(const std::string& unit, const FilePlace& place, const std::string& key = {});
 double secondsOfUnit(const std::string& unit, const FilePlace& place, const std::string& key = {});
 
-/// The samples of a tracking system, some of which are missing. Missing samples at the ends are left off. A gap of up to 0.1 s is left to
-/// the spline. Throws FaultError for a longer gap, or when all samples are missing.
+/// The samples of a reach that were seen, in order of time. A gap of up to 0.1 s between two of them is left to the spline, and so is one
+/// of up to two sampling intervals (their median). Throws FaultError for a longer gap, for a time that does not increase, or without any
+/// sample.
 class SeenSamples {
  public:
   explicit SeenSamples(std::string file) { reach_.file = std::move(file); }
   void add(double time, const Vec3& position);
-  void miss() { missed_ = true; }
   RecordedReach take();
 
  private:
   RecordedReach reach_;
-  bool missed_ = false;  // a sample was missed since the latest seen sample
 };
 
 }  // namespace reachlab::devices

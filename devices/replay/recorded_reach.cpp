@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
+#include <limits>
 
 #include "base/csv_table.h"
 #include "base/fault.h"
@@ -67,27 +69,32 @@ Places placesOf(const Header& header, const ReachColumns& columns) {
   return places;
 }
 
+// Of a sample in which the point was not seen, as spreadsheets, MATLAB, R, and BIDS write it.
+bool isMissingCell(const std::string& cell) { return cell.empty() || cell == "NaN" || cell == "nan" || cell == "NA" || cell == "n/a"; }
+
 }  // namespace
 
 RecordedReach readReach(const std::string& file, const ReachColumns& columns) {
   const CsvTable table = readCsvTable(file);
   const Places places = placesOf(Header(table), columns);
 
-  RecordedReach reach;
-  reach.file = file;
-  for (const CsvTable::Row& row : table.rows) {
+  if (table.rows.empty()) refuse({file}, "has no samples", "at least one row");
+  SeenSamples reach(file);
+  double last = -std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < table.rows.size(); ++i) {
+    const CsvTable::Row& row = table.rows[i];
     const auto valueOf = [&](const Place& place) { return numberIn(table, row, place.column) * place.unit; };
-    const double time = places.time ? valueOf(*places.time) : static_cast<double>(reach.time.size()) / *columns.rate;
-    if (!reach.time.empty() && !(time > reach.time.back()))
-      refuse({file, row.line}, "does not increase", "increasing times", places.time ? places.time->name : "time");
+    const double time = places.time ? valueOf(*places.time) : static_cast<double>(i) / *columns.rate;
+    if (!(time > last)) refuse({file, row.line}, "does not increase", "increasing times", places.time ? places.time->name : "time");
+    last = time;
+    const auto isMissing = [&](const std::optional<Place>& axis) { return axis && isMissingCell(row.cells[axis->column]); };
+    if (std::any_of(places.axes.begin(), places.axes.end(), isMissing)) continue;
     std::array<double, 3> at{};
     for (std::size_t k = 0; k < 3; ++k)
       if (places.axes[k]) at[k] = valueOf(*places.axes[k]);
-    reach.time.push_back(time);
-    reach.position.push_back({at[0], at[1], at[2]});
+    reach.add(time, {at[0], at[1], at[2]});
   }
-  if (reach.time.empty()) refuse({file}, "has no samples", "at least one row");
-  return reach;
+  return reach.take();
 }
 
 }  // namespace reachlab::devices

@@ -85,12 +85,13 @@ std::unique_ptr<haptics::HapticDevice> makeReplay(const DeviceRequest& request) 
 }  // namespace
 
 DeviceDriver replayDriver() {
-  return {"replay",
-          "replay:FILE|FOLDER[,KEY=VALUE…]",
-          "replay:FILE|FOLDER, recorded reaches (CSV, BIDS motion, C3D) laid onto start and target, one a trial",
-          alwaysThere,
-          makeReplay,
-          true};
+  return {.name = "replay",
+          .usage = "replay:FILE|FOLDER[,KEY=VALUE…]",
+          .description = "replay:FILE|FOLDER, recorded reaches (CSV, BIDS motion, C3D) laid onto start and target, one a trial",
+          .find = alwaysThere,
+          .make = makeReplay,
+          .isMade = true,
+          .takesHandSettings = false};
 }
 
 }  // namespace reachlab::devices

@@ -1,5 +1,6 @@
 #include "devices/replay/reach_source.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -199,9 +200,11 @@ TEST_F(OthersFiles, CellsMayBeQuotedAndSpacedAndColumnsMayComeInAnyUnit) {
   expectTwoRows(readFrom(write("mixed.csv", "time_s,x_cm,y_mm,z_m\n0,100,2000,3\n0.5,400,5000,6\n")).front());
   const std::string spreadsheet = "\xef\xbb\xbfz_m, trial, time_s, x_m, y_m\r\n3, a, 0, 1, 2\r\n\r\n6, a, 0.5, 4, 5\r\n";
   expectTwoRows(readFrom(write("mark.csv", spreadsheet)).front());
-  EXPECT_TRUE(holds(refusalToReplay(write("nan.csv", "time_s,x_m,y_m,z_m\n0,1,nan,3\n")), "nan.csv:2: y_m: "));
+  EXPECT_TRUE(holds(refusalToReplay(write("nan.csv", "time_s,x_m,y_m,z_m\n0,1,nan,3\n")), "nan.csv: the point is never seen"));
+  EXPECT_TRUE(holds(refusalToReplay(write("inf.csv", "time_s,x_m,y_m,z_m\n0,1,inf,3\n")), "inf.csv:2: y_m: "));
+  EXPECT_TRUE(holds(refusalToReplay(write("untimed.csv", "time_s,x_m,y_m,z_m\n,1,2,3\n")), "untimed.csv:2: time_s: "));
   EXPECT_TRUE(holds(refusalToReplay(write("more.csv", "time_s,x_m,y_m,z_m\n0,1,2,3,4\n")), "more.csv:2: has 5 cells"));
-  EXPECT_TRUE(holds(refusalToReplay(write("end.csv", "time_s,x_m,y_m,z_m\n0,1,2,\n")), "end.csv:2: z_m: '' is not a number"));
+  EXPECT_TRUE(holds(refusalToReplay(write("end.csv", "time_s,x_m,y_m,z_m\n0,1,2,x\n")), "end.csv:2: z_m: 'x' is not a number"));
   EXPECT_TRUE(holds(refusalToReplay(write("few.csv", "time_s,x_m,y_m,z_m\n0,1,2\n")), "few.csv:2: has 3 cells; allowed: 4, as the header"));
   EXPECT_TRUE(holds(refusalToReplay(write("back.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n0,4,5,6\n")), "back.csv:3: time_s: does not increase"));
   EXPECT_TRUE(holds(refusalToReplay(write("none.csv", "time_s,x_m,y_m,z_m\n")), "none.csv: has no samples; allowed: at least one row"));
@@ -245,12 +248,22 @@ TEST_F(OthersFiles, TheEffectiveRateGoesBeforeTheNominalOneAndTheAskedOneBeforeB
 
 TEST_F(OthersFiles, AGapOfATenthOfASecondIsLeftToTheSpline) {
   for (const auto& [gap, isRead] : {std::pair{9, true}, {10, false}}) {
-    Bids bids;
-    bids.json = R"({"SamplingFrequency": 100})";
-    bids.motion.clear();
-    for (int i = 0; i < 60; ++i) bids.motion += (i >= 20 && i < 20 + gap ? "n/a" : std::to_string(i)) + "\t0\t0\t0\t0\t0\n";
-    const std::string said = refusalToReplay(writeBids(folder, bids) + ",point=hand");
-    EXPECT_EQ(said.empty(), isRead) << gap << ": " << said;
+    Bids unseen;
+    unseen.json = R"({"SamplingFrequency": 100})";
+    unseen.motion.clear();
+    std::string withoutRows = "time_s,x_m,y_m,z_m\n", withEmptyCells = withoutRows + "0,,,\n";
+    for (int i = 0; i < 60; ++i) {
+      const bool missing = i >= 20 && i < 20 + gap;
+      const std::string time = fmt::format("{:.2f}", 1 + 0.01 * i);
+      unseen.motion += (missing ? "n/a" : std::to_string(i)) + "\t0\t0\t0\t0\t0\n";
+      withEmptyCells += time + (missing ? ",,0,0\n" : ",1,0,0\n");
+      if (!missing) withoutRows += time + ",1,0,0\n";
+    }
+    for (const std::string& file :
+         {writeBids(folder, unseen) + ",point=hand", write("cells.csv", withEmptyCells), write("rows.csv", withoutRows)}) {
+      const std::string said = refusalToReplay(file);
+      EXPECT_EQ(said.empty(), isRead) << file << ", " << gap << ": " << said;
+    }
   }
 }
 
