@@ -116,7 +116,8 @@ void conditionsTable(const Analysis& analysis, Sheet& table) {
               n.invalidTiming, n.practice, n.catchTrials, n.beforeGo, n.otherWay, r.used, outcome, r.duration.mean, r.duration.sd,
               r.movementTime.mean, r.movementTime.sd, ofUsed(r.movementRange.low), ofUsed(r.movementRange.high),
               nameOf(o.measure.onset.rule), o.measure.onset.percent, o.measure.onset.speed, o.measure.cutoff,
-              o.handMass.value_or(e.handMass), fmt::format("{:.17g}", fmt::join(r.candidates.masses, ";")), o.handDamping);
+              o.handMass.value_or(e.handMass), fmt::format("{:.17g}", fmt::join(r.candidates.masses, ";")), o.handDamping,
+              o.predictFor == PredictionDuration::Moved ? "mean" : "task", o.includePractice, o.learningBin);
   }
 }
 

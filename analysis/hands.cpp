@@ -9,6 +9,7 @@
 #include "base/ticks.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/log/log.h"
+#include "sim/record/trial_marks.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -76,6 +77,7 @@ std::vector<HandSignals> signalsOf(const record::ChannelTable& table, const reco
 
 void addRun(const record::RunLog& run, Sheet& table) {
   const record::RunConfiguration& c = run.configuration();
+  const record::RunMarks marks = record::readMarks(run);
   for (const record::RecordedTrial& trial : run.trials()) {
     if (trial.result.onsetTick == 0 || !trial.complete) continue;
     const record::SampleRows rows = run.rows(trial);
@@ -87,9 +89,11 @@ void addRun(const record::RunLog& run, Sheet& table) {
     if (last > first && rows.ticks[last - 1] == trial.result.endTick) --last;
     if (last < first + 3) continue;
     const TogetherMeasures together = measureTogether(signalsOf(c.table, rows, first, last), c.samplingHz);
+    const record::TrialMark* mark = marks.find(trial.trial);
     for (std::size_t hand = 0; hand < together.hands.size(); ++hand) {
       const HandMeasures& m = together.hands[hand];
-      table.row(c.subject, c.session, c.run, trial.trial, c.condition, trial::nameOf(trial.result.outcome), hand + 1,
+      table.row(c.subject, c.session, c.run, trial.trial, record::conditionOf(c, trial.planned), c.practice ? "practice" : "recorded",
+                trial.planned.catchTrial, mark == nullptr ? "" : mark->excluded, trial::nameOf(trial.result.outcome), hand + 1,
                 record::devicesOf(c).at(hand).name, m.peakSpeed, m.path, m.peakForce, m.meanForce, m.work, m.positiveWork, m.share, m.lag,
                 m.lagCorrelation, together.internalForce, together.peakInternalForce);
     }

@@ -16,10 +16,10 @@ namespace reachlab::cli {
 namespace {
 
 // The options of `reach analyze` that change numbers or choose what is compared.
-constexpr std::array<std::string_view, 13> kPlanned{
+constexpr std::array<std::string_view, 14> kPlanned{
     "criterion",     "hand-mass",   "hand-damping", "hand-masses",  "prediction-duration", "onset",
     "onset-percent", "onset-speed", "cutoff",       "learning-bin", "include-practice",    "recovery",
-    "seed"};
+    "seed",          "experiment"};
 
 bool isDate(const std::string& text) {
   if (text.size() != 10) return false;

@@ -6,6 +6,7 @@
 #include "analysis/hands.h"
 #include "base/fault.h"
 #include "sim/record/replay.h"
+#include "sim/record/trial_marks.h"
 #include "tests/analysis/whole_dataset.h"
 #include "tests/refusal.h"
 #include "tests/session/recorded_runs.h"
@@ -118,6 +119,10 @@ TEST_F(TwoHands, EachHasARowForEveryTrialInTheAnalysis) {
   record(pair(300));
   const std::string table = analysis::handsTable(analysis::openDataset(request_.place.data));
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 2 * static_cast<std::ptrdiff_t>(results_.size())) << table;
+  const std::string log = recordedRuns(request_.place).at(0).path;
+  record::writeMarks(log, {{{.trial = 1, .excluded = "coughed"}}});
+  EXPECT_TRUE(holds(analysis::handsTable(analysis::openDataset(request_.place.data)), "recorded,0,coughed,"))
+      << "rows of excluded trials say so";
 }
 
 TEST(Together, WhatCancelsIsInternal) {
