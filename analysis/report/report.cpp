@@ -324,7 +324,7 @@ void addProvenance(Html& html, const std::vector<AnalysedRun>& runs, const std::
     const record::RunConfiguration& c = run.configuration;
     html.row({escaped(c.subject), escaped(c.session), std::to_string(c.run),
               escaped(record::conditionOf(c)) + (c.practice ? " (practice)" : ""), std::to_string(run.trials), escaped(c.device),
-              escaped(c.method), std::to_string(c.seed), fmt::format("{:g}", c.samplingHz), escaped(c.startedUtc),
+              escaped(c.method), std::to_string(c.sessionSeed), fmt::format("{:g}", c.samplingHz), escaped(c.startedUtc),
               escaped(c.softwareVersion)});
   }
   html.endTable();

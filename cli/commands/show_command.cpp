@@ -136,7 +136,7 @@ Json runJson(const record::RunLog& log) {
           {"experiment", c.experimentName},
           {"device", c.device},
           {"method", c.method},
-          {"seed", c.seed},
+          {"seed", c.sessionSeed},
           {"started_utc", c.startedUtc},
           {"software", c.softwareVersion},
           {"trials", trials}};

@@ -75,7 +75,7 @@ void SessionStrip::showRun(const record::RunConfiguration& run) {
   QString text = tr("Run %1, block %2: %3").arg(run.run).arg(run.block).arg(QString::fromStdString(run.condition));
   if (run.practice) text += tr(" (practice)");
   if (run.day > 0) text += tr(", day %1").arg(run.day);
-  run_->tell(text + tr(", seed %1").arg(run.seed));
+  run_->tell(text + tr(", seed %1").arg(run.sessionSeed));
 }
 
 void SessionStrip::clearTally() {

@@ -297,7 +297,7 @@ TEST_F(Tables, AnExportedExperimentSaysWhatWasMovedAndAsked) {
   EXPECT_FALSE(back.constraint.definition.empty()) << "the formula as it was then";
   const json j = json::parse(readWholeFile(file));
   EXPECT_EQ(j.at("run").at("device"), c.device);
-  EXPECT_EQ(j.at("run").at("seed"), c.seed);
+  EXPECT_EQ(j.at("run").at("seed"), c.sessionSeed);
   const std::string words = json::parse(motionJson(run)).at("TaskDescription");
   EXPECT_EQ(experimentNameIn(words), c.experimentName);
   EXPECT_TRUE(holds(words, experiment::describe(moved)));

@@ -64,7 +64,7 @@ std::string experimentJson(const RunConfiguration& c) {
   Json& run = j["run"] = Json::object();
   run["subject"] = c.subject, run["session"] = c.session, run["run"] = c.run, run["block"] = c.block, run["practice"] = c.practice;
   run["condition"] = orNull(c.condition);
-  run["trials"] = c.trials.size(), run["pause_s"] = c.pauseSeconds, run["seed"] = c.seed;
+  run["trials"] = c.trials.size(), run["pause_s"] = c.pauseSeconds, run["seed"] = c.sessionSeed;
   run["device"] = orNull(c.device), run["device_name"] = orNull(c.firstHand.name), run["device_version"] = orNull(c.firstHand.version);
   run["device_max_force_n"] = c.firstHand.maxForce, run["virtual_hand"] = c.firstHand.virtualHand;
   run["method"] = orNull(c.method), run["method_reason"] = orNull(c.methodReason);
