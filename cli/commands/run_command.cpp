@@ -11,11 +11,11 @@
 #include "cli/output/success_table.h"
 #include "cli/output/trial_line.h"
 #include "cli/terminal/seed_option.h"
+#include "cli/terminal/session_device.h"
 #include "devices/hands/several_hands.h"
 #include "devices/instruments/instruments.h"
 #include "devices/kept_mapping.h"
 #include "devices/make_device.h"
-#include "devices/preflight/preflight.h"
 #include "sim/record/configuration/limits.h"
 #include "sim/record/configuration/run_configuration.h"
 #include "sim/session/backup_worker.h"
@@ -64,24 +64,12 @@ void printNoStart(const session::RecordedRun& run) {
              c.firstHand.mapping.empty() ? "the device is not mapped" : "its mapping is " + c.firstHand.mapping, c.device);
 }
 
-// Before anybody feels it: what this experiment will meet on this device.
-std::unique_ptr<haptics::HapticDevice> makeCheckedDevice(const std::string& spec, std::span<const experiment::CompiledExperiment> scenes,
-                                                         std::uint64_t seed, std::shared_ptr<void>& learnt) {
-  auto device = devices::makeDevice(spec, scenes, seed, &learnt);
-  for (const std::string& sentence : devices::warningsBeforeBlock(scenes, *device)) fmt::print(stderr, "warning: {}\n", sentence);
-  return device;
-}
-
 // Conducts a session block by block. It prints one line per trial on stdout once the trial is safe on the disk. It writes the dataset at
 // each block's end and the success table at the end. Returns the exit code: 0, or 130 after Ctrl-C (the trial under way is kept as
 // interrupted). Throws the errors of planning, device, scene and disk. Finished trials are then on the disk.
 int runSession(const session::SessionRequest& request) {
   const std::unique_ptr<record::InstrumentLink> instruments = devices::openInstruments(request.instruments);
-  std::shared_ptr<void> learnt;  // by a virtual person, from block to block
-  const auto makeDevice = [&learnt](const std::string& spec, std::span<const experiment::CompiledExperiment> scenes, std::uint64_t seed) {
-    return makeCheckedDevice(spec, scenes, seed, learnt);
-  };
-  session::RecordedSession session(session::readProgramme(request.what), request, makeDevice, nullptr, instruments.get());
+  session::RecordedSession session(session::readProgramme(request.what), request, checkedDeviceMaker(), nullptr, instruments.get());
   printNotice(session.notice());
   if (session.blocksLeft() == 0) fmt::print(stderr, "nothing is left to do: every trial of this session is recorded\n");
   std::fflush(stdout);
@@ -120,7 +108,7 @@ int runSession(const session::SessionRequest& request) {
   };
   std::optional<session::BackupWorker> backup;
   if (!request.backup.empty()) backup.emplace(request.place.data, request.backup);
-  words.closed = [&](const session::RecordedRun&) {
+  words.closed = [&] {
     stop.reset();
     if (backup) backup->request();
   };
@@ -128,7 +116,6 @@ int runSession(const session::SessionRequest& request) {
   fmt::print("{}", table.text());
   std::fflush(stdout);
   if (backup) {
-    backup->request();  // the last log is let go of only now
     const session::BackupState state = backup->finish();
     if (state.kind == session::BackupState::Kind::Failed) throw ResourceError(state.sentence);
     fmt::print(stderr, "{}\n", state.sentence);
@@ -136,21 +123,12 @@ int runSession(const session::SessionRequest& request) {
   return done ? 0 : StopRequest::exitCode();
 }
 
-// The device as it was asked for, with the mappings that are kept for this subject where none was asked for.
-std::string withMappings(const std::string& device, const session::SessionRequest& request, bool save) {
-  const std::string& subject = request.place.subject;
-  if (record::labelFault(subject, "subject")) return device;  // refused by the run, in its own words
-  if (save) {
-    const auto kept = devices::keepMappings(device, request.place.data, subject);
-    if (kept.empty())
-      throw FaultError(
-          Fault{"--save-mapping", "the device has no mapping", "a device with scale=, offset=, rotation=, mirror= or mapping="});
-    for (const std::string& file : kept) fmt::print(stderr, "mapping kept in {}\n", file);
-  }
-  std::vector<std::string> taken;
-  std::string mapped = devices::withKeptMappings(device, request.place.data, subject, taken);
-  for (const std::string& file : taken) fmt::print(stderr, "mapping of {}\n", file);
-  return mapped;
+void saveMappings(const session::SessionRequest& request) {
+  if (record::labelFault(request.place.subject, "subject")) return;  // refused by the run, in its own words
+  const auto kept = devices::keepMappings(request.device, request.place.data, request.place.subject);
+  if (kept.empty())
+    throw FaultError(Fault{"--save-mapping", "the device has no mapping", "a device with scale=, offset=, rotation=, mirror= or mapping="});
+  for (const std::string& file : kept) fmt::print(stderr, "mapping kept in {}\n", file);
 }
 
 }  // namespace
@@ -174,7 +152,7 @@ void addRunCommand(CLI::App& app, int& exitCode) {
   command
       ->add_option("--trials", r->trials,
                    "Trials of an experiment. A plan has its own [default: 1, or each file of a replayed folder once]")
-      ->check(CLI::Range(1, 1000000));
+      ->check(CLI::Range(1, session::kMaxTrials));
   command->add_option("--run", r->run, "Run number. A taken one is refused [default: the next free one]")
       ->check(CLI::Range(1, record::kMaxRun));
   command->add_option("--subject", r->place.subject, "Label of the subject: letters and digits [default: 01]");
@@ -198,7 +176,7 @@ void addRunCommand(CLI::App& app, int& exitCode) {
       ->add_option("--timing-check", r->timingCheckSeconds,
                    "Seconds for which the loop is watched before a block in real time. 0 skips the check [default: 2]")
       ->check(CLI::Range(0.0, 60.0));
-  command->add_option("--day", r->day, "Day of the plan, when the session's label is no number")->check(CLI::Range(1, 10000));
+  command->add_option("--day", r->day, "Day of the plan, when the session's label is no number")->check(CLI::Range(1, session::kMaxDay));
   command->add_option("--age", r->participant.age, "Participant's age [years]")->check(CLI::Range(0.0, record::kMaxAge));
   command->add_option("--sex", r->participant.sex, "Participant's sex: F, M or O")->check(CLI::IsMember({"F", "M", "O"}));
   command->add_option("--handedness", r->participant.handedness, "Participant's handedness: R, L or A")
@@ -221,8 +199,10 @@ void addRunCommand(CLI::App& app, int& exitCode) {
       "  reach run chain-two-hands --device simulated --device partner:follower --trials 5 --seed 1 --fast\n"
       "  reach run paper --device simulated --subject 03 --session 01 --age 24 --sex F --handedness R --fast");
   command->callback([r, hands, saveMapping, &exitCode] {
-    r->trialsOnOffer = devices::trialsOnOffer(devices::joinHands(*hands));
-    r->device = withMappings(devices::joinHands(*hands), *r, *saveMapping);
+    r->device = devices::joinHands(*hands);
+    r->trialsOnOffer = devices::trialsOnOffer(r->device);
+    if (*saveMapping) saveMappings(*r);
+    r->device = withMappings(*r);
     exitCode = runSession(*r);
   });
 }

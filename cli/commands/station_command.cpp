@@ -12,10 +12,10 @@
 #include "cli/output/success_table.h"
 #include "cli/output/trial_line.h"
 #include "cli/terminal/seed_option.h"
-#include "devices/make_device.h"
+#include "cli/terminal/session_device.h"
 #include "network/station/observer.h"
 #include "network/station/station_options.h"
-#include "sim/session/recorded_run.h"
+#include "sim/session/recorded_session.h"
 
 namespace reachlab::cli {
 namespace {
@@ -30,16 +30,17 @@ struct StationRequest {
 };
 
 /// One station from its first word to its last; every trial is armed as soon as it can be.
-int conduct(const StationRequest& request) {
-  const session::BlockToRun block = session::planSession(request.session, session::readProgramme(request.session.what)).blocks.at(0);
-  session::requireOneScene(block);
-  network::StationRun station(request.setup, block.experiment);
-  session::RecordedRunOptions options;
-  options.place = request.session.place;
-  options.diskReserve = request.session.diskReserve;
-  station.prepare(options);
-  session::RecordedRun run(block, devices::makeDevice(request.session.device, block.experiment, station.seedHere(block.configuration.seed)),
-                           options);
+int conduct(session::SessionRequest request, const network::StationSetup& setup) {
+  const session::Programme programme = session::readProgramme(request.what);
+  request.device = withMappings(request);
+  network::StationRun station(setup, session::experimentOfStations(programme));
+  session::RecordedSession session(programme, request,
+                                   [&station, make = checkedDeviceMaker()](const std::string& spec, auto scenes, std::uint64_t seed) {
+                                     return make(spec, scenes, station.seedHere(seed));
+                                   });
+  session.prepareRuns([&station](session::RecordedRunOptions& options) { station.prepare(options); });
+  session.openNext();
+  session::RecordedRun& run = *session.run();
   const StopRequest stop;
   fmt::print(stderr, "run {}: station {}; recording to {}\n", run.configuration().run, station.station(), run.logPath());
   station.begin(run);
@@ -62,7 +63,7 @@ int conduct(const StationRequest& request) {
     table.add(run.configuration().condition, news.ended->result);
   }
   fmt::print(stderr, "{}", station.close());
-  run.finish();
+  session.closeRun();
   fmt::print("{}", table.text());
   if (!problem.empty()) throw ResourceError(problem);
   return StopRequest::exitCode();
@@ -70,9 +71,7 @@ int conduct(const StationRequest& request) {
 
 /// Until the conductor's last word.
 int watchStations(const StationRequest& request) {
-  const session::BlockToRun block = session::planSession(request.session, session::readProgramme(request.session.what)).blocks.at(0);
-  session::requireOneScene(block);
-  network::Observer observer(request.setup, block.experiment);
+  network::Observer observer(request.setup, session::experimentOfStations(session::readProgramme(request.session.what)));
   const StopRequest stop;
   const auto every = std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::chrono::duration<double>(request.every));
   auto shown = std::chrono::steady_clock::now();
@@ -113,7 +112,8 @@ void addStationCommand(CLI::App& app, int& exitCode) {
       ->check(CLI::Range(0.01, 3600.0))
       ->capture_default_str()
       ->needs(observe);
-  command->add_option("--trials", s.trials, "Trials. The number of the conductor is used [default: 1]")->check(CLI::Range(1, 1000000));
+  command->add_option("--trials", s.trials, "Trials. The number of the conductor is used [default: 1]")
+      ->check(CLI::Range(1, session::kMaxTrials));
   command->add_option("--subject", s.place.subject, "Subject's label, letters and digits [default: 01]");
   command->add_option("--session", s.place.session, "Session's label, letters and digits [default: 01]");
   command->add_option("--data", s.place.data, "Folder of the dataset, this station's own [default: ./data]");
@@ -132,11 +132,10 @@ void addStationCommand(CLI::App& app, int& exitCode) {
       throw FaultError(Fault{"number", "is not told", "1 up, which of the experiment's hands is here; or --observe"});
     if (!r->observes && device->count() == 0)
       throw FaultError(Fault{"device", "is not told", "the device here (reach list devices); or --observe"});
-    if (r->observes) r->session.device = "simulated";  // of a plan that is never carried out
     network::completeStationSetup(r->setup, r->session.device, "reach station");
     if (r->setup.insecure) fmt::print(stderr, "NOT ENCRYPTED: whoever is on this network can listen and join\n");
     if (!r->observes) {
-      exitCode = conduct(*r);
+      exitCode = conduct(r->session, r->setup);
       return;
     }
     exitCode = watchStations(*r);

@@ -80,7 +80,7 @@ std::optional<session::Programme> validateFile(const std::string& fileOrName) {
   checkIsJsonObject(text, file);
   const JsonNode tree = parseJson(text, file);
   if (tree.find("blocks") != nullptr || tree.find("order_seed") != nullptr) {
-    session::Programme programme = session::checkedProgramme(file);
+    session::Programme programme = session::readProgramme(file);
     warn(warningsOf(programme), text, file);
     return programme;
   } else if (tree.find("subjects") != nullptr) {
@@ -167,6 +167,9 @@ void addValidateCommand(CLI::App& app, int& exitCode) {
       } catch (const FaultError& e) {
         fmt::print(stderr, "{}", messageOf(inOptionWords(e.faults)));
         exitCode = 2;
+      } catch (const RefusedError& e) {
+        fmt::print(stderr, "{}", messageOf(fileFault(file, e.what())));
+        exitCode = 4;
       }
     }
   });

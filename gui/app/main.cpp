@@ -70,13 +70,13 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
       ->take_all();
   app.add_option("--backup", r.backup, "Second data folder: every finished run is copied there and verified");
   app.add_option("--trials", r.trials, "Number of trials of an experiment. A plan has its own numbers [default: 20]")
-      ->check(CLI::Range(1, 1000000));
+      ->check(CLI::Range(1, session::kMaxTrials));
   app.add_option("--run", r.run, "Run number. A number that is taken is refused [default: the next free number]")
       ->check(CLI::Range(1, record::kMaxRun));
   app.add_option("--subject", r.place.subject, "Subject's label, letters and digits [default: 01]");
   app.add_option("--session", r.place.session, "Session's label, letters and digits [default: 01]");
   app.add_option("--data", r.place.data, "Folder of the dataset [default: ./data]");
-  app.add_option("--day", r.day, "Day of the plan, when the session's label is no number")->check(CLI::Range(1, 10000));
+  app.add_option("--day", r.day, "Day of the plan, when the session's label is no number")->check(CLI::Range(1, session::kMaxDay));
   app.add_option("--seed", r.seed, "Seed of noise and order [default: a seed is drawn and stored]")
       ->check(CLI::Validator(
           [](std::string& text) {

@@ -1,5 +1,4 @@
 #include "gui/session/session_controller.h"
-#include "sim/dynamics/scene.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -39,7 +38,7 @@ SessionController::SessionController(const session::SessionRequest& request, std
     : QObject(parent), programme_(session::readProgramme(request.what)), shown_(firstExperiment(programme_, request)),
       resume_(request.resume), asked_(request), setup_(std::move(station)),
       endsOnSignal_([this](const std::stop_token& over) { endOnSignal(over); }) {
-  if (setup_ && isPlan()) throw FaultError(Fault{"experiment", "is a plan", "a single experiment: the same one at every station"});
+  if (setup_) (void)session::experimentOfStations(programme_);
 }
 
 SessionController::~SessionController() {
@@ -89,10 +88,10 @@ std::vector<Fault> SessionController::tryEdit(const experiment::Experiment& expe
   edited.text = toJson(edited);
   try {
     const experiment::CompiledExperiment compiled(edited);
-    (void)dynamics::compileScene(compiled);  // refused now, with the reason, and not when the subject sits there
+    const session::Programme programme = session::programmeOf(compiled);
     if (compiled.experiment().task)
       if (std::vector<Fault> faults = trial::taskProblems(compiled); !faults.empty()) return faults;
-    setProgramme(session::programmeOf(compiled));
+    setProgramme(programme);
     return {};
   } catch (const FaultError& error) {
     return error.faults;
@@ -117,6 +116,7 @@ std::unique_ptr<haptics::HapticDevice> SessionController::makeDeviceHere(const s
 void SessionController::planRuns(const session::SessionRequest& request) {
   session::SessionRequest asked = request;
   asked.resume = resume_;
+  if (resume_ && asked.trials) asked.trialsOnOffer = *std::exchange(asked.trials, std::nullopt);  // what is recorded has its own number
   if (numberUsed_) asked.run.reset();
   if (follows()) asked.trials = 1;  // the conductor's count holds
   std::vector<std::string> mappings;
@@ -143,7 +143,7 @@ void SessionController::openRun(const session::SessionRequest& request) {
   if (!recorded_ || !isPlan() || !isSameSession(request, asked_)) planRuns(request);
   if (setup_) {
     setup_->link.device = request.device;
-    station_ = std::make_unique<network::StationRun>(*setup_, programme_.experiments.front());
+    station_ = std::make_unique<network::StationRun>(*setup_, session::experimentOfStations(programme_));
     recorded_->prepareRuns([this](session::RecordedRunOptions& options) { station_->prepare(options); });
   }
   const bool opened = recorded_->openNext();

@@ -16,9 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMaxTrials = 1'000'000, kMaxDay = 10'000;
 constexpr std::size_t kMaxBlocks = 1000, kMaxCondition = 100;  // a condition is part of the names of the analysis's files
-constexpr double kMaxPause = 86400;                            // [s] longer ones are another session
 
 void readForeperiod(ObjectReader& reader, PlanBlock& block) {
   const JsonNode* node = reader.optional("foreperiod_s");
@@ -64,8 +62,8 @@ void readBlock(ObjectReader& plan, const JsonNode& node, std::size_t index, cons
 }
 
 void readOrderSeed(ObjectReader& reader, Plan& plan) {
-  double seed = 0;  // a JSON number is read as a double: whole up to 2^53
-  reader.number("order_seed", wholeNumber(0, 9007199254740992.0), seed);
+  double seed = 0;
+  reader.number("order_seed", wholeNumber(0, kMaxOrderSeed), seed);
   plan.orderSeed = static_cast<std::uint64_t>(seed);
 }
 
@@ -79,13 +77,13 @@ void checkBlock(const std::string& key, const PlanBlock& block, std::vector<Faul
   checkNumber(key + ".trials", block.trials, wholeNumber(1, kMaxTrials), faults);
   checkNumber(key + ".pause_s", block.pauseSeconds, {0, kMaxPause, true, "0 to 86400 s"}, faults);
   checkNumber(key + ".rest_s", block.restSeconds, {0, kMaxPause, true, "0 to 86400 s"}, faults);
-  checkNumber(key + ".catch_share", block.catchShare, {0, 0.5, true, "a share from 0 to 0.5"}, faults);
+  checkNumber(key + ".catch_share", block.catchShare, {0, kMaxCatchShare, true, "a share from 0 to 0.5"}, faults);
   if (block.day != 0) checkNumber(key + ".day", block.day, wholeNumber(1, kMaxDay), faults);
   const std::vector<Fault> ofMix = problems(block.mix, block.trials, key);
   faults.insert(faults.end(), ofMix.begin(), ofMix.end());
   if (block.mix.wayBack && block.catchShare > 0)
     faults.push_back({key + ".return", "is reach, and a catch trial has no way back", "free, or a catch_share of 0"});
-  if (!(block.foreperiodMin >= 0 && block.foreperiodMin <= block.foreperiodMax && block.foreperiodMax <= 60))
+  if (!(block.foreperiodMin >= 0 && block.foreperiodMin <= block.foreperiodMax && block.foreperiodMax <= kMaxForeperiod))
     faults.push_back({key + ".foreperiod_s", "is no range", "[from, to] in s, 0 <= from <= to <= 60"});
 }
 

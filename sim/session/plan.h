@@ -11,6 +11,13 @@
 
 namespace reachlab::session {
 
+inline constexpr int kMaxTrials = 1'000'000;
+inline constexpr int kMaxDay = 10'000;
+inline constexpr double kMaxPause = 86'400;   // [s] between trials, and of a rest before a block. A longer one is another session
+inline constexpr double kMaxForeperiod = 60;  // [s]
+inline constexpr double kMaxCatchShare = 0.5;
+inline constexpr double kMaxOrderSeed = 9'007'199'254'740'992.0;  // 2^53: a number in JSON is read as a double
+
 /// A series of trials with the same settings, recorded as one run.
 struct PlanBlock {
   std::string experiment;                       // file (beside the plan) or shipped name

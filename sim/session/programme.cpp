@@ -5,14 +5,22 @@
 #include <algorithm>
 #include <map>
 
+#include "base/error.h"
 #include "base/json/json_reader.h"
 #include "base/text_file.h"
+#include "sim/dynamics/scene.h"
 #include "sim/experiment/experiment.h"
 #include "sim/trial/task_check.h"
 
 namespace reachlab::session {
 
+const experiment::CompiledExperiment& experimentOfStations(const Programme& programme) {
+  if (programme.isPlan()) throw FaultError(Fault{"experiment", "is a plan", "a single experiment: the same one at every station"});
+  return programme.experiments.front();
+}
+
 Programme programmeOf(const experiment::CompiledExperiment& experiment) {
+  (void)dynamics::compileScene(experiment);
   Programme programme;
   programme.plan.blocks.emplace_back().experiment = experiment.experiment().name;
   programme.experiments.push_back(experiment);
@@ -22,38 +30,35 @@ Programme programmeOf(const experiment::CompiledExperiment& experiment) {
 
 namespace {
 
-Programme programmeOfText(const std::string& text, const std::string& file) {
-  Programme programme{parsePlan(text, file), {}, {}};
-  using What = std::pair<std::string, std::vector<experiment::Patch>>;
-  std::map<What, experiment::CompiledExperiment> opened;  // many blocks do one experiment
-  for (const PlanBlock& block : programme.plan.blocks) {
-    const What what{block.experiment, block.changes};
-    auto known = opened.find(what);
-    if (known == opened.end()) known = opened.emplace(what, openExperimentOf(block)).first;
-    programme.experiments.push_back(known->second);
-    programme.scenes.push_back(scenesOf(block, known->second));
-  }
-  return programme;
+using What = std::pair<std::string, std::vector<experiment::Patch>>;  // many blocks do one experiment
+
+experiment::CompiledExperiment openedFor(const PlanBlock& block) {
+  experiment::CompiledExperiment experiment = openExperimentOf(block);
+  trial::checkTask(experiment, block.experiment);
+  return experiment;
 }
 
-}  // namespace
+// Throws FaultError for the first scene that cannot be computed. It is refused now, and not when the subject sits there.
+void checkScenes(const std::vector<BlockScene>& scenes) {
+  for (const BlockScene& scene : scenes) {
+    try {
+      (void)dynamics::compileScene(scene.experiment);
+    } catch (const RefusedError& error) {
+      throw FaultError(Fault{"experiment", fmt::format("cannot be computed in {}: {}", scene.condition, error.what())});
+    }
+  }
+}
 
-Programme checkedProgramme(const std::string& file) {
-  const std::string text = readTextFile(file);
+Programme programmeOfText(const std::string& text, const std::string& file) {
   Programme programme{parsePlan(text, file), {}, {}};
   const JsonNode root = parseJson(text, file);
   std::vector<Fault> elsewhere, here;
-  using What = std::pair<std::string, std::vector<experiment::Patch>>;
   std::map<What, std::optional<experiment::CompiledExperiment>> opened;  // nullopt: the faults of this experiment are in the list already
   for (std::size_t i = 0; i < programme.plan.blocks.size(); ++i) {
     const PlanBlock& block = programme.plan.blocks[i];
     const auto [known, isNew] = opened.try_emplace(What{block.experiment, block.changes});
     try {
-      if (isNew) {
-        const experiment::CompiledExperiment experiment = openExperimentOf(block);
-        trial::checkTask(experiment, block.experiment);
-        known->second = experiment;
-      }
+      if (isNew) known->second = openedFor(block);
     } catch (const FaultError& error) {
       for (const Fault& fault : error.faults) {  // those of the experiment's file stand there
         if (fault.place) elsewhere.push_back(fault);
@@ -64,6 +69,7 @@ Programme checkedProgramme(const std::string& file) {
     programme.experiments.push_back(*known->second);
     try {
       programme.scenes.push_back(scenesOf(block, *known->second));
+      if (isNew || !block.mix.isPlain()) checkScenes(programme.scenes.back());
     } catch (const FaultError& error) {
       for (Fault fault : error.faults) {
         fault.key = keyInPlan(root, i, fault.key);
@@ -77,7 +83,7 @@ Programme checkedProgramme(const std::string& file) {
   return programme;
 }
 
-Programme programmeOf(const Plan& plan, const std::string& file) { return programmeOfText(toJson(plan), file); }
+}  // namespace
 
 Programme readProgramme(const std::string& fileOrName) {
   const std::optional<std::string> file = findPlan(fileOrName);

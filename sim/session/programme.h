@@ -17,14 +17,12 @@ struct Programme {
   bool isPlan() const { return !plan.text.empty(); }
 };
 
-/// Reads a plan or an experiment: a file, or the name of a shipped one. Throws FaultError with every fault.
+/// Reads a plan or an experiment: a file, or the name of a shipped one. Each experiment of a plan is compiled once, and its task and its
+/// scenes can be carried out. Throws FaultError with every fault, each at its position, and RefusedError for a single experiment whose scene
+/// cannot be computed.
 Programme readProgramme(const std::string& fileOrName);
-/// Reads a plan's file and its experiments, compiles each once, and checks that their tasks can be carried out. Throws FaultError with
-/// every fault, each at its position.
-Programme checkedProgramme(const std::string& file);
-/// The same as readProgramme for a plan that is edited in a window. Its text comes from `toJson`. Experiments are first looked for beside
-/// `file`. Throws FaultError with every fault.
-Programme programmeOf(const Plan& plan, const std::string& file);
+/// The experiment that every station of a session runs. Throws FaultError for a plan.
+const experiment::CompiledExperiment& experimentOfStations(const Programme& programme);
 /// A single experiment, as it is edited in a window or made by a program.
 Programme programmeOf(const experiment::CompiledExperiment& experiment);
 

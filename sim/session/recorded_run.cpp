@@ -84,7 +84,6 @@ RecordedRun::RecordedRun(BlockToRun block, std::unique_ptr<haptics::HapticDevice
   if (options.virtualClock && options.instruments != nullptr)
     throw FaultError(Fault{"fast", "there are instruments, which are on the real clock", "either of them"});
   const haptics::LoopOptions loop{.virtualClock = options.virtualClock, .clock = options.clock};
-  if (options.makeEngine) requireOneScene(block_);
   const haptics::EngineOptions hands = haptics::engineOptions(*device);
   auto engine =
       options.makeEngine ? options.makeEngine(block_.experiment, hands) : std::make_unique<haptics::TickEngine>(block_.scenes, hands);

@@ -97,12 +97,11 @@ bool conduct(RecordedSession& session, const std::atomic<bool>& stop, const Sess
     run.closeLog();
     words.logClosed(run);
     const std::optional<std::string> fault = run.fault();
-    run.finish();
-    words.closed(run);
+    session.closeRun();
+    words.closed();
     if (fault) throw ResourceError(*fault);
     if (!toItsEnd) return false;
   }
-  session.closeRun();
   return true;
 }
 

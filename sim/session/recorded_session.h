@@ -66,7 +66,7 @@ struct SessionWords {
   std::function<void(const RecordedRun& run)> waiting;
   std::function<void(const RecordedRun& run, const haptics::ConductedTrial& trial)> ended;  // the trial is safe on the disk
   std::function<void(const RecordedRun& run)> logClosed;                                    // the recording is complete
-  std::function<void(const RecordedRun& run)> closed;                                       // the run is in the dataset
+  std::function<void()> closed;  // the run is in the dataset, and its log is let go of
 };
 
 /// Conducts every remaining block, trial by trial, with the plan's pauses. When `stop` becomes true, the trial under way is kept as

@@ -303,12 +303,6 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
   return session;
 }
 
-void requireOneScene(const BlockToRun& block) {
-  if (block.scenes.size() > 1)
-    throw FaultError(
-        Fault{"experiment", "has kinds of trials or targets, and stations share one scene", "a block without kinds and targets"});
-}
-
 void takeFreeRun(BlockToRun& block, const SessionPlace& place, bool askedFor) {
   record::RunConfiguration& c = block.configuration;
   const std::vector<RunOnDisk> runs = recordedRuns(place);

@@ -64,9 +64,6 @@ void checkRecordable(const Programme& programme);
 /// FaultError.
 int sessionDay(const SessionRequest& request, const Plan& plan);
 
-/// Throws FaultError where the block has several scenes, which stations cannot share.
-void requireOneScene(const BlockToRun& block);
-
 /// Gives the block the next free run number where another program has taken its number since it was planned. A number that was `askedFor`
 /// is refused then (FaultError). Keep holdDataset until the log is created.
 void takeFreeRun(BlockToRun& block, const SessionPlace& place, bool askedFor);

@@ -27,7 +27,8 @@ class AdaptationPlans : public session::test::Recorded {
       return subjects::prepareSubjects(scenes, spec)(seed, 0, learnt);
     });
     session::SessionWords words;
-    words.opened = words.logClosed = words.closed = [](const session::RecordedRun&) {};
+    words.opened = words.logClosed = [](const session::RecordedRun&) {};
+    words.closed = [] {};
     words.ended = [](const session::RecordedRun&, const haptics::ConductedTrial&) {};
     EXPECT_TRUE(session::conduct(session, session::test::kNeverStop, words));
     Series series;

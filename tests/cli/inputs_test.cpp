@@ -74,11 +74,17 @@ TEST(Recordings, WhatCouldNotBeReadAgainIsRefusedBeforeTheFirstTrial) {
   const std::string file = folder.write(std::string(61, 'a') + ".json", text), fine = folder.write(std::string(60, 'a') + ".json", text);
   const std::string plan =
       folder.write("long.json", R"({"schema_version": 1, "blocks": [{"experiment": "dingwell", "trials": 1, "pause_s": 1e7}]})");
-  for (const std::string& refused : {file, plan})
-    for (const std::string& line :
+  std::string hands = contentOf(std::filesystem::path(REACHLAB_SOURCE_DIR) / "resources/experiments/two-hands/chain-two-hands.json");
+  const std::string line = R"("name": "line", "shape": { "length_m": 0.2 })";
+  hands.replace(hands.find(line), line.size(), R"("name": "cycloid")");
+  folder.write("cusp.json", hands);
+  const std::string cusp = folder.write(
+      "cusps.json", R"({"schema_version": 1, "trials": 1, "blocks": [{"experiment": "dingwell"}, {"experiment": "cusp.json"}]})");
+  for (const std::string& refused : {file, plan, cusp})
+    for (const std::string& command :
          {"validate " + refused, "run " + refused + " --device simulated --fast --seed 1 --data " + (folder / "data").string()}) {
-      const Ended ended = reach(line);
-      EXPECT_EQ(ended.exitCode, 2) << line << ended.err;
+      const Ended ended = reach(command);
+      EXPECT_EQ(ended.exitCode, 2) << command << ended.err;
       EXPECT_EQ(trialLines(ended.out).size(), 0u) << ended.out;
     }
   EXPECT_FALSE(std::filesystem::exists(folder / "data"));

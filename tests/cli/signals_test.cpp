@@ -46,15 +46,17 @@ std::string longChain(const TemporaryFolder& folder, int masses) {
 
 TEST(Signals, EndARunWithTheTrialMarkedAndTheLogClosed) {
   for (const auto& [signal, code] : {std::pair{SIGINT, 130}, {SIGTERM, 143}, {SIGHUP, 129}}) {
-    const TemporaryFolder data;
-    const Stopped ended = stop(
-        {"run", "chain-moderate", "--device", "simulated", "--trials", "50", "--seed", "1", "--timing-check", "0", "--data", data.path()},
-        signal, data / "sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach", 700);
+    const TemporaryFolder data, copy;
+    const std::string log = "sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach";
+    const Stopped ended = stop({"run", "chain-moderate", "--device", "simulated", "--trials", "50", "--seed", "1", "--timing-check", "0",
+                                "--data", data.path(), "--backup", copy.path()},
+                               signal, data / log, 700);
     EXPECT_EQ(ended.exitCode, code);
     const Table trials = exportedTrials(data.path());
     ASSERT_FALSE(trials.rows.empty());
     EXPECT_EQ(trials.rows.back()[trials.column("outcome")], "interrupted");
     EXPECT_EQ(trials.rows.back()[trials.column("complete")], "1");
+    EXPECT_EQ(contentOf(copy / log), contentOf(data / log)) << "the second folder has the run that broke off, too";
   }
 }
 

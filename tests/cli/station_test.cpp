@@ -125,9 +125,12 @@ TEST_F(Stations, DISABLED_TwoMoveOneChainTogether) {
 TEST_F(Stations, OtherExperimentsAreNotArmed) {
   const std::string mine = folder_ / "mine.json";
   fs::copy(fs::path(REACHLAB_SOURCE_DIR) / "resources/experiments/two-hands/parallel-two-hands.json", mine);
+  fs::create_directories(folder_ / "left/sourcedata/mappings");
+  const std::string mapping = folder_.write("left/sourcedata/mappings/sub-01_simulated.json", R"({"scale": 1, "offset_m": [0, 0, 0.001]})");
   const auto [left, right] = both(station(1, "left", "--device simulated --insecure", "chain-two-hands", 1, 6),
                                   station(2, "right", "--device simulated --insecure", mine, 1, 6));
   EXPECT_TRUE(says(left, 3, "has another experiment"));
+  EXPECT_TRUE(holds(left.err, "mapping of " + mapping)) << "the one that is kept for this subject, as in `reach run`";
   EXPECT_TRUE(logOf("left").trials().empty());
 }
 

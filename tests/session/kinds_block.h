@@ -23,7 +23,8 @@ class Kinds : public Recorded {
     RecordedSession session(programme_, request_, [](const auto&, auto, auto) { return goodHand(); });
     std::atomic<bool> stop{false};
     SessionWords words;
-    words.opened = words.logClosed = words.closed = [](const RecordedRun&) {};
+    words.opened = words.logClosed = [](const RecordedRun&) {};
+    words.closed = [] {};
     words.ended = [&](const RecordedRun&, const haptics::ConductedTrial&) { stop = --trials == 0; };
     return conduct(session, stop, words);
   }

@@ -50,7 +50,7 @@ class Conducted : public Recorded {
     words.logClosed = [this](const RecordedRun& run) {
       told_.push_back(record::RunLog::open(run.logPath()).closed() ? "in order" : "open");
     };
-    words.closed = [this](const RecordedRun&) { told_.push_back("closed"); };
+    words.closed = [this] { told_.push_back("closed"); };
     return words;
   }
   std::vector<std::pair<std::string, std::uint64_t>> made_;

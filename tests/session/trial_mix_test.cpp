@@ -292,7 +292,7 @@ TEST(BlockScenes, ACheckedPlanNamesTheLineOfAKindOfThePlanOrOfTheBlock) {
                "{ \"schema_version\": 1, \"trials\": 2,\n  \"kinds\": { \"a\": {},\n    \"b\": { \"object.masses_kg\": [-1] } },\n"
                "  \"blocks\": [ { \"experiment\": \"free-point\" }, { \"experiment\": \"free-point\" },\n"
                "    { \"experiment\": \"free-point\", \"kinds\": { \"a\": {},\n      \"c\": { \"object.kind\": \"chain\" } } } ] }");
-  const std::string said = refusalOf<FaultError>([&] { checkedProgramme(file); });
+  const std::string said = refusalOf<FaultError>([&] { readProgramme(file); });
   EXPECT_TRUE(holds(said, "p.json:3:"));
   EXPECT_TRUE(holds(said, "p.json:6:"));
   EXPECT_EQ(said.find("p.json:3:"), said.rfind("p.json:3:")) << "told once for both blocks\n" << said;

@@ -18,6 +18,7 @@ struct Participant {
   std::optional<double> age;  // [years]
   std::string sex;            // F | M | O
   std::string handedness;     // R | L | A
+  bool operator==(const Participant&) const = default;
 };
 
 /// A kind of trial to one target, of a block that has several (docs/reference/plan.md).
