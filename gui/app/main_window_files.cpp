@@ -3,7 +3,6 @@
 #include <QDragEnterEvent>
 #include <QFileDialog>
 #include <QFileInfo>
-#include <QMessageBox>
 #include <QMimeData>
 #include <QPushButton>
 #include <QTimer>
@@ -14,24 +13,13 @@
 #include "base/system/error_report.h"
 #include "gui/app/main_window.h"
 #include "gui/session/remembered_session.h"
-#include "sim/dynamics/scene.h"
+#include "gui/widgets/ask.h"
 #include "sim/experiment/experiment.h"
 
 // What the window opens, saves, edits and marks.
 namespace reachlab::gui::app {
-namespace {
 
-// A question before data would be lost. Closing the box means no. The choice that loses nothing is the usual one.
-bool ask(QWidget& window, const char* name, const QString& title, const QString& text, const QString& yes, const QString& no) {
-  QMessageBox box(QMessageBox::Question, title, text, QMessageBox::NoButton, &window);
-  box.setObjectName(QLatin1String(name));
-  const auto* agreed = box.addButton(yes, QMessageBox::AcceptRole);
-  box.setDefaultButton(box.addButton(no, QMessageBox::RejectRole));
-  box.exec();
-  return box.clickedButton() == agreed;
-}
-
-}  // namespace
+using widgets::ask;
 
 void MainWindow::openExperiment(const QString& what) {
   if (isRecorded(what)) return inspect(what);
@@ -39,8 +27,6 @@ void MainWindow::openExperiment(const QString& what) {
   try {
     screens_->lookIn(QFileInfo(what).path());
     const session::Programme opened = session::readProgramme(what.toStdString());
-    for (const std::vector<session::BlockScene>& block : opened.scenes)
-      for (const session::BlockScene& scene : block) (void)dynamics::compileScene(scene.experiment);
     edits_.open(opened, QStringLiteral("open %1").arg(what));
     edits_.stack().setClean();
     what_ = what;
@@ -161,18 +147,12 @@ bool MainWindow::mayUseDevice() {
 }
 
 bool MainWindow::mayBeLeft() {
-  if (edits_.stack().isClean()) return true;
-  QMessageBox box(QMessageBox::Question, "Unsaved changes",
-                  QStringLiteral("%1 was changed, and the file is not saved. Recordings keep the experiment with which they were made.")
-                      .arg(QString::fromStdString(session_.experiment().name)),
-                  QMessageBox::Save | QMessageBox::Discard | QMessageBox::Cancel, this);
-  box.setObjectName("askAboutUnsaved");
-  box.setDefaultButton(QMessageBox::Save);
-  switch (box.exec()) {
-    case QMessageBox::Save: return saveExperiment();
-    case QMessageBox::Discard: return true;
-    default: return false;
-  }
+  return edits_.stack().isClean() ||
+         widgets::askToSave(
+             *this,
+             QStringLiteral("%1 was changed, and the file is not saved. Recordings keep the experiment with which they were made.")
+                 .arg(QString::fromStdString(session_.experiment().name)),
+             [this] { return saveExperiment(); });
 }
 
 void MainWindow::markTrial(int number, const std::function<void(record::TrialMark&)>& change) {
@@ -220,7 +200,7 @@ bool MainWindow::event(QEvent* event) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
-  if (!mayEndRun("Closing the window") || !mayBeLeft()) return event->ignore();
+  if (!mayEndRun("Closing the window") || !mayBeLeft() || !plans_->mayBeLeft()) return event->ignore();
   rememberLayout(*this, layout_);
   session_.endRun();  // an unfinished trial is kept as interrupted
   screens_->closeSubject();

@@ -7,7 +7,7 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
+#include <filesystem>
 #include <numbers>
 
 #include "base/error.h"
@@ -18,7 +18,9 @@
 #include "constraints/regularity/undefined.h"
 #include "gui/scene/thumbnail.h"
 #include "gui/scene_plan/definition_reach.h"
+#include "gui/widgets/ask.h"
 #include "gui/widgets/named.h"
+#include "sim/record/log/atomic_file.h"
 
 namespace reachlab::gui::docks {
 namespace {
@@ -308,11 +310,11 @@ void ConstraintChooser::save() {
     namespace fs = std::filesystem;
     const fs::path folder = constraints::userDefinitionFolder(), file = folder / (name + ".json");
     (void)constraints::parseDefinition(content, file.string());  // nothing is saved that could not be read again
-    fs::create_directories(folder);
-    std::ofstream out(file, std::ios::binary);
-    out << content;
-    out.close();
-    if (!out) throw ResourceError(file.string() + ": could not be written");
+    if (fs::exists(file) &&
+        !widgets::ask(*this, "askAboutDefinition", "A definition of this name",
+                      QStringLiteral("You have saved a definition %1 before.").arg(text(name)), "Replace it", "Keep it"))
+      return;
+    record::writeFileAtomically(file.string(), content);
     saved_->setText(QStringLiteral("saved as %1").arg(text(file.string())));
     fillList();
     for (std::size_t i = 0; i < definitions_.size(); ++i)

@@ -21,13 +21,20 @@
 #include "sim/record/configuration/run_configuration.h"
 
 namespace reachlab::gui::docks {
+namespace {
+
+// The first entry names the box.
+std::string chosen(const QComboBox& box) { return box.currentIndex() > 0 ? box.currentText().toStdString() : std::string(); }
+void choose(QComboBox& box, const std::string& value) { box.setCurrentIndex(std::max(0, box.findText(QString::fromStdString(value)))); }
+
+}  // namespace
 
 SessionDock::SessionDock(QWidget* parent) : Dock("Session", "sessionDock", parent) {
   using widgets::named, widgets::tipped, widgets::rowOf;
   subject_ = tipped(named<QLineEdit>("subject"), "Label of the subject in the dataset: letters and digits");
   session_ = tipped(named<QLineEdit>("session"), "Label of this visit in the dataset: letters and digits");
   day_ = tipped(new QSpinBox, "Day of the plan, if the label of the session is no number");
-  day_->setRange(0, 999);
+  day_->setRange(0, session::kMaxDay);
   day_->setSpecialValueText("–");
   age_ = tipped(named<QLineEdit>("age"), "Age in years, for the table of participants");
   age_->setPlaceholderText("age");
@@ -79,7 +86,7 @@ QHBoxLayout* SessionDock::makeDeviceRow() {
   connect(look, &QTimer::timeout, this, &SessionDock::offerPlugged);
   look->start(1000);
   trials_ = widgets::tipped(widgets::named<QSpinBox>("trialCount"), "Trials of the next run. A plan has its own number of trials.");
-  trials_->setRange(1, 100000);
+  trials_->setRange(1, session::kMaxTrials);
   auto* devices = widgets::tipped(widgets::named<QPushButton>("devicesButton", "…"),
                                   "opens the dock Devices: the present devices, why others are missing, and a live view");
   devices->setMaximumWidth(48);
@@ -138,7 +145,9 @@ void SessionDock::setRequest(const session::SessionRequest& request) {
   day_->setValue(request.day.value_or(0));
   device_->setCurrentText(QString::fromStdString(request.device));
   trials_->setValue(request.trials.value_or(20));
-  if (request.participant.age) age_->setText(QString::number(*request.participant.age));
+  age_->setText(request.participant.age ? QString::number(*request.participant.age) : QString());
+  choose(*sex_, request.participant.sex);
+  choose(*hand_, request.participant.handedness);
 }
 
 void SessionDock::display(const experiment::CompiledExperiment&, bool editable) {
@@ -151,14 +160,14 @@ session::SessionRequest SessionDock::request() const {
   r.place.subject = subject_->text().trimmed().toStdString();
   r.place.session = session_->text().trimmed().toStdString();
   r.place.data = data_->text().trimmed().toStdString();
-  if (day_->value() > 0) r.day = day_->value();
+  r.day = day_->value() > 0 ? std::optional(day_->value()) : std::nullopt;
   if (request_.trials) r.trials = trials_->value();
   r.device = device();
   bool fine = false;
   const double age = QLocale::c().toDouble(age_->text(), &fine);
   r.participant.age = fine ? std::optional(age) : std::nullopt;
-  if (sex_->currentIndex() > 0) r.participant.sex = sex_->currentText().toStdString();
-  if (hand_->currentIndex() > 0) r.participant.handedness = hand_->currentText().toStdString();
+  r.participant.sex = chosen(*sex_);
+  r.participant.handedness = chosen(*hand_);
   return r;
 }
 

@@ -3,6 +3,8 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QDialogButtonBox>
+#include <QDir>
+#include <QDoubleSpinBox>
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QFormLayout>
@@ -21,6 +23,7 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "gui/plan/mix_editor.h"
+#include "gui/widgets/ask.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/fault_words.h"
 #include "gui/widgets/named.h"
@@ -42,6 +45,15 @@ QString kindOf(const session::PlanBlock& block) {
   if (!block.mix.kinds.empty()) kinds << PlanComposer::tr("%1 kinds").arg(session::kindsInUse(block.mix).size());
   if (block.mix.targetCount() > 1) kinds << PlanComposer::tr("%1 targets").arg(block.mix.targetCount());
   return kinds.join(QStringLiteral(", "));
+}
+
+// A file in the plan's folder moves with the plan. Another file is found from every folder. What is no file is a shipped name.
+std::string nameInPlan(const std::string& experiment, const QString& plan) {
+  const QFileInfo asked(QString::fromStdString(experiment));
+  if (!asked.isFile()) return experiment;
+  const QDir folder = QFileInfo(plan).absoluteDir();
+  const QString beside = folder.relativeFilePath(asked.absoluteFilePath());
+  return (beside.startsWith(QLatin1String("../")) ? asked.absoluteFilePath() : beside).toStdString();
 }
 
 }  // namespace
@@ -107,8 +119,9 @@ QWidget* PlanComposer::makeWhole() {
   row->setContentsMargins(0, 0, 0, 0);
   name_ = widgets::named<QLineEdit>("planName");
   permute_ = widgets::named<QCheckBox>("planPermute", tr("another balanced order for every subject"));
-  orderSeed_ = new QSpinBox;
-  orderSeed_->setRange(0, 999'999'999);
+  orderSeed_ = new QDoubleSpinBox;
+  orderSeed_->setDecimals(0);
+  orderSeed_->setRange(0, session::kMaxOrderSeed);
   orderSeed_->setToolTip(tr("draws which subject gets which order"));
   widgets::addAll(*row, {new QLabel(tr("plan")), name_, permute_, new QLabel(tr("drawn by")), orderSeed_});
   row->setStretchFactor(name_, 1);
@@ -181,16 +194,18 @@ QWidget* PlanComposer::makeBlock() {
     made->setRange(low, high);
     return made;
   };
-  auto *trials = whole("planTrials", 1, 1'000'000), *day = whole("planDay", 0, 10'000);
+  auto *trials = whole("planTrials", 1, session::kMaxTrials), *day = whole("planDay", 0, session::kMaxDay);
   day->setSpecialValueText(tr("every day"));
   auto* practice = widgets::named<QCheckBox>("planPractice", tr("practice: recorded, but not used in statistics"));
   auto* repeatAborted = new QCheckBox(tr("repeat aborted trials at the end"));
   const auto number = [](const char* name, double high, const QString& unit) {
     return widgets::named<widgets::UnitSpinBox>(name, 0, high, unit);
   };
-  auto *rest = number("planRest", 36'000, QStringLiteral("s")), *pause = number("planPause", 3'600, QStringLiteral("s"));
-  auto *least = number("planForeperiodMin", 60, QStringLiteral("s")), *most = number("planForeperiodMax", 60, QStringLiteral("s"));
-  auto* catchShare = number("planCatch", 0.5, {});
+  auto *rest = number("planRest", session::kMaxPause, QStringLiteral("s")),
+       *pause = number("planPause", session::kMaxPause, QStringLiteral("s"));
+  auto *least = number("planForeperiodMin", session::kMaxForeperiod, QStringLiteral("s")),
+       *most = number("planForeperiodMax", session::kMaxForeperiod, QStringLiteral("s"));
+  auto* catchShare = number("planCatch", session::kMaxCatchShare, {});
   auto* instructions = widgets::named<QPlainTextEdit>("planInstructions");
   instructions->setPlaceholderText(tr("what the subject reads before the block begins"));
   instructions->setTabChangesFocus(true);
@@ -239,16 +254,17 @@ void PlanComposer::wire() {
   connect(mix_, &MixEditor::changed, this, &PlanComposer::take);
   connect(name_, &QLineEdit::textEdited, this, &PlanComposer::takeWhole);
   connect(permute_, &QCheckBox::toggled, this, &PlanComposer::takeWhole);
-  connect(orderSeed_, qOverload<int>(&QSpinBox::valueChanged), this, &PlanComposer::takeWhole);
+  connect(orderSeed_, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &PlanComposer::takeWhole);
 }
 
 void PlanComposer::setPlan(const session::Plan& plan, const QString& file) {
   plan_ = plan;
   file_ = file;
+  saved_ = session::toJson(plan);
   showing_ = true;
   name_->setText(QString::fromStdString(plan.name));
   permute_->setChecked(plan.counterbalance == session::Counterbalance::Permute);
-  orderSeed_->setValue(static_cast<int>(std::min<std::uint64_t>(plan.orderSeed, 999'999'999)));
+  orderSeed_->setValue(static_cast<double>(plan.orderSeed));
   showing_ = false;
   showList(plan_.blocks.empty() ? -1 : 0);
 }
@@ -334,13 +350,17 @@ void PlanComposer::changed() {
 }
 
 void PlanComposer::saveTo(const QString& file) {
-  session::Plan relative = plan_;  // experiments beside the plan move with it
-  const QString folder = QFileInfo(file).absolutePath() + QLatin1Char('/');
-  for (session::PlanBlock& block : relative.blocks)
-    if (QString::fromStdString(block.experiment).startsWith(folder))
-      block.experiment = block.experiment.substr(folder.toStdString().size());
-  record::writeFileAtomically(file.toStdString(), session::toJson(relative));
+  session::Plan written = plan_;
+  for (session::PlanBlock& block : written.blocks) block.experiment = nameInPlan(block.experiment, file);
+  record::writeFileAtomically(file.toStdString(), session::toJson(written));
   file_ = file;
+  saved_ = session::toJson(plan_);
+}
+
+void PlanComposer::reject() {
+  if (session::toJson(plan_) == saved_ ||
+      widgets::askToSave(*this, tr("The plan was changed and is not saved."), [this] { return save(false); }))
+    QDialog::reject();
 }
 
 bool PlanComposer::save(bool askAlways) {

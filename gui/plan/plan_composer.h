@@ -33,6 +33,8 @@ class PlanComposer : public QDialog {
   QStringList faults() const;
   /// Writes it, and is then of that file. Throws ResourceError.
   void saveTo(const QString& file);
+  /// Asks before changes would be lost.
+  void reject() override;
 
  Q_SIGNALS:
   /// Saved into this file, and to be opened.
@@ -57,6 +59,7 @@ class PlanComposer : public QDialog {
 
   session::Plan plan_;
   QString file_;
+  std::string saved_;  // text of the plan as it was shown or saved last
   bool showing_ = false;
   QTableWidget* list_;
   QPushButton *up_, *down_, *remove_, *copy_, *use_;
@@ -67,7 +70,7 @@ class PlanComposer : public QDialog {
   };
   std::vector<Field> fields_;  // of the block
   QLineEdit* name_;
-  QSpinBox* orderSeed_;
+  QDoubleSpinBox* orderSeed_;  // a whole number beyond the range of QSpinBox
   QCheckBox* permute_;
   MixEditor* mix_;
   QLabel* preview_;

@@ -68,6 +68,7 @@ void PlanPages::compose(QWidget* window, const QString& file) {
     composer_ = new plan::PlanComposer(window);
     connect(composer_, &plan::PlanComposer::used, this, &PlanPages::composed);
   }
+  if (!mayBeLeft()) return composer_->raise();
   if (session_.isPlan()) {
     composer_->setPlan(session_.programme().plan, file);
   } else {

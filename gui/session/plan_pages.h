@@ -26,6 +26,8 @@ class PlanPages : public QObject {
   bool resumes() const;
   /// `file`: the path of the open plan. Empty if the plan is shipped or there is no plan.
   void compose(QWidget* window, const QString& file);
+  /// Asks for the plan that is being composed, if it is not saved.
+  bool mayBeLeft() { return !composer_ || composer_->close(); }
 
  Q_SIGNALS:
   void composed(const QString& file);

@@ -184,8 +184,13 @@ TEST_F(MenuActions, OfFilesReadAndWrite) {
 TEST_F(MenuActions, OfTrialsConductARun) {
   MainWindow& window = open();
   window.sessionDock().setDevice("simulated:noise=0");
+  session::SessionRequest first = window.sessionDock().request();
+  first.participant = {.age = 31, .sex = "F", .handedness = "L"};
+  window.sessionDock().setRequest(first);
+  EXPECT_EQ(window.sessionDock().request().participant, first.participant);
   trigger("Trial/Next subject");
   EXPECT_EQ(window.sessionDock().request().place.subject, "02");
+  EXPECT_EQ(window.sessionDock().request().participant, record::Participant()) << "they are the first person's";
   trigger("Trial/Start");
   ASSERT_NE(window.session().run(), nullptr);
   ASSERT_TRUE(waits([&] { return window.session().run()->latest().phase != trial::Phase::Idle; }));
@@ -200,6 +205,7 @@ TEST_F(MenuActions, OfTrialsConductARun) {
     trigger("Trial/End run");
   }
   EXPECT_EQ(window.session().run(), nullptr);
+  window.sessionDock().setTrials(7);  // of a new run; the one that is resumed has its own number
   trigger("Trial/Resume the session");
   ASSERT_NE(window.session().run(), nullptr) << window.message().toStdString();
   EXPECT_EQ(window.session().run()->configuration().firstRun, 1) << "run 2 resumes run 1";

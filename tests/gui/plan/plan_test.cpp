@@ -3,6 +3,7 @@
 
 #include <QApplication>
 #include <QComboBox>
+#include <QDir>
 #include <QLabel>
 #include <QLineEdit>
 #include <QPlainTextEdit>
@@ -13,14 +14,17 @@
 #include <QToolButton>
 #include <fstream>
 
+#include "base/text_file.h"
 #include "gui/app/main_window.h"
 #include "gui/docks/session_dock.h"
 #include "gui/plan/plan_composer.h"
 #include "gui/plan/start_page.h"
+#include "sim/experiment/resources.h"
 #include "sim/record/trial_marks.h"
 #include "sim/session/programme.h"
 #include "tests/gui/answer_box.h"
 #include "tests/gui/at_the_window.h"
+#include "tests/refusal.h"
 
 namespace reachlab::gui::plan {
 namespace {
@@ -55,6 +59,50 @@ TEST(PlanComposer, ComposesAPlanThatReadsBackEqual) {
   EXPECT_EQ(read.blocks[1].instructions, "Slowly.");
   EXPECT_EQ(read.blocks[1].trials, 5);
   EXPECT_EQ(session::toJson(read), session::toJson(dialog.plan()));
+  dialog.close();
+  EXPECT_FALSE(dialog.isVisible()) << "it is saved, and nothing is asked";
+}
+
+TEST(PlanComposer, ClosesAChangedPlanOnlyWhenItIsDiscarded) {
+  PlanComposer dialog;
+  dialog.show();
+  QTest::mouseClick(child<QPushButton>(dialog, "planAdd"), Qt::LeftButton);
+  {
+    const AnswerBox box(QStringLiteral("Cancel"));
+    dialog.close();
+  }
+  EXPECT_TRUE(dialog.isVisible());
+  const AnswerBox box(QStringLiteral("Discard"));
+  dialog.close();
+  EXPECT_FALSE(dialog.isVisible());
+}
+
+TEST(PlanComposer, NamesFilesSoThatThePlanFindsThemFromEveryFolder) {
+  const QTemporaryDir folder;
+  QDir(folder.path()).mkpath(QStringLiteral("plans/own"));
+  const QString beside = folder.filePath(QStringLiteral("plans/own/a.json")), elsewhere = folder.filePath(QStringLiteral("b.json"));
+  for (const QString& file : {beside, elsewhere})
+    QFile::copy(QString::fromStdString(*experiment::shippedExperimentFile("chain-slow")), file);
+  session::Plan plan;
+  plan.name = "p";
+  plan.orderSeed = 9'007'199'254'740'992;
+  for (const QString& file :
+       {QDir::current().relativeFilePath(beside), QDir::current().relativeFilePath(elsewhere), QStringLiteral("chain-fast")})
+    plan.blocks.emplace_back().experiment = file.toStdString();
+  plan.blocks[0].restSeconds = 86'400;
+  PlanComposer dialog;
+  dialog.setPlan(plan, {});
+  dialog.show();
+  const QString file = folder.filePath(QStringLiteral("plans/p.json"));
+  child<QSpinBox>(dialog, "planTrials")->setValue(5);  // takes the whole block
+  dialog.saveTo(file);
+  const std::string text = readTextFile(file.toStdString());
+  EXPECT_TRUE(holds(text, "\"own/a.json\"")) << text;
+  EXPECT_TRUE(holds(text, '"' + elsewhere.toStdString() + '"')) << text;
+  EXPECT_TRUE(holds(text, "\"chain-fast\"")) << text;
+  EXPECT_TRUE(holds(text, "9007199254740992")) << text;
+  EXPECT_TRUE(holds(text, "\"rest_s\": 86400")) << text;
+  session::readProgramme(file.toStdString());
 }
 
 TEST(PlanComposer, ShowsTheOrdersThatSubjectsWillHave) {
