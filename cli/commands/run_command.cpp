@@ -19,6 +19,7 @@
 #include "sim/record/configuration/limits.h"
 #include "sim/record/configuration/run_configuration.h"
 #include "sim/session/backup_worker.h"
+#include "sim/session/recorded_blocks.h"
 #include "sim/session/recorded_session.h"
 #include "sim/trial/protocol.h"
 #include "sim/trial/task_places.h"
@@ -36,7 +37,7 @@ void printRun(const session::RecordedRun& run) {
   const record::RunConfiguration& c = run.configuration();
   fmt::print(stderr, "run {}: {}, {} trial{}{}, method {}; recording to {}\n", c.run, c.condition, run.trialCount(),
              run.trialCount() == 1 ? "" : "s", c.practice ? " of practice" : "", c.method, run.logPath());
-  for (const Fault& warning : trial::describeWay(run.experiment())) fmt::print(stderr, "{}", messageOf(warning, "warning"));
+  printWarnings(run);
 }
 
 // Which hand is farthest from where it has to be.
@@ -71,6 +72,11 @@ int runSession(const session::SessionRequest& request) {
   const std::unique_ptr<record::InstrumentLink> instruments = devices::openInstruments(request.instruments);
   session::RecordedSession session(session::readProgramme(request.what), request, checkedDeviceMaker(), nullptr, instruments.get());
   printNotice(session.notice());
+  if (request.resume)
+    if (const std::string before = session::otherDeviceBefore(request.place, request.device); !before.empty())
+      fmt::print(stderr,
+                 "warning: this session was recorded with the device {}, and is resumed with {}; its trials may not be comparable\n",
+                 before, request.device);
   if (session.blocksLeft() == 0) fmt::print(stderr, "nothing is left to do: every trial of this session is recorded\n");
   std::fflush(stdout);
   SuccessTable table;

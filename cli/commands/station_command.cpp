@@ -42,6 +42,7 @@ int conduct(session::SessionRequest request, const network::StationSetup& setup)
   session.openNext();
   session::RecordedRun& run = *session.run();
   const StopRequest stop;
+  printWarnings(run);
   fmt::print(stderr, "run {}: station {}; recording to {}\n", run.configuration().run, station.station(), run.logPath());
   station.begin(run);
   SuccessTable table;

@@ -22,7 +22,6 @@
 #include "sim/experiment/resources.h"
 #include "sim/session/session.h"
 #include "sim/trial/task_check.h"
-#include "sim/trial/task_places.h"
 
 namespace reachlab::cli {
 namespace {
@@ -60,11 +59,11 @@ void warn(const std::vector<Fault>& warnings, const std::string& text, const std
 std::vector<Fault> warningsOf(const session::Programme& programme) {
   std::vector<Fault> warnings;
   for (std::size_t block = 0; block < programme.scenes.size(); ++block)
-    for (const session::BlockScene& scene : programme.scenes[block])
-      for (Fault warning : trial::implausibleNumbers(scene.experiment)) {
-        warning.key = (scene.kind.empty() ? fmt::format("blocks[{}].experiment", block) : "kinds." + scene.kind) + "." + warning.key;
+    for (const session::BlockScene& scene : programme.scenes[block]) {
+      const std::string key = scene.kind.empty() ? fmt::format("blocks[{}].experiment", block) : "kinds." + scene.kind;
+      for (Fault& warning : inside(key, session::warningsOf(std::span(&scene.experiment, 1))))
         if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(std::move(warning));
-      }
+    }
   return warnings;
 }
 
@@ -90,8 +89,9 @@ std::optional<session::Programme> validateFile(const std::string& fileOrName) {
   } else {
     const experiment::CompiledExperiment experiment = experiment::openExperimentText(text, file);
     if (experiment.experiment().task) trial::checkTask(experiment, file);
-    for (const auto& warnings : {trial::implausibleNumbers(experiment), trial::describeWay(experiment)}) warn(warnings, text, file);
-    return session::programmeOf(experiment);
+    session::Programme programme = session::programmeOf(experiment);
+    warn(session::warningsOf(programme.experiments), text, file);
+    return programme;
   }
   return std::nullopt;
 }

@@ -13,6 +13,7 @@
 #include "sim/record/log/log.h"
 #include "sim/record/log/logs_folder.h"
 #include "sim/session/programme.h"
+#include "sim/session/session_folder.h"
 
 namespace reachlab::cli {
 namespace {
@@ -26,13 +27,6 @@ bool isLog(const fs::path& path) {
   std::array<char, 8> start{};
   std::ifstream(path, std::ios::binary).read(start.data(), start.size());
   return std::string_view(start.data(), start.size()) == "REACHLOG";
-}
-
-bool liesInSourcedata(const fs::path& path) {
-  std::error_code error;
-  const fs::path whole = fs::weakly_canonical(path, error);
-  const fs::path& known = error ? path : whole;
-  return std::find(known.begin(), known.end(), record::kLogsFolder) != known.end();
 }
 
 struct Value {
@@ -72,8 +66,8 @@ void checkOutputs(const CLI::App& app) {
           Fault{value.option, "is " + value.text + ", " + what, "a file or folder elsewhere: recordings and inputs are not written over"});
     };
     const bool isOutput = value.option == "--out" || value.option == "--figure";
-    if (!isOutput && value.option != "--data" && value.option != "--backup") continue;
-    if (liesInSourcedata(value.text)) refuse("which lies in a dataset's sourcedata");
+    if (!isOutput && value.option != "--backup") continue;
+    if (session::liesInSourcedata(value.text)) refuse("which lies in a dataset's sourcedata");
     if (!isOutput) continue;
     if (isLog(value.text)) refuse("which is the name of a recording");
     for (const Value& other : values)

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "base/terminal/message.h"
 #include "devices/kept_mapping.h"
 #include "devices/make_device.h"
 #include "devices/preflight/preflight.h"
@@ -23,6 +24,10 @@ session::DeviceMaker checkedDeviceMaker() {
     for (const std::string& sentence : devices::warningsBeforeBlock(scenes, *device)) fmt::print(stderr, "warning: {}\n", sentence);
     return device;
   };
+}
+
+void printWarnings(const session::RecordedRun& run) {
+  for (const Fault& warning : run.warnings()) fmt::print(stderr, "{}", messageOf(warning, "warning"));
 }
 
 }  // namespace reachlab::cli

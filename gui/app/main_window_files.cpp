@@ -15,6 +15,7 @@
 #include "gui/session/remembered_session.h"
 #include "gui/widgets/ask.h"
 #include "sim/experiment/experiment.h"
+#include "sim/session/recorded_blocks.h"
 
 // What the window opens, saves, edits and marks.
 namespace reachlab::gui::app {
@@ -137,9 +138,9 @@ bool MainWindow::mayEndRun(const QString& doing) {
 // A session that is resumed with another device asks, because its trials would not be comparable.
 bool MainWindow::mayUseDevice() {
   if (!session_.resumes()) return true;
-  const QString before = QString::fromStdString(deviceSoFar(docks_.session->request().place));
   const QString now = QString::fromStdString(docks_.session->device());
-  return before.isEmpty() || before == now || before.startsWith(now + QLatin1Char(':')) || before.startsWith(now + QLatin1Char(',')) ||
+  const QString before = QString::fromStdString(session::otherDeviceBefore(docks_.session->request().place, now.toStdString()));
+  return before.isEmpty() ||
          ask(*this, "askAboutDevice", "Another device",
              QStringLiteral("This session was recorded with the device %1. You resume it with %2, and its trials may not be comparable.")
                  .arg(before, now),

@@ -6,7 +6,6 @@
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/record/log/append_file.h"
 #include "sim/session/plan.h"
-#include "sim/session/recorded_blocks.h"
 
 namespace reachlab::gui::app {
 namespace {
@@ -93,12 +92,6 @@ std::optional<InterruptedRun> findInterruptedRun() {
   found.trials = static_cast<int>(block.configuration.trials.size());
   found.trial = found.trials - static_cast<int>(block.trials.size()) + 1;
   return found;
-}
-
-std::string deviceSoFar(const session::SessionPlace& place) {
-  std::vector<std::string> unreadable;
-  const std::vector<session::RecordedBlock> blocks = session::readRecordedBlocks(place, unreadable);
-  return blocks.empty() ? std::string() : blocks.back().configuration.device;
 }
 
 }  // namespace reachlab::gui::app

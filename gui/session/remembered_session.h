@@ -5,7 +5,7 @@
 #include "sim/record/configuration/run_configuration.h"
 #include "sim/session/session.h"
 
-/// What the window remembers of a session in QSettings. Each value is written when it changes, so that a kill loses nothing.
+/// The session that the window remembers in QSettings. Each value is written when it changes, so that a kill loses nothing.
 namespace reachlab::gui::app {
 
 /// Remembers subject, session, folder, device and, except for a plan, the number of trials.
@@ -29,8 +29,5 @@ struct InterruptedRun {
 /// Reads the interrupted run from the settings and its logs. nullopt if there is no such run, if nothing is left of it, or if another
 /// program is still recording it. Throws children of Error if the run cannot be resumed.
 std::optional<InterruptedRun> findInterruptedRun();
-
-/// The device of the session's last recorded block, as it was asked for. Empty if nothing is recorded.
-std::string deviceSoFar(const session::SessionPlace& place);
 
 }  // namespace reachlab::gui::app

@@ -13,6 +13,7 @@
 #include "devices/make_device.h"
 #include "devices/mouse/mouse_device.h"
 #include "devices/preflight/preflight.h"
+#include "gui/widgets/fault_words.h"
 #include "sim/experiment/experiment.h"
 #include "sim/trial/protocol.h"
 #include "sim/trial/task_check.h"
@@ -147,6 +148,8 @@ void SessionController::openRun(const session::SessionRequest& request) {
     recorded_->prepareRuns([this](session::RecordedRunOptions& options) { station_->prepare(options); });
   }
   const bool opened = recorded_->openNext();
+  if (opened)
+    for (const Fault& warning : run()->warnings()) onOpening_ << widgets::inWords(warning);
   if (!onOpening_.isEmpty()) Q_EMIT told(onOpening_.join(QLatin1Char('\n')));
   if (!opened) return;
   if (station_) station_->begin(*run());

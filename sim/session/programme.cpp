@@ -11,8 +11,21 @@
 #include "sim/dynamics/scene.h"
 #include "sim/experiment/experiment.h"
 #include "sim/trial/task_check.h"
+#include "sim/trial/task_places.h"
 
 namespace reachlab::session {
+
+std::vector<Fault> warningsOf(std::span<const experiment::CompiledExperiment> scenes) {
+  std::vector<Fault> warnings;
+  for (const experiment::CompiledExperiment& scene : scenes) {
+    std::vector<Fault> found = trial::implausibleNumbers(scene);
+    for (Fault& fault : trial::describeWay(scene)) found.push_back(std::move(fault));
+    for (const std::string& sentence : dynamics::compileScene(scene).choice.warnings) found.push_back({{}, sentence});
+    for (Fault& fault : found)
+      if (std::find(warnings.begin(), warnings.end(), fault) == warnings.end()) warnings.push_back(std::move(fault));
+  }
+  return warnings;
+}
 
 const experiment::CompiledExperiment& experimentOfStations(const Programme& programme) {
   if (programme.isPlan()) throw FaultError(Fault{"experiment", "is a plan", "a single experiment: the same one at every station"});

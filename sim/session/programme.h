@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
@@ -17,10 +18,13 @@ struct Programme {
   bool isPlan() const { return !plan.text.empty(); }
 };
 
-/// Reads a plan or an experiment: a file, or the name of a shipped one. Each experiment of a plan is compiled once, and its task and its
+/// Reads a plan or an experiment: a file, or a shipped name. Each experiment of a plan is compiled once, and its task and its
 /// scenes can be carried out. Throws FaultError with every fault, each at its position, and RefusedError for a single experiment whose scene
 /// cannot be computed.
 Programme readProgramme(const std::string& fileOrName);
+/// Warnings of scenes that can be computed, each once and under its key: numbers that are hardly meant, a way that rounding decides, and
+/// errors of the method that a person would not expect.
+std::vector<Fault> warningsOf(std::span<const experiment::CompiledExperiment> scenes);
 /// The experiment that every station of a session runs. Throws FaultError for a plan.
 const experiment::CompiledExperiment& experimentOfStations(const Programme& programme);
 /// A single experiment, as it is edited in a window or made by a program.

@@ -147,10 +147,13 @@ struct OrderedBlock {
   const RecordedBlock* recorded;  // null: nothing
 };
 
-void checkPeople(const SessionRequest& request) {
+void checkPlace(const SessionRequest& request) {
   std::vector<Fault> faults = record::problems(request.participant);
   for (const auto& [key, label] : {std::pair{"subject", request.place.subject}, std::pair{"session", request.place.session}})
     if (const auto fault = record::labelFault(label, key)) faults.push_back(*fault);
+  if (liesInSourcedata(request.place.data))
+    faults.push_back({"data", fmt::format("is {}, which lies in a dataset's sourcedata", request.place.data),
+                      "a folder elsewhere: recordings and inputs are not written over"});
   if (!faults.empty()) throw FaultError(std::move(faults));
 }
 
@@ -268,7 +271,7 @@ std::uint64_t drawSeed() {
 }
 
 SessionToRun planSession(const SessionRequest& request, const Programme& programme) {
-  checkPeople(request);
+  checkPlace(request);
   const Plan plan = planOf(request, programme);
   const int day = sessionDay(request, plan);
   const std::vector<int> order = blockOrder(plan, request.place.subject, day);

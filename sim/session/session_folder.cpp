@@ -68,6 +68,13 @@ int chooseRun(const SessionPlace& place, std::optional<int> asked) {
   return *asked;
 }
 
+bool liesInSourcedata(const std::string& path) {
+  std::error_code error;
+  const fs::path whole = fs::weakly_canonical(path, error);
+  const fs::path known = error ? fs::path(path) : whole;
+  return std::find(known.begin(), known.end(), record::kLogsFolder) != known.end();
+}
+
 record::FolderHold holdDataset(const std::string& data) {
   return {data + "/" + record::kLogsFolder, record::FolderHold::WithoutLocks::Refuse};
 }

@@ -24,6 +24,8 @@ struct RunOnDisk {
 std::string logPath(const SessionPlace& place, const std::string& task, int run);
 /// A BIDS label of a name: its letters and digits ("chain-moderate" gives "chainmoderate").
 std::string labelOf(const std::string& name);
+/// Whether the path is a dataset's folder of logs, or lies in such a folder. It is for logs alone.
+bool liesInSourcedata(const std::string& path);
 /// The session's logs, by run number. Empty when there are no logs.
 std::vector<RunOnDisk> recordedRuns(const SessionPlace& place);
 /// The next free run number, or `asked`. Throws FaultError with a proposal when that number is taken: nothing is overwritten.

@@ -44,8 +44,11 @@ TEST(Conduct, ThePlansBlocksAreRunsOfTheirOwnEachWithItsLabelAndItsRowsInTheData
     EXPECT_TRUE(holds(ended.err, "run " + std::to_string(k + 1) + ": " + conditions[k]));
   }
   EXPECT_TRUE(std::filesystem::exists(folder / "dataset_description.json"));
-  EXPECT_TRUE(
-      says(reach("run " + plan + " --device simulated:noise=0 --fast --resume --data " + folder.path()), 0, "nothing is left to do"));
+  for (const auto& [device, warned] : {std::pair{"simulated:noise=0", false}, {"simulated", false}, {"simulated:noise=1", true}}) {
+    const Ended again = reach("run " + plan + " --device " + device + " --fast --resume --data " + folder.path());
+    EXPECT_TRUE(says(again, 0, "nothing is left to do"));
+    EXPECT_EQ(bool(holds(again.err, "recorded with the device simulated:noise=0, and is resumed with")), warned) << again.err;
+  }
   EXPECT_EQ(logsOf(folder).size(), 3u);
 }
 
