@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <string>
 
 #include "analysis/adaptation/state_space.h"
@@ -13,20 +12,26 @@ namespace {
 
 constexpr int kResamples = 200;  // of the intervals
 
+// A clamped cursor shows no error that the hand made. A trial that a person excluded was felt, and its response does not count.
 AdaptationTrial seen(const AnalyzedTrial& trial, bool rotated) {
-  const auto known = [](double value) { return std::isfinite(value) ? std::optional(value) : std::nullopt; };
-  if (rotated) return {trial.scene.rotation, known(-trial.measures.handAngle)};
+  const auto known = [&](double value) { return std::isfinite(value) && !trial.isExcluded() ? std::optional(value) : std::nullopt; };
+  if (rotated) return {trial.scene.clamp ? std::nullopt : std::optional(trial.scene.rotation), known(-trial.measures.handAngle)};
   if (trial.scene.channel) return {std::nullopt, known(trial.measures.adaptation / 100)};
   return {trial.scene.inField ? 1.0 : 0.0, std::nullopt};
 }
 
-void row(Sheet& table, const std::string& subject, const std::string& block, const AdaptationSeries& series, bool rotated,
-         const Learning& learning = {}) {
+void row(Sheet& table, const std::string& subject, const std::string& session, const std::string& block,
+         const std::vector<const AnalyzedTrial*>& trials, bool rotated, const Learning& learning = {}) {
+  AdaptationSeries series;
+  for (const AnalyzedTrial* trial : trials) series.push_back(seen(*trial, rotated));
   const auto count = [&](auto&& is) { return std::count_if(series.begin(), series.end(), is); };
-  table.cells(subject, block, rotated ? "deg" : "field", series.size(), count([](const AdaptationTrial& t) { return !t.perturbation; }),
+  table.cells(subject, session, block, rotated ? "deg" : "field", series.size(),
+              count([](const AdaptationTrial& t) { return !t.perturbation; }),
               count([](const AdaptationTrial& t) { return t.response.has_value(); }));
   std::string remark;
   try {
+    if (std::any_of(trials.begin(), trials.end(), [](const AnalyzedTrial* t) { return t->scene.clamp.value_or(0) != 0; }))
+      throw RefusedError("the cursor is clamped at an angle, and the model has no error that is the same whatever the hand does");
     const AdaptationFit fit = fitAdaptation(series, kResamples, 1);
     table.cells(fit.count == StateCount::One ? "one" : fit.count == StateCount::Two ? "two" : "undecided");
     for (const LearningFit* of : {&fit.two, &fit.one}) {
@@ -48,14 +53,18 @@ void row(Sheet& table, const std::string& subject, const std::string& block, con
 
 void adaptationTable(const std::map<std::string, TaughtTrials>& people, Sheet& table) {
   for (const auto& [subject, person] : people) {
-    AdaptationSeries all;
-    std::map<int, AdaptationSeries> blocks;
+    struct Block {
+      TrialKey key;
+      std::vector<const AnalyzedTrial*> trials;
+    };
+    std::vector<Block> blocks;  // in the order in which they were done
     for (const AnalyzedTrial* trial : person.trials) {
-      all.push_back(seen(*trial, person.rotated));
-      blocks[trial->key.block].push_back(all.back());
+      const TrialKey& key = trial->key;
+      if (blocks.empty() || blocks.back().key.session != key.session || blocks.back().key.block != key.block) blocks.push_back({key, {}});
+      blocks.back().trials.push_back(trial);
     }
-    for (const auto& [block, series] : blocks) row(table, subject, std::to_string(block), series, person.rotated);
-    row(table, subject, kAllTogether, all, person.rotated, learningOf(person));
+    for (const Block& block : blocks) row(table, subject, block.key.session, std::to_string(block.key.block), block.trials, person.rotated);
+    row(table, subject, kAllTogether, kAllTogether, person.trials, person.rotated, learningOf(person));
   }
 }
 

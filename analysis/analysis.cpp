@@ -13,11 +13,16 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
+#include "sim/record/log/run_order.h"
 
 namespace reachlab::analysis {
 namespace {
 
-auto orderOf(const AnalyzedTrial& t) { return std::tie(t.condition, t.key.subject, t.key.session, t.key.run, t.key.trial); }
+bool isBefore(const AnalyzedTrial& a, const AnalyzedTrial& b) {
+  if (std::tie(a.condition, a.key.subject) != std::tie(b.condition, b.key.subject))
+    return std::tie(a.condition, a.key.subject) < std::tie(b.condition, b.key.subject);
+  return recordedBefore(a.key, b.key);
+}
 
 std::string whyExcluded(const AnalyzedTrial& trial, const std::string& excluded, const Movement& movement, const AnalysisOptions& options) {
   if (!excluded.empty()) return "excluded: " + excluded;
@@ -71,11 +76,12 @@ void orderConditions(Analysis& analysis) {
 
 /// Where the plan gave no day, the subject's sessions are days 1, 2, … in their order.
 void numberDays(std::vector<AnalyzedTrial>& trials) {
-  std::map<std::string, std::set<std::string>> sessions;
-  for (const AnalyzedTrial& trial : trials) sessions[trial.key.subject].insert(trial.key.session);
+  std::map<std::string, std::set<std::string, decltype(&record::labelBefore)>> sessions;
+  for (const AnalyzedTrial& trial : trials)
+    sessions.try_emplace(trial.key.subject, record::labelBefore).first->second.insert(trial.key.session);
   for (AnalyzedTrial& trial : trials) {
     if (trial.key.day > 0) continue;
-    const auto& own = sessions[trial.key.subject];
+    const auto& own = sessions.at(trial.key.subject);
     trial.key.day = 1 + static_cast<int>(std::distance(own.begin(), own.find(trial.key.session)));
   }
 }
@@ -140,7 +146,7 @@ void countTrial(const AnalyzedTrial& trial, ConditionResult& result) {
     return;
   }
   if (trial.practice) ++result.counts.practice;
-  if (trial.exclusion == "practice" || trial.exclusion.starts_with("excluded")) return;
+  if (trial.exclusion == "practice" || trial.isExcluded()) return;
   switch (trial.result.outcome) {
     case trial::Outcome::Success: ++result.counts.success; break;
     case trial::Outcome::Failure: ++result.counts.failure; break;
@@ -198,10 +204,6 @@ void AnalysisBuilder::add(TrialData&& data, std::size_t condition) {
   analysis_.trials.push_back(std::move(trial));
 }
 
-void AnalysisBuilder::takeBack(std::size_t count) {
-  analysis_.trials.resize(analysis_.trials.size() - std::min(count, analysis_.trials.size()));
-}
-
 Analysis AnalysisBuilder::finish(std::vector<Condition> conditions, const FittingProgress& fitting) {
   Analysis analysis = std::move(analysis_);
   analysis.signals = signals_;
@@ -211,8 +213,7 @@ Analysis AnalysisBuilder::finish(std::vector<Condition> conditions, const Fittin
   orderConditions(analysis);
   numberDays(analysis.trials);
   useFailuresWhereNothingSucceeded(analysis);
-  std::stable_sort(analysis.trials.begin(), analysis.trials.end(),
-                   [](const AnalyzedTrial& a, const AnalyzedTrial& b) { return orderOf(a) < orderOf(b); });
+  std::stable_sort(analysis.trials.begin(), analysis.trials.end(), isBefore);
   std::set<std::string> subjects;
   for (const AnalyzedTrial& trial : analysis.trials) subjects.insert(trial.key.subject);
   analysis.subjects.assign(subjects.begin(), subjects.end());

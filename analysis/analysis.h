@@ -65,6 +65,7 @@ struct AnalyzedTrial : TrialFacts {
   double windowBegin = 0, windowRate = 0;  // [s], [Hz]
   std::vector<double> paperError;          // [m/s] of the hand, then of the object, one a criterion; empty if not used
   bool used() const { return exclusion.empty(); }
+  bool isExcluded() const { return exclusion.starts_with("excluded"); }  // by a person
 };
 
 /// Mean and SD over the used trials at each of the 101 points, time-scaled to the condition's mean duration. [m/s]
@@ -167,20 +168,22 @@ class AnalysisBuilder {
  public:
   explicit AnalysisBuilder(const AnalysisOptions& options);
   void add(TrialData&& trial, std::size_t condition);
-  /// Forgets the last so many trials.
-  void takeBack(std::size_t count);
+  /// The trials that follow are of one run, which `takeBackRun` forgets.
+  void beginRun() { runBegin_ = analysis_.trials.size(); }
+  void takeBackRun() { analysis_.trials.resize(runBegin_); }
   Analysis finish(std::vector<Condition> conditions, const FittingProgress& fitting = {});
 
  private:
   Analysis analysis_;
   std::shared_ptr<SignalStore> signals_;
+  std::size_t runBegin_ = 0;
 };
 
 Analysis analyzeTrials(AnalysisInput input, const AnalysisOptions& options, const FittingProgress& progress = {});
 
 /// The conclusion of one condition from people's fits. Recovery judges simulated studies by the same function.
 Conclusion concludeCondition(const std::vector<PersonResult>& people, std::size_t condition, const CandidateSet& candidates);
-PersonScores scoresOf(const PersonResult& person);
+PersonScores scoresOf(const PersonResult& person, const CandidateSet& set);
 /// The scores of the candidates in `common`, in that order. Each of them must be in `set`.
 ConditionScores scoresOf(const PersonResult& person, const CandidateSet& set, const std::vector<std::vector<predict::Criterion>>& common);
 /// With a hand of unlimited mass criterion (5) becomes (1): the hand's jerk is all that is left of the change of force.

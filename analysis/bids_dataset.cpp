@@ -14,6 +14,7 @@
 #include "base/ticks.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/export/bids.h"
+#include "sim/record/log/run_order.h"
 #include "sim/record/log/whole_file.h"
 
 namespace reachlab::analysis {
@@ -99,19 +100,23 @@ record::ChannelTable readChannels(const fs::path& path) {
   return table;
 }
 
-record::SampleRows readMotion(const fs::path& path, std::size_t columns) {
+// Rows in which the hand was not seen are left out, as if they had not been written.
+record::SampleRows readMotion(const fs::path& path, const record::ChannelTable& table) {
   const std::string text = record::readWholeFile(path.string());
+  const std::size_t columns = table.size(), hand = table.indexOf("hand_pos_x");
+  int line = 0;
   record::SampleRows rows;
   rows.columns = columns;
   const char* at = text.data();
   const char* const end = at + text.size();
   while (at < end) {
     const std::size_t before = rows.values.size();
+    ++line;
     for (bool more = true; more && at < end;) {
       const char* const cell = at;
       at = std::find_if(cell, end, [](char c) { return c == '\t' || c == '\n'; });
       const std::string_view number(cell, static_cast<std::size_t>(at - cell));
-      rows.values.push_back(numberOf(number.substr(0, number.find('\r')), "", path.native(), static_cast<int>(rows.ticks.size() + 1)));
+      rows.values.push_back(numberOf(number.substr(0, number.find('\r')), "", path.native(), line));
       more = at < end && *at == '\t';
       if (at < end) ++at;
     }
@@ -119,7 +124,12 @@ record::SampleRows readMotion(const fs::path& path, std::size_t columns) {
       throw FaultError(Fault{{},
                              fmt::format("has {} columns", rows.values.size() - before),
                              fmt::format("{}, as channels.tsv", columns),
-                             FilePlace{path.string(), static_cast<int>(rows.ticks.size() + 1)}});
+                             FilePlace{path.string(), line}});
+    const auto place = rows.values.begin() + static_cast<std::ptrdiff_t>(before + hand);
+    if (!std::all_of(place, place + 3, [](double v) { return std::isfinite(v); })) {
+      rows.values.resize(before);
+      continue;
+    }
     rows.ticks.push_back(tickOf(rows.values[before]));  // the first channel is the run's own clock
   }
   return rows;
@@ -218,7 +228,7 @@ RunSource readRun(const fs::path& motion) {
   if (about.is_object() && about.contains("TaskDescription") && about["TaskDescription"].is_string())
     c.experimentName = record::experimentNameIn(about.value("TaskDescription", ""));
 
-  auto rows = std::make_shared<record::SampleRows>(readMotion(motion, c.table.size()));
+  auto rows = std::make_shared<record::SampleRows>(readMotion(motion, c.table));
   for (std::size_t row = 1; row < rows->size(); ++row)
     if (rows->ticks[row] <= rows->ticks[row - 1])
       throw FaultError(Fault{"time", "does not increase", "increasing times", FilePlace{motion.string(), static_cast<int>(row + 1)}});
@@ -260,12 +270,12 @@ std::vector<std::string> findBidsRuns(const std::string& folder) {
   std::vector<std::string> files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
     if (const std::string name = entry.path().filename().string();
-        name.ends_with("_motion.tsv") && name.find("_tracksys-haptic") != std::string::npos)
+        name.ends_with("_motion.tsv") && name.find("_tracksys-haptic_") != std::string::npos)
       files.push_back(entry.path().string());
   if (files.empty())
     throw FaultError(
         Fault{{}, "neither logs (sourcedata/…_log.reach) nor motion files (…_tracksys-haptic_…_motion.tsv)", {}, FilePlace{folder}});
-  std::sort(files.begin(), files.end());
+  std::sort(files.begin(), files.end(), record::runBefore);
   return files;
 }
 

@@ -16,17 +16,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The dataset's folder: above those of the subject, the session and the kind of data.
-std::string datasetOf(const std::string& motionFile) {
-  fs::path folder = fs::absolute(motionFile).parent_path();
-  while (folder.has_relative_path()) {
-    const std::string name = folder.filename().string();
-    folder = folder.parent_path();
-    if (name.starts_with("sub-")) break;
-  }
-  return folder.string();
-}
-
 }  // namespace
 
 bool isMotionFile(const std::string& path) { return path.ends_with("_motion.tsv"); }
@@ -34,7 +23,7 @@ bool isMotionFile(const std::string& path) { return path.ends_with("_motion.tsv"
 Recording openRecording(const std::string& path, ScenesOfRuns& known) {
   if (isMotionFile(path)) {
     RunSource run = readBidsRun(path);
-    std::vector<experiment::CompiledExperiment> scenes = readBidsExperiments(run, datasetOf(path)).scenes;
+    std::vector<experiment::CompiledExperiment> scenes = readBidsExperiments(run, path).scenes;
     return {std::move(run), std::move(scenes)};
   }
   const auto log = std::make_shared<const record::RunLog>(record::RunLog::open(path, record::LogCheck::Trials));

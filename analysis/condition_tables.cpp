@@ -66,10 +66,13 @@ void seriesTable(const Analysis& analysis, Sheet& table) {
 void fitsTable(const Analysis& analysis, Sheet& table) {
   for (const FitRow& f : fitRows(analysis)) {
     const bool toward = !f.toward.empty();
-    table.row(f.condition, f.subject, f.criterion, fmt::format("{}", fmt::join(f.equivalent, ";")), f.epsilon, f.r2, f.score, f.ceiling,
-              f.duration, f.timeLaw, f.plan, f.handMass, f.massInterval, f.massInterval ? std::optional(f.massAtEdge) : std::nullopt,
-              f.misfit, f.systematic.share, f.systematic.p(), f.toward, toward ? f.towardShare : kNotMeasured,
-              toward ? f.towardP : kNotMeasured, f.trials, f.decided, f.reason);
+    const PersonResult& person = *f.person;
+    const CandidateFit& fit = *f.fit;
+    table.row(f.condition, person.subject, f.criterion, fmt::format("{}", fmt::join(f.equivalent, ";")), fit.epsilonOfAll, fit.r2,
+              fit.meanScore, person.fit.own.ceiling, fit.duration, f.timeLaw, f.plan, f.handMass,
+              fit.mass ? std::optional(fit.mass->interval) : std::nullopt, fit.mass ? std::optional(fit.mass->atEdge) : std::nullopt,
+              f.misfit, fit.systematic.share, fit.systematic.p(), f.toward, toward ? f.towardShare : kNotMeasured,
+              toward ? f.towardP : kNotMeasured, person.trials, f.decided, nameOf(person.conclusion.reason));
   }
 }
 

@@ -65,7 +65,10 @@ std::size_t conditionIndex(DatasetIndex& dataset, const ConditionName& named, co
     conditions.push_back({name, compiled, named.pooled});
     return conditions.size() - 1;
   }
-  if (named.pooled && differInDirectionOnly(first->experiment(), experiment)) return static_cast<std::size_t>(first - conditions.begin());
+  if ((named.pooled || first->pooled) && differInDirectionOnly(first->experiment(), experiment)) {
+    first->pooled = true;
+    return static_cast<std::size_t>(first - conditions.begin());
+  }
   const std::vector<std::string> different = differences(first->experiment(), experiment);
   if (different.empty()) return static_cast<std::size_t>(first - conditions.begin());
   // One name over unlike experiments would mix what cannot be compared.
@@ -158,9 +161,24 @@ void addRun(const RunSource& run, std::span<const experiment::CompiledExperiment
   }
 }
 
-BidsExperiments readBidsExperiments(const RunSource& run, const std::string& folder, const std::string& experimentFile) {
+namespace {
+
+// The dataset's folder: above those of the subject, the session and the kind of data.
+std::string datasetOf(const std::string& motionFile) {
+  std::filesystem::path folder = std::filesystem::absolute(motionFile).parent_path();
+  while (folder.has_relative_path()) {
+    const std::string name = folder.filename().string();
+    folder = folder.parent_path();
+    if (name.starts_with("sub-")) break;
+  }
+  return folder.string();
+}
+
+}  // namespace
+
+BidsExperiments readBidsExperiments(const RunSource& run, const std::string& motionFile, const std::string& experimentFile) {
   const record::RunConfiguration& c = run.configuration;
-  const std::string own = folder + "/" + record::experimentPath(c);
+  const std::string own = datasetOf(motionFile) + "/" + record::experimentPath(c);
   std::error_code error;
   if (experimentFile.empty() && std::filesystem::exists(own, error))
     return {record::experimentsFromJson(record::readWholeFile(own), own, c), true};
@@ -176,18 +194,18 @@ void readLogs(const std::vector<std::string>& logs, DatasetIndex& dataset, const
   for (std::size_t i = 0; i < logs.size(); ++i) {
     if (progress) progress(i, logs.size(), logs[i]);
     const std::size_t conditions = dataset.conditions.size(), runs = dataset.runs.size(), notes = dataset.notes.size();
-    std::size_t trials = 0;
+    if (sink.beginRun) sink.beginRun();
     bool handing = false;  // a trial to the sink: if that fails, it is not the reading
-    const TrialSink counted{[&](TrialData&& trial, std::size_t condition) {
-                              ++trials;
-                              handing = true;
-                              sink.add(std::move(trial), condition);
-                              handing = false;
-                            },
-                            {}};
+    const TrialSink handed{[&](TrialData&& trial, std::size_t condition) {
+                             handing = true;
+                             sink.add(std::move(trial), condition);
+                             handing = false;
+                           },
+                           {},
+                           {}};
     // A run that fails half-way is taken back: its trials, and what the index says because of it.
     const auto leaveOut = [&](const Error& error) {
-      if (trials > 0) sink.takeBack(trials);
+      if (sink.takeBackRun) sink.takeBackRun();
       dataset.conditions.erase(dataset.conditions.begin() + static_cast<std::ptrdiff_t>(conditions), dataset.conditions.end());
       dataset.runs.resize(runs);
       dataset.notes.resize(notes);
@@ -209,7 +227,7 @@ void readLogs(const std::vector<std::string>& logs, DatasetIndex& dataset, const
                         logs[i], repeats, log.trials().size()));
       const record::RunMarks marks = record::readMarks(log);
       addRun({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, marks}, scenes, dataset,
-             counted);
+             handed);
       dataset.runs.back().file = logs[i];
       if (const std::string loss = record::lossOf(log); !loss.empty()) dataset.notes.push_back(loss);
       else if (!log.healthy()) dataset.notes.push_back(logs[i] + ": is being recorded into; read to its last record");
@@ -231,7 +249,7 @@ void readExported(const std::string& folder, DatasetIndex& dataset, const TrialS
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (progress) progress(i, runs.size(), runs[i]);
     const RunSource run = readBidsRun(runs[i]);
-    const BidsExperiments recorded = readBidsExperiments(run, folder, experimentFile);
+    const BidsExperiments recorded = readBidsExperiments(run, runs[i], experimentFile);
     if (!recorded.own) foreign = true;
     addRun(run, recorded.scenes, dataset, sink);
     dataset.runs.back().file = runs[i];

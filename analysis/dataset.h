@@ -28,10 +28,11 @@ struct DatasetIndex {
   std::vector<std::string> unreadable;                         // of those the runs that the disk did not give
 };
 
-/// Takes the trials run by run, so that no trial has to stay in memory.
+/// Takes the trials run by run, so that no trial has to stay in memory. The last two may be empty.
 struct TrialSink {
   std::function<void(TrialData&& trial, std::size_t condition)> add;  // of the condition with that index
-  std::function<void(std::size_t count)> takeBack;                    // the last so many: their run could not be read to its end
+  std::function<void()> beginRun = {};                                // the trials of a run follow
+  std::function<void()> takeBackRun = {};                             // they are not to count: the run could not be read to its end
 };
 
 using DatasetProgress = std::function<void(std::size_t done, std::size_t of, const std::string& file)>;

@@ -57,7 +57,8 @@ void fitPeople(Analysis& analysis, std::size_t condition, const FittingProgress&
       person.fitted = true;
       for (const FitWindow& w : windows) person.rest.push_back(restCost(w));
       const std::size_t candidates = result.candidates.candidates.size();
-      person.conclusion = concludePerson(scoresOf(person), candidates, candidates - 1, heavyLimits(namesOf(result.candidates)));
+      person.conclusion =
+          concludePerson(scoresOf(person, result.candidates), candidates, candidates - 1, heavyLimits(namesOf(result.candidates)));
     }
     analysis.people.push_back(std::move(person));
     if (progress) progress(offset + end, analysis.trials.size());
@@ -101,55 +102,42 @@ void concludeTogether(Analysis& analysis) {
   analysis.overall = concludePeople(people, analysis.common.size(), analysis.common.size() - 1, heavyLimits(analysis.common));
 }
 
-PersonScores scoresOf(const PersonResult& person) {
-  PersonScores out;
-  out.subject = person.subject;
-  if (!person.fitted) return out;
-  ConditionScores scores;
-  scores.condition = person.condition;
-  scores.effectiveSamples = person.fit.own.effectiveSamples;
-  scores.ceiling = person.fit.own.ceiling;
-  scores.own = person.fit.own.score;
-  for (const CandidateFit& fit : person.fit.candidates)
-    scores.score.push_back(fit.score), scores.r2.push_back(fit.r2), scores.beyond.push_back(fit.beyond),
-        scores.systematic.push_back(fit.systematic), scores.toward.push_back(fit.toward);
-  out.conditions.push_back(std::move(scores));
-  return out;
-}
-
 ConditionScores scoresOf(const PersonResult& person, const CandidateSet& set, const std::vector<std::vector<predict::Criterion>>& common) {
-  const ConditionScores all = scoresOf(person).conditions.front();
+  ConditionScores out;
+  out.condition = person.condition;
+  out.effectiveSamples = person.fit.own.effectiveSamples;
+  out.ceiling = person.fit.own.ceiling;
+  out.own = person.fit.own.score;
   std::vector<std::size_t> places;
   for (const auto& criteria : common)
     for (std::size_t k = 0; k < set.candidates.size(); ++k)
       if (set.candidates[k].criteria == criteria) places.push_back(k);
-  const auto chosen = [&](const auto& of) {
-    std::remove_cvref_t<decltype(of)> some;
-    for (const std::size_t k : places) some.push_back(of[k]);
-    return some;
-  };
-  ConditionScores out = all;
-  out.score = chosen(all.score), out.r2 = chosen(all.r2), out.beyond = chosen(all.beyond), out.systematic = chosen(all.systematic);
-  out.toward = chosen(all.toward);
-  for (auto& others : out.toward)
-    if (!others.empty()) others = chosen(others);
+  for (const std::size_t k : places) {
+    const CandidateFit& fit = person.fit.candidates[k];
+    out.score.push_back(fit.score), out.r2.push_back(fit.r2), out.beyond.push_back(fit.beyond), out.systematic.push_back(fit.systematic);
+    auto& toward = out.toward.emplace_back();
+    for (std::size_t i = 0; i < places.size() && !fit.toward.empty(); ++i) toward.push_back(fit.toward[places[i]]);
+  }
+  return out;
+}
+
+PersonScores scoresOf(const PersonResult& person, const CandidateSet& set) {
+  PersonScores out{person.subject, {}};
+  if (person.fitted) out.conditions.push_back(scoresOf(person, set, namesOf(set)));
   return out;
 }
 
 std::vector<HeavyLimit> heavyLimits(const std::vector<std::vector<predict::Criterion>>& candidates) {
-  const auto placeOf = [&](predict::Criterion criterion) {
-    const auto has = [&](const auto& criteria) { return std::find(criteria.begin(), criteria.end(), criterion) != criteria.end(); };
-    return static_cast<std::size_t>(std::find_if(candidates.begin(), candidates.end(), has) - candidates.begin());
-  };
-  const HeavyLimit limit{placeOf(predict::Criterion::MinHandForceChange), placeOf(predict::Criterion::MinHandJerk)};
-  if (std::max(limit.candidate, limit.becomes) == candidates.size()) return {};
-  return {limit};
+  const auto candidate = placeOf(candidates, predict::Criterion::MinHandForceChange);
+  const auto becomes = placeOf(candidates, predict::Criterion::MinHandJerk);
+  if (!candidate || !becomes) return {};
+  return {HeavyLimit{*candidate, *becomes}};
 }
 
 Conclusion concludeCondition(const std::vector<PersonResult>& people, std::size_t condition, const CandidateSet& set) {
   std::vector<PersonScores> scores;
   for (const PersonResult& person : people)
-    if (person.condition == condition) scores.push_back(scoresOf(person));
+    if (person.condition == condition) scores.push_back(scoresOf(person, set));
   return concludePeople(scores, set.candidates.size(), set.candidates.size() - 1, heavyLimits(namesOf(set)));
 }
 

@@ -21,26 +21,17 @@ std::vector<FitRow> fitRows(const Analysis& analysis) {
       const std::vector<predict::Criterion>& criteria = candidates[k].criteria;
       const Conclusion& c = person.conclusion;
       FitRow& row = rows.emplace_back();
-      row.subject = person.subject;
+      row.person = &person, row.fit = &fit;
       row.condition = analysis.conditions[person.condition].name;
       row.criterion = nameOfCandidate(criteria);
       for (std::size_t i = 1; i < criteria.size(); ++i) row.equivalent.emplace_back(predict::nameOf(criteria[i]));
-      row.epsilon = fit.epsilonOfAll;
-      row.r2 = fit.r2;
-      row.score = fit.meanScore;
-      row.ceiling = person.fit.own.ceiling;
-      row.duration = fit.duration;
       row.timeLaw = candidates[k].reference() ? "" : nameOf(fit.choice.law);
       if (fit.choice.law == TimeLaw::OnePlan) row.plan = fit.choice.plan;
       if (!candidates[k].masses.empty()) row.handMass = fit.choice.mass;
-      if (fit.mass) row.massInterval = fit.mass->interval, row.massAtEdge = fit.mass->atEdge;
       row.misfit = fit.meanScore - person.fit.own.ceilingScore;
-      row.systematic = fit.systematic;
       if (c.best == k && c.mixedWith)
         row.toward = nameOfCandidate(candidates[*c.mixedWith].criteria), row.towardShare = c.mixture.mean, row.towardP = c.mixtureP;
-      row.trials = person.trials;
       row.decided = c.follows == k;
-      row.reason = nameOf(c.reason);
     }
   }
   return rows;

@@ -19,25 +19,19 @@ inline constexpr const char* kAllTogether = "all";
 /// read back equal. An empty cell is a value that could not be measured.
 void writeTables(const Analysis& analysis, const TableWriter& write);
 
-/// One row of fits.csv, and of `fits` in JSON.
+/// One row of fits.csv, and of `fits` in JSON. `person` and `fit` are parts of the analysis, which must live as long as the row.
 struct FitRow {
-  std::string subject, condition, criterion;
+  const PersonResult* person = nullptr;
+  const CandidateFit* fit = nullptr;
+  std::string condition, criterion;
   std::vector<std::string> equivalent;
-  double epsilon = 0;  // [m/s]
-  double r2 = 0, score = 0, ceiling = 0;
-  double duration = 0;         // [s]
   std::optional<double> plan;  // [s]
   std::string timeLaw;
-  std::optional<double> handMass;      // [kg]
-  std::optional<Bounds> massInterval;  // [kg] 95 %, empty if the mass was given or changes nothing
-  bool massAtEdge = false;             // of the range of masses
-  double misfit = 0;                   // score less that of the person's own mean
-  SystematicRest systematic;
-  std::string toward;  // of the person's closest candidate: see Conclusion::mixedWith. Empty for the others
+  std::optional<double> handMass;  // [kg]
+  double misfit = 0;               // score less that of the person's own mean
+  std::string toward;              // of the person's closest candidate: see Conclusion::mixedWith. Empty for the others
   double towardShare = 0, towardP = 1;
-  std::size_t trials = 0;
   bool decided = false;
-  std::string reason;  // why this person is not decided for any candidate, or empty
 };
 std::vector<FitRow> fitRows(const Analysis& analysis);
 

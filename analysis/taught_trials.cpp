@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 namespace reachlab::analysis {
 
@@ -18,10 +17,8 @@ std::map<std::string, TaughtTrials> taughtTrials(const Analysis& analysis) {
   }
   std::erase_if(people, [](const auto& entry) { return !entry.second.rotated && !entry.second.fielded; });
   for (auto& [subject, person] : people)
-    std::stable_sort(person.trials.begin(), person.trials.end(), [](const AnalyzedTrial* a, const AnalyzedTrial* b) {
-      const auto place = [](const AnalyzedTrial& t) { return std::tie(t.key.day, t.key.session, t.key.run, t.key.trial); };
-      return place(*a) < place(*b);
-    });
+    std::stable_sort(person.trials.begin(), person.trials.end(),
+                     [](const AnalyzedTrial* a, const AnalyzedTrial* b) { return recordedBefore(a->key, b->key); });
   return people;
 }
 
@@ -29,8 +26,11 @@ Learning learningOf(const TaughtTrials& person) {
   constexpr std::size_t kFew = 5;  // an after-effect fades within some trials
   const auto& trials = person.trials;
   const auto perturbed = [&](const AnalyzedTrial* t) { return person.rotated ? t->scene.rotation != 0 : t->scene.inField; };
-  const auto deviation = [&](const AnalyzedTrial* t) { return person.rotated ? t->measures.handAngle : t->measures.maxPerpendicular; };
+  const auto deviation = [&](const AnalyzedTrial* t) {
+    return t->isExcluded() ? kNotMeasured : person.rotated ? t->measures.handAngle : t->measures.maxPerpendicular;
+  };
   const auto share = [&](const AnalyzedTrial* t) {
+    if (t->isExcluded()) return kNotMeasured;
     if (!person.rotated) return t->measures.adaptation;
     return perturbed(t) ? -100 * t->measures.handAngle / t->scene.rotation : kNotMeasured;
   };

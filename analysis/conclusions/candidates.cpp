@@ -114,11 +114,9 @@ std::vector<std::vector<predict::Criterion>> namesOf(const CandidateSet& set) {
   return names;
 }
 
-std::optional<std::size_t> placeOf(const CandidateSet& set, predict::Criterion criterion) {
-  for (std::size_t k = 0; k < set.candidates.size(); ++k) {
-    const std::vector<predict::Criterion>& criteria = set.candidates[k].criteria;
-    if (std::find(criteria.begin(), criteria.end(), criterion) != criteria.end()) return k;
-  }
+std::optional<std::size_t> placeOf(const std::vector<std::vector<predict::Criterion>>& names, predict::Criterion criterion) {
+  for (std::size_t k = 0; k < names.size(); ++k)
+    if (std::find(names[k].begin(), names[k].end(), criterion) != names[k].end()) return k;
   return std::nullopt;
 }
 

@@ -53,7 +53,7 @@ struct CandidateSet {
 /// The criteria of each candidate, as a conclusion indexes them.
 std::vector<std::vector<predict::Criterion>> namesOf(const CandidateSet& set);
 /// The index of the candidate that has the criterion.
-std::optional<std::size_t> placeOf(const CandidateSet& set, predict::Criterion criterion);
+std::optional<std::size_t> placeOf(const std::vector<std::vector<predict::Criterion>>& names, predict::Criterion criterion);
 CandidateSet makeCandidates(const experiment::CompiledExperiment& experiment, const CandidateOptions& options);
 
 }  // namespace reachlab::analysis

@@ -69,7 +69,10 @@ TrialScene sceneOf(const experiment::Experiment& experiment, const std::optional
   scene.channel = experiment.environment.size() == 1 && std::holds_alternative<experiment::ChannelForce>(experiment.environment[0].law);
   scene.inField = viscousFieldOf(experiment).has_value();
   scene.cursor = experiment.cursor.has_value();
-  if (experiment.cursor) scene.rotation = experiment.cursor->rotation;
+  if (experiment.cursor) {
+    scene.clamp = experiment.cursor->clamp;
+    scene.rotation = experiment.cursor->rotation;
+  }
   scene.trained = trained;
   return scene;
 }

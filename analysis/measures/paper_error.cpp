@@ -23,14 +23,12 @@ PredictedSignal recordPrediction(const predict::Prediction& prediction, const Me
   signal.begin = static_cast<double>(kRest) / signal.rate;
   signal.hand.assign(steps + 1 + 2 * kRest, 0.0);
   signal.object = signal.hand;
-  std::vector<double> position(static_cast<std::size_t>(prediction.massCount())), velocity(position.size());
   std::size_t moved = steps;
   for (std::size_t i = steps + 1; i-- > 0;) {
     const double t = std::min(T, static_cast<double>(i) / signal.rate);
     const predict::PredictedHand at = prediction.handAt(t);
-    prediction.massesAt(t, position, velocity);
     signal.hand[i + kRest] = at.velocity;
-    signal.object[i + kRest] = velocity.empty() ? 0 : velocity.back();
+    signal.object[i + kRest] = prediction.objectVelocityAt(t);
     if (std::abs(at.position) > task.onset) moved = i;
   }
   signal.hand = lowPass(signal.hand, signal.rate, options.cutoff);

@@ -14,40 +14,39 @@ using figure::Series;
 
 using Names = std::vector<std::vector<predict::Criterion>>;
 
-/// One person's score of every candidate.
-struct PersonRow {
-  std::string subject;
-  std::vector<double> score = {};     // less that of the reference
-  std::vector<Bounds> interval = {};  // 95 %, over the person's trials
-  std::vector<bool> atEdge = {};      // the hand's mass is at the edge of the range
-  double ceiling = 0;
-};
-
-Panel scorePanel(const Analysis& analysis, const std::string& title, const Names& names, const std::vector<PersonRow>& rows,
-                 const std::optional<std::size_t>& follows, bool legend) {
-  Panel panel{.title = shortened(title), .x = {.label = "Criterion"}, .y = {.label = "Score against the reference (ln S)"}};
+Panel scorePanel(const Analysis& analysis, std::size_t condition, const std::vector<const PersonResult*>& people, bool legend) {
+  const ConditionResult& result = analysis.results[condition];
+  Panel panel{.title = shortened(analysis.conditions[condition].name),
+              .x = {.label = "Criterion"},
+              .y = {.label = "Score against the reference (ln S)"}};
+  const Names names = namesOf(result.candidates);
   const std::size_t shown = names.size() - 1;  // the reference is the line at 0
   addCandidates(panel.x, std::span(names).first(shown));
   double ceiling = 0;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const PersonRow& row = rows[i];
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    const PersonFit& person = people[i]->fit;
+    const CandidateFit& reference = person.candidates.back();
     // Beside one another, so that intervals do not hide one another.
-    const double aside = rows.size() > 1 ? 0.5 * (static_cast<double>(i) / static_cast<double>(rows.size() - 1) - 0.5) : 0;
-    Series s = subjectSeries(analysis, row.subject);
+    const double aside = people.size() > 1 ? 0.5 * (static_cast<double>(i) / static_cast<double>(people.size() - 1) - 0.5) : 0;
+    Series s = subjectSeries(analysis, people[i]->subject);
     if (!legend) s.label.clear();
     for (std::size_t k = 0; k < shown; ++k) {
-      s.x.push_back(static_cast<double>(k + 1) + aside), s.y.push_back(row.score[k]);
-      s.errorLow.push_back(row.interval[k].low), s.errorHigh.push_back(row.interval[k].high);
-      if (row.atEdge[k]) panel.words.push_back({s.x[k], s.y[k], "mass at edge", palette::kVermilion});
+      const CandidateFit& fit = person.candidates[k];
+      const double score = fit.meanScore - reference.meanScore;
+      const Bounds interval = intervalOf(computeSerialTTest(subtract(fit.score, reference.score)));  // 95 %, over the person's trials
+      s.x.push_back(static_cast<double>(k + 1) + aside), s.y.push_back(score);
+      s.errorLow.push_back(interval.finite() ? interval.low : score), s.errorHigh.push_back(interval.finite() ? interval.high : score);
+      if (fit.mass && fit.mass->atEdge) panel.words.push_back({s.x[k], s.y[k], "mass at edge", palette::kVermilion});
     }
     s.width = 0;  // criteria have no order that a line could follow
     panel.series.push_back(std::move(s));
-    ceiling += row.ceiling / static_cast<double>(rows.size());
+    ceiling += (person.own.ceilingScore - reference.meanScore) / static_cast<double>(people.size());
   }
   panel.rules.push_back({0, false, "reference", palette::kBlack, figure::Dash::Dashed});
   panel.rules.push_back({ceiling, false, "own mean", palette::kGrey, figure::Dash::Dotted});
-  if (follows) panel.rules.push_back({static_cast<double>(*follows + 1), true, "decided", palette::kBlue, figure::Dash::Dotted});
-  panel.legend = legend && rows.size() > 1 ? LegendPlace::Below : LegendPlace::None;
+  if (const auto& follows = result.conclusion.follows)
+    panel.rules.push_back({static_cast<double>(*follows + 1), true, "decided", palette::kBlue, figure::Dash::Dotted});
+  panel.legend = legend && people.size() > 1 ? LegendPlace::Below : LegendPlace::None;
   return panel;
 }
 
@@ -60,23 +59,10 @@ NamedFigure scoreFigure(const Analysis& analysis) {
       "ignores the object, with its 95 % interval over the subject's trials. Dashed: that reference. Dotted: what the mean of a subject's own other trials "
       "reaches, below which nothing can be expected. Mass at edge: the hand's mass that fits best is an end of its range.";
   for (std::size_t c = 0; c < analysis.results.size(); ++c) {
-    const Names names = namesOf(analysis.results[c].candidates);
-    std::vector<PersonRow> rows;
-    for (const PersonResult& person : analysis.people) {
-      if (person.condition != c || !person.fitted) continue;
-      const CandidateFit& reference = person.fit.candidates.back();
-      PersonRow row{.subject = person.subject, .ceiling = person.fit.own.ceilingScore - reference.meanScore};
-      for (const CandidateFit& fit : person.fit.candidates) {
-        row.score.push_back(fit.meanScore - reference.meanScore);
-        const Bounds interval = intervalOf(computeSerialTTest(subtract(fit.score, reference.score)));
-        row.interval.push_back(interval.finite() ? interval : Bounds{row.score.back(), row.score.back()});
-        row.atEdge.push_back(fit.mass && fit.mass->atEdge);
-      }
-      rows.push_back(std::move(row));
-    }
-    if (rows.empty()) continue;
-    out.figure.panels.push_back(
-        scorePanel(analysis, analysis.conditions[c].name, names, rows, analysis.results[c].conclusion.follows, out.figure.panels.empty()));
+    std::vector<const PersonResult*> people;
+    for (const PersonResult& person : analysis.people)
+      if (person.condition == c && person.fitted) people.push_back(&person);
+    if (!people.empty()) out.figure.panels.push_back(scorePanel(analysis, c, people, out.figure.panels.empty()));
   }
   out.figure.columns = out.figure.panels.size() > 1 ? 2 : 1;
   out.figure.panelWidth = out.figure.columns == 1 ? 100 : 62;

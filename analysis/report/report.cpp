@@ -216,7 +216,7 @@ void addFits(Html& html, const Analysis& analysis, std::size_t condition) {
     const predict::Criterion criterion = r.signals[place.criterion].criterion;
     const auto object =
         std::find_if(r.objectEpsilon.begin(), r.objectEpsilon.end(), [&](const EpsilonPlace& p) { return p.criterion == place.criterion; });
-    row(numberedName(criterion), &place, object == r.objectEpsilon.end() ? nullptr : &*object, placeOf(r.candidates, criterion));
+    row(numberedName(criterion), &place, object == r.objectEpsilon.end() ? nullptr : &*object, placeOf(namesOf(r.candidates), criterion));
   }
   if (const std::size_t n = r.candidates.candidates.size(); n > 0) row("reference", nullptr, nullptr, n - 1);
   html.endTable();

@@ -120,6 +120,7 @@ void ChunkWorker::computeSubject(std::int64_t subject, std::vector<MeasuredTrial
             throw FaultError(Fault{"plan.blocks", "have a condition that the plan has not", "the plan's own conditions"});
           who[5] = static_cast<double>(condition);
         }
+        if (ofPlan) who[7] = planned.catchTrial ? 1 : 0;
         who[trialColumn] = recorded.trial;
         identity.insert(identity.end(), who.begin(), who.end());
       }

@@ -97,7 +97,7 @@ std::vector<predict::Criterion> criteriaOf(const Design& design) {
   return predict::orAll(named);
 }
 
-std::size_t identityColumns(const Design& design) { return (design.planText.empty() ? 4 : 9) + design.axes.size(); }
+std::size_t identityColumns(const Design& design) { return (design.planText.empty() ? 4 : 10) + design.axes.size(); }
 
 std::vector<Column> columnsOf(const Design& design) {
   std::vector<Column> columns{{"point", {}}, {"subject", {}}};
@@ -107,6 +107,7 @@ std::vector<Column> columnsOf(const Design& design) {
     columns.push_back({"block", {}});
     columns.push_back({"condition", conditionsOf(design)});
     columns.push_back({"practice", {}});
+    columns.push_back({"catch_trial", {}});
   }
   columns.push_back({"trial", {}});
   columns.push_back({"seed", {}});
@@ -188,6 +189,7 @@ std::string dictionaryOf(const Design& design) {
        {"subject", "Virtual subject of the point, from 1"},
        {"session", "Session of the plan: its day"},
        {"practice", "1: a practice block"},
+       {"catch_trial", "1: no go signal was given, and moving was the failure"},
        {"seed", "Seed of the subject's session: a recorded run of the point's experiment with it repeats the trials"},
        {"score_*", "ln S of the candidate that the column names, held out: lower is nearer. The reference ignores the object"},
        {"fit_effective_samples", "Independent samples in a trial of this subject and block, by its residuals' correlation"},

@@ -117,11 +117,10 @@ std::vector<std::size_t> ladder(std::size_t least, std::size_t most) {
 /// Which candidate a truth is among; none: nullopt.
 std::optional<std::size_t> candidateOf(const Named& named, const std::string& truth) {
   const auto criterion = predict::criterionFromName(truth);
-  if (!criterion) return std::nullopt;
-  for (std::size_t k = 0; k < named.candidates.size(); ++k)
-    if (std::find(named.candidates[k].begin(), named.candidates[k].end(), *criterion) != named.candidates[k].end()) return k;
-  return std::nullopt;
+  return criterion ? analysis::placeOf(named.candidates, *criterion) : std::nullopt;
 }
+
+constexpr std::size_t kPractice = 6, kCatchTrial = 7;  // columns of a plan's trials (columnsOf)
 
 class Reader {
  public:
@@ -154,6 +153,7 @@ class Reader {
     for (std::int64_t row = 0; row < rows.rows; ++row) {
       const auto outcome = static_cast<trial::Outcome>(at(rows, identity_, row));
       if (outcome != trial::Outcome::Success && outcome != trial::Outcome::Failure) continue;
+      if (!folder_.design.planText.empty() && (at(rows, kPractice, row) == 1 || at(rows, kCatchTrial, row) == 1)) continue;
       const auto count = [&](std::size_t column, std::size_t order) {
         const double value = at(rows, column, row);
         SuccessAt& share = success_[{order, value}];
@@ -184,7 +184,6 @@ class Reader {
     // Behind the criteria are the reference, effective samples, and the score of the subject's own mean.
     const std::size_t score = placeOf(columns_, "score_reference") - criteria_;
     for (std::int64_t row = 0; row < rows.rows; ++row) {
-      if (!std::isfinite(at(rows, score + criteria_, row))) continue;
       std::string cell;
       for (std::size_t k = firstAxis_; k < identity_; ++k)
         if (k != truth) cell += fmt::format("{}{}={}", cell.empty() ? "" : ", ", columns_[k].name, wordOf(columns_[k], at(rows, k, row)));
@@ -193,7 +192,9 @@ class Reader {
       population.cell = cell;
       population.truth = name;
       const auto who = std::pair{static_cast<std::int64_t>(at(rows, 0, row)), static_cast<std::int64_t>(at(rows, 1, row))};
-      auto& [number, scores] = population.people[who][blockOf(rows, row)];
+      PersonTrials& person = population.people[who];  // who has no scores is drawn, too
+      if (!std::isfinite(at(rows, score + criteria_, row))) continue;
+      auto& [number, scores] = person[blockOf(rows, row)];
       scores.score.resize(criteria_ + 1);
       for (std::size_t k = 0; k < scores.score.size(); ++k) scores.score[k].push_back(at(rows, score + k, row));
       scores.effectiveSamples = at(rows, score + criteria_ + 1, row);
@@ -242,9 +243,11 @@ void judgeDesigns(std::vector<Population>& populations, const Named& named, cons
     const Population& population = populations[p];
     const auto own = candidateOf(named, population.truth);
     const std::size_t there = population.people.size();
-    if (!own || there < analysis::kFewestSubjects) {
+    const auto fitted = static_cast<std::size_t>(
+        std::count_if(population.people.begin(), population.people.end(), [](const auto& person) { return !person.second.empty(); }));
+    if (!own || fitted < analysis::kFewestSubjects) {
       report.notes.push_back(fmt::format("{}{}: {} virtual subjects with {} successes; {}", population.truth,
-                                         population.cell.empty() ? "" : " at " + population.cell, there, analysis::kFewestTrials,
+                                         population.cell.empty() ? "" : " at " + population.cell, fitted, analysis::kFewestTrials,
                                          own ? "nothing is drawn from fewer than five" : "its criterion is not compared"));
       continue;
     }
@@ -252,6 +255,7 @@ void judgeDesigns(std::vector<Population>& populations, const Named& named, cons
         options.subjects.empty() ? ladder(analysis::kFewestSubjects, std::max(analysis::kFewestSubjects, there / 2)) : options.subjects;
     std::vector<std::size_t> trials = options.trials.empty() ? ladder(analysis::kFewestTrials, population.trials) : options.trials;
     std::erase_if(people, [&](std::size_t n) { return n > there; });
+    for (std::vector<std::size_t>* list : {&people, &trials}) std::sort(list->begin(), list->end());  // the largest gives the confusion
     for (const std::size_t s : people)
       for (const std::size_t n : trials) {
         const std::vector<std::size_t> counts = drawStudies(population, static_cast<std::uint32_t>(p), s, n, studies, named);

@@ -44,7 +44,7 @@ void computeChunks(const StudyFolder& folder, const PrepareSubjects& prepare, un
   if (fault) std::rethrow_exception(fault);
 }
 
-void computeShard(const StudyFolder& folder, const PrepareSubjects& prepare, unsigned jobs, const Shard& shard, const TellProgress& tell) {
+void workThrough(const StudyFolder& folder, const Shard& shard, const TellProgress& tell, const ComputeAll& work) {
   const ChunksToDo todo = chunksToDo(folder, shard);
   const std::int64_t ofSubject = mostTrialsOfSubject(folder.design);
   StudyProgress progress;
@@ -59,12 +59,18 @@ void computeShard(const StudyFolder& folder, const PrepareSubjects& prepare, uns
     const std::size_t i = at++;
     return i < todo.missing.size() ? std::optional(todo.missing[i]) : std::nullopt;
   };
-  computeChunks(folder, prepare, jobs, next, [&](std::int64_t trials) {
+  std::mutex mutex;
+  work(next, [&](std::int64_t trials) {
+    const std::lock_guard lock(mutex);
     progress.trialsDone += trials;
     progress.trialsNow += trials;
     progress.seconds = static_cast<double>(os::now() - began) * 1e-9;
     if (tell) tell(progress);
   });
+}
+
+void computeShard(const StudyFolder& folder, const PrepareSubjects& prepare, unsigned jobs, const Shard& shard, const TellProgress& tell) {
+  workThrough(folder, shard, tell, [&](const NextChunk& next, const auto& done) { computeChunks(folder, prepare, jobs, next, done); });
 }
 
 void checkPoints(const Design& design, const PrepareSubjects& prepare) {

@@ -25,6 +25,10 @@ using NextChunk = std::function<std::optional<std::int64_t>()>;
 void computeChunks(const StudyFolder& folder, const PrepareSubjects& prepare, unsigned jobs, const NextChunk& next,
                    const std::function<void(std::int64_t trials)>& done);
 
+/// Runs `work` with the missing chunks of one share. `next` gives them and `done` counts trials and tells the progress, both from any thread.
+using ComputeAll = std::function<void(const NextChunk& next, const std::function<void(std::int64_t trials)>& done)>;
+void workThrough(const StudyFolder& folder, const Shard& shard, const TellProgress& tell, const ComputeAll& work);
+
 /// The missing chunks of one share, on `jobs` threads.
 void computeShard(const StudyFolder& folder, const PrepareSubjects& prepare, unsigned jobs, const Shard& shard, const TellProgress& tell);
 

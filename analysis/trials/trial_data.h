@@ -19,6 +19,8 @@ struct TrialKey {
   int run = 0, block = 0, trial = 0;
   std::string kind = {}, target = {};  // of a block that mixes them
 };
+/// The order of one subject's trials: by day, session, run and number.
+bool recordedBefore(const TrialKey& a, const TrialKey& b);
 
 /// The part of a trial's scene that measures across the way need (measures/deviation_and_adaptation.h).
 struct TrialScene {
@@ -26,6 +28,7 @@ struct TrialScene {
   bool channel = false;                                // a channel is the only force on the hand
   bool inField = false;                                // a viscous field acts
   bool cursor = false;                                 // the hand is not seen where it is
+  std::optional<double> clamp;                         // [degrees] of the line of the cursor, whatever the hand does
   double rotation = 0;                                 // [degrees] of the cursor
   std::optional<experiment::SquareMatrix<3>> trained;  // [N s/m] of the viscous field that is trained
 };

@@ -145,29 +145,29 @@ Json jsonOf(const analysis::Conclusion& c, const Names& names, const std::vector
 Json jsonOfFits(const analysis::Analysis& analysis) {
   auto fits = Json::array();
   for (const analysis::FitRow& f : analysis::fitRows(analysis))
-    fits.push_back({{"subject", f.subject},
+    fits.push_back({{"subject", f.person->subject},
                     {"condition", f.condition},
                     {"criterion", f.criterion},
                     {"equivalent", f.equivalent},
-                    {"epsilon_fit_m_per_s", f.epsilon},
-                    {"r2", f.r2},
-                    {"score", f.score},
-                    {"ceiling", f.ceiling},
-                    {"duration_s", f.duration},
+                    {"epsilon_fit_m_per_s", f.fit->epsilonOfAll},
+                    {"r2", f.fit->r2},
+                    {"score", f.fit->meanScore},
+                    {"ceiling", f.person->fit.own.ceiling},
+                    {"duration_s", f.fit->duration},
                     {"plan_s", f.plan ? Json(*f.plan) : Json(nullptr)},
                     {"time_law", f.timeLaw},
                     {"hand_mass_kg", f.handMass ? Json(*f.handMass) : Json(nullptr)},
-                    {"hand_mass_interval_kg", f.massInterval ? jsonOf(*f.massInterval) : Json(nullptr)},
-                    {"hand_mass_at_edge", f.massAtEdge},
+                    {"hand_mass_interval_kg", f.fit->mass ? jsonOf(f.fit->mass->interval) : Json(nullptr)},
+                    {"hand_mass_at_edge", f.fit->mass && f.fit->mass->atEdge},
                     {"misfit", f.misfit},
-                    {"systematic_share", f.systematic.share},
-                    {"systematic_p", f.systematic.p()},
+                    {"systematic_share", f.fit->systematic.share},
+                    {"systematic_p", f.fit->systematic.p()},
                     {"toward", f.toward.empty() ? Json(nullptr) : Json(f.toward)},
                     {"toward_share", f.toward.empty() ? Json(nullptr) : Json(f.towardShare)},
                     {"toward_p", f.toward.empty() ? Json(nullptr) : Json(f.towardP)},
-                    {"trials", f.trials},
+                    {"trials", f.person->trials},
                     {"decided", f.decided},
-                    {"reason", f.reason}});
+                    {"reason", analysis::nameOf(f.person->conclusion.reason)}});
   return fits;
 }
 
@@ -344,16 +344,18 @@ void run(CLI::App& command, const AnalyzeOptions& o) {
       o.alternatives ? analysis::alternativesTo(options) : std::vector<analysis::Alternative>{};
   std::vector<analysis::AnalysisBuilder> others;
   for (const analysis::Alternative& alternative : alternatives) others.emplace_back(alternative.options);
+  const auto all = [&](auto&& tell) {
+    for (analysis::AnalysisBuilder& other : others) tell(other);
+    tell(builder);
+  };
   const analysis::DatasetIndex dataset = analysis::readDataset(
       o.dataset,
       {[&](analysis::TrialData&& trial, std::size_t condition) {
          for (analysis::AnalysisBuilder& other : others) other.add(analysis::TrialData(trial), condition);
          builder.add(std::move(trial), condition);
        },
-       [&](std::size_t count) {
-         for (analysis::AnalysisBuilder& other : others) other.takeBack(count);
-         builder.takeBack(count);
-       }},
+       [&] { all([](analysis::AnalysisBuilder& each) { each.beginRun(); }); },
+       [&] { all([](analysis::AnalysisBuilder& each) { each.takeBackRun(); }); }},
       o.experiment, [&](std::size_t done, std::size_t of, const std::string&) { progress("reading run", done + 1, of); });
   const auto fitting = [&](std::size_t done, std::size_t of) { progress("fitting trial", done, of); };
   analysis::Analysis analysis = builder.finish(dataset.conditions, fitting);

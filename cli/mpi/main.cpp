@@ -4,9 +4,8 @@
 #include <mpi.h>
 
 #include <CLI/CLI.hpp>
-#include <atomic>
 #include <chrono>
-#include <mutex>
+#include <future>
 #include <thread>
 
 #include "analysis/study/points.h"
@@ -62,40 +61,16 @@ void serve(const study::NextChunk& next, int others, const std::function<void(st
 }
 
 void conduct(const study::StudyFolder& folder, int others) {
-  const study::ChunksToDo todo = study::chunksToDo(folder);
-  const std::int64_t ofSubject = study::mostTrialsOfSubject(folder.design);
-  study::StudyProgress progress;
-  progress.trials = folder.chunks.pairs * ofSubject;
-  progress.trialsDone = progress.trials;
-  for (const std::int64_t chunk : todo.missing)
-    progress.trialsDone -= (folder.chunks.at(chunk).end - folder.chunks.at(chunk).first) * ofSubject;
-  std::atomic<std::size_t> at{0};
-  const auto next = [&]() -> std::optional<std::int64_t> {  // for the other ranks, and for this rank's own thread
-    const std::size_t i = at++;
-    return i < todo.missing.size() ? std::optional(todo.missing[i]) : std::nullopt;
-  };
-  std::mutex mutex;
   ProgressLine line;
-  const auto began = std::chrono::steady_clock::now();
-  const auto done = [&](std::int64_t trials) {
-    const std::lock_guard lock(mutex);
-    progress.trialsDone += trials;
-    progress.trialsNow += trials;
-    progress.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-    line.tell(describeProgress(progress));
-  };
-  std::exception_ptr fault;
-  std::thread worker([&] {
-    try {
-      study::computeChunks(folder, prepareSimulated(), 1, next, done);
-    } catch (...) {
-      fault = std::current_exception();
-    }
+  std::future<void> own;
+  const auto tell = [&](const study::StudyProgress& progress) { line.tell(describeProgress(progress)); };
+  study::workThrough(folder, {}, tell, [&](const study::NextChunk& next, const auto& done) {
+    own = std::async(std::launch::async, [&] { study::computeChunks(folder, prepareSimulated(), 1, next, done); });
+    serve(next, others, done);
+    own.wait();
   });
-  serve(next, others, done);
-  worker.join();
   line.end();
-  if (fault) std::rethrow_exception(fault);
+  own.get();
 }
 
 void work(const study::StudyFolder& folder) {

@@ -109,13 +109,10 @@ std::string writeSweepCsv(const predict::Sweep& sweep, const std::vector<predict
 figure::Figure drawPrediction(const predict::Prediction& prediction, int samples) {
   figure::Series hand{.label = "hand", .width = figure::kThick},
       object{.label = "object", .color = figure::palette::kBlue, .width = figure::kThick, .dash = figure::Dash::Dashed};
-  const auto n = static_cast<size_t>(prediction.massCount());
-  std::vector<double> x(n), v(n);
   for (int i = 0; i < samples; ++i) {
     const double t = sampleTime(prediction, i, samples);
-    prediction.massesAt(t, x, v);
     hand.x.push_back(t), hand.y.push_back(prediction.handAt(t).velocity);
-    object.x.push_back(t), object.y.push_back(v.back());
+    object.x.push_back(t), object.y.push_back(prediction.objectVelocityAt(t));
   }
   return {.panels = {{.title = std::string(predict::nameOf(prediction.criterion)),
                       .x = {.label = "Time (s)"},

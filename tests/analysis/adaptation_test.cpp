@@ -4,8 +4,10 @@
 #include <algorithm>
 
 #include "analysis/adaptation/state_space.h"
+#include "analysis/sheet.h"
 #include "base/error.h"
 #include "base/math/seeded.h"
+#include "tests/analysis/written_tables.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -35,6 +37,47 @@ TEST(Adaptation, ReboundsAsTheTwoStateModelWasPublished) {
       std::max_element(series.begin() + 320, series.end(), [](const auto& a, const auto& b) { return *a.response < *b.response; });
   EXPECT_NEAR(*rebound->response, 0.160897459, 5e-10);
   EXPECT_EQ(rebound - (series.begin() + 320), 10);  // the eleventh channel trial
+}
+
+// Sixty trials rotated by 30 degrees and forty with the cursor clamped to the straight line, in which nothing is left to learn from.
+TEST(Adaptation, TakesAClampedCursorAsATrialWithoutAnError) {
+  AdaptationSeries series;
+  for (int n = 0; n < 100; ++n) series.push_back({n < 60 ? std::optional(30.0) : std::nullopt, {}});
+  const std::vector<double> x = simulateLearning(kSmith, series);
+  Analysis analysis;
+  for (int n = 0; n < 100; ++n) {
+    AnalyzedTrial trial;
+    trial.key = {
+        .subject = "01", .session = n < 60 ? "1" : "2", .condition = "", .day = n < 60 ? 1 : 2, .run = 1, .block = 1, .trial = n + 1};
+    trial.measures.maxPerpendicular = 0.01;
+    trial.measures.handAngle = -x[static_cast<std::size_t>(n)];
+    if (n < 60) trial.scene.rotation = 30;
+    else trial.scene.clamp = 0;
+    analysis.trials.push_back(trial);
+  }
+  const auto written = [&] {
+    std::string text;
+    writeAdaptationTable(analysis, [&](const std::string& name, std::string_view piece) {
+      if (name == "adaptation.csv") text += piece;
+    });
+    return rowsOf(text);
+  };
+  std::vector<Row> rows = written();
+  ASSERT_EQ(rows.size(), 3u) << "a row for the block of each session, and one for all";
+  EXPECT_EQ(rows[0].at("trials"), "60");
+  EXPECT_EQ(rows[1].at("session"), "2");
+  EXPECT_NEAR(std::stod(rows[2].at("a_s")), kSmith[1].retention, 1e-4);
+  EXPECT_NEAR(std::stod(rows[2].at("b_f")), kSmith[0].learningRate, 1e-4);
+  const std::string plateau = rows[2].at("plateau_percent");
+
+  analysis.trials[50].exclusion = "excluded: sneezed";
+  analysis.trials[50].measures.handAngle = 80;
+  rows = written();
+  EXPECT_NEAR(std::stod(rows[2].at("a_s")), kSmith[1].retention, 1e-4) << "a trial that a person excluded has no say";
+  EXPECT_NEAR(std::stod(rows[2].at("plateau_percent")), std::stod(plateau), 1);
+
+  analysis.trials[99].scene.clamp = 15;
+  EXPECT_EQ(written()[2].at("a_s"), "") << "a clamped error that is not 0 is not in the model";
 }
 
 TEST(Adaptation, SaysThatOneStateIsEnoughWhereOneMadeTheSeries) {

@@ -16,6 +16,7 @@
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "tests/analysis/made_analysis.h"
+#include "tests/analysis/synthetic.h"
 #include "tests/analysis/written_tables.h"
 #include "tests/refusal.h"
 
@@ -55,6 +56,44 @@ TEST(Counts, PutEachTrialWhereItBelongs) {
   EXPECT_EQ(r.exclusions.at("excluded: talked"), 1u);
   EXPECT_EQ(r.exclusions.at("aborted"), 2u);
   EXPECT_EQ(r.exclusions.count(""), 0u);
+}
+
+// A later day comes later, whatever its session is called: learning, slopes and effects of days would change their sign.
+TEST(Order, IsThatOfDaysThenOfNumbersOfSessions) {
+  const std::vector<Condition> pace{{"moderate", compiledChain(1.35)}};
+  for (const auto& [first, second, planned] : {std::tuple{"9", "10", false}, {"pre", "post", true}}) {
+    AnalysisInput input = simulatedTrials(pace, predict::Criterion::MinHandJerk, 0, 1, 2, 10, 3);
+    for (TrialData& trial : input.trials) {
+      const bool early = trial.key.day == 1;
+      trial.key.session = early ? first : second;
+      if (!planned) trial.key.day = 0;
+      trial.result.outcome = early ? trial::Outcome::Failure : trial::Outcome::Success;
+    }
+    std::reverse(input.trials.begin(), input.trials.end());
+    AnalysisOptions options;
+    options.criteria = {predict::Criterion::MinHandJerk};
+    const Analysis analysis = analyzeTrials(std::move(input), options);
+    EXPECT_EQ(analysis.trials.front().key.session, first);
+    EXPECT_EQ(analysis.trials.front().key.day, 1);
+    EXPECT_EQ(analysis.trials.back().key.day, 2);
+    ASSERT_EQ(analysis.effects.size(), 1u);
+    EXPECT_GT(analysis.effects[0].points.mean, 0) << first << " was before " << second;
+  }
+}
+
+TEST(AnalysisBuilder, TakesBackTheTrialsOfARunAndNoOthers) {
+  AnalysisInput input = simulatedTrials({{"moderate", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 6, 3);
+  AnalysisOptions options;
+  options.criteria = {predict::Criterion::MinHandJerk};
+  AnalysisBuilder builder(options);
+  for (std::size_t i = 0; i < 6; ++i) {
+    if (i == 0 || i == 4) builder.beginRun();
+    builder.add(std::move(input.trials[i]), 0);
+  }
+  builder.takeBackRun();
+  builder.beginRun();
+  builder.takeBackRun();  // a run that failed before its first trial
+  EXPECT_EQ(builder.finish(input.conditions).trials.size(), 4u);
 }
 
 TEST(AnalysisOptions, AreRefusedJustOutsideTheirBounds) {

@@ -40,7 +40,7 @@ TEST(Study, PlannedByForceChangeWithAHandMassIsDecidedForThatAndFindsTheMass) {
   EXPECT_EQ(followed(analysis.overall, analysis.common), "min-hand-force-change") << describeConclusion(analysis.overall, analysis.common);
   for (const FitRow& row : fitRows(analysis)) {
     if (row.criterion == "min-hand-force-change") {
-      EXPECT_NEAR(row.handMass.value(), 1.0, 0.1) << row.subject;
+      EXPECT_NEAR(row.handMass.value(), 1.0, 0.1) << row.person->subject;
     }
   }
 }

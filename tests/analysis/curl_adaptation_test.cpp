@@ -43,7 +43,7 @@ class AdaptationPlans : public session::test::Recorded {
       targets_.insert(trial.key.target);
       builder.add(std::move(trial), condition);
     };
-    const DatasetIndex index = readDataset(request_.place.data, {take, [](std::size_t) {}});
+    const DatasetIndex index = readDataset(request_.place.data, {take});
     for (const Condition& condition : index.conditions) conditions_.insert(condition.name);
     const Analysis analysis = builder.finish(index.conditions);
     figures_ = makeFigures(analysis, {}).size();

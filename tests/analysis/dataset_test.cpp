@@ -135,6 +135,31 @@ TEST(Dataset, OfBidsFilesThatAnotherProgramHasChangedIsRefusedWhereItsNumbersWou
   EXPECT_NE(refusalOf("_events.tsv", std::regex("\n"), "\n9").find("and the recording at"), std::string::npos) << "90 s later";
 }
 
+TEST(Dataset, OfBidsFilesWithARowThatWasNotSeenHasTheTrialWithoutIt) {
+  const TemporaryFolder folder;
+  removeLogs(folder.path(), recordRun(folder.path(), {.experiment = "chain-moderate", .device = kQuiet, .trials = 1}));
+  const std::string motion = fileOf(folder.path(), "_motion.tsv");
+  const auto durationNow = [&] { return analyzeTrials(openDataset(folder.path()).input, fewCriteria()).trials.at(0).measures.duration; };
+  const double before = durationNow();
+  std::istringstream rows(record::readWholeFile(motion));
+  std::ofstream out(motion, std::ios::binary);
+  int number = 0;
+  for (std::string row; std::getline(rows, row); ++number) {
+    if (number % 40 == 7) row = std::regex_replace(row, std::regex("^([^\t]*)\t[^\t]*"), "$1\tn/a");
+    out << row << '\n';
+  }
+  out.close();
+  EXPECT_NEAR(durationNow(), before, 1e-3) << "its neighbours tell where the hand was";
+}
+
+// A session's folder is analysed with the experiments of its dataset, and not with those of their names that are shipped.
+TEST(Dataset, OfASessionsBidsFilesHasTheExperimentOfItsDataset) {
+  const TemporaryFolder folder;
+  removeLogs(folder.path(), recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 1}));
+  for (const std::string& part : {folder.path(), folder.path() + "/sub-01", folder.path() + "/sub-01/ses-01"})
+    EXPECT_TRUE(holds(openDataset(part).notes.at(0), "with the experiments in code/experiments/")) << part;
+}
+
 // The sidecar says how often rows come, or else their times do; a single row has none to tell it by.
 TEST(Dataset, OfBidsFilesThatDoNotSayHowOftenHasTheRateOfItsRows) {
   const TemporaryFolder folder;

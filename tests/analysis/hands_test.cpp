@@ -29,7 +29,7 @@ TEST(MeasureTogether, OfEachHandIsWorkedOutByHand) {
   first.force = {{0, 0, 0}, {0, 6, 8}, {2, 0, 0}, {0, 0, 4}};
   first.work = {1, 3, 2.5, 4};
   second = first;
-  second.force = {{0, 0, 0}, {0, -6, -8}, {0, 2, 0}, {0, 0, 4}};
+  second.force = {{0, 0, 0}, {0, -3, -4}, {0, 2, 0}, {0, 0, 4}};
   second.work = {0, -1, -0.5, -3};
   const TogetherMeasures m = measureTogether({first, second}, 10);
   ASSERT_EQ(m.hands.size(), 2u);
@@ -43,10 +43,11 @@ TEST(MeasureTogether, OfEachHandIsWorkedOutByHand) {
   EXPECT_DOUBLE_EQ(m.hands[1].work, -3);
   EXPECT_DOUBLE_EQ(m.hands[1].positiveWork, 0.5);
   EXPECT_DOUBLE_EQ(m.hands[1].share, 0.5 / 4);
-  // Cancelled: nothing, all 10, 2 less half of sqrt 8, nothing of two that pull together.
+  EXPECT_DOUBLE_EQ(m.hands[1].meanForce, (5 + 2 + 4) / 4.0);
+  // Cancelled: nothing, the 5 of the weaker of two opposed, 2 less half of sqrt 8, nothing of two that pull together.
   const double third = 2 - std::sqrt(2.0);
-  EXPECT_DOUBLE_EQ(m.peakInternalForce, 10);
-  EXPECT_NEAR(m.internalForce, std::sqrt((100 + third * third) / 4), 1e-12);
+  EXPECT_DOUBLE_EQ(m.peakInternalForce, 5);
+  EXPECT_NEAR(m.internalForce, std::sqrt((25 + third * third) / 4), 1e-12);
 }
 
 TEST(MeasureTogether, TellsHowFarAHandIsBehindTheFirst) {

@@ -11,12 +11,17 @@ namespace {
 using session::test::Kinds;
 
 TEST_F(Kinds, TheAnalysisTakesEachTrialInItsConditionFromLogsAndFromBidsFilesAlone) {
-  ASSERT_TRUE(record());
-  const std::vector<std::string> kinds = kindsOf(logs().at(0));
+  std::vector<std::string> kinds;
+  for (const char* subject : {"01", "02"}) {
+    request_.place.subject = subject;
+    ASSERT_TRUE(record());
+    const std::vector<std::string> own = kindsOf(logs().at(0));
+    kinds.insert(kinds.end(), own.begin(), own.end());
+  }
   const auto read = [&] {
     std::vector<std::string> conditions;
-    const DatasetIndex index = readDataset(
-        request_.place.data, {[&](TrialData&& trial, std::size_t) { conditions.push_back(trial.key.condition); }, [](std::size_t) {}});
+    const DatasetIndex index =
+        readDataset(request_.place.data, {[&](TrialData&& trial, std::size_t) { conditions.push_back(trial.key.condition); }});
     EXPECT_EQ(index.conditions.size(), 3u);
     for (const Condition& condition : index.conditions)
       EXPECT_EQ(condition.experiment().object.viscosity, condition.name == "thick" ? 8 : 0) << condition.name;

@@ -8,53 +8,10 @@
 #include "base/error.h"
 #include "sim/record/log/whole_file.h"
 #include "tests/analysis/recorded.h"
+#include "tests/record/made_run.h"
 
 namespace reachlab::record {
 namespace {
-
-void expectEqual(const TrialIndex& a, const TrialIndex& b) {
-  ASSERT_EQ(a.runs.size(), b.runs.size());
-  for (std::size_t r = 0; r < a.runs.size(); ++r) {
-    EXPECT_EQ(a.runs[r].path, b.runs[r].path);
-    EXPECT_EQ(a.runs[r].condition, b.runs[r].condition);
-    EXPECT_EQ(a.runs[r].practice, b.runs[r].practice);
-    ASSERT_EQ(a.runs[r].trials.size(), b.runs[r].trials.size());
-    for (std::size_t t = 0; t < a.runs[r].trials.size(); ++t) {
-      const RecordedTrial &x = a.runs[r].trials[t], &y = b.runs[r].trials[t];
-      EXPECT_EQ(x.trial, y.trial);
-      EXPECT_EQ(x.result.outcome, y.result.outcome);
-      EXPECT_EQ(x.result.movementTime, y.result.movementTime);
-      EXPECT_EQ(x.peakHandSpeed, y.peakHandSpeed);
-      EXPECT_EQ(x.armedTick, y.armedTick);
-      EXPECT_EQ(x.offset, y.offset);
-      EXPECT_EQ(x.complete, y.complete);
-    }
-  }
-}
-
-TEST(TrialIndex, IsReadOnceAndThenTakenFromItsFileUntilALogChanges) {
-  const TemporaryFolder folder;
-  const std::string data = folder.path() + "/data", file = indexFileFor(data, folder.path());
-  analysis::recordRun(data, {.experiment = "chain-moderate", .trials = 3});
-  analysis::recordRun(data, {.experiment = "chain-fast", .subject = "02", .trials = 2, .practice = true});
-  const TrialIndex first = openTrialIndex(data, file);
-  EXPECT_EQ(first.read, 2u);
-  EXPECT_EQ(first.trialCount(), 5u);
-  EXPECT_EQ(first.runs[0].subject, "01");
-  EXPECT_TRUE(first.runs[1].practice);
-  std::size_t asked = 0;
-  const TrialIndex second = openTrialIndex(data, file, [&](std::size_t, std::size_t) { return ++asked, true; });
-  EXPECT_EQ(second.read, 0u) << "no log is opened";
-  EXPECT_EQ(asked, 0u);
-  expectEqual(first, second);
-  analysis::recordRun(data, {.experiment = "chain-moderate", .session = "02", .trials = 1});
-  const TrialIndex third = openTrialIndex(data, file);
-  EXPECT_EQ(third.read, 1u) << "only the new one";
-  EXPECT_EQ(third.trialCount(), 6u);
-  std::filesystem::remove(third.runs[0].path);
-  EXPECT_EQ(openTrialIndex(data, file).trialCount(), 3u) << "what is gone is gone";
-  EXPECT_EQ(openTrialIndex(data, file).read, 0u);
-}
 
 TEST(TrialIndex, ADamagedIndexFileIsAsGoodAsNone) {
   const TemporaryFolder folder;
@@ -68,7 +25,8 @@ TEST(TrialIndex, ADamagedIndexFileIsAsGoodAsNone) {
     std::ofstream(file, std::ios::binary) << (at % 2 == 0 ? other : text.substr(0, at));
     const TrialIndex again = openTrialIndex(data, file);
     ASSERT_EQ(again.read, 1u) << "byte " << at;
-    expectEqual(whole, again);
+    ASSERT_EQ(again.trialCount(), 2u) << "byte " << at;
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(bytesOf(again.runs[0].trials[i]), bytesOf(whole.runs[0].trials[i])) << "byte " << at;
   }
 }
 

@@ -15,14 +15,16 @@ struct Dataset : DatasetIndex {
 inline Dataset openDataset(const std::string& folder, const std::string& experimentFile = "") {
   Dataset dataset;
   AnalysisInput& input = dataset.input;
+  std::size_t begin = 0;
   static_cast<DatasetIndex&>(dataset) = readDataset(folder,
                                                     {[&](TrialData&& trial, std::size_t condition) {
                                                        input.trials.push_back(std::move(trial));
                                                        input.conditionOf.push_back(condition);
                                                      },
-                                                     [&](std::size_t count) {
-                                                       input.trials.resize(input.trials.size() - count);
-                                                       input.conditionOf.resize(input.trials.size());
+                                                     [&] { begin = input.trials.size(); },
+                                                     [&] {
+                                                       input.trials.resize(begin);
+                                                       input.conditionOf.resize(begin);
                                                      }},
                                                     experimentFile);
   input.conditions = dataset.conditions;

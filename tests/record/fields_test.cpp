@@ -96,11 +96,7 @@ TEST(Fields, OfAConfigurationComeBackFromItsTextEachByItself) {
     });
     std::vector<std::string> expected{field.key};
     if (!changed.otherHands.empty()) {  // a hand has columns
-      experiment::Experiment two;
-      two.object.kind = experiment::ObjectKind::Chain;
-      two.object.masses.assign(static_cast<std::size_t>(original.table.massCount), 0.6);
-      two.hands.resize(2);
-      changed.table = makeChannelTable(two, original.table.parameterCount);
+      changed.table = madeConfiguration(original.table.massCount, 2).table;
       expected.emplace_back("table");
     }
     ++number;

@@ -16,10 +16,11 @@
 
 namespace reachlab::record {
 
-inline RunConfiguration madeConfiguration(int masses = 2) {
+inline RunConfiguration madeConfiguration(int masses = 2, std::size_t hands = 1) {
   experiment::Experiment experiment;
   experiment.object.kind = experiment::ObjectKind::Chain;
   experiment.object.masses.assign(static_cast<std::size_t>(masses), 0.6);
+  if (hands > 1) experiment.hands.resize(hands);
   RunConfiguration configuration;
   configuration.task = "made";
   configuration.experimentName = configuration.condition = "made";
@@ -27,6 +28,7 @@ inline RunConfiguration madeConfiguration(int masses = 2) {
   configuration.device = "made";
   configuration.startedUtc = "2026-11-20T10:00:00.000Z";
   configuration.table = makeChannelTable(experiment, 1);
+  configuration.otherHands.resize(hands - 1);
   return configuration;
 }
 

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "base/error.h"
-#include "sim/experiment/experiment.h"
 #include "sim/record/log/records.h"
 #include "tests/in_a_folder.h"
 #include "tests/record/made_run.h"
@@ -87,13 +86,7 @@ TEST_F(Recording, ATrialThatNobodyAnnouncedHasThePlaceOfItsNumber) {
 
 // Two further hands, over several blocks of a thousand ticks.
 TEST_F(Recording, KeepsEveryHandsRawSamples) {
-  RunConfiguration configuration = madeConfiguration();
-  experiment::Experiment scene;
-  scene.object.kind = experiment::ObjectKind::Chain;
-  scene.object.masses.assign(2, 0.6);
-  scene.hands.resize(3);
-  configuration.table = makeChannelTable(scene, 1);
-  configuration.otherHands.resize(2);
+  const RunConfiguration configuration = madeConfiguration(2, 3);
   constexpr std::uint64_t kTicks = 2500;
   const auto placeOf = [](std::uint64_t tick, std::size_t hand) {
     return Vec3{0.25 * static_cast<double>(tick / 3), 0, static_cast<double>(hand)};

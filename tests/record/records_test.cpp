@@ -348,6 +348,9 @@ TEST(TrialRecord, HasAnOutcomeAReasonAndAnEndThatIsNotBeforeItsStart) {
   expectRefused(with(13, 5), "trial", trialOf);
   EXPECT_EQ(trialOf(with(14, 15)).result.reason, trial::Reason::PeerLost);
   expectRefused(with(14, 17), "trial", trialOf);
+  Bytes shorter = copyOf(out.bytes());
+  shorter.resize(shorter.size() - 3);
+  expectRefused(shorter, "trial", trialOf);
   RecordedTrial t = wholeTrial();
   t.startTick = t.lastTick;
   ByteWriter one, none;

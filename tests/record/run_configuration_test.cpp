@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "base/fault.h"
-#include "sim/experiment/experiment.h"
 #include "tests/record/made_run.h"
 #include "tests/refusal.h"
 
@@ -20,18 +19,10 @@ namespace {
 
 using nlohmann::json;
 
-json madeJson(int hands = 1) {
-  RunConfiguration c = madeConfiguration();
+json madeJson(std::size_t hands = 1) {
+  RunConfiguration c = madeConfiguration(2, hands);
   c.trials = {{0, 100, false}};
   c.participant.age = 30;
-  if (hands > 1) {
-    experiment::Experiment scene;
-    scene.object.kind = experiment::ObjectKind::Chain;
-    scene.object.masses.assign(2, 0.6);
-    scene.hands.resize(static_cast<std::size_t>(hands));
-    c.table = makeChannelTable(scene, 1);
-    c.otherHands.resize(static_cast<std::size_t>(hands - 1));
-  }
   return json::parse(toJson(c));
 }
 

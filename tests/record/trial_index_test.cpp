@@ -35,8 +35,10 @@ TEST(TrialIndex, KnowsOfARunWhatItsLogSaysWhetherReadOrKept) {
   const std::string data = writeTwoRuns(folder), file = folder / "an.index";
   for (const std::size_t read : {2u, 0u}) {
     SCOPED_TRACE(read);
-    const TrialIndex index = openTrialIndex(data, file);
+    std::size_t asked = 0;
+    const TrialIndex index = openTrialIndex(data, file, [&](std::size_t, std::size_t) { return ++asked, true; });
     EXPECT_EQ(index.read, read);
+    EXPECT_EQ(asked, read) << "for what is kept nobody is asked";
     ASSERT_EQ(index.runs.size(), 2u);
     EXPECT_EQ(index.trialCount(), 5u);
     const IndexedRun &a = index.runs[0], &b = index.runs[1];
@@ -69,6 +71,12 @@ TEST(TrialIndex, KnowsOfARunWhatItsLogSaysWhetherReadOrKept) {
     }
     EXPECT_FALSE(b.trials[2].complete);
   }
+  writeMadeRun(data + "/c_log.reach", 1);
+  EXPECT_EQ(openTrialIndex(data, file).read, 1u) << "only the new one";
+  std::filesystem::remove(data + "/b_log.reach");
+  const TrialIndex left = openTrialIndex(data, file);
+  EXPECT_EQ(left.read, 0u);
+  EXPECT_EQ(left.trialCount(), 2u + 1) << "what is gone is gone";
 }
 
 TEST(TrialIndex, ALogOfAnotherTimeOrSizeIsReadAnew) {

@@ -77,7 +77,7 @@ TEST(StudyReport, CountsSuccessByValueAndByStretch) {
 
 /// People of two truths: scores of (1), (3), the reference; the truth's are lower by so much. The third row of columns: effective samples,
 /// scores of the person's own mean, which are `misfit` below those of the truth.
-StudyFolder madePower(const std::string& path, double by, int subjects, int trials, double misfit = -0.03) {
+StudyFolder madePower(const std::string& path, double by, int subjects, int trials, double misfit = -0.03, int withoutSuccess = 0) {
   StudyFolder study = folderOf(path, R"("subjects": )" + std::to_string(subjects) + R"(, "trials": )" + std::to_string(trials) +
                                          R"(, "vary": { "subject.criterion": ["min-hand-jerk", "min-crackle"] }, "measures": ["score"],
                                           "criteria": ["min-hand-jerk", "min-crackle", "min-hand-force"])");
@@ -91,6 +91,9 @@ StudyFolder madePower(const std::string& path, double by, int subjects, int tria
         const double jerk = point == 0 ? nearer : farther, crackle = point == 0 ? farther : nearer;
         rows.push_back({static_cast<double>(point), static_cast<double>(subject), static_cast<double>(trial), 1, static_cast<double>(point),
                         kSuccess, 0, jerk, crackle, std::nan(""), 1 + normal(random), 12, nearer - misfit + 0.2 * normal(random)});
+        if (subject > withoutSuccess) continue;
+        rows.back()[5] = kFailure;
+        std::fill(rows.back().begin() + 7, rows.back().end(), std::nan(""));
       }
   writeChunk(path, 0, study.fingerprint, chunkOf(rows));
   return study;
@@ -127,13 +130,39 @@ TEST(StudyReport, OfClearTruthsNamesThemAtTheSmallestDesign) {
   EXPECT_EQ(confusion.named.counts[2], (std::vector<std::size_t>{0, 0, 0, 0}));
 }
 
+// A laboratory cannot choose subjects who will succeed: of 24 of whom 4 never do, five who do are drawn in 36 % of the studies.
+TEST(StudyReport, DrawsPeopleWithoutSuccessesToo) {
+  const TemporaryFolder folder;
+  const StudyReport report = makeReport(madePower(folder.path(), 2, 24, 22, -0.03, 4), {.studies = 200, .subjects = {5}, .trials = {22}});
+  ASSERT_EQ(report.power.size(), 2u);
+  for (const PowerAt& at : report.power) EXPECT_NEAR(static_cast<double>(at.right), 73, 25) << at.truth;
+}
+
+TEST(StudyReport, CountsNeitherPracticeNorCatchTrials) {
+  const TemporaryFolder folder;
+  const std::string plan = folder.write("plan.json", R"({ "schema_version": 1, "trials": 4, "blocks": [{ "experiment": "chain-slow" }] })");
+  const StudyFolder study = makeFolder(parseDesign(R"({ "schema_version": 1, "name": "made", "plan": ")" + plan +
+                                                       R"(", "subjects": 1, "vary": { "handmass_kg": [0.5] }, "measures": ["by"] })",
+                                                   "made.json"),
+                                       folder / "study");
+  std::vector<std::vector<double>> rows;  // point, subject, session, day, block, condition, practice, catch, trial, seed, axis, outcome …
+  for (int trial = 1; trial <= 4; ++trial)
+    rows.push_back({0, 1, 1, 1, 1, 0, trial == 1 ? 1.0 : 0.0, trial == 2 ? 1.0 : 0.0, static_cast<double>(trial), 7, 0.5,
+                    trial == 4 ? kFailure : kSuccess, 0, 0});
+  writeChunk(study.path, 0, study.fingerprint, chunkOf(rows));
+  const StudyReport report = makeReport(study, {});
+  ASSERT_EQ(report.success.size(), 1u);
+  EXPECT_EQ(report.success[0].trials, 2u);
+  EXPECT_EQ(report.success[0].successes, 1u);
+}
+
 TEST(StudyReport, OfTruthsThatCannotBeToldIsUndecided) {
   const TemporaryFolder folder;
   const StudyReport report = makeReport(madePower(folder.path(), 0.02, 12, 12), {.studies = 8, .subjects = {5, 6, 99}, .trials = {12, 10}});
   ASSERT_EQ(report.power.size(), 8u) << "99 people are not there";
   for (const PowerAt& at : report.power) EXPECT_LE(at.right, 2u);
   for (const SmallestDesign& least : report.smallest) EXPECT_TRUE(least.subjects == 0 && least.trials == 0);
-  EXPECT_EQ(report.confusion.at(0).trials, 10u) << "the last that was asked for";
+  EXPECT_EQ(report.confusion.at(0).trials, 12u) << "the largest that was asked for";
 }
 
 // Nothing is concluded from people whose own mean describes them far better than their nearest candidate.

@@ -5,6 +5,7 @@ namespace reachlab::predict {
 std::string_view nameOf(PointIs point) { return point == PointIs::Hand ? "hand" : "behind-spring"; }
 
 double Prediction::objectVelocityAt(double t) const {
+  if (massCount_ == 0) return handAt(t).velocity;  // the hand alone
   std::vector<double> x(massCount_), v(massCount_);
   massesAt(t, x, v);
   return v.back();

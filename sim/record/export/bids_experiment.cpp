@@ -94,7 +94,9 @@ std::vector<experiment::CompiledExperiment> experimentsFromJson(const std::strin
     });
     if (found == all.end())
       throw FaultError(fileFault(origin, fmt::format("has no scene for the condition {} of events.tsv", scene.condition)));
-    experiments.push_back(opened(found->at("experiment"), j, origin));
+    Json experiment = found->at("experiment");
+    experiment.emplace("name", c.experimentName);  // scenes are named as the run's experiment is, not as this file
+    experiments.push_back(opened(experiment, j, origin));
   }
   return experiments;
 } catch (const nlohmann::json::exception&) {

@@ -11,6 +11,7 @@
 #include "base/ticks.h"
 #include "sim/record/log/logs_folder.h"
 #include "sim/record/log/records.h"
+#include "sim/record/log/run_order.h"
 
 namespace reachlab::record {
 namespace {
@@ -292,7 +293,7 @@ std::vector<std::string> findLogs(const std::string& path) {
     if (file.ends_with(kLogEnding) && file.starts_with(prefix)) logs.push_back(entry.path().string());
   }
   if (logs.empty()) throw FaultError(fileFault(path, "no logs (…_log.reach) in this folder"));
-  std::sort(logs.begin(), logs.end());
+  std::sort(logs.begin(), logs.end(), runBefore);
   return logs;
 }
 
