@@ -52,9 +52,7 @@ CoupledCopy::CoupledCopy(const experiment::Experiment& experiment, const constra
 void CoupledCopy::resetPeers() noexcept {
   for (Peer& peer : peers_) {
     const PeerLink before = peer.link;
-    const std::uint32_t sequence = peer.newest.sequence;
     peer.newest = {};
-    peer.newest.sequence = sequence;
     peer.link = {};
     peer.link.roundTrip = before.roundTrip, peer.link.usualAge = before.usualAge;
     peer.link.frequency = settings_.frequency;
@@ -101,7 +99,7 @@ void CoupledCopy::setFrequency(double frequency) noexcept {
 
 void CoupledCopy::take(int index, const CopySample& sample, double roundTrip) noexcept {
   Peer& peer = peers_[static_cast<std::size_t>(index)];
-  if (static_cast<std::int32_t>(sample.sequence - peer.newest.sequence) <= 0) {
+  if (peer.link.heard && static_cast<std::int32_t>(sample.sequence - peer.newest.sequence) <= 0) {
     ++peer.link.old;
     return;
   }
@@ -140,7 +138,7 @@ void CoupledCopy::guessHand(Peer& peer, int hand) noexcept {
   const dynamics::HandSample end{peer.newest.hand + ahead * peer.newest.handVelocity, peer.newest.handVelocity, true};
   plant_->setHand(hand, dynamics::straightSegment(peer.held ? peer.guessed : end, end), end, peer.link.fade);
   peer.guessed = end;
-  peer.held = true;
+  peer.held = peer.link.heard;  // before its first sample its place is not known
 }
 
 double CoupledCopy::apartAt(const CopySample& sample) const noexcept {

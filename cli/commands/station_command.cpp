@@ -11,7 +11,6 @@
 #include "cli/commands/commands.h"
 #include "cli/output/success_table.h"
 #include "cli/output/trial_line.h"
-#include "cli/terminal/seed_option.h"
 #include "cli/terminal/session_device.h"
 #include "network/station/observer.h"
 #include "network/station/station_options.h"
@@ -48,9 +47,9 @@ int conduct(session::SessionRequest request, const network::StationSetup& setup)
   SuccessTable table;
   std::string problem;
   for (network::StationNews news; !news.finished; std::this_thread::sleep_for(kLook)) {
+    if (problem.empty() && !run.underWay()) problem = run.fault().value_or("");
     if (StopRequest::asked() || !problem.empty()) station.stop();
     if (station.isConductor() && station.isIdle()) {
-      if (run.fault() && problem.empty()) problem = *run.fault();
       if (run.trialsLeft() == 0 || !problem.empty()) station.stop();
       station.armNext();
     }
@@ -118,7 +117,8 @@ void addStationCommand(CLI::App& app, int& exitCode) {
   command->add_option("--subject", s.place.subject, "Subject's label, letters and digits [default: 01]");
   command->add_option("--session", s.place.session, "Session's label, letters and digits [default: 01]");
   command->add_option("--data", s.place.data, "Folder of the dataset, this station's own [default: ./data]");
-  command->add_option("--seed", s.seed, "Seed of noise [default: one is drawn and stored]")->check(wholeSeed());
+  command->add_option("--seed", s.seed, "Seed of noise [default: one is drawn and stored]")
+      ->check(CLI::Validator(session::seedRefusal, "SEED"));
   command->add_flag("--every-tick", s.everyTick, "Samples at 1 kHz instead of 100 Hz");
   command->footer(
       "Prints one line per trial, as reach run does. No trial is armed while a station is missing, differs in experiment or version, or has "

@@ -28,9 +28,15 @@ class GuardedDevice final : public haptics::HapticDevice {
     info.workspaceRadius *= m.scale;
     info.workspaceCentre = m.offset + m.scale * turned(info.workspaceCentre);
     info.resolution *= m.scale;
+    // Forces are not scaled: in the world the device moves m.scale times as fast under the same force.
+    info.scale = m.scale;
+    info.apparentMass /= m.scale;
+    info.viscosity /= m.scale;
     info.speedLimit = options_.speedLimit.value_or(info.speedLimit * m.scale);
     if (options_.mapped) info.mapping = toJson(m);
     haptics::GuardSettings& guards = info.guards;
+    guards.wallStiffness /= m.scale;
+    guards.wallDamping /= m.scale;
     if (options_.wall) {
       guards.wallCentre = info.workspaceCentre;
       guards.wallRadius = *options_.wall > 0 ? *options_.wall : info.workspaceRadius;
@@ -94,7 +100,11 @@ HandSettings takeHandSettings(DeviceOptions& options) {
   if (const auto offset = takeVector(options, "offset", 10)) hand.mapping.offset = *offset, hand.mapped = true;
   if (const auto degrees = takeVector(options, "rotation", 360))
     hand.mapping.rotation = std::numbers::pi / 180 * *degrees, hand.mapped = true;
-  if (options.word("mirror", {"no", "x"}) == "x") hand.mapping.mirrorX = hand.mapped = true;
+  if (const auto mirror = options.take("mirror")) {
+    if (*mirror != "x" && *mirror != "no") throw FaultError(Fault{"device", "mirror=" + *mirror, "no, x"});
+    hand.mapping.mirrorX = *mirror == "x";
+    hand.mapped = true;
+  }
   if (const auto wall = options.take("wall")) {
     const double radius = asNumber<double>(*wall).value_or(0);
     const bool number = radius > 0 && radius <= 10;

@@ -116,35 +116,36 @@ PreflightLine passivity(const Experiment& experiment, const experiment::Coupling
     if (coupling.stiffness > most) line.verdict = Verdict::Held;
   }
   if (margin < 0) {
-    line.verdict = -margin <= kLightestHandDamping ? Verdict::Held : Verdict::Warning;
+    line.verdict = -margin <= kLightestHandDamping / device.scale ? Verdict::Held : Verdict::Warning;
     line.sentence += fmt::format(": the hand must bring {:.3g} N s/m{}", -margin,
                                  line.verdict == Verdict::Held ? ", as any hand that holds it does" : ", more than a light grasp does");
   }
   if (line.verdict == Verdict::Warning) {
-    const double softer = 2 * (kLightestHandDamping + device.viscosity - std::abs(coupling.damping)) / loop.period;
+    const double softer = 2 * (kLightestHandDamping / device.scale + device.viscosity - std::abs(coupling.damping)) / loop.period;
     line.remedy = softer > 0 ? fmt::format("a coupling of k_h <= {:.4g} N/m", softer)
                              : fmt::format("less coupling damping than b_h = {:.3g} N s/m", coupling.damping);
   }
   return line;
 }
 
-LoopSettings withRelaxedHand(LoopSettings loop) {
-  loop.mass += kRelaxedHandMass;
-  loop.friction += kRelaxedHandDamping;
+// The hand holds the device, whose places are scaled.
+LoopSettings withRelaxedHand(LoopSettings loop, const haptics::DeviceInfo& device) {
+  loop.mass += kRelaxedHandMass / device.scale;
+  loop.friction += kRelaxedHandDamping / device.scale;
   return loop;
 }
 
 // Without sentence and remedy. There is no limit where the device's mass is not known.
-PreflightLine stiffnessLine(const char* name, const LoopSettings& loop) {
+PreflightLine stiffnessLine(const char* name, const LoopSettings& loop, const haptics::DeviceInfo& device) {
   PreflightLine line{name, Verdict::Unknown, loop.stiffness, std::nullopt, "N/m", {}, {}};
   if (!(loop.mass > 0)) return line;
-  line.limit = largestStableStiffness(withRelaxedHand(loop));
+  line.limit = largestStableStiffness(withRelaxedHand(loop, device));
   line.verdict = loop.stiffness <= *line.limit ? Verdict::Fine : Verdict::Warning;
   return line;
 }
 
 PreflightLine stability(const Experiment& experiment, const experiment::Coupling& coupling, const haptics::DeviceInfo& device) {
-  PreflightLine line = stiffnessLine("stability", heldLoop(coupling, device, experiment));
+  PreflightLine line = stiffnessLine("stability", heldLoop(coupling, device, experiment), device);
   if (!line.limit) {
     line.sentence = fmt::format("the apparent mass of {} is not known, so how stiff a coupling it renders cannot be told", device.name);
     return line;
@@ -159,7 +160,7 @@ PreflightLine channelLine(const Experiment& experiment, const experiment::Coupli
                           const haptics::DeviceInfo& device) {
   const experiment::Coupling felt{coupling.stiffness + wall.stiffness, coupling.damping + wall.damping};
   LoopSettings loop = heldLoop(felt, device, experiment);
-  PreflightLine line = stiffnessLine("channel", loop);
+  PreflightLine line = stiffnessLine("channel", loop, device);
   const double asked = loop.friction - passivityMargin(loop);
   const std::string passive = fmt::format("Colgate's condition asks for {:.3g} N s/m of friction (K T/2 + |B|), and {} has {:.3g}", asked,
                                           device.name, device.viscosity);
@@ -174,7 +175,7 @@ PreflightLine channelLine(const Experiment& experiment, const experiment::Coupli
   if (line.verdict != Verdict::Warning) return line;
   loop.damping = coupling.damping;
   line.remedy = fmt::format("a channel of stiffness_n_per_m <= {:.4g}, or less damping_n_s_per_m (without it {:.4g} N/m are stable)",
-                            std::max(0.0, *line.limit - coupling.stiffness), largestStableStiffness(withRelaxedHand(loop)));
+                            std::max(0.0, *line.limit - coupling.stiffness), largestStableStiffness(withRelaxedHand(loop, device)));
   return line;
 }
 
@@ -186,7 +187,7 @@ PreflightLine fieldPower(const CompiledExperiment& compiled, double curl, const 
   const trial::ProtocolSettings settings = trial::makeProtocolSettings(experiment, compiled.constraint());
   const double radius = norm(settings.target - settings.start) / 2, omega = std::numbers::pi / experiment.task->duration;
   const double speed = omega * radius, delay = haptics::velocityDelay(experiment.velocityEstimator);
-  const double friction = device.viscosity + kLightestHandDamping;
+  const double friction = device.viscosity + kLightestHandDamping / device.scale;
   PreflightLine line{"field_power", Verdict::Fine, curl * speed * speed * std::sin(omega * delay), friction * speed * speed, "W", {}, {}};
   line.sentence = fmt::format(
       "the curl field of {:.4g} N s/m gives {:.3g} W on average, because the velocity estimate lags by {:.2g} ms "

@@ -14,6 +14,7 @@
 #include <new>
 
 #include "base/error.h"
+#include "base/system/os.h"
 
 namespace reachlab::devices {
 namespace {
@@ -57,15 +58,17 @@ class SerialPort final : public MessageLink {
   }
 
   Got receive(std::string& line, int milliseconds) noexcept override try {
+    const std::int64_t end = os::now() + (milliseconds + 2) * std::int64_t{1'000'000};  // [ns]  // also of a line that never ends
     for (bool waited = false;; waited = true) {
       const std::string_view waiting(waiting_.data(), count_);
-      if (const std::size_t end = waiting.find('\n'); end != std::string_view::npos) {
-        line.assign(waiting, 0, end);
-        count_ -= end + 1;
-        std::memmove(waiting_.data(), waiting_.data() + end + 1, count_);
+      if (const std::size_t feed = waiting.find('\n'); feed != std::string_view::npos) {
+        line.assign(waiting, 0, feed);
+        count_ -= feed + 1;
+        std::memmove(waiting_.data(), waiting_.data() + feed + 1, count_);
         return Got::Message;
       }
       if (count_ > kLongestLine) count_ = 0;
+      if (waited && os::now() > end) return Got::Nothing;
       pollfd at{file_, POLLIN, 0};
       const int ready = ::poll(&at, 1, waited ? 1 : milliseconds);
       if (ready < 0 && errno != EINTR) return gone(errno);

@@ -44,7 +44,10 @@ class ForceDimension final : public Transport {
   std::int64_t period() const override { return kPeriodNs; }
 
   Exchange exchange(ForceSource& source, haptics::DeviceSample& sample) override {
-    if (mustEnable(source.now()) && dhd_.enableForce(1, id_) < 0) return fault();
+    if (mustEnable(source.now()) && dhd_.enableForce(1, id_) < 0) {
+      cut_.store(true, std::memory_order_release);  // tried again in the next exchange
+      return fault();
+    }
     Vec3 place, velocity;
     const int said = dhd_.getPosition(&place.x, &place.y, &place.z, id_);
     bool fine = said >= 0;

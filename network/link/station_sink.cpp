@@ -76,8 +76,7 @@ void StationSink::takeHeard(const haptics::TickState& state, std::int32_t trial,
       seen_.known[station] = came = true;
       if (!gives || heard.trial != trial || trial < 1) continue;
       const GivenSample given{state.tick, peer, heard.roundTrip, heard.sample};
-      given.giveTo(copy_);
-      (void)give(given);
+      if (give(given)) given.giveTo(copy_);  // what the log cannot keep did not come
     }
   }
   if (came) hands_.publish(seen_);

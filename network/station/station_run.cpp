@@ -227,6 +227,10 @@ void StationRun::putUp(StationNews& news) {
 
 void StationRun::follow(StationNews& news) {
   if (isUnderWay() && news.ended) stage_ = Stage::Idle;
+  // The conductor has given this trial up, has finished, or is gone. A trial that has begun goes to its end.
+  if (stage_ == Stage::UnderWay && run_->latest().phase == trial::Phase::Waiting &&
+      (armAsked_ > armed_ || progress_ >= Progress::Finished || link_->conductorSilence() > setup_.wait))
+    abort();
   if (stage_ != Stage::Idle || progress_ >= Progress::Stopping) return;
   if (words_.anyOn(armAsked_)) armed_ = armAsked_;  // over without this one
   if (armed_ < armAsked_) {

@@ -40,6 +40,7 @@ struct DeviceInfo {
   double apparentMass = 0;     // [kg] at the handle
   double coulombFriction = 0;  // [N] to move it backwards
   double viscosity = 0;        // [N s/m]
+  double scale = 1;            // of its places in the world; the numbers above are as the world sees them
   double resolution = 0;       // [m]
   double stylusMass = 0;       // [kg] that hangs on it and is held by `guards.compensation`
   Vec3 workspaceCentre = {};   // [m]

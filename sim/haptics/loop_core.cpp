@@ -102,9 +102,13 @@ struct LoopCore::Stages {
   void watch(TickInput& input) noexcept {
     if (!core.anyRendersForce) return;
     core.acceptReset();
-    // Before a sample is looked at: a force that the engine has let grow while the device was not given it would come as a kick.
-    for (std::size_t i = 0; i < core.hands.size(); ++i)
-      if (core.hands[i].device->health() == DeviceHealth::Failed) core.latch(DeviceFault::Device, static_cast<int>(i));
+    // Before a sample is looked at: a force that the engine has let grow while the device was not given it would come as a kick. A force
+    // device that was lost is not taken back: plugged in again, it may count its places from elsewhere.
+    for (std::size_t i = 0; i < core.hands.size(); ++i) {
+      const DeviceHealth health = core.hands[i].device->health();
+      if (health == DeviceHealth::Failed || (health == DeviceHealth::Lost && core.hands[i].rendersForce))
+        core.latch(DeviceFault::Device, static_cast<int>(i));
+    }
     const WatchContext context{trial::isEngaged(core.engine->state().phase), input.missedTicks, input.measuredNs};
     for (std::size_t i = 0; i < core.hands.size(); ++i) {
       Hand& hand = core.hands[i];

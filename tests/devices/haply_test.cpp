@@ -10,7 +10,6 @@
 #include "base/fault.h"
 #include "devices/driver/registry.h"
 #include "devices/haply/web_socket_link.h"
-#include "devices/live_device.h"
 #include "devices/make_device.h"
 #include "sim/experiment/experiment.h"
 #include "tests/devices/fakes/fake_haply.h"
@@ -247,15 +246,6 @@ TEST(WebSocketLink, WhatCannotBeSentIsALossThoughNobodyListens) {
   service.end();
   EXPECT_TRUE(until([&] { return !link->send("{}"); }));
   EXPECT_NE(link->fault(), "");
-}
-
-TEST(LiveDevice, SaysThatItsDeviceIsLostAndOtherwiseNothing) {
-  FakeHaply service;
-  LiveDevice live(fmt::format("haply:port={}", service.port()), experiment::CompiledExperiment(experiment::readExperiment("chain-slow")));
-  ASSERT_TRUE(until([&] { return live.look().valid; }));
-  EXPECT_EQ(live.look().fault, "");
-  service.setPlugged(false);
-  EXPECT_TRUE(until([&] { return live.look().fault.find("is lost") != std::string::npos; })) << live.look().fault;
 }
 
 TEST(Haply, TwoAtOneServiceAreTwoHandsEachWithItsPlaceForceAndGrip) {

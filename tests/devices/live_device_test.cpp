@@ -73,7 +73,7 @@ TEST(LiveDevice, ReportsOfADeviceAreCountedByTheirNumber) {
     test::setFirstFakeHid(true);
     ASSERT_TRUE(until([&] { return !(view = live.look()).fault.empty(); }));
     EXPECT_TRUE(holds(view.fault, "woodenhaptics_v2015 A1"));
-    EXPECT_TRUE(until([&] { return live.look().fault.ends_with(": no connection any more"); })) << live.look().fault;
+    EXPECT_TRUE(until([&] { return live.look().fault.ends_with("is lost: no connection any more"); })) << live.look().fault;
   }
   test::resetFakeHids();
 }

@@ -235,7 +235,11 @@ TEST(HandSettings, SayWhatWasAskedFor) {
   EXPECT_EQ(taken("wall=yes").wall, 0) << "the device's own";
   EXPECT_FALSE(taken("wall=no").wall);
   EXPECT_EQ(taken("stylus-mass=0").stylusMass, 0);
-  EXPECT_FALSE(taken("mirror=no").any());
+  EXPECT_FALSE(taken("mirror=no").mapping.mirrorX);
+  const TemporaryFolder folder;
+  const std::string mirrored = folder.write("mirrored.json", R"({"mirror_x": true})");
+  EXPECT_TRUE(taken("mapping=" + mirrored).mapping.mirrorX);
+  EXPECT_FALSE(taken("mapping=" + mirrored + ",mirror=no").mapping.mirrorX) << "said last";
 }
 
 TEST(HandSettings, AWallNeedsAWorkspaceOrARadius) {

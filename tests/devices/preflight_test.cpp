@@ -291,6 +291,19 @@ TEST(Preflight, StabilityIsThatOfARelaxedHand) {
   EXPECT_FALSE(lineOf(check(e, info), "stability").limit);
 }
 
+// Places are scaled and forces are not: at the device a coupling is as many times as stiff, and so is the wall.
+TEST(Preflight, AScaledDeviceIsHeldAgainstTheStiffnessThatItFeels) {
+  const experiment::Experiment e = experiment::readExperiment("chain-moderate");
+  const auto limitOn = [&](const std::string& device) { return lineOf(check(e, infoOf(device, e)), "stability").limit.value_or(0); };
+  const double plain = limitOn("virtual:premium15");
+  EXPECT_GT(plain, 600);
+  EXPECT_NEAR(limitOn("virtual:premium15,scale=10"), plain / 10, 1e-4 * plain) << "as near as it is looked for";
+  EXPECT_EQ(lineOf(check(e, infoOf("virtual:premium15,scale=11", e)), "stability").verdict, Verdict::Warning);
+  const haptics::DeviceInfo scaled = infoOf("virtual:premium15,scale=10,wall=yes", e), usual = infoOf("virtual:premium15,wall=yes", e);
+  EXPECT_NEAR(scaled.guards.wallStiffness, usual.guards.wallStiffness / 10, 1e-9);
+  EXPECT_NEAR(scaled.guards.wallDamping, usual.guards.wallDamping / 10, 1e-9);
+}
+
 // Springs of parallel masses are felt together; those of a hand of its own where it has them.
 TEST(Preflight, TheStiffnessIsWhatTheHandFeelsOfAllItsSprings) {
   experiment::Experiment e = experiment::readExperiment("parallel");

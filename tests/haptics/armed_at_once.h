@@ -12,4 +12,11 @@ inline experiment::Experiment armedAtOnce(const std::string& name) {
   return experiment;
 }
 
+/// The same with movements that may have gaps, so that a machine that misses time spoils nothing, and what a gap does is seen to its end.
+inline experiment::Experiment armedPatiently(const std::string& name) {
+  experiment::Experiment experiment = armedAtOnce(name);
+  experiment.timing = experiment::kNoTimingLimits;
+  return experiment;
+}
+
 }  // namespace reachlab::haptics::test

@@ -69,8 +69,7 @@ class Reach {
 };
 
 TEST(EngineEnvironment, AddsTheForceOfTheLawToThatOfTheObject) {
-  Experiment e = test::armedAtOnce("chain-moderate");
-  e.timing = kNoTimingLimits;
+  Experiment e = test::armedPatiently("chain-moderate");
   e.environment = {{curl(13)}};
   Reach with(e);
   e.environment.clear();

@@ -37,10 +37,9 @@ struct Looped {
 
 // A short task, so that a trial ends within half a second of real time.
 experiment::Experiment shortTask() {
-  experiment::Experiment experiment = test::armedAtOnce("dingwell");
+  experiment::Experiment experiment = test::armedPatiently("dingwell");
   experiment.task->duration = 0.4;
   experiment.task->tolerance.time = 0.1;
-  experiment.timing = experiment::kNoTimingLimits;  // a busy machine spoils nothing here
   return experiment;
 }
 

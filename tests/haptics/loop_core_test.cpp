@@ -20,12 +20,6 @@ using test::SetDevice;
 
 constexpr std::int64_t kPeriod = LoopCore::kPeriodNs;
 
-experiment::Experiment patient(const std::string& name) {
-  experiment::Experiment experiment = test::armedAtOnce(name);
-  experiment.timing = experiment::kNoTimingLimits;
-  return experiment;
-}
-
 // The chain that two hands hold by its ends; the second device is told by itself.
 class TwoHandsCore : public ::testing::Test {
  protected:
@@ -35,7 +29,7 @@ class TwoHandsCore : public ::testing::Test {
     make();
   }
   void make(RunSink* sink = nullptr) {
-    auto engine = std::make_unique<TickEngine>(patient("chain-two-hands"), engineOptions(*first));
+    auto engine = std::make_unique<TickEngine>(test::armedPatiently("chain-two-hands"), engineOptions(*first));
     start = engine->protocol().start;
     first->sample.position = second.sample.position = start;
     core = std::make_unique<LoopCore>(std::move(engine), first, sink);
@@ -223,7 +217,7 @@ TEST_F(TwoHandsCore, ATickThatComputesIsNotLeftBehind) {
 class Core : public ::testing::Test {
  protected:
   LoopCore& make(RunSink* sink = nullptr, const std::string& name = "chain-slow") {
-    auto engine = std::make_unique<TickEngine>(patient(name), engineOptions(*device));
+    auto engine = std::make_unique<TickEngine>(test::armedPatiently(name), engineOptions(*device));
     device->sample.position = engine->protocol().start;
     core = std::make_unique<LoopCore>(std::move(engine), device, sink);
     return *core;
@@ -317,7 +311,7 @@ TEST_F(Core, ShowsOnlyTicksInWhichEveryMassWasSeen) {
       Asking sink;
       sink.every = every;
       device->about.virtualHand = virtualHand;
-      experiment::Experiment experiment = patient("chain-moderate");
+      experiment::Experiment experiment = test::armedPatiently("chain-moderate");
       experiment.object.masses.assign(40, 3.0 / 40);
       experiment.object.stiffness.assign(39, 4800);
       experiment.object.damping.assign(39, 0);

@@ -51,6 +51,7 @@ class FailingDevice : public HapticDevice {
     lastForce = norm(force);
     if (norm(force) > most) most = norm(force);
   }
+  DeviceHealth health() const noexcept override { return isLost ? DeviceHealth::Lost : DeviceHealth::Ready; }
   bool stopForce() noexcept override {
     ++stops;
     hangIf(hangsInStop);
@@ -64,7 +65,7 @@ class FailingDevice : public HapticDevice {
 
   std::function<void()> whileItIsTold;  // of a force
 
-  std::atomic<bool> hangsInRead{false}, hangsInWrite{false}, hangsInStop{false}, frozen{false}, jump{false};
+  std::atomic<bool> hangsInRead{false}, hangsInWrite{false}, hangsInStop{false}, frozen{false}, jump{false}, isLost{false};
   std::atomic<double> lastForce{0}, most{0};
   std::atomic<int> stops{0}, hanging{0};
 
@@ -86,8 +87,7 @@ class FailingDevice : public HapticDevice {
 
 class LoopSafety : public ::testing::Test {
  protected:
-  LoopSafety() : experiment(test::armedAtOnce("chain-slow")) {
-    experiment.timing = experiment::kNoTimingLimits;  // a machine that misses time would end the trial for that reason
+  LoopSafety() : experiment(test::armedPatiently("chain-slow")) {
     auto engine = std::make_unique<TickEngine>(experiment, EngineOptions{});
     device = std::make_shared<FailingDevice>(engine->protocol().start);
     loop = std::make_unique<HapticLoop>(std::move(engine), device, nullptr);
@@ -120,6 +120,19 @@ TEST_F(LoopSafety, FrozenReportsEndInZeroAndTheTrialIsLost) {
   engage();
   device->frozen = true;
   expectLost(DeviceFault::Silent);
+}
+
+// Between trials, too: plugged in again, it may count its places from elsewhere.
+TEST_F(LoopSafety, ADeviceThatWasLostForAMomentGetsNoForceUntilAPersonSaysSo) {
+  loop->start();
+  device->isLost = true;
+  ASSERT_TRUE(until([&] { return loop->fault() == DeviceFault::Device; }));
+  device->isLost = false;
+  loop->tryCommand(trial::Command::NextTrial);
+  ASSERT_TRUE(until([&] { return isDone(); }));
+  EXPECT_EQ(device->most, 0);
+  loop->resetFault();
+  ASSERT_TRUE(until([&] { return loop->fault() == DeviceFault::None; }));
 }
 
 TEST_F(LoopSafety, AJumpUnderForceEndsTheTrialAndAfterAResetForceMayReturn) {

@@ -25,18 +25,11 @@ TickInput inputAt(const Vec3& position, trial::Command command = trial::Command:
   return input;
 }
 
-// chain-moderate, whose movements may have gaps, so that what a gap does can be seen to its end.
-experiment::Experiment chainThatMayMissTime() {
-  experiment::Experiment experiment = test::armedAtOnce("chain-moderate");
-  experiment.timing = experiment::kNoTimingLimits;
-  return experiment;
-}
-
 // With a hand that is put where the test wants it.
 class Engine : public ::testing::Test {
  protected:
   explicit Engine(bool virtualHand = false)
-      : experiment(chainThatMayMissTime()), engine(experiment, oneHand(virtualHand)), hand(engine.protocol().start) {}
+      : experiment(test::armedPatiently("chain-moderate")), engine(experiment, oneHand(virtualHand)), hand(engine.protocol().start) {}
 
   const TickState& tick(trial::Command command = trial::Command::None, std::uint32_t missed = 0) {
     TickInput input = inputAt(hand, command);

@@ -22,8 +22,7 @@ class TwoHands : public ::testing::Test {
  protected:
   TwoHands() { make(); }
   void make() {
-    experiment = test::armedAtOnce("chain-two-hands");
-    experiment.timing = experiment::kNoTimingLimits;
+    experiment = test::armedPatiently("chain-two-hands");
     change(experiment);
     engine = std::make_unique<TickEngine>(experiment, EngineOptions{{{}, second}});
     putAtStart();
