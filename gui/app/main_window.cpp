@@ -16,15 +16,14 @@
 #include <cmath>
 #include <utility>
 
-#include "base/system/error_report.h"
 #include "gui/app/key_focus.h"
 #include "gui/session/remembered_session.h"
 #include "gui/plan/start_page.h"
 #include "gui/plot/criterion_style.h"
 #include "gui/session/session_overlay.h"
+#include "gui/widgets/fault_in.h"
 #include "gui/widgets/named.h"
 #include "gui/widgets/work_strip.h"
-#include "sim/dynamics/scene.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::app {
@@ -108,10 +107,8 @@ MainWindow::~MainWindow() {
 void MainWindow::addCentre() {
   auto* middle = new QWidget;
   auto* layout = widgets::filling<QVBoxLayout>(middle, 0);
-  view_ = new scene::SceneView;
-  view_->setObjectName("scene");
-  pages_ = new QTabWidget;
-  pages_->setObjectName("pages");
+  view_ = widgets::named<scene::SceneView>("scene");
+  pages_ = widgets::named<QTabWidget>("pages");
   pages_->setDocumentMode(true);
   pages_->tabBar()->setExpanding(false);
   pages_->addTab(view_, tr("Reach"));
@@ -359,11 +356,7 @@ void MainWindow::oneFrame() {
 }
 
 void MainWindow::joinStations() {
-  try {
-    session_.join(docks_.session->request());
-  } catch (const std::exception& e) {
-    say(QString::fromStdString(errorReportOf(e).sentence));
-  }
+  messages_->say(widgets::Grade::Error, widgets::faultIn([this] { session_.join(docks_.session->request()); }));
   showStage();
   showStations();
 }
@@ -399,13 +392,12 @@ void MainWindow::beginNext() {
     return warn(tr("The plan rests %1 s more before its next block. Ctrl+E ends the run of this block and the rest.")
                     .arg(std::ceil(session_.restLeft())));
   if (session_.run() == nullptr && !docks_.session->fault().isEmpty()) return say(docks_.session->fault());
-  try {
+  const QString fault = widgets::faultIn([this] {
     messages_->clear();
     if (session_.run() == nullptr && !mayUseDevice()) return;
     if (!session_.next(docks_.session->request()) && session_.run() == nullptr) tell(tr("The session is complete."));
-  } catch (const std::exception& e) {
-    say(QString::fromStdString(errorReportOf(e).sentence));
-  }
+  });
+  messages_->say(widgets::Grade::Error, fault);
   showStage();
 }
 
@@ -443,11 +435,9 @@ void MainWindow::nextSubject() {
 
 void MainWindow::offerResume() {
   std::optional<InterruptedRun> found;
-  try {
-    found = findInterruptedRun();
-  } catch (const std::exception& e) {
+  if (const QString fault = widgets::faultIn([&] { found = findInterruptedRun(); }); !fault.isEmpty()) {
     forgetOpenRun();
-    return warn(tr("The interrupted run cannot be resumed. %1").arg(QString::fromStdString(errorReportOf(e).sentence)));
+    return warn(tr("The interrupted run cannot be resumed. %1").arg(fault));
   }
   if (!found) return;
   const session::SessionPlace& place = found->request.place;

@@ -4,16 +4,13 @@
 #include <QFileDialog>
 #include <QFileInfo>
 #include <QMimeData>
-#include <QPushButton>
 #include <QTimer>
 #include <QUrl>
 #include <QVBoxLayout>
 
-#include "base/error.h"
-#include "base/system/error_report.h"
 #include "gui/app/main_window.h"
-#include "gui/session/remembered_session.h"
 #include "gui/widgets/ask.h"
+#include "gui/widgets/fault_in.h"
 #include "sim/experiment/experiment.h"
 #include "sim/session/recorded_blocks.h"
 
@@ -25,7 +22,7 @@ using widgets::ask;
 void MainWindow::openExperiment(const QString& what) {
   if (isRecorded(what)) return inspect(what);
   if (!mayEndRun("Opening another experiment") || !mayBeLeft()) return;
-  try {
+  const QString fault = widgets::faultIn([&] {
     screens_->lookIn(QFileInfo(what).path());
     const session::Programme opened = session::readProgramme(what.toStdString());
     edits_.open(opened, QStringLiteral("open %1").arg(what));
@@ -34,9 +31,8 @@ void MainWindow::openExperiment(const QString& what) {
     file_ = QFileInfo::exists(what) ? what : QString();
     if (!file_.isEmpty()) rememberFile(file_);
     messages_->clear();
-  } catch (const Error& e) {
-    say(QString::fromUtf8(e.what()));
-  }
+  });
+  messages_->say(widgets::Grade::Error, fault);
 }
 
 inspector::InspectorPage& MainWindow::inspector() {
@@ -82,18 +78,16 @@ bool MainWindow::saveExperimentAs() {
 
 bool MainWindow::saveTo(const QString& file, const experiment::Experiment& experiment) {
   if (session_.isPlan()) return say("Use Session plan… (Ctrl+P) to compose and save a plan."), false;
-  try {
+  const QString fault = widgets::faultIn([&] {
     writeExperiment(experiment, file);
     if (experiment.name != session_.experiment().name && session_.run() == nullptr)
       edits_.open(session::readProgramme(file.toStdString()), QStringLiteral("save as %1").arg(QFileInfo(file).fileName()));
     file_ = file;
     rememberFile(file);
     edits_.stack().setClean();
-    return true;
-  } catch (const Error& e) {
-    say(QString::fromUtf8(e.what()));
-    return false;
-  }
+  });
+  messages_->say(widgets::Grade::Error, fault);
+  return fault.isEmpty();
 }
 
 void MainWindow::tryEdit(docks::Dock& dock, const experiment::Experiment& changed, const QString& what) {
@@ -158,7 +152,7 @@ bool MainWindow::mayBeLeft() {
 
 void MainWindow::markTrial(int number, const std::function<void(record::TrialMark&)>& change) {
   if (session_.run() == nullptr) return warn(tr("The run is closed. Mark its trials on the page Inspect."));
-  try {
+  const QString fault = widgets::faultIn([&] {
     const std::string& log = session_.run()->logPath();
     record::RunMarks marks = record::readMarks(log);
     record::TrialMark mark{.trial = number};
@@ -167,9 +161,8 @@ void MainWindow::markTrial(int number, const std::function<void(record::TrialMar
     marks.set(mark);
     record::writeMarks(log, marks);
     docks_.trials->setMark(number, mark);
-  } catch (const std::exception& e) {
-    say(QString::fromStdString(errorReportOf(e).sentence));
-  }
+  });
+  messages_->say(widgets::Grade::Error, fault);
 }
 
 void MainWindow::savePicture() {

@@ -28,8 +28,7 @@ QSlider* addSlider(QMenu& menu, const QString& title, const char* name, int widt
   auto* slider = widgets::named<QSlider>(name, Qt::Horizontal);
   slider->setRange(0, 100);
   slider->setMinimumWidth(width);
-  layout->addWidget(new QLabel(title));
-  layout->addWidget(slider);
+  widgets::addAll(*layout, {new QLabel(title), slider});
   auto* action = new QWidgetAction(&menu);
   action->setDefaultWidget(row);
   menu.addAction(action);

@@ -7,18 +7,16 @@
 #include <QVBoxLayout>
 #include <algorithm>
 #include <filesystem>
-#include <filesystem>
 #include <numbers>
 
-#include "base/error.h"
 #include "base/fault.h"
-#include "base/system/error_report.h"
 #include "constraints/constraint.h"
 #include "constraints/geometry/task_path.h"
 #include "constraints/regularity/undefined.h"
 #include "gui/scene/thumbnail.h"
 #include "gui/scene_plan/definition_reach.h"
 #include "gui/widgets/ask.h"
+#include "gui/widgets/fault_in.h"
 #include "gui/widgets/named.h"
 #include "sim/record/log/atomic_file.h"
 
@@ -61,8 +59,6 @@ ConstraintChooser::ConstraintChooser(QWidget* parent) : QDialog(parent), probe_(
   fillList();
   if (!definitions_.empty()) list_->setCurrentRow(0);
 }
-
-ConstraintChooser::~ConstraintChooser() = default;
 
 QVBoxLayout* ConstraintChooser::makeList() {
   auto* left = new QVBoxLayout;
@@ -145,22 +141,18 @@ void ConstraintChooser::fillList() {
   const QSignalBlocker quiet(list_);
   list_->clear();
   definitions_ = constraints::catalogue();
-  try {
+  const QString unreadable = widgets::faultIn([this] {
     for (constraints::Definition& own : constraints::readDefinitionFolder(constraints::userDefinitionFolder()))
       definitions_.push_back(std::move(own));
-  } catch (const Error& e) {
-    saved_->setText(QString::fromUtf8(e.what()));
-  }
+  });
+  if (!unreadable.isEmpty()) saved_->setText(unreadable);
   for (const constraints::Definition& d : definitions_) {
     auto* item = new QListWidgetItem(
         QStringLiteral("%1\n%2").arg(text(d.name), d.kind == constraints::ConstraintKind::Surface ? "surface" : "curve"));
-    item->setToolTip(text(d.sentence));
     item->setData(Qt::UserRole, (text(d.name) + QLatin1Char(' ') + item->text() + QLatin1Char(' ') + text(d.sentence)).toLower());
-    try {
-      item->setIcon(QIcon(QPixmap::fromImage(thumbnailOf(d, list_->iconSize(), devicePixelRatioF()))));
-    } catch (const Error& e) {
-      item->setToolTip(QString::fromUtf8(e.what()));
-    }
+    const QString fault =
+        widgets::faultIn([&] { item->setIcon(QIcon(QPixmap::fromImage(thumbnailOf(d, list_->iconSize(), devicePixelRatioF())))); });
+    item->setToolTip(fault.isEmpty() ? text(d.sentence) : fault);
     list_->addItem(item);
   }
   filter(search_->text());
@@ -272,7 +264,7 @@ void ConstraintChooser::rebuild(bool resetCamera) {
     choice.spec.name = current_.name;
   }
   choice.spec.shape = sliders_->values();
-  try {
+  formula_->setFault(widgets::faultIn([&] {
     const constraints::Constraint constraint = current_.name.empty() ? constraints::makeConstraint(choice.spec, "formula")
                                                                      : constraints::makeConstraint(current_, choice.spec.shape);
     if (current_.name.empty() && coincide(constraint, choice)) {  // after another formula's places: nowhere to go
@@ -286,11 +278,8 @@ void ConstraintChooser::rebuild(bool resetCamera) {
     probe_.task->start = choice.start;
     probe_.task->target = choice.target;
     preview_->setPlan(scene::planScene(probe_, constraint), resetCamera);
-    formula_->setFault({});
     choice_ = choice;
-  } catch (const Error& e) {
-    formula_->setFault(QString::fromUtf8(e.what()));
-  }
+  }));
   use_->setEnabled(choice_.has_value());
   save_->setEnabled(choice_.has_value());
 }
@@ -302,7 +291,7 @@ void ConstraintChooser::save() {
   d.shape = sliders_->parameters();
   const auto values = sliders_->values();
   for (constraints::ShapeParameter& p : d.shape) p.defaultValue = values.at(p.name);
-  try {
+  const QString fault = widgets::faultIn([&] {
     if (name.empty()) throw FaultError(Fault{.what = "The definition has no valid name. Use lower-case words joined by '-'."});
     if (constraints::findInCatalogue(name) != nullptr)
       throw FaultError(Fault{.what = "Another definition has this name. Choose another name than " + name});
@@ -319,9 +308,8 @@ void ConstraintChooser::save() {
     fillList();
     for (std::size_t i = 0; i < definitions_.size(); ++i)
       if (definitions_[i].name == name) list_->setCurrentRow(static_cast<int>(i));
-  } catch (const std::exception& e) {
-    saved_->setText(QString::fromStdString(errorReportOf(e).sentence));
-  }
+  });
+  if (!fault.isEmpty()) saved_->setText(fault);
 }
 
 }  // namespace reachlab::gui::docks

@@ -31,7 +31,6 @@ class ConstraintChooser : public QDialog {
   Q_OBJECT
  public:
   explicit ConstraintChooser(QWidget* parent = nullptr);
-  ~ConstraintChooser() override;
   /// Shows the constraint in use.
   void setCurrent(const experiment::Experiment& experiment);
   /// Why the present object cannot move on the choice. If only the number of masses is the reason, a single mass is offered. Empty: the

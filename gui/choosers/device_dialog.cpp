@@ -6,8 +6,8 @@
 #include <QVBoxLayout>
 #include <utility>
 
-#include "base/error.h"
 #include "devices/driver/registry.h"
+#include "gui/widgets/fault_in.h"
 #include "gui/widgets/theme.h"
 #include "gui/widgets/named.h"
 #include "gui/widgets/wait_cursor.h"
@@ -64,8 +64,6 @@ DeviceDialog::DeviceDialog(const experiment::CompiledExperiment& experiment, con
   showButtons();
 }
 
-DeviceDialog::~DeviceDialog() = default;
-
 void DeviceDialog::showButtons() {
   const QString name = name_->text().trimmed();
   open_->setText(device_ ? tr("Let it go") : tr("Look at it"));
@@ -91,7 +89,7 @@ void DeviceDialog::openOrLetGo() {
     showButtons();
     return;
   }
-  try {
+  const QString fault = widgets::faultIn([this] {
     const widgets::WaitCursor wait;
     device_ = std::make_unique<devices::LiveDevice>(name_->text().trimmed().toStdString(), experiment_);
     const haptics::DeviceInfo info = device_->info();
@@ -102,9 +100,8 @@ void DeviceDialog::openOrLetGo() {
              (hint.isEmpty() ? tr(" needs no calibration") : tr(": to calibrate, %1, and press Calibrate").arg(hint)),
          false);
     timer_->start(kLookMs);
-  } catch (const Error& fault) {
-    tell(QString::fromStdString(fault.what()), true);
-  }
+  });
+  if (!fault.isEmpty()) tell(fault, true);
   showButtons();
 }
 
@@ -126,13 +123,12 @@ void DeviceDialog::look() {
 }
 
 void DeviceDialog::calibrate() {
-  try {
+  const QString fault = widgets::faultIn([this] {
     const widgets::WaitCursor wait;
     device_->calibrate();
     tell(tr("The device is calibrated. This is its calibration position now."), false);
-  } catch (const Error& fault) {
-    tell(QString::fromStdString(fault.what()), true);
-  }
+  });
+  if (!fault.isEmpty()) tell(fault, true);
 }
 
 }  // namespace reachlab::gui::docks

@@ -22,8 +22,6 @@ class DeviceDialog : public QDialog {
   /// `take`: is told the device that is to be the hand.
   DeviceDialog(const experiment::CompiledExperiment& experiment, const QString& chosen, std::function<void(const QString& name)> take,
                QWidget* parent);
-  ~DeviceDialog() override;
-
   /// Opens the named device, or releases it.
   void openOrLetGo();
 

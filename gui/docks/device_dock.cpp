@@ -36,9 +36,7 @@ QTreeWidgetItem* addGroup(QTreeWidget& rows, const QString& title) {
 DeviceDock::DeviceDock(const Finding& finding, QWidget* parent) : Dock(tr("Devices"), "deviceDock", parent), finding_(finding) {
   using widgets::named, widgets::tipped;
   auto* body = new QWidget;
-  auto* layout = new QVBoxLayout(body);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(2);
+  auto* layout = widgets::filling<QVBoxLayout>(body, 2);
   rows_ = named<QTreeWidget>("deviceRows");
   rows_->setColumnCount(2);
   rows_->setHeaderHidden(true);

@@ -154,8 +154,9 @@ class EnvironmentDock : public Dock {
     QWidget* widget = nullptr;
     std::vector<widgets::KeyField*> fields;
   };
-  template <class T>
-  Page makePage(const QString& name, const T& of);
+  // `tell`: after an edit of a field.
+  template <class T, class Tell>
+  Page makePage(const QString& name, const T& of, Tell tell);
   QWidget* makeForces();
   QWidget* makeCursor();
   void display(const experiment::CompiledExperiment& experiment, bool editable) override;
@@ -171,11 +172,10 @@ class EnvironmentDock : public Dock {
   Page cursor_;
 };
 
-template <class T>
-EnvironmentDock::Page EnvironmentDock::makePage(const QString& name, const T& of) {
+template <class T, class Tell>
+EnvironmentDock::Page EnvironmentDock::makePage(const QString& name, const T& of, Tell tell) {
   Page page{new QWidget, {}};
-  auto* form = new QFormLayout(page.widget);
-  form->setContentsMargins(0, 0, 0, 0);
+  auto* form = widgets::filling<QFormLayout>(page.widget);
   eachKey(of, [&](const Key& key, const auto& value) {
     const std::string_view whole = key.name;
     const experiment::NamedQuantity quantity = experiment::splitUnit(whole);
@@ -188,6 +188,7 @@ EnvironmentDock::Page EnvironmentDock::makePage(const QString& name, const T& of
     auto* label = new QLabel(shape.columns > 1 ? QStringLiteral("%1 [%2]").arg(words, unit) : words);
     form->addRow(widgets::tipped(label, tipOf(whole)), widgets::tipped(field, tipOf(whole)));
     faults()->watch(field);
+    connect(field, &widgets::KeyField::edited, this, tell);
     page.fields.push_back(field);
   });
   return page;
@@ -196,9 +197,7 @@ EnvironmentDock::Page EnvironmentDock::makePage(const QString& name, const T& of
 EnvironmentDock::EnvironmentDock(QWidget* parent) : Dock("Environment", "environmentDock", parent) {
   auto* body = new QWidget;
   auto* column = new QVBoxLayout(body);
-  column->addWidget(makeForces());
-  column->addWidget(makeCursor());
-  column->addWidget(faults());
+  widgets::addAll(*column, {makeForces(), makeCursor(), faults()});
   column->addStretch(1);
   setBody(body);
 }
@@ -219,9 +218,8 @@ QWidget* EnvironmentDock::makeForces() {
   buttons->setStretch(2, 1);
   column->addLayout(buttons);
   for (std::size_t kind = 0; kind < beginnings().size(); ++kind) {
-    kinds_.push_back(makePage(kind_->itemText(static_cast<int>(kind)), beginnings()[kind]));
+    kinds_.push_back(makePage(kind_->itemText(static_cast<int>(kind)), beginnings()[kind], &EnvironmentDock::tellForce));
     column->addWidget(kinds_.back().widget);
-    for (widgets::KeyField* field : kinds_.back().fields) connect(field, &widgets::KeyField::edited, this, &EnvironmentDock::tellForce);
   }
   connect(list_, &QListWidget::currentRowChanged, this, &EnvironmentDock::showForce);
   connect(add, &QPushButton::clicked, this, [this] {
@@ -242,11 +240,9 @@ QWidget* EnvironmentDock::makeCursor() {
   cursorBox_ = widgets::named<QGroupBox>("cursor", tr("Cursor in place of the hand"));
   cursorBox_->setCheckable(true);
   auto* column = new QVBoxLayout(cursorBox_);
-  cursor_ = makePage("cursor", experiment::Cursor{});
+  cursor_ = makePage("cursor", experiment::Cursor{},
+                     [this] { edit(kWhat, [this](experiment::Experiment& e) { takeFrom(cursor_.fields, e.cursor.emplace()); }); });
   column->addWidget(cursor_.widget);
-  for (widgets::KeyField* field : cursor_.fields)
-    connect(field, &widgets::KeyField::edited, this,
-            [this] { edit(kWhat, [this](experiment::Experiment& e) { takeFrom(cursor_.fields, e.cursor.emplace()); }); });
   connect(cursorBox_, &QGroupBox::toggled, this, [this](bool on) {
     cursor_.widget->setVisible(on);
     edit(kWhat, [on](experiment::Experiment& e) { e.cursor = on ? std::optional(experiment::Cursor{}) : std::nullopt; });

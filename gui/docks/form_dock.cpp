@@ -29,8 +29,7 @@ void FormDock::bind(widgets::UnitSpinBox* box, const QString& name, const QStrin
 
 widgets::NumberListEdit* FormDock::addList(const QString& label, const char* name, const QString& tip, std::vector<double>& entry,
                                            std::function<void()> follow) {
-  auto* list = widgets::named<widgets::NumberListEdit>(name);
-  list->setToolTip(tip);
+  auto* list = widgets::tipped(widgets::named<widgets::NumberListEdit>(name), tip);
   form_->addRow(label, list);
   faults()->watch(list);
   lists_.emplace_back(list, &entry);

@@ -24,8 +24,8 @@ QString text(std::string_view s) { return QString::fromUtf8(s.data(), static_cas
 PredictionDock::PredictionDock(QWidget* parent) : Dock("Predictions", "predictionDock", parent) {
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);
-  table_ = plot::makeCriteriaTable({"criterion", "peak", "ε last", "ε run", "ε fit"}, {predict::Criterion::MinHandJerk}, kRowHeight);
-  table_->setObjectName("criteria");
+  table_ =
+      plot::makeCriteriaTable("criteria", {"criterion", "peak", "ε last", "ε run", "ε fit"}, {predict::Criterion::MinHandJerk}, kRowHeight);
   table_->horizontalHeaderItem(kPeak)->setToolTip("predicted peak velocity of the hand [m/s]");
   table_->horizontalHeaderItem(kLast)->setToolTip(
       "the paper's epsilon of the last trial: RMS difference of the hand's velocity, time-scaled [m/s]");

@@ -45,8 +45,7 @@ SessionDock::SessionDock(QWidget* parent) : Dock("Session", "sessionDock", paren
   hand_->addItems({"hand", "R", "L", "A"});
   data_ = tipped(named<QLineEdit>("data"), "Folder of the dataset. It is created if it does not exist.");
   who_ = new QWidget;
-  auto* form = new QFormLayout(who_);
-  form->setContentsMargins(0, 0, 0, 0);
+  auto* form = widgets::filling<QFormLayout>(who_);
   form->addRow("subject", rowOf({subject_, new QLabel("session"), session_, new QLabel("day"), day_}));
   form->addRow("person", rowOf({age_, sex_, hand_}));
   form->addRow("device", makeDeviceRow());
@@ -61,8 +60,7 @@ SessionDock::SessionDock(QWidget* parent) : Dock("Session", "sessionDock", paren
 
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);
-  layout->addWidget(who_);
-  layout->addWidget(faults());
+  widgets::addAll(*layout, {who_, faults()});
   layout->addLayout(pausing);
   layout->addStretch();
   setBody(body, false);

@@ -4,6 +4,7 @@
 #include <QTableWidget>
 #include <QVBoxLayout>
 #include <algorithm>
+#include <utility>
 
 #include "gui/scene_plan/hand_colours.h"
 #include "gui/widgets/named.h"
@@ -18,26 +19,16 @@ using Light = network::StationStatus::Light;
 enum Column { kLight, kNumber, kName, kRoundTrip, kJitter, kLoss, kOvertaken, kOffset, kAge };
 constexpr int kMostLines = 3;
 
-// Told apart by shape and word; the colour only helps.
-QString lightText(Light light) {
-  switch (light) {
-    case Light::Good: return "● good";
-    case Light::Fair: return "▲ fair";
-    case Light::Stop: return "■ stop";
-    case Light::Absent: break;
-  }
-  return "○ absent";
-}
-
-QColor lightInk(Light light) {
+// Words and ink. Told apart by shape and word; the colour only helps.
+std::pair<QString, QColor> lookOf(Light light) {
   using namespace widgets;
   switch (light) {
-    case Light::Good: return toQColor(themed(colours::kGreen));
-    case Light::Fair: return toQColor(themed(colours::kTarget));
-    case Light::Stop: return widgets::faultInk();
+    case Light::Good: return {"● good", toQColor(themed(colours::kGreen))};
+    case Light::Fair: return {"▲ fair", toQColor(themed(colours::kTarget))};
+    case Light::Stop: return {"■ stop", faultInk()};
     case Light::Absent: break;
   }
-  return toQColor(themed(colours::kFaintText));
+  return {"○ absent", toQColor(themed(colours::kFaintText))};
 }
 
 QString milliseconds(double seconds, int digits) { return QString::number(1e3 * seconds, 'f', digits); }
@@ -45,10 +36,10 @@ QString milliseconds(double seconds, int digits) { return QString::number(1e3 * 
 }  // namespace
 
 StationsDock::StationsDock(QWidget* parent) : Dock(tr("Stations"), "stationsDock", parent) {
-  table_ = widgets::makeTextTable({tr("link"), tr("no."), tr("name"), tr("round trip\n[ms]"), tr("jitter\n[ms]"), tr("lost\n[%]"),
+  table_ = widgets::makeTextTable("stations",
+                                  {tr("link"), tr("no."), tr("name"), tr("round trip\n[ms]"), tr("jitter\n[ms]"), tr("lost\n[%]"),
                                    tr("overtaken\n[%]"), tr("clock\n[ms]"), tr("age\n[ms]"), tr("device"), tr("software")},
                                   25);
-  table_->setObjectName("stations");
   const std::pair<Column, QString> tips[] = {
       {kRoundTrip, tr("round trip time; a trial is armed up to 120 ms")},
       {kJitter, tr("standard deviation of the round trip")},
@@ -111,14 +102,15 @@ void StationsDock::fill(int row, const network::StationStatus& station, bool isH
   QStringList roles;
   if (isHere) roles << tr("here");
   if (station.conductor) roles << tr("conductor");
+  const auto [light, ink] = lookOf(station.light);
   widgets::setTexts(*table_, row,
-                    {isHere ? QString() : lightText(station.light), QString::number(station.station),
+                    {isHere ? QString() : light, QString::number(station.station),
                      roles.isEmpty() ? text(station.name) : QStringLiteral("%1 (%2)").arg(text(station.name), roles.join(", ")),
                      answer(station.roundTrip, 1), answer(station.jitter, 1), number(QString::number(100 * station.loss, 'f', 1)),
                      number(QString::number(100 * station.overtaken, 'f', 1)), answer(station.offset, 3),
                      number(milliseconds(station.age, 0)), text(station.device), text(station.software)});
   for (int column = kRoundTrip; column <= kAge; ++column) table_->item(row, column)->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);
-  table_->item(row, kLight)->setForeground(lightInk(station.light));
+  table_->item(row, kLight)->setForeground(ink);
   const widgets::Colour& colour = scene::handColour(static_cast<std::size_t>(station.station - 1));
   table_->item(row, kNumber)->setForeground(widgets::toQColor(widgets::themed(colour)));
 }

@@ -32,8 +32,7 @@ QString outcomeWords(const trial::TrialResult& result) {
 }  // namespace
 
 TrialsDock::TrialsDock(QWidget* parent) : Dock("Trials", "trialsDock", parent) {
-  table_ = widgets::makeTextTable({"trial", "outcome", "t [s]", "ε", QString()}, 23);
-  table_->setObjectName("trials");
+  table_ = widgets::makeTextTable("trials", {"trial", "outcome", "t [s]", "ε", QString()}, 23);
   table_->horizontalHeaderItem(kTime)->setToolTip("from the hand's onset to the end [s]");
   table_->setSelectionBehavior(QAbstractItemView::SelectRows);
   table_->horizontalHeader()->setSectionResizeMode(kOutcome, QHeaderView::Stretch);
@@ -41,24 +40,19 @@ TrialsDock::TrialsDock(QWidget* parent) : Dock("Trials", "trialsDock", parent) {
   table_->setMinimumSize(180, 90);
   table_->setSelectionMode(QAbstractItemView::SingleSelection);
   auto* body = new QWidget;
-  auto* layout = new QVBoxLayout(body);
-  layout->setContentsMargins(0, 0, 0, 0);
-  layout->setSpacing(2);
+  auto* layout = widgets::filling<QVBoxLayout>(body, 2);
   layout->addWidget(table_, 1);
   auto* line = new QHBoxLayout;
-  const auto button = [&](const QString& text, const char* name, const QString& tip) {
+  const auto addButton = [&](const QString& text, const char* name, const QString& tip, auto slot) {
     auto* made = widgets::tipped(widgets::named<QToolButton>(name), tip);
     made->setText(text);
     made->setFocusPolicy(Qt::NoFocus);
     line->addWidget(made);
-    return made;
+    connect(made, &QToolButton::clicked, this, slot);
   };
-  connect(button(tr("⚑ Flag"), "flagTrial", tr("flags the chosen trial, or the newest trial, to look at it again")), &QToolButton::clicked,
-          this, &TrialsDock::flag);
-  connect(button(tr("Exclude…"), "excludeTrial", tr("excludes the trial from the analysis, with a reason")), &QToolButton::clicked, this,
-          &TrialsDock::exclude);
-  connect(button(tr("Undo repeat"), "undoRepeat", tr("cancels the last planned repeat")), &QToolButton::clicked, this,
-          &TrialsDock::takeBackRequested);
+  addButton(tr("⚑ Flag"), "flagTrial", tr("flags the chosen trial, or the newest trial, to look at it again"), &TrialsDock::flag);
+  addButton(tr("Exclude…"), "excludeTrial", tr("excludes the trial from the analysis, with a reason"), &TrialsDock::exclude);
+  addButton(tr("Undo repeat"), "undoRepeat", tr("cancels the last planned repeat"), &TrialsDock::takeBackRequested);
   line->addStretch(1);
   layout->addLayout(line);
   setBody(body, false);

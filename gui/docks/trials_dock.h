@@ -26,7 +26,6 @@ class TrialsDock : public Dock {
   void showCriterion(std::size_t index, const QString& title);
   /// Shows the mark of a trial.
   void setMark(int number, const record::TrialMark& mark);
-  int trialCount() const { return static_cast<int>(rows_.size()); }
 
  Q_SIGNALS:
   /// A row was double-clicked: something is to be noted about that trial.

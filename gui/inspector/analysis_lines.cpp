@@ -70,7 +70,7 @@ std::vector<plot::PredictedLine> predictionsOf(const analysis::Analysis& analysi
       line.y = signal == Signal::Hand ? curve.hand : curve.object;
       out.push_back(line);
     }
-    const auto k = placeOf(r.candidates, criterion);
+    const auto k = analysis::placeOf(namesOf(r.candidates), criterion);
     if (!fitted || !k || signal != Signal::Hand) continue;
     line.title += ProfilePlot::tr(", fitted");
     line.fitted = true;

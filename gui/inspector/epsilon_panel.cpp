@@ -6,7 +6,6 @@
 #include <QVBoxLayout>
 #include <cmath>
 
-#include "analysis/report/wording.h"
 #include "gui/plot/criterion_style.h"
 #include "gui/widgets/named.h"
 
@@ -18,7 +17,7 @@ enum Column { kName, kPaper, kFitted, kColumns };
 }  // namespace
 
 std::optional<double> fittedEpsilon(const analysis::Analysis& analysis, std::size_t condition, predict::Criterion criterion) {
-  const auto k = placeOf(analysis.results[condition].candidates, criterion);
+  const auto k = analysis::placeOf(namesOf(analysis.results[condition].candidates), criterion);
   if (!k) return std::nullopt;
   double sum = 0;
   int people = 0;
@@ -32,9 +31,8 @@ std::optional<double> fittedEpsilon(const analysis::Analysis& analysis, std::siz
 
 EpsilonPanel::EpsilonPanel(QWidget* parent) : QWidget(parent) {
   auto* layout = widgets::filling<QVBoxLayout>(this, 3);
-  table_ = plot::makeCriteriaTable({tr("criterion"), tr("ε paper"), tr("ε fitted")},
+  table_ = plot::makeCriteriaTable("inspectedCriteria", {tr("criterion"), tr("ε paper"), tr("ε fitted")},
                                    {predict::Criterion::MinHandJerk, predict::Criterion::MinCrackle}, 22);
-  table_->setObjectName("inspectedCriteria");
   table_->horizontalHeaderItem(kPaper)->setToolTip(
       tr("the paper's epsilon of the hand over the chosen trials that count, as in the report's tables [m/s]"));
   table_->horizontalHeaderItem(kFitted)->setToolTip(tr(

@@ -9,8 +9,10 @@
 #include <QLineEdit>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QRegularExpression>
 #include <QScrollBar>
 #include <QShortcut>
+#include <QSortFilterProxyModel>
 #include <QSplitter>
 #include <QTableView>
 #include <QTimer>
@@ -18,11 +20,11 @@
 #include <cmath>
 
 #include "base/fault.h"
-#include "base/system/error_report.h"
 #include "gui/inspector/epsilon_panel.h"
 #include "gui/inspector/marks_panel.h"
 #include "gui/inspector/profile_plot.h"
 #include "gui/inspector/replay_view.h"
+#include "gui/widgets/fault_in.h"
 #include "sim/record/log/atomic_file.h"
 
 namespace reachlab::gui::inspector {
@@ -70,7 +72,10 @@ void InspectorPage::fitHalves() {
 void InspectorPage::wire() {
   connect(soon_, &QTimer::timeout, this, &InspectorPage::inspect);
   connect(words_, &QLineEdit::textChanged, this, [this](const QString& words) {
-    filter_->setWords(words);
+    QString pattern;  // a row has every one of the words
+    for (const QString& word : words.toLower().split(QLatin1Char(' '), Qt::SkipEmptyParts))
+      pattern += QStringLiteral("^(?=[\\s\\S]*%1)").arg(QRegularExpression::escape(word));
+    filter_->setFilterRegularExpression(pattern);
     count_->setText(tr("%1 of %2").arg(filter_->rowCount()).arg(table_->rowCount()));
   });
   connect(view_->selectionModel(), &QItemSelectionModel::selectionChanged, soon_, qOverload<>(&QTimer::start));
@@ -364,13 +369,9 @@ void InspectorPage::setMark(const record::TrialMark& mark) {
 }
 
 bool InspectorPage::attempt(const std::function<void()>& work) {
-  try {
-    work();
-    return true;
-  } catch (const std::exception& e) {
-    Q_EMIT said(QString::fromStdString(errorReportOf(e).sentence));
-    return false;
-  }
+  const QString fault = widgets::faultIn(work);
+  if (!fault.isEmpty()) Q_EMIT said(fault);
+  return fault.isEmpty();
 }
 
 void InspectorPage::exportTo(const QString& file) {

@@ -15,6 +15,7 @@ class QLabel;
 class QLineEdit;
 class QProgressBar;
 class QPushButton;
+class QSortFilterProxyModel;
 class QSplitter;
 class QTableView;
 class QTimer;
@@ -97,7 +98,7 @@ class InspectorPage : public QWidget {
   std::map<std::string, analysis::Recording> recordings_;  // that are being looked at
   analysis::ScenesOfRuns scenes_;
   TrialTable* table_;
-  TrialFilter* filter_;
+  QSortFilterProxyModel* filter_;
   QTableView* view_;
   QSplitter* halves_;         // the table and what is drawn of it
   bool halvesMoved_ = false;  // by hand

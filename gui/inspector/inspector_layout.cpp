@@ -9,6 +9,7 @@
 #include <QMenu>
 #include <QProgressBar>
 #include <QPushButton>
+#include <QSortFilterProxyModel>
 #include <QSplitter>
 #include <QTableView>
 #include <QTimer>
@@ -58,7 +59,11 @@ InspectorPage::InspectorPage(QWidget* parent) : QWidget(parent) {
   layout->setSpacing(5);
   addTop(*layout);
   table_ = new TrialTable(this);
-  filter_ = new TrialFilter(table_);
+  filter_ = new QSortFilterProxyModel(table_);
+  filter_->setSourceModel(table_);
+  filter_->setSortRole(Qt::UserRole);
+  filter_->setFilterRole(TrialTable::kWordsRole);
+  filter_->setDynamicSortFilter(false);  // a row does not run away while its epsilon is computed
   halves_ = split(Qt::Horizontal, makeLeft(), makeRight(), {4, 6}, {700, 860});
   halves_->setObjectName("inspectorHalves");
   connect(halves_, &QSplitter::splitterMoved, this, [this] { halvesMoved_ = true; });

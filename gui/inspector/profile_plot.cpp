@@ -7,7 +7,6 @@
 #include <qwt_plot_curve.h>
 #include <qwt_plot_intervalcurve.h>
 #include <qwt_plot_magnifier.h>
-#include <qwt_plot_marker.h>
 #include <qwt_plot_panner.h>
 #include <qwt_scale_map.h>
 #include <qwt_text.h>
@@ -24,20 +23,6 @@ namespace reachlab::gui::inspector {
 namespace {
 
 constexpr double kNear = 7;  // pixels: what a click means
-
-std::unique_ptr<QwtPlotMarker> makeMark(QwtPlot& plot, const QColor& colour, Qt::PenStyle style, const QString& label) {
-  auto mark = std::make_unique<QwtPlotMarker>();
-  mark->setLineStyle(QwtPlotMarker::VLine);
-  mark->setLinePen(QPen(colour, 1.6, style));
-  QwtText text(label);
-  text.setColor(colour);
-  mark->setLabel(text);
-  mark->setLabelAlignment(Qt::AlignRight | Qt::AlignTop);
-  mark->setZ(60);
-  mark->setVisible(false);
-  mark->attach(&plot);
-  return mark;
-}
 
 }  // namespace
 
@@ -92,10 +77,11 @@ ProfilePlot::ProfilePlot(QWidget* parent) : QWidget(parent), impl_(std::make_uni
   impl_->band->attach(plot);
   impl_->picked = gui::plot::makeCurve(*plot, tr("picked"), QPen(widgets::toQColor(widgets::colours::kLast), 2.2), 40);
   impl_->mean = gui::plot::makeCurve(*plot, tr("mean"), QPen(widgets::ink(255), 2.6), 30);
-  const QColor mark = widgets::toQColor(widgets::colours::kTarget);
-  impl_->onset = makeMark(*plot, mark, Qt::DashLine, tr("onset"));
-  impl_->end = makeMark(*plot, mark, Qt::DashLine, tr("end"));
-  impl_->cursor = makeMark(*plot, widgets::ink(150), Qt::SolidLine, {});
+  const QPen mark(widgets::toQColor(widgets::colours::kTarget), 1.6, Qt::DashLine);
+  impl_->onset = gui::plot::makeMark(*plot, mark, tr("onset"), 60);
+  impl_->end = gui::plot::makeMark(*plot, mark, tr("end"), 60);
+  impl_->cursor = gui::plot::makeMark(*plot, QPen(widgets::ink(150), 1.6), {}, 60);
+  for (const auto* of : {&impl_->onset, &impl_->end, &impl_->cursor}) (*of)->hide();
   gui::plot::addLegend(*plot);
   auto* wheel = new QwtPlotMagnifier(canvas);
   wheel->setMouseButton(Qt::NoButton);

@@ -49,9 +49,8 @@ QIcon iconOf(Sign sign) {
 }
 
 QToolButton* makeButton(const char* name, Sign sign, const QString& tip) {
-  auto* button = widgets::named<QToolButton>(name);
+  auto* button = widgets::tipped(widgets::named<QToolButton>(name), tip);
   button->setIcon(iconOf(sign));
-  button->setToolTip(tip);
   button->setAutoRaise(true);
   return button;
 }

@@ -144,6 +144,7 @@ QVariant TrialTable::data(const QModelIndex& at, int role) const {
   switch (role) {
     case Qt::DisplayRole: return text(at.row(), at.column());
     case Qt::UserRole: return sortKey(at.row(), at.column());
+    case kWordsRole: return words(at.row());
     case Qt::TextAlignmentRole: {
       const bool words = at.column() <= kCondition || at.column() == kOutcome || at.column() == kMark;
       return static_cast<int>((words ? Qt::AlignLeft : Qt::AlignRight) | Qt::AlignVCenter);
@@ -188,23 +189,6 @@ QString TrialTable::words(int row) const {
   all << QString::fromUtf8(outcome.data(), static_cast<int>(outcome.size()));
   if (all.at(4).contains("⚑")) all << "flagged";
   return all.join(QLatin1Char(' ')).toLower();
-}
-
-TrialFilter::TrialFilter(TrialTable* table) : QSortFilterProxyModel(table), table_(*table) {
-  setSourceModel(table);
-  setSortRole(Qt::UserRole);
-  setDynamicSortFilter(false);  // a row does not run away while its epsilon is computed
-}
-
-void TrialFilter::setWords(const QString& words) {
-  words_ = words.toLower().split(QLatin1Char(' '), Qt::SkipEmptyParts);
-  invalidateFilter();
-}
-
-bool TrialFilter::filterAcceptsRow(int row, const QModelIndex&) const {
-  if (words_.isEmpty()) return true;
-  const QString all = table_.words(row);
-  return std::all_of(words_.begin(), words_.end(), [&](const QString& word) { return all.contains(word); });
 }
 
 std::string toCsv(const TrialTable& table, const std::vector<int>& rows) {

@@ -1,6 +1,5 @@
 #pragma once
 #include <QAbstractTableModel>
-#include <QSortFilterProxyModel>
 #include <array>
 #include <map>
 #include <optional>
@@ -18,11 +17,12 @@ struct TrialErrors {
   One paper, fitted;  // the paper's epsilon, the fitted epsilon: as `reach analyze` has them
 };
 
-/// Every trial of an index as a row, with its marks and computed values so far. Sorts by Qt::UserRole.
+/// Every trial of an index as a row, with its marks and computed values so far. Sorts by Qt::UserRole, and is filtered by kWordsRole.
 class TrialTable : public QAbstractTableModel {
   Q_OBJECT
  public:
   enum Column { kSubject, kSession, kCondition, kRun, kTrial, kOutcome, kTime, kPeak, kPaper, kFitted, kMark, kColumns };
+  static constexpr int kWordsRole = Qt::UserRole + 1;  // every word of a row, in small letters
   explicit TrialTable(QObject* parent = nullptr);
 
   void setIndex(record::TrialIndex index);
@@ -45,8 +45,6 @@ class TrialTable : public QAbstractTableModel {
   int columnCount(const QModelIndex& parent = {}) const override { return parent.isValid() ? 0 : kColumns; }
   QVariant data(const QModelIndex& at, int role) const override;
   QVariant headerData(int section, Qt::Orientation orientation, int role) const override;
-  /// Every word of a row, in small letters, for the filter.
-  QString words(int row) const;
 
  private:
   struct Place {
@@ -54,6 +52,7 @@ class TrialTable : public QAbstractTableModel {
   };
   const record::RunMarks& marksOf(std::size_t run) const;
   QString text(int row, int column) const;
+  QString words(int row) const;
   QString markWords(int row) const;
   QVariant sortKey(int row, int column) const;
   std::optional<double> error(int row, bool fitted) const;
@@ -64,21 +63,6 @@ class TrialTable : public QAbstractTableModel {
   mutable std::vector<std::optional<record::RunMarks>> marks_;  // one a run
   std::map<int, TrialErrors> errors_;                           // of the rows for which they are computed
   predict::Criterion criterion_ = predict::Criterion::MinHandJerk;
-};
-
-/// Shows the rows that have every one of the words typed.
-class TrialFilter : public QSortFilterProxyModel {
-  Q_OBJECT
- public:
-  explicit TrialFilter(TrialTable* table);
-  void setWords(const QString& words);
-
- protected:
-  bool filterAcceptsRow(int row, const QModelIndex& parent) const override;
-
- private:
-  TrialTable& table_;
-  QStringList words_;
 };
 
 /// As a file: the columns that are shown, of these rows of `table`, numbers with all their digits.

@@ -208,6 +208,15 @@ class Reader {
   TakeField lengthInto(double& value) {
     return [this, &value](const std::string& field) { readLength(field, value); };
   }
+  // `has`: what the node must hold. `type`: the node's, in messages.
+  template <typename Has>
+  TakeField nodeInto(NodePtr& node, int depth, Has has, const std::string& type, const std::string& allowed, bool mayBePassedOver = false) {
+    return [=, this, &node](const std::string& field) {
+      if (words_.tryTake("NULL")) return;
+      node = readNode(depth + 1);
+      if (!((*node).*has) && !(mayBePassedOver && node->passedOver)) words_.fail(field, "is no " + type, allowed);
+    };
+  }
   TakeField childrenInto(Node& node, int depth) {
     return [this, &node, depth](const std::string& field) {
       if (!words_.tryTake("[")) return readStatement(node.children, depth + 1);
@@ -235,25 +244,15 @@ class Reader {
   }
 
   void readShape(Node& node, int depth) {
-    const auto partInto = [&](NodePtr& part, auto has, const char* refusal, const char* allowed) {
-      return [this, &part, depth, has, refusal, allowed](const std::string& field) {
-        if (words_.tryTake("NULL")) return;
-        part = readNode(depth + 1);
-        if (!(*part.*has) && !part->passedOver) words_.fail(field, refusal, allowed);
-      };
-    };
-    readFields("Shape",
-               {{"appearance", partInto(node.appearance, &Node::look, "is no Appearance", "Appearance")},
-                {"geometry", partInto(node.geometry, &Node::solid, "is no geometry", "Box, Sphere, Cylinder, Cone, IndexedFaceSet")}});
+    readFields("Shape", {{"appearance", nodeInto(node.appearance, depth, &Node::look, "Appearance", "Appearance", true)},
+                         {"geometry",
+                          nodeInto(node.geometry, depth, &Node::solid, "geometry", "Box, Sphere, Cylinder, Cone, IndexedFaceSet", true)}});
   }
 
   void readAppearance(Node& node, int depth) {
-    node.look = Look{};
-    readFields("Appearance", {{"material", [&](const std::string& field) {
-                                 if (words_.tryTake("NULL")) return;
-                                 node.look = readNode(depth + 1)->look;
-                                 if (!node.look) words_.fail(field, "is no Material", "Material");
-                               }}});
+    NodePtr material;
+    readFields("Appearance", {{"material", nodeInto(material, depth, &Node::look, "Material", "Material")}});
+    node.look = material ? *material->look : Look{};
   }
 
   void readMaterial(Node& node, int) {
@@ -280,23 +279,16 @@ class Reader {
     addSphere(node.solid.emplace(), radius);
   }
 
-  void readCylinder(Node& node, int) {
+  void readCylinder(Node& node, int) { readFrustum(node, "Cylinder", "radius", true); }
+  void readCone(Node& node, int) { readFrustum(node, "Cone", "bottomRadius", false); }
+  void readFrustum(Node& node, const std::string& type, const std::string& radiusKey, bool hasTop) {
     double radius = 1, height = 2;
-    bool side = true, top = true, bottom = true;
-    readFields("Cylinder", {{"radius", lengthInto(radius)},
-                            {"height", lengthInto(height)},
-                            {"side", into(side)},
-                            {"top", into(top)},
-                            {"bottom", into(bottom)}});
-    addFrustum(node.solid.emplace(), radius, radius, height, bottom, top, side);
-  }
-
-  void readCone(Node& node, int) {
-    double radius = 1, height = 2;
-    bool side = true, bottom = true;
-    readFields("Cone",
-               {{"bottomRadius", lengthInto(radius)}, {"height", lengthInto(height)}, {"side", into(side)}, {"bottom", into(bottom)}});
-    addFrustum(node.solid.emplace(), radius, 0, height, bottom, false, side);
+    bool side = true, top = hasTop, bottom = true;
+    std::map<std::string, TakeField> fields{
+        {radiusKey, lengthInto(radius)}, {"height", lengthInto(height)}, {"side", into(side)}, {"bottom", into(bottom)}};
+    if (hasTop) fields["top"] = into(top);
+    readFields(type, fields);
+    addFrustum(node.solid.emplace(), radius, hasTop ? radius : 0, height, bottom, top, side);
   }
 
   void readCoordinate(Node& node, int) {
@@ -315,19 +307,16 @@ class Reader {
     NodePtr points;
     std::vector<int> corners;
     bool counterClockwise = true, convex = true;
-    const auto readPoints = [&](const std::string& field) {
-      if (words_.tryTake("NULL")) return;
-      points = readNode(depth + 1);
-      if (!points->points) words_.fail(field, "is no Coordinate", "Coordinate");
-    };
     const auto readCorners = [&](const std::string& field) {
       readList([&] {
         if (corners.size() >= 4 * kMostPoints) words_.fail(field, "has too many corners", "fewer");
         corners.push_back(words_.whole(field));
       });
     };
-    readFields("IndexedFaceSet",
-               {{"ccw", into(counterClockwise)}, {"convex", into(convex)}, {"coord", readPoints}, {"coordIndex", readCorners}});
+    readFields("IndexedFaceSet", {{"ccw", into(counterClockwise)},
+                                  {"convex", into(convex)},
+                                  {"coord", nodeInto(points, depth, &Node::points, "Coordinate", "Coordinate")},
+                                  {"coordIndex", readCorners}});
     ModelPart& solid = node.solid.emplace();
     if (points) solid.points = *points->points;
     std::vector<std::uint32_t> face;

@@ -86,8 +86,7 @@ MixEditor::MixEditor(QWidget* parent) : QGroupBox(tr("Kinds of trials and target
 
 QWidget* MixEditor::makeKinds() {
   auto* whole = new QWidget;
-  auto* column = new QVBoxLayout(whole);
-  column->setContentsMargins(0, 0, 0, 0);
+  auto* column = widgets::filling<QVBoxLayout>(whole);
   kinds_ = widgets::named<QTableWidget>("planKinds", 0, kColumns);
   kinds_->setHorizontalHeaderLabels({tr("kind"), tr("in a cycle"), tr("not first"), tr("not twice"), tr("changes to the experiment")});
   kinds_->horizontalHeaderItem(kChanges)->setToolTip(tr("as in the plan's file: \"object.masses_kg[0]\": 2, \"environment\": []"));
@@ -129,8 +128,7 @@ QWidget* MixEditor::makeKinds() {
 
 QWidget* MixEditor::makeTargets() {
   auto* whole = new QWidget;
-  auto* form = new QFormLayout(whole);
-  form->setContentsMargins(0, 0, 0, 0);
+  auto* form = widgets::filling<QFormLayout>(whole);
   targets_ = widgets::named<QComboBox>("planTargets");
   targets_->addItems({tr("the experiment's target"), tr("a ring around the start"), tr("a list of places")});
   count_ = widgets::named<QSpinBox>("planRingCount");

@@ -20,10 +20,10 @@
 #include <QVBoxLayout>
 #include <set>
 
-#include "base/error.h"
 #include "base/fault.h"
 #include "gui/plan/mix_editor.h"
 #include "gui/widgets/ask.h"
+#include "gui/widgets/fault_in.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/fault_words.h"
 #include "gui/widgets/named.h"
@@ -115,14 +115,12 @@ PlanComposer::PlanComposer(QWidget* parent) : QDialog(parent) {
 
 QWidget* PlanComposer::makeWhole() {
   auto* whole = new QWidget;
-  auto* row = new QHBoxLayout(whole);
-  row->setContentsMargins(0, 0, 0, 0);
+  auto* row = widgets::filling<QHBoxLayout>(whole);
   name_ = widgets::named<QLineEdit>("planName");
   permute_ = widgets::named<QCheckBox>("planPermute", tr("another balanced order for every subject"));
-  orderSeed_ = new QDoubleSpinBox;
+  orderSeed_ = widgets::tipped(new QDoubleSpinBox, tr("draws which subject gets which order"));
   orderSeed_->setDecimals(0);
   orderSeed_->setRange(0, session::kMaxOrderSeed);
-  orderSeed_->setToolTip(tr("draws which subject gets which order"));
   widgets::addAll(*row, {new QLabel(tr("plan")), name_, permute_, new QLabel(tr("drawn by")), orderSeed_});
   row->setStretchFactor(name_, 1);
   return whole;
@@ -131,8 +129,7 @@ QWidget* PlanComposer::makeWhole() {
 QWidget* PlanComposer::makeList() {
   auto* box = new QGroupBox(tr("Blocks"));
   auto* column = new QVBoxLayout(box);
-  list_ = widgets::makeTextTable({tr("#"), tr("experiment"), tr("condition"), tr("trials"), tr("day"), tr("also")}, 24);
-  list_->setObjectName(QStringLiteral("planBlocks"));
+  list_ = widgets::makeTextTable("planBlocks", {tr("#"), tr("experiment"), tr("condition"), tr("trials"), tr("day"), tr("also")}, 24);
   list_->setSelectionBehavior(QAbstractItemView::SelectRows);
   list_->setSelectionMode(QAbstractItemView::SingleSelection);
   list_->horizontalHeader()->setStretchLastSection(true);
@@ -183,67 +180,58 @@ void PlanComposer::bind(Widget* field, Signal signal, Value session::PlanBlock::
 QWidget* PlanComposer::makeBlock() {
   block_ = new QGroupBox(tr("This block"));
   auto* form = new QFormLayout(block_);
-  auto* experiment = widgets::named<QComboBox>("planExperiment");
-  experiment->setEditable(true);
-  experiment->setToolTip(tr("a shipped experiment or a file. Files beside the plan are named without their folder"));
-  for (const std::string& name : experiment::shippedExperiments()) experiment->addItem(QString::fromStdString(name));
-  auto* condition = widgets::named<QLineEdit>("planCondition");
-  condition->setPlaceholderText(tr("the experiment's name"));
-  const auto whole = [](const char* name, int low, int high) {
+  using Block = session::PlanBlock;
+  const auto whole = [&](const char* name, int low, int high, int Block::*part) {
     auto* made = widgets::named<QSpinBox>(name);
     made->setRange(low, high);
+    bind(made, qOverload<int>(&QSpinBox::valueChanged), part, &QSpinBox::value, &QSpinBox::setValue);
     return made;
   };
-  auto *trials = whole("planTrials", 1, session::kMaxTrials), *day = whole("planDay", 0, session::kMaxDay);
-  day->setSpecialValueText(tr("every day"));
-  auto* practice = widgets::named<QCheckBox>("planPractice", tr("practice: recorded, but not used in statistics"));
-  auto* repeatAborted = new QCheckBox(tr("repeat aborted trials at the end"));
-  const auto number = [](const char* name, double high, const QString& unit) {
-    return widgets::named<widgets::UnitSpinBox>(name, 0, high, unit);
+  const auto number = [&](const char* name, double high, double Block::*part, const QString& unit = "s") {
+    auto* made = widgets::named<widgets::UnitSpinBox>(name, 0, high, unit);
+    bind(made, qOverload<double>(&QDoubleSpinBox::valueChanged), part, &QDoubleSpinBox::value,
+         [](widgets::UnitSpinBox* box, double value) { box->show(value); });
+    return made;
   };
-  auto *rest = number("planRest", session::kMaxPause, QStringLiteral("s")),
-       *pause = number("planPause", session::kMaxPause, QStringLiteral("s"));
-  auto *least = number("planForeperiodMin", session::kMaxForeperiod, QStringLiteral("s")),
-       *most = number("planForeperiodMax", session::kMaxForeperiod, QStringLiteral("s"));
-  auto* catchShare = number("planCatch", session::kMaxCatchShare, {});
+  const auto addBox = [&](QCheckBox* made, bool Block::*part) {
+    bind(made, &QCheckBox::toggled, part, &QCheckBox::isChecked, &QCheckBox::setChecked);
+    form->addRow(made);
+  };
+  auto* experiment = widgets::tipped(widgets::named<QComboBox>("planExperiment"),
+                                     tr("a shipped experiment or a file. Files beside the plan are named without their folder"));
+  experiment->setEditable(true);
+  for (const std::string& name : experiment::shippedExperiments()) experiment->addItem(QString::fromStdString(name));
+  bind(
+      experiment, &QComboBox::editTextChanged, &Block::experiment, [](const QComboBox* box) { return written(box->currentText()); },
+      [](QComboBox* box, const std::string& text) { box->setEditText(QString::fromStdString(text)); });
+  form->addRow(tr("experiment"), experiment);
+  auto* condition = widgets::named<QLineEdit>("planCondition");
+  condition->setPlaceholderText(tr("the experiment's name"));
+  bind(
+      condition, &QLineEdit::textEdited, &Block::condition, [](const QLineEdit* edit) { return written(edit->text()); },
+      [](QLineEdit* edit, const std::string& text) { edit->setText(QString::fromStdString(text)); });
+  form->addRow(tr("condition"), condition);
+  form->addRow(tr("trials"), whole("planTrials", 1, session::kMaxTrials, &Block::trials));
+  QSpinBox* day = whole("planDay", 0, session::kMaxDay, &Block::day);
+  day->setSpecialValueText(tr("every day"));
+  form->addRow(tr("day"), day);
+  form->addRow(tr("rest before it"), number("planRest", session::kMaxPause, &Block::restSeconds));
+  form->addRow(tr("pause between trials"), number("planPause", session::kMaxPause, &Block::pauseSeconds));
+  form->addRow(tr("go signal after"),
+               widgets::rowOf({number("planForeperiodMin", session::kMaxForeperiod, &Block::foreperiodMin), new QLabel(tr("to")),
+                               number("planForeperiodMax", session::kMaxForeperiod, &Block::foreperiodMax)}));
+  form->addRow(tr("share without go signal"), number("planCatch", session::kMaxCatchShare, &Block::catchShare, {}));
+  addBox(widgets::named<QCheckBox>("planPractice", tr("practice: recorded, but not used in statistics")), &Block::practice);
+  addBox(new QCheckBox(tr("repeat aborted trials at the end")), &Block::repeatAborted);
   auto* instructions = widgets::named<QPlainTextEdit>("planInstructions");
   instructions->setPlaceholderText(tr("what the subject reads before the block begins"));
   instructions->setTabChangesFocus(true);
   instructions->setMinimumHeight(70);
-  form->addRow(tr("experiment"), experiment);
-  form->addRow(tr("condition"), condition);
-  form->addRow(tr("trials"), trials);
-  form->addRow(tr("day"), day);
-  form->addRow(tr("rest before it"), rest);
-  form->addRow(tr("pause between trials"), pause);
-  form->addRow(tr("go signal after"), widgets::rowOf({least, new QLabel(tr("to")), most}));
-  form->addRow(tr("share without go signal"), catchShare);
-  form->addRow(practice);
-  form->addRow(repeatAborted);
-  form->addRow(tr("instructions"), instructions);
-
-  using Block = session::PlanBlock;
-  for (const auto& [field, part] : {std::pair{trials, &Block::trials}, {day, &Block::day}})
-    bind(field, qOverload<int>(&QSpinBox::valueChanged), part, &QSpinBox::value, &QSpinBox::setValue);
-  for (const auto& [field, part] : {std::pair{practice, &Block::practice}, {repeatAborted, &Block::repeatAborted}})
-    bind(field, &QCheckBox::toggled, part, &QCheckBox::isChecked, &QCheckBox::setChecked);
-  for (const auto& [field, part] : {std::pair{rest, &Block::restSeconds},
-                                    {pause, &Block::pauseSeconds},
-                                    {least, &Block::foreperiodMin},
-                                    {most, &Block::foreperiodMax},
-                                    {catchShare, &Block::catchShare}})
-    bind(field, qOverload<double>(&QDoubleSpinBox::valueChanged), part, &QDoubleSpinBox::value,
-         [](widgets::UnitSpinBox* box, double value) { box->show(value); });
-  bind(
-      experiment, &QComboBox::editTextChanged, &Block::experiment, [](const QComboBox* box) { return written(box->currentText()); },
-      [](QComboBox* box, const std::string& text) { box->setEditText(QString::fromStdString(text)); });
-  bind(
-      condition, &QLineEdit::textEdited, &Block::condition, [](const QLineEdit* edit) { return written(edit->text()); },
-      [](QLineEdit* edit, const std::string& text) { edit->setText(QString::fromStdString(text)); });
   bind(
       instructions, &QPlainTextEdit::textChanged, &Block::instructions,
       [](const QPlainTextEdit* edit) { return edit->toPlainText().toStdString(); },
       [](QPlainTextEdit* edit, const std::string& text) { edit->setPlainText(QString::fromStdString(text)); });
+  form->addRow(tr("instructions"), instructions);
   return block_;
 }
 
@@ -371,13 +359,9 @@ bool PlanComposer::save(bool askAlways) {
     if (file.isEmpty()) return false;
     if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".json");
   }
-  try {
-    saveTo(file);
-    return true;
-  } catch (const Error& e) {
-    faultLabel_->setFaults({QString::fromUtf8(e.what())});
-    return false;
-  }
+  const QString fault = widgets::faultIn([&] { saveTo(file); });
+  if (!fault.isEmpty()) faultLabel_->setFaults({fault});
+  return fault.isEmpty();
 }
 
 }  // namespace reachlab::gui::plan

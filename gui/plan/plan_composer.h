@@ -6,10 +6,10 @@
 #include "sim/session/plan.h"
 
 class QCheckBox;
+class QDoubleSpinBox;
 class QLabel;
 class QLineEdit;
 class QPushButton;
-class QSpinBox;
 class QTableWidget;
 
 namespace reachlab::gui::widgets {

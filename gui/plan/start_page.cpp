@@ -28,17 +28,8 @@ QString stateOf(const session::BlockProgress& block) {
 
 }  // namespace
 
-StartPage::StartPage(QWidget* parent) : QFrame(parent) {
+StartPage::StartPage(QWidget& over) : CardFrame(over, 1.6, 9, 660) {
   setObjectName(QStringLiteral("startPage"));
-  setProperty("role", QStringLiteral("card"));
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(24, 18, 24, 18);
-  layout->setSpacing(9);
-  title_ = new QLabel;
-  QFont large = title_->font();
-  large.setPointSizeF(1.6 * large.pointSizeF());
-  large.setBold(true);
-  title_->setFont(large);
   auto* who = new QHBoxLayout;
   const auto field = [&](const QString& words, const char* name) {
     auto* made = widgets::named<QLineEdit>(name);
@@ -51,8 +42,7 @@ StartPage::StartPage(QWidget* parent) : QFrame(parent) {
   summary_ = widgets::named<QLabel>("startSummary");
   who->addStretch(1);
   who->addWidget(summary_);
-  blocks_ = widgets::makeTextTable({tr("block"), tr("condition"), tr("trials"), tr("state")}, kRowHeight);
-  blocks_->setObjectName(QStringLiteral("startBlocks"));
+  blocks_ = widgets::makeTextTable("startBlocks", {tr("block"), tr("condition"), tr("trials"), tr("state")}, kRowHeight);
   blocks_->setFocusPolicy(Qt::NoFocus);
   blocks_->horizontalHeader()->setSectionResizeMode(1, QHeaderView::Stretch);
   next_ = widgets::named<QLabel>("startNext");
@@ -65,11 +55,9 @@ StartPage::StartPage(QWidget* parent) : QFrame(parent) {
   QHBoxLayout* buttons = widgets::rowOf({compose});
   buttons->addStretch(1);
   widgets::addAll(*buttons, {anew_, go_});
-  layout->addWidget(title_);
-  layout->addLayout(who);
-  layout->addWidget(blocks_);
-  layout->addWidget(next_);
-  layout->addLayout(buttons);
+  column_->addLayout(who);
+  widgets::addAll(*column_, {blocks_, next_});
+  column_->addLayout(buttons);
   for (QLineEdit* edit : {subject_, session_})
     connect(edit, &QLineEdit::editingFinished, this,
             [this] { Q_EMIT placeEdited(subject_->text().trimmed(), session_->text().trimmed()); });
@@ -122,7 +110,8 @@ void StartPage::show(const Shown& shown) {
   go_->setEnabled(can);
   go_->setText(resumes_ ? tr("Resume  (Space)") : tr("Begin  (Space)"));
   anew_->setVisible(resumes_);
-  adjustSize();
+  setVisible(true);
+  place();
 }
 
 }  // namespace reachlab::gui::plan

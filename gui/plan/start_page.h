@@ -1,9 +1,7 @@
 #pragma once
-#include <QFrame>
-
+#include "gui/widgets/card.h"
 #include "sim/session/session_progress.h"
 
-class QLabel;
 class QLineEdit;
 class QPushButton;
 class QTableWidget;
@@ -12,10 +10,10 @@ namespace reachlab::gui::plan {
 
 /// The page over the scene before a session's run: subject, day, finished blocks, remaining blocks, and the next step. Depends on the
 /// progress, not on the session.
-class StartPage : public QFrame {
+class StartPage : public widgets::CardFrame {
   Q_OBJECT
  public:
-  explicit StartPage(QWidget* parent);
+  explicit StartPage(QWidget& over);
   struct Shown {
     QString plan, subject, session;
     int day = 0;  // 0: the plan has none
@@ -35,7 +33,7 @@ class StartPage : public QFrame {
  private:
   using QFrame::show;
   bool resumes_ = false;
-  QLabel *title_, *summary_, *next_;
+  QLabel *summary_, *next_;
   QLineEdit *subject_, *session_;
   QTableWidget* blocks_;
   QPushButton *go_, *anew_;

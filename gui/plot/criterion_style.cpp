@@ -28,17 +28,18 @@ QString titleOf(predict::Criterion criterion) {
   return title.replace(QStringLiteral("min-"), QStringLiteral("min. ")).replace(QLatin1Char('-'), QLatin1Char(' '));
 }
 
-QTableWidget* makeCriteriaTable(const QStringList& columns, const std::vector<predict::Criterion>& chosen, int rowHeight) {
-  QTableWidget* table = widgets::makeTextTable(columns, rowHeight);
+QTableWidget* makeCriteriaTable(const char* name, const QStringList& columns, const std::vector<predict::Criterion>& chosen,
+                                int rowHeight) {
+  QTableWidget* table = widgets::makeTextTable(name, columns, rowHeight);
   table->setRowCount(predict::kCriterionCount);
   table->horizontalHeader()->setSectionResizeMode(0, QHeaderView::Stretch);
   for (int i = 0; i < predict::kCriterionCount; ++i) {
     const auto criterion = static_cast<predict::Criterion>(i);
-    auto* name = new QTableWidgetItem(titleOf(criterion));
-    name->setFlags(Qt::ItemIsEnabled | Qt::ItemIsUserCheckable);
-    name->setCheckState(std::find(chosen.begin(), chosen.end(), criterion) != chosen.end() ? Qt::Checked : Qt::Unchecked);
-    name->setForeground(colourOf(criterion));
-    table->setItem(i, 0, name);
+    auto* title = new QTableWidgetItem(titleOf(criterion));
+    title->setFlags(Qt::ItemIsEnabled | Qt::ItemIsUserCheckable);
+    title->setCheckState(std::find(chosen.begin(), chosen.end(), criterion) != chosen.end() ? Qt::Checked : Qt::Unchecked);
+    title->setForeground(colourOf(criterion));
+    table->setItem(i, 0, title);
     for (int column = 1; column < columns.size(); ++column) {
       auto* number = new QTableWidgetItem;
       number->setTextAlignment(Qt::AlignRight | Qt::AlignVCenter);

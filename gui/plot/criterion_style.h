@@ -17,7 +17,7 @@ LineStyle styleOf(predict::Criterion criterion);
 QString titleOf(predict::Criterion criterion);
 
 /// A table with a row for each criterion: its title, which is ticked if it is in `chosen`, and cells for numbers.
-QTableWidget* makeCriteriaTable(const QStringList& columns, const std::vector<predict::Criterion>& chosen, int rowHeight);
+QTableWidget* makeCriteriaTable(const char* name, const QStringList& columns, const std::vector<predict::Criterion>& chosen, int rowHeight);
 std::vector<predict::Criterion> chosenIn(const QTableWidget& table);
 
 }  // namespace reachlab::gui::plot

@@ -8,6 +8,7 @@
 #include <qwt_plot_curve.h>
 #include <qwt_plot_grid.h>
 #include <qwt_plot_layout.h>
+#include <qwt_plot_marker.h>
 #include <qwt_plot_renderer.h>
 #include <qwt_plot_zoomer.h>
 #include <qwt_symbol.h>
@@ -85,6 +86,20 @@ inline std::unique_ptr<QwtPlotCurve> makeCurve(QwtPlot& plot, const QString& tit
   curve->setZ(z);
   curve->attach(&plot);
   return curve;
+}
+
+/// A vertical line with a label in its colour.
+inline std::unique_ptr<QwtPlotMarker> makeMark(QwtPlot& plot, const QPen& pen, const QString& label, double z) {
+  auto mark = std::make_unique<QwtPlotMarker>();
+  mark->setLineStyle(QwtPlotMarker::VLine);
+  mark->setLinePen(pen);
+  QwtText text(label);
+  text.setColor(pen.color());
+  mark->setLabel(text);
+  mark->setLabelAlignment(Qt::AlignRight | Qt::AlignTop);
+  mark->setZ(z);
+  mark->attach(&plot);
+  return mark;
 }
 
 /// Marks a few of its points.

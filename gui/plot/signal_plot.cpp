@@ -28,13 +28,11 @@ QColor inkOf(int line) {
 }  // namespace
 
 SignalPlot::SignalPlot(QWidget* parent) : QWidget(parent) {
-  quantity_ = widgets::named<QComboBox>("signalQuantity");
+  using widgets::named, widgets::tipped;
+  quantity_ = tipped(named<QComboBox>("signalQuantity"), tr("the signal that is drawn, of the last 10 s"));
   quantity_->addItems({tr("velocity"), tr("position"), tr("force"), tr("phase plane, along x"), tr("timing")});
-  watched_ = widgets::named<QComboBox>("signalWatched");
-  freeze_ = widgets::named<QCheckBox>("signalFreeze", tr("freeze"));
-  quantity_->setToolTip(tr("the signal that is drawn, of the last 10 s"));
-  watched_->setToolTip(tr("the hand or the mass that is drawn"));
-  freeze_->setToolTip(tr("freezes the plot. Press it again to show the current signal"));
+  watched_ = tipped(named<QComboBox>("signalWatched"), tr("the hand or the mass that is drawn"));
+  freeze_ = tipped(named<QCheckBox>("signalFreeze", tr("freeze")), tr("freezes the plot. Press it again to show the current signal"));
   std::tie(plot_, zoomer_) = addPlot(this, {quantity_, watched_, freeze_}, tr("Export signal"), QStringLiteral("signal.svg"));
   for (int i = 0; i < kLines; ++i) {
     auto& curve = curves_[static_cast<std::size_t>(i)];

@@ -4,7 +4,6 @@
 #include <qwt_plot.h>
 #include <qwt_plot_canvas.h>
 #include <qwt_plot_curve.h>
-#include <qwt_plot_marker.h>
 #include <qwt_plot_zoneitem.h>
 #include <qwt_scale_widget.h>
 
@@ -31,27 +30,15 @@ VelocityPlot::VelocityPlot(QWidget* parent) : QWidget(parent) {
   setAxisFonts(*plot_);
   band_ = std::make_unique<QwtPlotZoneItem>();
   band_->setOrientation(Qt::Vertical);
-  QColor green = widgets::toQColor(widgets::colours::kGreen);
-  green.setAlpha(38);
-  band_->setBrush(green);
+  const QColor green = widgets::toQColor(widgets::colours::kGreen);
+  band_->setBrush(widgets::withAlpha(green, 38));
   band_->setPen(QPen(Qt::NoPen));
   band_->attach(plot_);
-  goal_ = std::make_unique<QwtPlotMarker>();
-  goal_->setLineStyle(QwtPlotMarker::VLine);
-  green.setAlpha(150);
-  goal_->setLinePen(QPen(green, 1, Qt::DotLine));
-  QwtText label(QStringLiteral("T"));
-  label.setColor(green);
-  goal_->setLabel(label);
-  goal_->setLabelAlignment(Qt::AlignRight | Qt::AlignTop);
-  goal_->attach(plot_);
+  goal_ = makeMark(*plot_, QPen(widgets::withAlpha(green, 150), 1, Qt::DotLine), QStringLiteral("T"), 30);
 
   const QColor handInk = widgets::toQColor(widgets::colours::kDriven).lighter(120), lastInk = widgets::toQColor(widgets::colours::kLast);
-  QColor handFaint = handInk, lastFaint = lastInk;
-  handFaint.setAlpha(110);
-  lastFaint.setAlpha(110);
-  handBefore_ = makeCurve(*plot_, {}, QPen(handFaint, 1), 18);
-  lastBefore_ = makeCurve(*plot_, {}, QPen(lastFaint, 1), 18);
+  handBefore_ = makeCurve(*plot_, {}, QPen(widgets::withAlpha(handInk, 110), 1), 18);
+  lastBefore_ = makeCurve(*plot_, {}, QPen(widgets::withAlpha(lastInk, 110), 1), 18);
   hand_ = makeCurve(*plot_, QStringLiteral("hand"), QPen(handInk, 2.2), 22);
   last_ = makeCurve(*plot_, QStringLiteral("last mass"), QPen(lastInk, 2.2), 21);
   connect(freeze_, &QCheckBox::toggled, this, &VelocityPlot::refresh);

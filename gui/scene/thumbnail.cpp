@@ -37,10 +37,9 @@ void drawSkin(QPainter& painter, const Projector& at, const Vec3& forward, const
     QPolygonF shape;
     for (const auto corner : quad) shape << at(mesh.points[corner]);
     const double facing = std::abs(dot(mesh.normals[quad[0]], forward)), light = 0.45 + 0.55 * facing;
-    QColor ink = QColor::fromRgbF(widgets::colours::kSurface.red * light, widgets::colours::kSurface.green * light,
-                                  widgets::colours::kSurface.blue * light);
-    ink.setAlpha(150);
-    painter.setBrush(ink);
+    const QColor ink = QColor::fromRgbF(widgets::colours::kSurface.red * light, widgets::colours::kSurface.green * light,
+                                        widgets::colours::kSurface.blue * light);
+    painter.setBrush(widgets::withAlpha(ink, 150));
     painter.drawConvexPolygon(shape);
   }
   painter.setRenderHint(QPainter::Antialiasing);
@@ -62,9 +61,7 @@ QImage drawThumbnail(const ScenePlan& plan, const QSize& size, double pixelRatio
   };
   if (!plan.surface.quads.empty()) {
     drawSkin(painter, at, axesOf(camera).forward, plan.surface);
-    QColor line = widgets::toQColor(widgets::colours::kSurfaceLine);
-    line.setAlpha(70);
-    painter.setPen(QPen(line, 0.6));
+    painter.setPen(QPen(widgets::withAlpha(widgets::toQColor(widgets::colours::kSurfaceLine), 70), 0.6));
     drawLines(painter, at, plan.surface.parameterLines);
   }
   painter.setPen(QPen(widgets::toQColor(widgets::colours::kRail), 1.5, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));

@@ -1,18 +1,13 @@
 #include "gui/session/plan_pages.h"
 
-#include <QEvent>
-#include <QTimer>
-#include <algorithm>
 #include <utility>
 
-#include "base/system/error_report.h"
+#include "gui/widgets/fault_in.h"
 
 namespace reachlab::gui::app {
 
 PlanPages::PlanPages(SessionController& session, docks::SessionDock& dock, scene::SceneView& view)
-    : QObject(&view), session_(session), dock_(dock), view_(view), page_(new plan::StartPage(&view)) {
-  page_->hide();
-  view.installEventFilter(this);
+    : QObject(&view), session_(session), dock_(dock), view_(view), page_(new plan::StartPage(view)) {
   connect(page_, &plan::StartPage::placeEdited, this, [this](const QString& subject, const QString& sessionLabel) {
     session::SessionRequest request = dock_.request();
     request.place.subject = subject.toStdString();
@@ -38,29 +33,12 @@ void PlanPages::refresh() {
   what.plan = QString::fromStdString(plan.name);
   what.subject = QString::fromStdString(request.place.subject);
   what.session = QString::fromStdString(request.place.session);
-  try {
+  what.fault = widgets::faultIn([&] {
     what.progress = session::progressOf(request, session_.programme());
     for (const session::PlanBlock& block : plan.blocks)
       if (block.day != 0) what.day = session::sessionDay(request, plan);
-  } catch (const std::exception& e) {
-    what.fault = QString::fromStdString(errorReportOf(e).sentence);
-  }
+  });
   page_->show(what);
-  page_->setVisible(true);
-  place();
-}
-
-void PlanPages::place() {
-  const int width = std::min(660, view_.width() - 30);
-  page_->setFixedWidth(std::max(width, 300));
-  page_->adjustSize();
-  page_->move((view_.width() - page_->width()) / 2, std::max(8, (view_.height() - page_->height()) / 2));
-  page_->raise();
-}
-
-bool PlanPages::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Resize && page_->isVisible()) QTimer::singleShot(0, this, &PlanPages::place);  // above what the view raises
-  return QObject::eventFilter(watched, event);
 }
 
 void PlanPages::compose(QWidget* window, const QString& file) {

@@ -32,12 +32,7 @@ class PlanPages : public QObject {
  Q_SIGNALS:
   void composed(const QString& file);
 
- protected:
-  bool eventFilter(QObject* watched, QEvent* event) override;
-
  private:
-  void place();
-
   SessionController& session_;
   docks::SessionDock& dock_;
   scene::SceneView& view_;

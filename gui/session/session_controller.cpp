@@ -6,13 +6,13 @@
 #include <utility>
 
 #include "constraints/geometry/task_path.h"
-#include "base/system/error_report.h"
 #include "base/terminal/message.h"
 #include "devices/instruments/instruments.h"
 #include "devices/kept_mapping.h"
 #include "devices/make_device.h"
 #include "devices/mouse/mouse_device.h"
 #include "devices/preflight/preflight.h"
+#include "gui/widgets/fault_in.h"
 #include "gui/widgets/fault_words.h"
 #include "sim/experiment/experiment.h"
 #include "sim/trial/protocol.h"
@@ -48,16 +48,13 @@ SessionController::~SessionController() {
 }
 
 // First what cannot be done again: zero force, the trial marked, the log closed. What went wrong, in a sentence. With `changing_` held.
-std::optional<std::string> SessionController::putInOrder() {
-  if (run() == nullptr) return std::nullopt;
-  try {
+QString SessionController::putInOrder() {
+  if (run() == nullptr) return {};
+  return widgets::faultIn([this] {
     if (station_) (void)station_->close();
     else run()->closeLog();
     stop_->allInOrder();
-    return std::nullopt;
-  } catch (const std::exception& e) {
-    return errorReportOf(e).sentence;
-  }
+  });
 }
 
 void SessionController::setProgramme(const session::Programme& programme) {
@@ -77,11 +74,7 @@ void SessionController::setProgramme(const session::Programme& programme) {
     recorded_.reset();
   }
   Q_EMIT experimentChanged();
-  try {
-    if (observed) join(asked_);
-  } catch (const std::exception& e) {
-    Q_EMIT failed(QString::fromStdString(errorReportOf(e).sentence));
-  }
+  if (observed) tellFault(widgets::faultIn([this] { join(asked_); }));
 }
 
 std::vector<Fault> SessionController::tryEdit(const experiment::Experiment& experiment) {
@@ -275,12 +268,10 @@ bool SessionController::takeBackRepeat() {
 
 void SessionController::note(const QString& text) {
   if (run() == nullptr) return;
-  try {
+  fail(widgets::faultIn([&] {
     const std::scoped_lock lock(changing_);
     run()->note(text.toStdString());
-  } catch (const Error& e) {
-    fail(e);
-  }
+  }));
 }
 
 void SessionController::endRun() {
@@ -290,8 +281,8 @@ void SessionController::endRun() {
   mouse_ = nullptr;
   std::unique_lock lock(changing_);
   const bool unfinished = run()->trialsLeft() > 0;
-  if (const auto wrong = putInOrder()) Q_EMIT failed(QString::fromStdString(*wrong));
-  try {
+  tellFault(putInOrder());
+  tellFault(widgets::faultIn([this] {
     const std::string dataset = asked_.place.data;
     recorded_->closeRun();
     station_.reset();
@@ -303,9 +294,7 @@ void SessionController::endRun() {
       }
       backup_->request();
     }
-  } catch (const std::exception& e) {
-    Q_EMIT failed(QString::fromStdString(errorReportOf(e).sentence));
-  }
+  }));
   stop_.reset();
   if (unfinished) recorded_.reset();  // the next run is planned from what counts on the disk
   lock.unlock();
@@ -322,7 +311,7 @@ void SessionController::poll() {
   tellBackup();
   if (observer_) return observe();
   if (run() == nullptr) return;
-  try {
+  fail(widgets::faultIn([this] {
     network::StationNews news;
     {
       const std::scoped_lock lock(changing_);
@@ -347,9 +336,7 @@ void SessionController::poll() {
     endRun();
     const std::scoped_lock lock(changing_);
     recorded_.reset();  // what is to be done next is another
-  } catch (const std::exception& e) {
-    fail(e);
-  }
+  }));
 }
 
 void SessionController::observe() {
@@ -421,19 +408,19 @@ void SessionController::keepStation() {
 // The window is not asked, and its objects are left as they are: it may be in the midst of anything.
 void SessionController::stopInOrder() {
   const std::scoped_lock lock(changing_);
-  auto wrong = putInOrder();
-  try {
-    if (run() != nullptr && !wrong) run()->finish();
-  } catch (const std::exception& e) {
-    wrong = errorReportOf(e).sentence;
-  }
-  if (wrong) std::fputs(messageOf(*wrong).c_str(), stderr);
+  QString wrong = putInOrder();
+  if (run() != nullptr && wrong.isEmpty()) wrong = widgets::faultIn([this] { run()->finish(); });
+  if (!wrong.isEmpty()) std::fputs(messageOf(wrong.toStdString()).c_str(), stderr);
   std::_Exit(StopRequest::exitCode());
 }
 
-// The run cannot go on: what was finished is on the disk, and the loop ends with zero force.
-void SessionController::fail(const std::exception& fault) {
-  const QString sentence = QString::fromStdString(errorReportOf(fault).sentence);
+void SessionController::tellFault(const QString& fault) {
+  if (!fault.isEmpty()) Q_EMIT failed(fault);
+}
+
+// After a fault the run cannot go on: what was finished is on the disk, and the loop ends with zero force.
+void SessionController::fail(const QString& fault) {
+  if (fault.isEmpty()) return;
   mouse_ = nullptr;
   std::unique_lock lock(changing_);
   (void)putInOrder();  // the fault itself is what is told
@@ -442,7 +429,7 @@ void SessionController::fail(const std::exception& fault) {
   stop_.reset();
   lock.unlock();
   resume_ = isPlan();  // its other blocks are still to be done
-  Q_EMIT failed(sentence);
+  Q_EMIT failed(fault);
   Q_EMIT runClosed();
 }
 

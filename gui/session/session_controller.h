@@ -136,8 +136,9 @@ class SessionController : public QObject {
   void showScene();
   std::unique_ptr<haptics::HapticDevice> makeDeviceHere(const std::string& spec, std::span<const experiment::CompiledExperiment> scenes,
                                                         std::uint64_t seed);
-  void fail(const std::exception& fault);
-  std::optional<std::string> putInOrder();
+  void fail(const QString& fault);
+  QString putInOrder();
+  void tellFault(const QString& fault);
   void tellTiming();
   void tellInstruments();
   void tellBackup();

@@ -6,6 +6,8 @@
 #include <QVBoxLayout>
 #include <QWindow>
 
+#include "gui/widgets/named.h"
+
 namespace reachlab::gui::subject {
 namespace {
 
@@ -35,13 +37,11 @@ QString rememberedScreen() {
 
 SubjectWindow::SubjectWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
   setWindowTitle("Reachlab – subject");
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(0, 0, 0, 0);
+  auto* layout = widgets::filling<QVBoxLayout>(this);
   view_ = new scene::SceneView;
   view_->overlay().setTextScale(1.8);
   layout->addWidget(view_);
-  square_ = new QWidget(this);
-  square_->setObjectName("photodiode");
+  square_ = widgets::named<QWidget>("photodiode", this);
   square_->setAutoFillBackground(true);
   square_->setAttribute(Qt::WA_TransparentForMouseEvents);
   square_->hide();

@@ -1,37 +1,53 @@
 #include "gui/widgets/card.h"
 
 #include <QEvent>
-#include <QHBoxLayout>
-#include <QLabel>
 #include <QPushButton>
 #include <QTimer>
 #include <QVariant>
 #include <QVBoxLayout>
 #include <algorithm>
 
+#include "gui/widgets/named.h"
+
 namespace reachlab::gui::widgets {
 
-Card::Card(QWidget& over) : QFrame(&over), over_(over), title_(new QLabel), text_(new QLabel), buttons_(new QHBoxLayout) {
+CardFrame::CardFrame(QWidget& over, double titleScale, int spacing, int widest)
+    : QFrame(&over), over_(over), title_(new QLabel), column_(new QVBoxLayout(this)), widest_(widest) {
   setProperty("role", "card");
-  auto* layout = new QVBoxLayout(this);
-  layout->setContentsMargins(24, 18, 24, 18);
-  layout->setSpacing(12);
+  column_->setContentsMargins(24, 18, 24, 18);
+  column_->setSpacing(spacing);
   QFont large = title_->font();
-  large.setPointSizeF(1.5 * large.pointSizeF());
+  large.setPointSizeF(titleScale * large.pointSizeF());
   large.setBold(true);
   title_->setFont(large);
+  column_->addWidget(title_);
+  over.installEventFilter(this);
+  hide();
+}
+
+void CardFrame::place() {
+  setFixedWidth(std::clamp(over_.width() - 30, 300, widest_));
+  layout()->activate();
+  const int height = layout()->heightForWidth(width());
+  setGeometry((over_.width() - width()) / 2, std::max(8, (over_.height() - height) / 2), width(), height);
+  raise();
+}
+
+bool CardFrame::eventFilter(QObject* watched, QEvent* event) {
+  if (event->type() == QEvent::Resize && isVisible()) QTimer::singleShot(0, this, &CardFrame::place);  // above what the widget raises
+  return QFrame::eventFilter(watched, event);
+}
+
+Card::Card(QWidget& over) : CardFrame(over, 1.5, 12, 560), text_(named<QLabel>("cardText")), buttons_(new QHBoxLayout) {
   title_->setObjectName("cardTitle");
-  text_->setObjectName("cardText");
   for (QLabel* label : {title_, text_}) {
     label->setWordWrap(true);
     label->setTextFormat(Qt::PlainText);
-    layout->addWidget(label);
   }
+  column_->addWidget(text_);
   text_->setTextInteractionFlags(Qt::TextSelectableByMouse);
   text_->setFocusPolicy(Qt::NoFocus);
-  layout->addLayout(buttons_);
-  over.installEventFilter(this);
-  hide();
+  column_->addLayout(buttons_);
 }
 
 void Card::offer(const QString& title, const QString& text, const std::vector<Choice>& choices, bool takesKeys) {
@@ -65,19 +81,6 @@ void Card::close() {
   const bool had = isAncestorOf(window()->focusWidget());
   hide();
   if (had) over_.setFocus(Qt::OtherFocusReason);
-}
-
-void Card::place() {
-  setFixedWidth(std::clamp(over_.width() - 30, 300, 560));
-  layout()->activate();
-  const int height = layout()->heightForWidth(width());
-  setGeometry((over_.width() - width()) / 2, std::max(8, (over_.height() - height) / 2), width(), height);
-  raise();
-}
-
-bool Card::eventFilter(QObject* watched, QEvent* event) {
-  if (event->type() == QEvent::Resize && isVisible()) QTimer::singleShot(0, this, &Card::place);  // above what the widget raises
-  return QFrame::eventFilter(watched, event);
 }
 
 }  // namespace reachlab::gui::widgets

@@ -5,11 +5,29 @@
 
 class QHBoxLayout;
 class QLabel;
+class QVBoxLayout;
 
 namespace reachlab::gui::widgets {
 
-/// A panel over the middle of a widget, with a title, sentences and buttons. Hidden until it is shown.
-class Card : public QFrame {
+/// A panel with a title over the middle of a widget. Hidden until it is shown.
+class CardFrame : public QFrame {
+ protected:
+  /// `titleScale`: size of the title's letters by the usual size. `widest`: [px].
+  CardFrame(QWidget& over, double titleScale, int spacing, int widest);
+  bool eventFilter(QObject* watched, QEvent* event) override;
+  /// Fits the shown panel to its words and to the widget below.
+  void place();
+
+  QWidget& over_;
+  QLabel* title_;
+  QVBoxLayout* column_;  // from the title down
+
+ private:
+  int widest_;
+};
+
+/// A panel with sentences and buttons.
+class Card : public CardFrame {
  public:
   struct Choice {
     QString title, name;  // the button's words and object name
@@ -21,13 +39,8 @@ class Card : public QFrame {
   /// Closes the card and gives the keys back to the widget below.
   void close();
 
- protected:
-  bool eventFilter(QObject* watched, QEvent* event) override;
-
  private:
-  void place();
-  QWidget& over_;
-  QLabel *title_, *text_;
+  QLabel* text_;
   QHBoxLayout* buttons_;
 };
 

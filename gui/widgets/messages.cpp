@@ -1,12 +1,12 @@
 #include "gui/widgets/messages.h"
 
 #include <QEvent>
-#include <QHBoxLayout>
-#include <QLabel>
 #include <QTimer>
 #include <QToolButton>
 #include <QVBoxLayout>
 #include <algorithm>
+
+#include "gui/widgets/named.h"
 
 namespace reachlab::gui::widgets {
 namespace {
@@ -30,10 +30,8 @@ Look lookOf(Grade grade) {
 
 }  // namespace
 
-Messages::Messages(QWidget& over) : QWidget(&over), over_(over), rows_(new QVBoxLayout(this)) {
+Messages::Messages(QWidget& over) : QWidget(&over), over_(over), rows_(filling<QVBoxLayout>(this, 6)) {
   setObjectName("messages");
-  rows_->setContentsMargins(0, 0, 0, 0);
-  rows_->setSpacing(6);
   over.installEventFilter(this);
   hide();
 }
@@ -60,9 +58,8 @@ void Messages::say(Grade grade, const QString& sentence) {
   text->setTextFormat(Qt::PlainText);
   text->setTextInteractionFlags(Qt::TextSelectableByMouse);
   text->setFocusPolicy(Qt::NoFocus);
-  auto* close = new QToolButton;
+  auto* close = tipped(new QToolButton, "Close this message");
   close->setText("×");
-  close->setToolTip("Close this message");
   close->setFocusPolicy(Qt::TabFocus);
   line->addWidget(mark, 0, Qt::AlignTop);
   line->addWidget(text, 1);

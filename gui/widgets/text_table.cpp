@@ -3,10 +3,12 @@
 #include <QHeaderView>
 #include <QTableWidget>
 
+#include "gui/widgets/named.h"
+
 namespace reachlab::gui::widgets {
 
-QTableWidget* makeTextTable(const QStringList& headings, int rowHeight) {
-  auto* table = new QTableWidget(0, headings.size());
+QTableWidget* makeTextTable(const char* name, const QStringList& headings, int rowHeight) {
+  auto* table = named<QTableWidget>(name, 0, headings.size());
   table->setHorizontalHeaderLabels(headings);
   table->verticalHeader()->hide();
   table->verticalHeader()->setDefaultSectionSize(rowHeight);

@@ -10,12 +10,14 @@ namespace reachlab::gui::widgets {
 
 QColor toQColor(const Colour& colour);
 
-/// The theme's ink for words and lines, so opaque. [0, 255]
-inline QColor ink(int opacity) {
-  QColor colour = toQColor(colours::kText);
-  colour.setAlpha(opacity);
+/// The colour, so opaque. [0, 255]
+inline QColor withAlpha(QColor colour, int alpha) {
+  colour.setAlpha(alpha);
   return colour;
 }
+
+/// The theme's ink for words and lines, so opaque. [0, 255]
+inline QColor ink(int opacity) { return withAlpha(toQColor(colours::kText), opacity); }
 
 /// The theme's ink for faults, and a field with a fault in that ink.
 inline QColor faultInk() { return toQColor(colours::kBadText); }

@@ -58,6 +58,7 @@ TEST_F(Day, EnterKeepsAnEntryAndGivesTheKeysBack) {
   for (const Qt::Key k : {Qt::Key_2, Qt::Key_Return}) key(k);
   ASSERT_TRUE(QTest::qWaitFor([&] { return !masses->hasFocus(); }, 2000));
   EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{2}));
+  EXPECT_EQ(window.view().plan().massRadius.size(), 1u);
   key(Qt::Key_Z, Qt::ControlModifier);
   EXPECT_EQ(window.session().experiment().object.masses.size(), 5u) << "undone from the scene";
   masses->setFocus();

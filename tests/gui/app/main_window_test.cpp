@@ -209,21 +209,6 @@ TEST_F(Window, RightDragTurnsTheCameraAndLeavesTheHand) {
   EXPECT_EQ(ownHand(window.view().frame()), hand);
 }
 
-TEST_F(Window, AnEditIsCheckedAppliedAndUndone) {
-  MainWindow& window = open();
-  auto* masses = find<QLineEdit>("masses");
-  type(masses, "0.4 -1");
-  EXPECT_TRUE(find<QLabel>("objectFaults")->isVisible());
-  EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
-  type(masses, "0.4 0.1 0.1");
-  EXPECT_FALSE(find<QLabel>("objectFaults")->isVisible());
-  EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.4, 0.1, 0.1}));
-  EXPECT_EQ(window.view().plan().massRadius.size(), 3u);
-  EXPECT_EQ(masses->text(), "0.4 0.1 0.1");  // a point, also for a German user
-  window.edits().undo();
-  EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
-}
-
 TEST_F(Window, AWrongEntryIsNamedWhileItIsTypedAndClearsWhenItIsRight) {
   MainWindow& window = open();
   auto* masses = find<QLineEdit>("masses");

@@ -21,6 +21,7 @@
 #include "tests/gui/answer_box.h"
 #include "tests/gui/at_the_window.h"
 #include "tests/record/configuration_keys.h"
+#include "tests/session/recorded_runs.h"
 
 namespace reachlab::gui::app {
 namespace {
@@ -46,11 +47,7 @@ class RecordingWindow : public AtTheWindow {
       if (action->text() == QLatin1String(shipped)) return action->trigger();
     FAIL() << "no such entry: " << shipped;
   }
-  std::vector<record::RunLog> logs() const {
-    std::vector<record::RunLog> logs;
-    for (const session::RunOnDisk& run : session::recordedRuns(request_.place)) logs.push_back(record::RunLog::open(run.path));
-    return logs;
-  }
+  std::vector<record::RunLog> logs() const { return session::test::logsIn(request_.place); }
 };
 
 std::string shippedText(const std::string& name) { return readTextFile(experiment::resourceFolder() + "/experiments/" + name + ".json"); }
@@ -301,7 +298,7 @@ TEST_F(RecordingWindow, TheFittedEpsilonOfTheRunIsThatOfTheAnalysis) {
     for (const analysis::FitRow& row : rows)
       for (int i = 0; i < predict::kCriterionCount; ++i)
         if (predict::nameOf(static_cast<predict::Criterion>(i)) == row.criterion &&
-            table->item(i, 4)->text() != QString::number(row.epsilon, 'f', 4))
+            table->item(i, 4)->text() != QString::number(row.fit->epsilonOfAll, 'f', 4))
           return false;
     return true;
   };
