@@ -10,7 +10,6 @@
 #include "cli/commands/commands.h"
 #include "cli/output/success_table.h"
 #include "cli/output/trial_line.h"
-#include "cli/terminal/seed_option.h"
 #include "cli/terminal/session_device.h"
 #include "devices/hands/several_hands.h"
 #include "devices/instruments/instruments.h"
@@ -166,7 +165,8 @@ void addRunCommand(CLI::App& app, int& exitCode) {
                       "Label of the session: letters and digits. A number is the day of the plan [default: 01]");
   command->add_option("--data", r->place.data, "Folder of the dataset [default: ./data]");
   command->add_option("--backup", r->backup, "Second data folder: every finished run is copied there and verified");
-  command->add_option("--seed", r->seed, "Seed of noise and order [default: one is drawn, printed and stored]")->check(wholeSeed());
+  command->add_option("--seed", r->seed, "Seed of noise and order [default: one is drawn, printed and stored]")
+      ->check(CLI::Validator(session::seedRefusal, "SEED"));
   command->add_flag("--fast", r->fast, "Virtual clock: as fast as the processor allows, the same results");
   command->add_flag("--resume", r->resume, "Continue with the trial at which this session broke off, in the same order");
   const auto saveMapping = std::make_shared<bool>(false);

@@ -265,6 +265,11 @@ std::optional<Fault> seedFault(const std::string& text) {
   return Fault{{}, "is " + text, "0 to 18446744073709551615"};
 }
 
+std::string seedRefusal(const std::string& text) {
+  const std::optional<Fault> fault = seedFault(text);
+  return fault ? toText(*fault) : std::string();
+}
+
 std::uint64_t drawSeed() {
   std::random_device entropy;
   return (static_cast<std::uint64_t>(entropy()) << 21) ^ entropy();  // at most 2^53, so that every reader of the dataset keeps it exact

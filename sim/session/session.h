@@ -71,6 +71,8 @@ void takeFreeRun(BlockToRun& block, const SessionPlace& place, bool askedFor);
 /// The fault of a seed's text, which must be a whole number from 0 to 2^64 - 1. A sign or a larger number would silently become another
 /// seed.
 std::optional<Fault> seedFault(const std::string& text);
+/// The fault as one sentence. Empty for a seed.
+std::string seedRefusal(const std::string& text);
 /// A seed from the system's entropy, for a session without a given seed.
 std::uint64_t drawSeed();
 

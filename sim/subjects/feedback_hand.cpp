@@ -18,7 +18,6 @@ namespace {
 constexpr int kTicksPerStep = static_cast<int>(kControlStep / kTickSeconds + 0.5);
 constexpr double kAfterEnd = 0.3;                // [s] that gains go on after the last moment at which the trial can end
 constexpr double kShortest = 0.2, kLongest = 3;  // of the task's duration: what may be drawn
-constexpr double kMostForce = 1000;              // [N] that this hand can be given; an experiment may ask for less
 
 /// A field along the way is felt as less damping of the arm.
 ArmSpec inField(ArmSpec arm, const EnvironmentModel& believed) {
@@ -65,9 +64,7 @@ std::shared_ptr<const FeedbackTask> makeFeedbackTask(const experiment::CompiledE
 FeedbackHand::FeedbackHand(std::shared_ptr<const FeedbackTask> task, std::shared_ptr<SubjectState> state, std::uint64_t seed)
     : task_(std::move(task)), state_(std::move(state)), seed_(seed), arm_(stepArm(state_->person.arm, kTickSeconds)),
       sight_(static_cast<std::size_t>(task_->object.count()) + 1) {
-  prepareTrial(0);
-  std::swap(playing_, prepared_);
-  firstIsThere_ = true;
+  prepareFirst();
   const FeedbackGains& g = playing_.gains;
   const auto sized = [](int a, int b = 1) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); };
   const int most = static_cast<int>((kLongest * task_->cost.duration + task_->cost.hold) / kControlStep) + 2;
@@ -81,10 +78,6 @@ FeedbackHand::FeedbackHand(std::shared_ptr<const FeedbackTask> task, std::shared
   touched_.resize(sized(g.touch, g.touchDelay + 1));
   seen_.resize(sized(g.sight, g.sightDelay + 1));
   placeAtStart();
-}
-
-haptics::DeviceInfo FeedbackHand::info() const {
-  return {.name = "simulated", .version = "1", .maxForce = kMostForce, .virtualHand = true};
 }
 
 void FeedbackHand::learnFromTrace() {
@@ -103,16 +96,13 @@ void FeedbackHand::learnFromTrace() {
 
 void FeedbackHand::prepareTrial(int index, int /*scene*/) {
   learnFromTrace();
-  if (std::exchange(firstIsThere_, false) && index == 0) {
-    prepared_ = playing_;
-    return;
-  }
+  if (takeFirst(index)) return;
   const FeedbackSpec& person = state_->person;
   SubjectDraws draws(seed_, static_cast<std::uint64_t>(index));
   const double sigma = person.noise * person.noiseScale *
                        (1 + person.practice * elementary::exp(-static_cast<double>(state_->model.trials) / person.practiceTrials));
   const ModelError mean = state_->model.current();
-  Reach& reach = prepared_;
+  FeedbackReach& reach = prepared_;
   reach.used.stiffness = mean.stiffness + sigma * person.planSd.stiffness * draws.boundedNormal();
   reach.used.mass = mean.mass + sigma * person.planSd.mass * draws.boundedNormal();
   CostSpec cost = task_->cost;
@@ -147,18 +137,6 @@ void FeedbackHand::placeAtStart() noexcept {
                                     : i >= g.states + g.touch * g.touchDelay || (i - g.states) % g.touch == 0;
     estimate_[static_cast<std::size_t>(i)] = place ? start : 0;
   }
-}
-
-void FeedbackHand::cue(haptics::Cue cue) noexcept {
-  if (cue == haptics::Cue::Go) {
-    going_ = true;
-    return;
-  }
-  if (prepared_.ready) {
-    std::swap(playing_, prepared_);
-    prepared_.ready = false;
-  }
-  placeAtStart();
 }
 
 Vec3 FeedbackHand::aimed(const Vec3& v) const noexcept { return task_->cursor ? experiment::rotated(v, task_->normal, aim_) : v; }
@@ -259,8 +237,6 @@ haptics::DeviceSample FeedbackHand::read() noexcept {
           .velocity = body_[1] * aimed(place.along) + asideSpeed_,
           .hasVelocity = true};
 }
-
-void FeedbackHand::write(const Vec3& force) noexcept { felt_ = force; }
 
 // Looked at where the next tick is a control step.
 void FeedbackHand::see(std::span<const dynamics::MassState> masses) noexcept {

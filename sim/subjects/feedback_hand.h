@@ -5,11 +5,11 @@
 #include <vector>
 
 #include "sim/experiment/task_plane.h"
-#include "sim/haptics/device.h"
 #include "sim/subjects/environment_learner.h"
 #include "sim/subjects/feedback_gains.h"
 #include "sim/subjects/feedback_subject.h"
 #include "sim/subjects/model_learner.h"
+#include "sim/subjects/prepared_hand.h"
 #include "sim/subjects/reach_way.h"
 #include "sim/subjects/plans/subject_draws.h"
 
@@ -34,17 +34,24 @@ struct FeedbackTask {
   bool cursor = false;             // the subject sees a cursor and aims with it
 };
 
+/// A reach of one trial, prepared before it.
+struct FeedbackReach {
+  FeedbackGains gains;
+  ModelError used;
+  EnvironmentModel believed;
+  std::vector<double> draws;  // of every step: senses, then two for the command
+  int reactionTicks = 0;
+  bool ready = false;
+};
+
 /// A hand that its arm moves. It feels the written force and sees the shown object. Haptic thread: `read` advances the arm by a tick with
 /// the latest written force, which stays constant. At every tenth tick estimator and controller take a step. No call allocates there.
-class FeedbackHand final : public haptics::HapticDevice {
+class FeedbackHand final : public PreparedHand<FeedbackReach> {
  public:
   FeedbackHand(std::shared_ptr<const FeedbackTask> task, std::shared_ptr<SubjectState> state, std::uint64_t seed);
 
-  haptics::DeviceInfo info() const override;
   void prepareTrial(int index, int scene = 0) override;
-  void cue(haptics::Cue cue) noexcept override;
   haptics::DeviceSample read() noexcept override;
-  void write(const Vec3& force) noexcept override;
   void see(std::span<const dynamics::MassState> masses) noexcept override;
 
   /// The latest command [N], before its noise. For tests.
@@ -53,15 +60,7 @@ class FeedbackHand final : public haptics::HapticDevice {
   void push(double force) noexcept { push_ = force; }
 
  private:
-  struct Reach {
-    FeedbackGains gains;
-    ModelError used;
-    EnvironmentModel believed;
-    std::vector<double> draws;  // of every step: senses, then two for the command
-    int reactionTicks = 0;
-    bool ready = false;
-  };
-  void placeAtStart() noexcept;
+  void placeAtStart() noexcept override;
   void step() noexcept;
   void learnFromTrace();
   Vec3 aimed(const Vec3& v) const noexcept;
@@ -70,17 +69,14 @@ class FeedbackHand final : public haptics::HapticDevice {
   std::shared_ptr<SubjectState> state_;
   std::uint64_t seed_;
   SteppedArm arm_;
-  Reach prepared_, playing_;
-  bool firstIsThere_ = false;                   // `playing_` is what trial 0 would be prepared as
   TrialTrace trace_;                            // entries below traceSteps_ keep their values until the next Cue::Place
   EnvironmentTrace errors_;                     // so far
   std::vector<EnvironmentTrace> errorsAtStep_;  // kept as the entries of the trace
   std::atomic<int> traceSteps_{0};
-  experiment::PlaneRotation aim_;  // by which the way is turned against the cursor's angle
-  bool going_ = false;
+  experiment::PlaneRotation aim_;              // by which the way is turned against the cursor's angle
   int ticks_ = 0, steps_ = 0;                  // since the go signal; steps of the controller
   std::array<double, 4> body_{};               // h, h', f, g
-  Vec3 aside_, asideSpeed_, felt_;             // [m], [m/s] across the path; [N]
+  Vec3 aside_, asideSpeed_;                    // [m], [m/s] across the path
   double push_ = 0, command_ = 0, noisy_ = 0;  // [N]
   double against_ = 0;                         // [N] to the right, against the believed field
   std::vector<double> estimate_, next_, error_, sensed_;

@@ -16,6 +16,7 @@
 #include "sim/haptics/blind_hand.h"
 #include "sim/subjects/plans/sampled_plan.h"
 #include "sim/subjects/plans/subject_draws.h"
+#include "sim/subjects/prepared_hand.h"
 #include "sim/subjects/subject_parameters.h"
 #include "sim/trial/protocol.h"
 
@@ -73,25 +74,25 @@ MeantReach meanReach(const ImpedanceTask& task, dynamics::Plant& object, double 
   return reach;
 }
 
-class ImpedanceHand final : public haptics::HapticDevice, public haptics::BlindHand {
+struct ImpedanceReach {
+  MeantReach reach;
+  std::vector<double> draws;
+  int reactionTicks = 0;
+  bool ready = false;
+};
+
+class ImpedanceHand final : public PreparedHand<ImpedanceReach>, public haptics::BlindHand {
  public:
   ImpedanceHand(std::shared_ptr<const ImpedanceTask> task, std::uint64_t seed)
       : task_(std::move(task)), known_(dynamics::compileScene(task_->known, task_->constraint)), seed_(seed),
         arm_(stepArm(task_->spec.arm, kTickSeconds)), delayTicks_(static_cast<std::size_t>(std::lround(task_->spec.delay / kTickSeconds))),
         before_(delayTicks_ + 1) {
-    prepareTrial(0);
-    std::swap(playing_, prepared_);
-    firstIsThere_ = true;
-    place();
+    prepareFirst();
+    placeAtStart();
   }
 
-  haptics::DeviceInfo info() const override { return {.name = "simulated", .version = "1", .maxForce = 1000, .virtualHand = true}; }
-
   void prepareTrial(int index, int /*scene*/ = 0) override {
-    if (std::exchange(firstIsThere_, false) && index == 0) {
-      prepared_ = playing_;
-      return;
-    }
+    if (takeFirst(index)) return;
     const ImpedanceSpec& spec = task_->spec;
     SubjectDraws draws(seed_, static_cast<std::uint64_t>(index));
     constexpr double kLeastStretch = 0.2;
@@ -104,36 +105,17 @@ class ImpedanceHand final : public haptics::HapticDevice, public haptics::BlindH
     prepared_.ready = true;
   }
 
-  void cue(haptics::Cue cue) noexcept override {
-    if (cue == haptics::Cue::Go) {
-      going_ = true;
-      return;
-    }
-    if (prepared_.ready) {
-      std::swap(playing_, prepared_);
-      prepared_.ready = false;
-    }
-    place();
-  }
-
   haptics::DeviceSample read() noexcept override {
     if (going_ && ticks_++ >= playing_.reactionTicks) advance(static_cast<std::size_t>(ticks_ - 1 - playing_.reactionTicks));
     return {.position = place_, .velocity = velocity_, .hasVelocity = true};
   }
-  void write(const Vec3& force) noexcept override { felt_ = force; }
 
  private:
-  struct Reach {
-    MeantReach reach;
-    std::vector<double> draws;
-    int reactionTicks = 0;
-    bool ready = false;
-  };
   struct Kept {
     Vec3 off, offSpeed;  // [m], [m/s] meant less true
   };
 
-  void place() noexcept {
+  void placeAtStart() noexcept override {
     place_ = playing_.reach.place[0];
     velocity_ = correction_ = stage_ = noiseForce_ = noiseStage_ = felt_ = {};
     going_ = false;
@@ -186,11 +168,8 @@ class ImpedanceHand final : public haptics::HapticDevice, public haptics::BlindH
   std::uint64_t seed_;
   SteppedArm arm_;
   std::size_t delayTicks_;
-  Reach prepared_, playing_;
-  bool firstIsThere_ = false;  // `playing_` is what trial 0 would be prepared as
-  Vec3 place_, velocity_, correction_, stage_, noiseForce_, noiseStage_, felt_;
+  Vec3 place_, velocity_, correction_, stage_, noiseForce_, noiseStage_;
   std::vector<Kept> before_;
-  bool going_ = false;
   int ticks_ = 0;
 };
 

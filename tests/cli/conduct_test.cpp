@@ -4,9 +4,9 @@
 #include <regex>
 
 #include "sim/record/log/run_log.h"
-#include "sim/session/session_folder.h"
 #include "tests/cli/program.h"
 #include "tests/record/configuration_keys.h"
+#include "tests/session/recorded_runs.h"
 
 namespace reachlab::cli {
 namespace {
@@ -14,11 +14,7 @@ namespace {
 using test::Ended;
 using test::reach;
 
-std::vector<record::RunLog> logsOf(const TemporaryFolder& folder) {
-  std::vector<record::RunLog> logs;
-  for (const session::RunOnDisk& run : session::recordedRuns({.data = folder.path()})) logs.push_back(record::RunLog::open(run.path));
-  return logs;
-}
+std::vector<record::RunLog> logsOf(const TemporaryFolder& folder) { return session::test::logsIn({.data = folder.path()}); }
 
 TEST(Conduct, ThePlansBlocksAreRunsOfTheirOwnEachWithItsLabelAndItsRowsInTheDataset) {
   const TemporaryFolder folder;

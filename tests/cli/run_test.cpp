@@ -7,37 +7,16 @@
 
 #include "test_paths.h"
 #include "tests/cli/program.h"
+#include "tests/session/recorded_runs.h"
 
 using namespace reachlab::test;
 namespace fs = std::filesystem;
 
 namespace {
 
-std::string logOf(const TemporaryFolder& folder) {
-  for (const auto& entry : fs::recursive_directory_iterator(folder / "sourcedata"))
-    if (entry.path().extension() == ".reach") return entry.path().string();
-  return {};
-}
+std::string logOf(const TemporaryFolder& folder) { return reachlab::session::test::logsIn({.data = folder.path()}).at(0).path(); }
 
 }  // namespace
-
-TEST(Run, TheSimulatedSubjectIsReproducibleAndHuman) {
-  const TemporaryFolder one, two;
-  const std::string arguments = "run chain-moderate --device simulated --trials 20 --seed 1 --fast --data ";
-  const std::string first = printed(arguments + one.path());
-  EXPECT_EQ(first, printed(arguments + two.path()));
-  const auto trials = trialLines(first);
-  ASSERT_EQ(trials.size(), 20u);
-  int successes = 0;
-  std::set<std::string> reasons;
-  for (const auto& trial : trials) {
-    if (trial.at("outcome") == "success") ++successes;
-    else reasons.insert(trial.at("reason"));
-  }
-  EXPECT_GE(successes, 6);
-  EXPECT_LE(successes, 18);
-  EXPECT_GE(reasons.size(), 2u);
-}
 
 TEST(Run, WithoutNoiseEveryTrialSucceeds) {
   const TemporaryFolder folder;

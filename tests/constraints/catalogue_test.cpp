@@ -62,43 +62,6 @@ TEST(Catalogue, DefinitionReadsBackEqualFromItsJson) {
   for (const Definition& d : catalogue()) EXPECT_EQ(toJson(parseDefinition(toJson(d), "again")), toJson(d)) << d.name;
 }
 
-TEST(Catalogue, UnknownNamesAndShapeKeysTellTheNearest) {
-  EXPECT_TRUE(holds(refusalOfConstraint({.name = "elipse"}), "did you mean ellipse?"));
-  EXPECT_TRUE(holds(refusalOfConstraint({.name = "torus", .shape = {{"mayor_m", 0.1}}}), "did you mean major_m?"));
-  EXPECT_TRUE(holds(refusalOfConstraint({.name = "circle", .shape = {{"radius_m", -1}}}), "allowed: 0.01 to 1000 m"));
-  EXPECT_TRUE(holds(refusalOfConstraint({.name = "torus-knot", .shape = {{"p", 1.5}}}), "allowed: a whole number"));
-  EXPECT_TRUE(holds(refusalOfConstraint({.name = "../secret"}), "there is no constraint"));
-}
-
-TEST(Definition, SaysOfAPlaceThatIsNoConstantWhatInItIsNotKnown) {
-  const std::vector<Fault> faults = faultsToldBy([&] {
-    parseDefinition(R"j({"schema_version": 1, "name": "ring", "kind": "curve", "curve": ["0.1*cos(phi)", "0.1*sin(phi)", "0"], "shape": {},
-      "domain": [0, "2*pi"], "periodic": true, "start": ["pj/4"], "target": [1], "sentence": "s", "source": "s"})j",
-                    "d.json");
-  });
-  ASSERT_FALSE(faults.empty());
-  EXPECT_EQ(faults[0].key, "start[0]") << toText(faults);
-  EXPECT_TRUE(holds(faults[0].what, "pj")) << toText(faults);
-  EXPECT_EQ(faults[0].place.value_or(FilePlace{}).line, 2) << toText(faults);
-}
-
-TEST(Definition, BeginsAndEndsWithinItsDomainUnlessThatGoesRound) {
-  const auto keyOfFault = [](const std::string& domain, const std::string& start) -> std::string {
-    const std::vector<Fault> faults = faultsToldBy([&] {
-      parseDefinition(R"j({"schema_version": 1, "name": "arc", "kind": "curve", "curve": ["0.1*cos(phi)", "0.1*sin(phi)", "0"], "shape": {},
-        "domain": )j" + domain +
-                          R"j(, "start": [)j" + start + R"j(], "target": [1], "sentence": "s", "source": "s"})j",
-                      "d.json");
-    });
-    return faults.empty() ? "" : faults[0].key;
-  };
-  for (const char* inside : {"0", "0.5", "2"}) EXPECT_EQ(keyOfFault("[0, 2]", inside), "") << inside;
-  for (const char* outside : {"-0.1", "2.1"}) {
-    EXPECT_EQ(keyOfFault("[0, 2]", outside), "start[0]") << outside;
-    EXPECT_EQ(keyOfFault(R"([0, "2*pi"], "periodic": true)", outside), "") << outside;
-  }
-}
-
 TEST(Definition, HasTheSameFaultsAsAValueAndAsAFile) {
   const auto keysOf = [](const std::vector<Fault>& faults) {
     std::vector<std::string> keys;

@@ -118,6 +118,9 @@ TEST(DefinitionFile, IsRefusedInWords) {
   EXPECT_EQ(curveWith("\"target\": [2]", "\"target\": [null]"),
             "d:5:31: target[0]: is null; allowed: a number, or an expression such as \"2*pi\"");
   EXPECT_EQ(curveWith("\"target\": [2]", "\"target\": [6.5]"), "d:5:31: target[0]: is 6.5; allowed: -1 to 6.283185307179586");
+  EXPECT_TRUE(holds(curveWith("\"pi/4\"", "\"pj/4\""), "d:5:12: start[0]: unknown name 'pj'"));
+  for (const char* end : {"[-1]", "[\"2*pi\"]"}) EXPECT_EQ(curveWith("[2]", end), "") << end;
+  EXPECT_EQ(refusalOfDefinition(replaced(replaced(kArcDefinition, "\"periodic\": false", "\"periodic\": true"), "[2]", "[7]")), "");
   EXPECT_EQ(curveWith("\"default\": 0.2", "\"default\": 0.6"),
             "d:3:18: shape.a_m: default 0.6 is not within min 0.1 and max 0.5; allowed: min <= default <= max");
   EXPECT_EQ(curveWith("\"min\": 0.1, ", ""), "d:3:18: shape.a_m.min: is missing; allowed: any finite number");
@@ -172,25 +175,6 @@ TEST(Shape, IsGivenByNameAndHeldWithinItsRange) {
             "c.shape.whatever: own-tube has no such parameter; allowed: none");
 }
 
-TEST(Periods, HaveToRepeatThePlace) {
-  const auto refused = [](const std::string& text) -> std::string {
-    return refusalOf([&] { (void)makeConstraint(parseDefinition(text, "d"), {}, "c"); });
-  };
-  EXPECT_EQ(refused(kTubeDefinition), "");
-  const std::string round =
-      replaced(kArcDefinition, "\"domain\": [-1, \"n*pi\"], \"periodic\": false", "\"domain\": [0, \"2*pi\"], \"periodic\": true");
-  EXPECT_EQ(refused(round), "");
-  const std::string told = refused(replaced(round, "2*pi", "pi"));
-  EXPECT_EQ(told.find("c.periodic: is true, but r does not repeat itself: its places at phi = "), 0u) << told;
-  EXPECT_TRUE(holds(told, "m apart; allowed: true for a formula of that period; else false, with at_end stop or bounce"));
-  const std::string tube = refused(replaced(kTubeDefinition, "\"2*pi\"", "\"pi\""));
-  EXPECT_EQ(tube.find("c.periodic[0]: is true, but r does not repeat itself: its places at u = "), 0u) << tube;
-  EXPECT_TRUE(holds(tube, " are 0.2 m apart")) << "opposite sides of the tube";
-  const std::string across = refused(replaced(replaced(kTubeDefinition, "[-1, null]", "[-1, 3]"), "[true, false]", "[true, true]"));
-  EXPECT_EQ(across.find("c.periodic[1]: is true, but r does not repeat itself: its places at v = "), 0u) << across;
-  EXPECT_TRUE(holds(across, " are 4 m apart"));
-}
-
 TEST(UserDefinitions, AreFoundInTheFolderThatTheEnvironmentNames) {
   std::map<std::string, std::optional<std::string>> before;
   for (const char* name : {"REACHLAB_CONSTRAINTS", "XDG_DATA_HOME", "HOME"}) {
@@ -239,8 +223,9 @@ ConstraintSpec typed(const std::vector<std::string>& curve, const std::map<std::
 TEST(TypedConstraint, IsRefusedInWords) {
   EXPECT_EQ(refusalOfConstraint(typed({"phi", "0"})), "c: has 2 formulas; allowed: three, one a coordinate");
   EXPECT_EQ(refusalOfConstraint({.name = "free", .shape = {{"a", 1}}}), "c.shape: free has no shape; allowed: no shape");
-  EXPECT_EQ(refusalOfConstraint(typed({"phi", "0", "0"}, {{"a", 1}})),
-            "c.curve: shape.a is used by no coordinate; allowed: names that the formula uses");
+  EXPECT_EQ(refusalOfConstraint(typed({"a*phi", "0", "0"}, {{"a", 1}, {"b", 1}})),
+            "c.curve: shape.b is used by no coordinate; allowed: names that the formula uses");
+  EXPECT_TRUE(holds(refusalOfConstraint(typed({"phi", "0", "0"}, {{"phi", 1}})), "variable"));
   EXPECT_EQ(refusalOfConstraint(typed({"a*phi", "0", "0"}, {{"a", std::nan("")}})), "c.shape.a: is nan; allowed: any finite number");
   EXPECT_EQ(refusalOfConstraint(typed({"phi", "1 +", "0"})),
             "c.curve[1], character 4: unexpected end of the formula; expected a number, a name, a function or '('");
@@ -255,9 +240,12 @@ TEST(TypedConstraint, IsRefusedInWords) {
   EXPECT_EQ(refusalOfConstraint(typed({"phi", "0", "0*log(phi)"})),
             "c.curve[2], character 1: log(phi) cancels out, and what is left would go on where the formula as written has no value; "
             "allowed: a formula without it");
-  for (const char* cancels : {"0*sqrt(phi)", "0*asin(phi)", "0*acos(phi)", "0*phi^0.3"})
-    EXPECT_TRUE(holds(refusalOfConstraint(typed({"phi", cancels, "0"})), "c.curve[1], character 1: ")) << cancels;
-  for (const char* whole : {"0*sqrt(phi^2 + 1)", "0*sin(phi)", "0*log(exp(phi))", "0*atan(phi)"})
+  for (const char* cancels :
+       {"0*sqrt(phi)", "0*asin(phi)", "0*acos(phi)", "0*phi^0.3", "log(phi) - log(phi)", "asin(phi)/asin(phi)", "log(phi)^0"})
+    for (const char* words : {"c.curve[1], character 1: ", " cancels out"})
+      EXPECT_TRUE(holds(refusalOfConstraint(typed({"phi", cancels, "0"})), words)) << cancels;
+  for (const char* whole : {"0*sqrt(phi^2 + 1)", "0*sin(phi)", "0*log(exp(phi))", "0*atan(phi)", "sqrt(1 + phi^2)^2", "sqrt(phi)*sqrt(phi)",
+                            "2*log(phi + 9) - log(phi + 9)"})
     EXPECT_EQ(refusalOfConstraint(typed({"phi", whole, "0"})), "") << whole;
   std::map<std::string, double> shape;
   std::string sum = "phi";
@@ -282,6 +270,7 @@ TEST(TypedConstraint, HasToBeFiniteWhereItIsUsed) {
   EXPECT_EQ(used("1/(phi - 1)", 0, 2), "c: not finite at phi = 1: pole of 1/(phi - 1)" + range);
   EXPECT_EQ(used("1/(phi - 1)", 1.5, 2), "");
   EXPECT_EQ(used("sign(phi - 1)", 0, 2), "c: jump at phi = 1: sign(phi - 1)" + range);
+  EXPECT_EQ(used("sign(phi - 1)", 1.1, 2), "");
   EXPECT_EQ(used("sqrt(phi)", -1, 2), "c: not finite at phi = 0: end of sqrt(phi)" + range);
   EXPECT_EQ(used("abs(phi)", -1, 2), "");
 }
@@ -300,6 +289,7 @@ TEST(TypedConstraint, KnowsItsNameItsKindAndItsOrder) {
   EXPECT_EQ(free.name, "free");
   EXPECT_EQ(free.parameterCount(), 0);
   EXPECT_EQ(ConstraintSpec{}.name, "line");
+  EXPECT_TRUE(named("line").straight);
   EXPECT_EQ(makeConstraint({.name = "own-arc", .definition = kArcDefinition}).name, "own-arc");
 }
 

@@ -100,22 +100,5 @@ TEST(Derivatives, GeneratedAndTypedFormsAgreeInEveryBit) {
   }
 }
 
-TEST(Derivatives, MatchFiniteDifferencesOfTheRandomFormulas) {
-  // Central differences of step 1e-5: error of order h^2 in the third derivative plus rounding 1e-16/h, for numbers of order 1.
-  constexpr double kStep = 1e-5, kDifference = 2e-8;
-  for (const char* formula : {"sin(phi)^3*exp(-phi)", "phi^2.5/(1 + phi)", "atan2(sin(phi), 2 + cos(phi))", "log(1 + phi^2)*sqrt(phi)",
-                              "tanh(phi)*cosh(phi/3)", "asin(phi/4) + acos(phi/5)", "tan(phi/3) + atan(phi)", "abs(sin(phi))*sign(phi)",
-                              "2^phi + phi^phi/10", "sinh(phi)/(phi*phi + 1)"}) {
-    ConstraintSpec spec{.curve = {formula, "phi", "0"}};
-    spec.inUse = {Domain{0.5, 2.5}, Domain{0, 0}};
-    const Constraint c = makeConstraint(spec);
-    for (const double phi : {0.7, 1.3, 2.2}) {
-      const CurvePoint p = evaluate(c.curve, phi), before = evaluate(c.curve, phi - kStep), after = evaluate(c.curve, phi + kStep);
-      EXPECT_NEAR(p.rPhi.x, (after.r.x - before.r.x) / (2 * kStep), kDifference) << formula;
-      EXPECT_NEAR(p.rPhiPhi.x, (after.rPhi.x - before.rPhi.x) / (2 * kStep), kDifference) << formula;
-    }
-  }
-}
-
 }  // namespace
 }  // namespace reachlab::constraints

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "constraints/curve_batch.h"
 #include "constraints/regularity/hidden_bend.h"
 #include "constraints/regularity/places.h"
 #include "constraints/regularity/surface_watch.h"
@@ -79,25 +78,6 @@ TEST(HiddenBend, IsNotToldAwayWhereNothingIsKnown) {
   const auto edge = findHiddenBend(graphOf("sqrt(0.5003 - u)"), straight, 1e-3);
   ASSERT_TRUE(edge);
   EXPECT_NEAR(edge->at[0], 0.5003, 2e-3) << "the slope grows without bound";
-}
-
-// Of r(phi) = (phi, 2 phi^2, 3) and its derivatives, each in its lane.
-TEST(CurveBatch, HoldsEachPointInItsLane) {
-  const auto point = [](const void*, const double* shape, double phi, CurvePoint& out) noexcept {
-    out = {{phi, shape[0] * phi * phi, 3}, {1, 2 * shape[0] * phi, 0.5}, {0.25, 2 * shape[0], phi + 1}};
-  };
-  const double two = 2;
-  double phis[kBatchLanes];
-  for (int i = 0; i < kBatchLanes; ++i) phis[i] = 0.5 * i - 1;
-  CurveBatch batch;
-  evaluateSingly(point, nullptr, &two, phis, batch);
-  for (int i = 0; i < kBatchLanes; ++i) {
-    CurvePoint expected;
-    point(nullptr, &two, phis[i], expected);
-    EXPECT_EQ((Vec3{batch.r[0][i], batch.r[1][i], batch.r[2][i]}), expected.r) << i;
-    EXPECT_EQ((Vec3{batch.rPhi[0][i], batch.rPhi[1][i], batch.rPhi[2][i]}), expected.rPhi) << i;
-    EXPECT_EQ((Vec3{batch.rPhiPhi[0][i], batch.rPhiPhi[1][i], batch.rPhiPhi[2][i]}), expected.rPhiPhi) << i;
-  }
 }
 
 CurveRegularity bumpsOn(const std::string& y) { return computeRegularity(curve({"phi/10", y, "0"}), 0.5); }

@@ -43,21 +43,6 @@ TEST(HardCases, ANumberThatIsNoneEndsTheStepAndNotTheState) {
     }
 }
 
-TEST(HardCases, AGapOf125MillisecondsIsCrossedInOneSegment) {
-  const Scene scene = compileScene(makeChain(5, 0.6, 600));
-  scene.plant->placeAtRest(std::array{0.0});
-  HandPath path;
-  for (int i = 0; i < 300; ++i) {
-    if (i == 100) {
-      path.reset();
-      scene.plant->restart();
-    }
-    path.push(reachAt((i < 100 ? i : i + 125) * 1e-3));
-    ASSERT_EQ(scene.plant->step(path.segment(), 1e-3), StepStatus::Ok);
-  }
-  for (const MassState& mass : observed(*scene.plant)) EXPECT_LT(norm(mass.v), 2) << "no burst";
-}
-
 TEST(HardCases, AMassRatioOfAMillionKeepsItsEnergy) {
   const Scene scene = compileScene(makeExperiment(experiment::ObjectKind::Chain, {1e-3, 1e3}, {600}));
   scene.plant->place(std::array{0.0}, std::array{5.0});

@@ -314,6 +314,10 @@ TEST(HeldObject, TheDifferenceOfTwoOrientationsIsTheTurnBetweenThemInBodyAxes) {
     EXPECT_NEAR(by[i], 0.1 * static_cast<double>(i + 1), 1e-15);
     EXPECT_NEAR(by[3 + i], 2 * s * turn[i], 1e-15);
   }
+  std::vector<double> negative = there, same(6);
+  for (std::size_t i = 3; i < 7; ++i) negative[i] = -negative[i];
+  scene.shared->difference(negative, same);
+  EXPECT_EQ(by, same) << "a quaternion and its negative are one orientation";
 }
 
 }  // namespace

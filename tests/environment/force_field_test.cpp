@@ -46,19 +46,6 @@ TEST(ForceField, AnAntisymmetricFieldDoesNoWork) {
   }
 }
 
-TEST(ForceField, ALaggingVelocityMakesTheCurlFieldActive) {
-  constexpr double b = 13, speed = 0.4, omega = 2 * kPi, lag = 0.008;
-  ForceField field = fieldOf({curl(b)});
-  letGrow(field);
-  const auto velocityAt = [&](double t) { return Vec3{speed * std::cos(omega * t), 0, speed * std::sin(omega * t)}; };
-  double power = 0;
-  for (int i = 0; i < 1000; ++i) {
-    const double t = i * kTickSeconds;
-    power += dot(field.step(moving({}, velocityAt(t - lag))), velocityAt(t)) / 1000;
-  }
-  EXPECT_NEAR(std::abs(power), b * speed * speed * std::sin(omega * lag), 1e-9);
-}
-
 TEST(ForceField, AnElasticFieldPullsToItsCentreOrToTheStart) {
   const SquareMatrix<3> k{{{100, 20, 0}, {20, 50, 0}, {0, 0, 10}}};
   ForceField toStart = fieldOf({ElasticForce{k, {}}}), toCentre = fieldOf({ElasticForce{k, Vec3{0, 0.1, 0}}});

@@ -5,11 +5,9 @@
 
 #include "base/error.h"
 #include "constraints/geometry/arc_curve.h"
-#include "sim/dynamics/hand/hand_function.h"
-#include "sim/dynamics/object/plant.h"
-#include "sim/dynamics/scene.h"
 #include "sim/predict/curve/curve_object.h"
 #include "sim/predict/predict.h"
+#include "tests/predict/arrival.h"
 #include "tests/predict/objects.h"
 
 namespace reachlab::predict {
@@ -86,42 +84,6 @@ TEST(CurveObject, OnWiderAndWiderCirclesItComesToTheLineWithTheSquareOfTheCurvat
   }
 }
 
-struct CurveArrival {
-  double position = 0, velocity = 0;  // largest error of any mass [m], [m/s]
-  double along = 0;                   // largest distance of any mass from where it is predicted on the way [m]
-};
-
-CurveArrival simulateOnCurve(const experiment::Experiment& e, const Prediction& p) {
-  const dynamics::Scene scene = dynamics::compileScene(e, {"adaptive", 0.001, 1e-13});
-  const constraints::ArcCurve curve(*scene.constraint, e.task->start[0], e.task->target[0]);
-  scene.plant->placeAtRest(e.task->start);
-  const double T = p.duration;
-  const dynamics::HandFunction hand = [&](double t) {
-    const PredictedHand h = p.handAt(std::min(t, T));
-    const auto at = curve.expand<2>(h.position);
-    return dynamics::HandSample{at[0], h.velocity * at[1]};
-  };
-  constexpr int kSteps = 1500;
-  const auto n = static_cast<size_t>(p.massCount());
-  std::vector<dynamics::MassState> masses(n);
-  std::vector<double> x(n), v(n);
-  CurveArrival arrival;
-  for (int i = 0; i < kSteps; ++i) {
-    if (scene.plant->step(dynamics::makeSegment(hand, T * i / kSteps, T / kSteps), T / kSteps) != dynamics::StepStatus::Ok)
-      return {1, 1, 1};
-    const double t = T * (i + 1) / kSteps;
-    scene.plant->observe(hand(t), masses);
-    p.massesAt(t, x, v);
-    for (size_t m = 0; m < n; ++m) arrival.along = std::max(arrival.along, norm(masses[m].r - curve.expand<2>(x[m])[0]));
-  }
-  const Vec3 target = curve.expand<2>(curve.length())[0];
-  for (const dynamics::MassState& m : masses) {
-    arrival.position = std::max(arrival.position, norm(m.r - target));
-    arrival.velocity = std::max(arrival.velocity, norm(m.v));
-  }
-  return arrival;
-}
-
 TEST(CurveObject, ArrivesAtRestInTheSimulator) {
   constexpr double kAtRest = 1e-10;   // [m], [m/s]
   constexpr double kOnTheWay = 1e-9;  // [m] between the masses' collocation points
@@ -129,7 +91,7 @@ TEST(CurveObject, ArrivesAtRestInTheSimulator) {
        {onEllipse(chainModerate()), onEllipse(damped(chainModerate(), 1, 5)), onEllipse(parallelPair()), onCircle(chainModerate(), 0.08),
         onCurve(damped(parallelPair(), 1, 5), {"0.05*cos(phi)", "0.02*phi", "0.05*sin(phi)"}, 1, 4)}) {
     const auto p = predict(e, Criterion::MinHandJerk);
-    const CurveArrival arrival = simulateOnCurve(e, *p);
+    const CurveArrival arrival = simulateOn(e, *p, {"adaptive", 0.001, 1e-13});
     EXPECT_LT(arrival.position, kAtRest);
     EXPECT_LT(arrival.velocity, kAtRest);
     EXPECT_LT(arrival.along, kOnTheWay);

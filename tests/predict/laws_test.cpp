@@ -46,14 +46,6 @@ double massVelocity(const Prediction& p, int mass, double t) {
 
 double minimumJerkVelocity(double distance, double T, double t) { return 30 * distance / T * std::pow(t / T, 2) * std::pow(1 - t / T, 2); }
 
-TEST(Laws, HandDampingKeepsTheSymmetryAndObjectDampingBreaksIt) {
-  const auto handDamped = predictWith(chainModerate(), MinHandForceChange, 1, 5);
-  EXPECT_LT(difference(1.35, handOf(*handDamped), [&](double t) { return handDamped->handAt(1.35 - t).velocity; }), kSame);
-
-  const auto skewed = predict(damped(chainModerate(), 2, 5), MinHandJerk);
-  EXPECT_NEAR(skewed->handPeakTime, 0.641, 0.001);  // 0.675 without damping
-}
-
 TEST(Laws, StiffSpringsGiveTheMinimumJerkOfTheHand) {
   // The lag behind a spring is a (w T)^-2 part of the profile: 1e9 N/m leaves 1e-8.
   const experiment::Experiment stiff = makeChain(2, 0.5, 1e9, 1);
@@ -100,12 +92,6 @@ TEST(EqualFrequencies, AreMergedAndSaidSo) {
   ASSERT_EQ(merged->warnings.size(), 1u);
   EXPECT_TRUE(holds(merged->warnings[0], "equal frequencies"));
   EXPECT_EQ(massVelocity(*merged, 0, 1.0), massVelocity(*merged, 1, 1.0));
-}
-
-TEST(EqualFrequencies, AreNotMergedWhenTheyOnlyComeClose) {
-  const auto near = predict(makeParallel({3, 3}, {50, 50.0005}, 2.5), MinHandJerk);
-  EXPECT_NEAR(near->cost, 5.5645, 5.5645 * kFiveDigits);
-  EXPECT_NEAR(near->handPeak, 0.15810, kFiveDigits);
 }
 
 TEST(Refusals, SayWhyNothingCanBeComputed) {

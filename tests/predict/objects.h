@@ -1,5 +1,8 @@
 #pragma once
+#include <functional>
 #include <numbers>
+#include <span>
+#include <utility>
 
 #include "sim/experiment/experiment.h"
 #include "sim/predict/predict.h"
@@ -83,5 +86,28 @@ inline experiment::Experiment freely(experiment::Experiment e, std::vector<doubl
 
 /// The hand itself moves as the criterion says, and not the one mass.
 inline PredictOptions asHand() { return {.point = PointIs::Hand}; }
+
+/// A hand that moves as the test says, and two masses, of which the last moves the other way and three times as fast.
+class MadePrediction final : public Prediction {
+ public:
+  using Rate = std::function<double(double)>;
+  MadePrediction(
+      double seconds, Rate velocity, double fastest = 0, Rate acceleration = [](double) { return 0.0; })
+      : velocity_(std::move(velocity)), acceleration_(std::move(acceleration)) {
+    duration = seconds;
+    handPeak = 1;
+    fastest_ = fastest;
+    massCount_ = 2;
+  }
+  PredictedHand handAt(double t) const override { return {0, velocity_(t), acceleration_(t)}; }
+  void massesAt(double t, std::span<double> position, std::span<double> velocity) const override {
+    position[0] = position[1] = 0;
+    velocity[0] = 99;
+    velocity[1] = -3 * velocity_(t);
+  }
+
+ private:
+  Rate velocity_, acceleration_;
+};
 
 }  // namespace reachlab::predict

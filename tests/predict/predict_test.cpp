@@ -198,33 +198,13 @@ TEST(Predictions, TheWayBackIsTheWayThereInReverse) {
   }
 }
 
-// A hand whose velocities are what the test says.
-class PairPrediction final : public Prediction {
- public:
-  PairPrediction(double seconds, double fastest, std::function<double(double)> velocity, std::function<double(double)> acceleration)
-      : velocity_(std::move(velocity)), acceleration_(std::move(acceleration)) {
-    duration = seconds;
-    fastest_ = fastest;
-    massCount_ = 2;
-  }
-  PredictedHand handAt(double t) const override { return {0, velocity_(t), acceleration_(t)}; }
-  void massesAt(double t, std::span<double> position, std::span<double> velocity) const override {
-    position[0] = position[1] = 0;
-    velocity[0] = 99;
-    velocity[1] = -3 * velocity_(t);
-  }
-
- private:
-  std::function<double(double)> velocity_, acceleration_;
-};
-
-PairPrediction sines(double seconds, double a, double wa, double b, double wb, double phase = 0) {
-  return {seconds, std::max(wa, wb), [=](double t) { return a * std::sin(wa * t + phase) + b * std::sin(wb * t); },
+MadePrediction sines(double seconds, double a, double wa, double b, double wb, double phase = 0) {
+  return {seconds, [=](double t) { return a * std::sin(wa * t + phase) + b * std::sin(wb * t); }, std::max(wa, wb),
           [=](double t) { return a * wa * std::cos(wa * t + phase) + b * wb * std::cos(wb * t); }};
 }
 
 TEST(Peaks, LieBetweenTheSamplesToTheLastDigits) {
-  PairPrediction p = sines(1.7, 0.4, 2.9, 0, 1);
+  MadePrediction p = sines(1.7, 0.4, 2.9, 0, 1);
   findPeaks(p);
   EXPECT_NEAR(p.handPeak, 0.4, 1e-15);
   EXPECT_NEAR(p.handPeakTime, std::numbers::pi / 2 / 2.9, 1e-9);
@@ -232,25 +212,25 @@ TEST(Peaks, LieBetweenTheSamplesToTheLastDigits) {
 }
 
 TEST(Peaks, AreWithTheirSignAndTheEarliestOfEqualOnes) {
-  PairPrediction back = sines(1, -0.7, 2 * std::numbers::pi, 0, 1);
+  MadePrediction back = sines(1, -0.7, 2 * std::numbers::pi, 0, 1);
   findPeaks(back);
   EXPECT_NEAR(back.handPeak, -0.7, 1e-12);
   EXPECT_NEAR(back.handPeakTime, 0.25, 1e-9);
-  PairPrediction later = sines(1, 0.7, 3 * std::numbers::pi, -0.2, std::numbers::pi);  // 0.5 in the middle of the first half, -0.9 at 0.5
+  MadePrediction later = sines(1, 0.7, 3 * std::numbers::pi, -0.2, std::numbers::pi);  // 0.5 in the middle of the first half, -0.9 at 0.5
   findPeaks(later);
   EXPECT_NEAR(later.handPeakTime, 0.5, 1e-9);
   EXPECT_NEAR(later.handPeak, -0.9, 1e-12);
 }
 
 TEST(Peaks, MayStandAtTheVeryEnds) {
-  PairPrediction falling(
-      2, 1, [](double t) { return 3 - t; }, [](double) { return -1.0; });
+  MadePrediction falling(
+      2, [](double t) { return 3 - t; }, 1, [](double) { return -1.0; });
   findPeaks(falling);
   EXPECT_EQ(falling.handPeak, 3);
   EXPECT_EQ(falling.handPeakTime, 0);
   EXPECT_EQ(falling.objectPeak, -9);
-  PairPrediction rising(
-      2, 1, [](double t) { return 0.5 + t; }, [](double) { return 1.0; });
+  MadePrediction rising(
+      2, [](double t) { return 0.5 + t; }, 1, [](double) { return 1.0; });
   findPeaks(rising);
   EXPECT_EQ(rising.handPeak, 2.5);
   EXPECT_EQ(rising.handPeakTime, 2);
@@ -258,7 +238,7 @@ TEST(Peaks, MayStandAtTheVeryEnds) {
 
 // Samples 48 to the second and more with the fastest frequency: an inner maximum between two that are lower at their samples.
 TEST(Peaks, AreFoundAmongWavesOfTheFastestFrequency) {
-  PairPrediction p = sines(1, 1, std::numbers::pi, 0.3, 211);
+  MadePrediction p = sines(1, 1, std::numbers::pi, 0.3, 211);
   findPeaks(p);
   double most = 0;
   for (int i = 0; i <= 200'000; ++i) most = std::max(most, std::abs(p.handAt(i / 200'000.0).velocity));

@@ -1,43 +1,14 @@
 // The predicted hand takes the object to rest in the program's own simulator.
 #include <gtest/gtest.h>
 
-#include <cmath>
-
-#include "sim/dynamics/hand/hand_function.h"
-#include "sim/dynamics/object/plant.h"
-#include "sim/dynamics/scene.h"
 #include "sim/predict/predict.h"
+#include "tests/predict/arrival.h"
 #include "tests/predict/objects.h"
 
 namespace reachlab::predict {
 namespace {
 
 using enum Criterion;
-
-struct LineArrival {
-  double position = 0, velocity = 0;  // largest error of any mass [m], [m/s]
-};
-
-LineArrival simulateOnLine(const experiment::Experiment& e, const Prediction& prediction) {
-  const dynamics::Scene scene = dynamics::compileScene(e);
-  const double start = -0.1, T = prediction.duration;  // [m] of the line's beginning
-  scene.plant->placeAtRest(e.task->start);
-  const dynamics::HandFunction hand = [&](double t) {
-    const PredictedHand h = prediction.handAt(std::min(t, T));
-    return dynamics::HandSample{{start + h.position, 0, 0}, {h.velocity, 0, 0}};
-  };
-  constexpr int kSteps = 1500;
-  for (int i = 0; i < kSteps; ++i)
-    if (scene.plant->step(dynamics::makeSegment(hand, T * i / kSteps, T / kSteps), T / kSteps) != dynamics::StepStatus::Ok) return {1, 1};
-  std::vector<dynamics::MassState> masses(prediction.massCount());
-  scene.plant->observe(hand(T), masses);
-  LineArrival arrival;
-  for (const dynamics::MassState& m : masses) {
-    arrival.position = std::max(arrival.position, std::abs(m.r.x - 0.1));
-    arrival.velocity = std::max(arrival.velocity, std::abs(m.v.x));
-  }
-  return arrival;
-}
 
 TEST(Simulator, ArrivesAtRestUnderEveryCriterion) {
   constexpr double kAtRest = 1e-10;  // [m], [m/s]
@@ -52,7 +23,7 @@ TEST(Simulator, ArrivesAtRestUnderEveryCriterion) {
     for (const double handMass : {0.0, 1.0})
       for (const Criterion c : {MinHandJerk, MinCrackle, MinHandForce, MinHandForceChange, MinComAcceleration, MinHandCrackle}) {
         const auto prediction = predict(e, c, {.handMass = handMass});
-        const LineArrival arrival = simulateOnLine(e, *prediction);
+        const CurveArrival arrival = simulateOn(e, *prediction);
         EXPECT_LT(arrival.position, kAtRest) << nameOf(c) << " hand " << handMass << " masses " << prediction->massCount();
         EXPECT_LT(arrival.velocity, kAtRest) << nameOf(c) << " hand " << handMass << " masses " << prediction->massCount();
         const PredictedHand first = prediction->handAt(0), last = prediction->handAt(prediction->duration);

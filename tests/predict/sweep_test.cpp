@@ -13,52 +13,36 @@
 namespace reachlab::predict {
 namespace {
 
-// A hand whose velocity is what the test says.
-class PointPrediction final : public Prediction {
- public:
-  PointPrediction(double seconds, std::function<double(double)> velocity, double fastest = 0) : velocity_(std::move(velocity)) {
-    duration = seconds;
-    handPeak = 1;
-    fastest_ = fastest;
-    massCount_ = 1;
-  }
-  PredictedHand handAt(double t) const override { return {0, velocity_(t), 0}; }
-  void massesAt(double t, std::span<double>, std::span<double> velocity) const override { velocity[0] = velocity_(t); }
-
- private:
-  std::function<double(double)> velocity_;
-};
-
 TEST(Shape, CountsTheRisesThatAreFollowedByAFall) {
   const auto wave = [](double t) { return std::sin(std::numbers::pi * t) * (1 + 0.5 * std::sin(6 * std::numbers::pi * t)); };
-  EXPECT_EQ(computeShape(PointPrediction(1, [](double t) { return std::sin(std::numbers::pi * t); })).velocityPeaks, 1);
-  EXPECT_EQ(computeShape(PointPrediction(1, wave)).velocityPeaks, 3);
-  EXPECT_FALSE(computeShape(PointPrediction(1, wave)).reverses);
-  EXPECT_EQ(computeShape(PointPrediction(2, [](double t) { return 1 - t / 2; })).velocityPeaks, 0) << "it only falls";
-  EXPECT_EQ(computeShape(PointPrediction(2, [](double t) { return t / 2; })).velocityPeaks, 0) << "the end is no turn";
-  EXPECT_EQ(computeShape(PointPrediction(2, [](double t) { return 0.3 + std::cos(2 * std::numbers::pi * t); })).velocityPeaks, 1)
+  EXPECT_EQ(computeShape(MadePrediction(1, [](double t) { return std::sin(std::numbers::pi * t); })).velocityPeaks, 1);
+  EXPECT_EQ(computeShape(MadePrediction(1, wave)).velocityPeaks, 3);
+  EXPECT_FALSE(computeShape(MadePrediction(1, wave)).reverses);
+  EXPECT_EQ(computeShape(MadePrediction(2, [](double t) { return 1 - t / 2; })).velocityPeaks, 0) << "it only falls";
+  EXPECT_EQ(computeShape(MadePrediction(2, [](double t) { return t / 2; })).velocityPeaks, 0) << "the end is no turn";
+  EXPECT_EQ(computeShape(MadePrediction(2, [](double t) { return 0.3 + std::cos(2 * std::numbers::pi * t); })).velocityPeaks, 1)
       << "the one inside";
 }
 
 TEST(Shape, RipplesBelowABillionthOfThePeakDoNotCount) {
   for (const double ripple : {0.4e-9, 2e-9}) {
     const auto flat = [=](double t) { return 0.5 + ripple * std::sin(10 * std::numbers::pi * t); };
-    EXPECT_EQ(computeShape(PointPrediction(1, flat)).velocityPeaks, ripple < 1e-9 ? 0 : 5) << ripple;
-    EXPECT_EQ(computeShape(PointPrediction(1, [=](double t) { return std::sin(std::numbers::pi * t) - 0.6 * ripple; })).reverses,
+    EXPECT_EQ(computeShape(MadePrediction(1, flat)).velocityPeaks, ripple < 1e-9 ? 0 : 5) << ripple;
+    EXPECT_EQ(computeShape(MadePrediction(1, [=](double t) { return std::sin(std::numbers::pi * t) - 0.6 * ripple; })).reverses,
               ripple > 1e-9);
   }
 }
 
 TEST(Shape, AHandThatBeginsOrEndsBackwardsReverses) {
-  EXPECT_TRUE(computeShape(PointPrediction(1, [](double t) { return t - 0.001; })).reverses) << "at its first instant alone";
-  EXPECT_TRUE(computeShape(PointPrediction(1, [](double t) { return 0.999 - t; })).reverses) << "at its last";
-  EXPECT_FALSE(computeShape(PointPrediction(1, [](double t) { return t * (1 - t); })).reverses);
+  EXPECT_TRUE(computeShape(MadePrediction(1, [](double t) { return t - 0.001; })).reverses) << "at its first instant alone";
+  EXPECT_TRUE(computeShape(MadePrediction(1, [](double t) { return 0.999 - t; })).reverses) << "at its last";
+  EXPECT_FALSE(computeShape(MadePrediction(1, [](double t) { return t * (1 - t); })).reverses);
 }
 
 // Waves of 40 Hz within two seconds: 80 of them, one maximum each.
 TEST(Shape, SeesEveryWaveOfTheFastestFrequency) {
   const double fastest = 2 * std::numbers::pi * 40;
-  EXPECT_EQ(computeShape(PointPrediction(
+  EXPECT_EQ(computeShape(MadePrediction(
                              2, [=](double t) { return 1 - std::cos(fastest * t); }, fastest))
                 .velocityPeaks,
             80);

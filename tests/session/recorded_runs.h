@@ -31,6 +31,13 @@ inline std::unique_ptr<haptics::HapticDevice> goodHand() { return handTo(0.1); }
 /// Every trial of it is aborted: no onset.
 inline std::unique_ptr<haptics::HapticDevice> stillHand() { return handTo(-0.1); }
 
+/// The logs of a session, by run number.
+inline std::vector<record::RunLog> logsIn(const SessionPlace& place) {
+  std::vector<record::RunLog> logs;
+  for (const RunOnDisk& run : recordedRuns(place)) logs.push_back(record::RunLog::open(run.path));
+  return logs;
+}
+
 /// A dataset of its own, and three trials of an easy reach on the virtual clock.
 class Recorded : public testing::Test {
  protected:
@@ -49,11 +56,7 @@ class Recorded : public testing::Test {
     options.virtualClock = request_.fast;
     return options;
   }
-  std::vector<record::RunLog> logs() const {
-    std::vector<record::RunLog> logs;
-    for (const RunOnDisk& run : recordedRuns(request_.place)) logs.push_back(record::RunLog::open(run.path));
-    return logs;
-  }
+  std::vector<record::RunLog> logs() const { return logsIn(request_.place); }
 
   TemporaryFolder folder_;
   SessionRequest request_;

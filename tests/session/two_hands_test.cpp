@@ -125,30 +125,5 @@ TEST_F(TwoHands, EachHasARowForEveryTrialInTheAnalysis) {
       << "rows of excluded trials say so";
 }
 
-TEST(Together, WhatCancelsIsInternal) {
-  analysis::HandSignals left, right;
-  for (int i = 0; i < 100; ++i) {
-    const double v = std::exp(-0.01 * (i - 50) * (i - 50) / 4);
-    const double late = std::exp(-0.01 * (i - 57) * (i - 57) / 4);
-    left.place.push_back({0.001 * i, 0, 0}), right.place.push_back({0.001 * i, 0, 0});
-    left.velocity.push_back({v, 0, 0}), right.velocity.push_back({late, 0, 0});
-    left.force.push_back({5, 0, 0}), right.force.push_back({-3, 0, 0});
-    // The left one takes out again what it has put in: its net work is none, what it has put in is 3 J to the other's 1.
-    left.work.push_back(i < 50 ? 0.06122448979591837 * i : 3 - 0.06 * (i - 49)), right.work.push_back(1.0 / 99 * i);
-  }
-  const analysis::TogetherMeasures opposed = analysis::measureTogether({left, right}, 100);
-  EXPECT_NEAR(opposed.internalForce, 3, 1e-12) << "the smaller of two opposed forces";
-  EXPECT_NEAR(opposed.peakInternalForce, 3, 1e-12);
-  EXPECT_NEAR(opposed.hands[0].meanForce, 5, 1e-12);
-  EXPECT_NEAR(opposed.hands[1].meanForce, 3, 1e-12);
-  EXPECT_NEAR(opposed.hands[0].share, 0.75, 1e-9);
-  EXPECT_NEAR(opposed.hands[0].positiveWork, 3, 1e-9);
-  EXPECT_NEAR(opposed.hands[0].work, 0, 1e-9);
-  EXPECT_NEAR(opposed.hands[1].lag, 0.07, 1e-3);
-  EXPECT_NEAR(opposed.hands[0].lag, 0, 1e-12);
-  for (Vec3& force : right.force) force.x = 3;
-  EXPECT_NEAR(analysis::measureTogether({left, right}, 100).internalForce, 0, 1e-12) << "what pulls alike";
-}
-
 }  // namespace
 }  // namespace reachlab::session

@@ -18,24 +18,11 @@
 namespace reachlab::predict {
 namespace {
 
+using experiment::Experiment;
+
 constexpr double kRipple = 1e-9;  // of the peak
 constexpr int kMaxValues = 100000;
 constexpr const char* kForm = "KEY=FROM:TO:STEP";
-
-constexpr std::array<SweepKey, 12> kKeys{{
-    {"duration_s", "movement time"},
-    {"stiffness_n_per_m", "every spring, the coupling too"},
-    {"object.stiffness_n_per_m", "every spring of the object"},
-    {"coupling.stiffness_n_per_m", "the coupling"},
-    {"damping_n_s_per_m", "every damper, the coupling's too"},
-    {"viscosity_n_s_per_m", "viscosity of the surroundings"},
-    {"mass_kg", "every mass"},
-    {"total_mass_kg", "the object's mass, shared as it is"},
-    {"n", "number of masses, the total mass kept, springs like the first"},
-    {"n_each", "number of masses, each like the first, springs like the first"},
-    {"hand_mass_kg", "mass of the hand"},
-    {"hand_damping_n_s_per_m", "damping of the hand itself"},
-}};
 
 double parseNumber(std::string_view text, const std::string& whole) {
   const auto value = asNumber<double>(text);
@@ -59,6 +46,42 @@ void resizeObject(experiment::Experiment& experiment, double value, bool keepTot
   object.damping.assign(object.stiffness.size(), damper);
   if (!parallel) object.kind = n == 1 ? experiment::ObjectKind::Point : experiment::ObjectKind::Chain;
 }
+
+experiment::Coupling& couplingOf(experiment::Experiment& experiment) {
+  if (!experiment.coupling)
+    throw FaultError(Fault{"sweep", "is of coupling.stiffness_n_per_m, and this object has no coupling", "another key"});
+  return *experiment.coupling;
+}
+
+constexpr std::array<SweepKey, 12> kKeys{{
+    {"duration_s", "movement time", [](double v, Experiment&, PredictOptions& o) { o.duration = v; }},
+    {"stiffness_n_per_m", "every spring, the coupling too",
+     [](double v, Experiment& e, PredictOptions&) {
+       std::ranges::fill(e.object.stiffness, v);
+       if (e.coupling) e.coupling->stiffness = v;
+     }},
+    {"object.stiffness_n_per_m", "every spring of the object",
+     [](double v, Experiment& e, PredictOptions&) { std::ranges::fill(e.object.stiffness, v); }},
+    {"coupling.stiffness_n_per_m", "the coupling", [](double v, Experiment& e, PredictOptions&) { couplingOf(e).stiffness = v; }},
+    {"damping_n_s_per_m", "every damper, the coupling's too",
+     [](double v, Experiment& e, PredictOptions&) {
+       e.object.damping.assign(e.object.stiffness.size(), v);
+       if (e.coupling) e.coupling->damping = v;
+     }},
+    {"viscosity_n_s_per_m", "viscosity of the surroundings", [](double v, Experiment& e, PredictOptions&) { e.object.viscosity = v; }},
+    {"mass_kg", "every mass", [](double v, Experiment& e, PredictOptions&) { std::ranges::fill(e.object.masses, v); }},
+    {"total_mass_kg", "the object's mass, shared as it is",
+     [](double v, Experiment& e, PredictOptions&) {
+       const double total = std::accumulate(e.object.masses.begin(), e.object.masses.end(), 0.0);
+       for (double& m : e.object.masses) m *= v / total;
+     }},
+    {"n", "number of masses, the total mass kept, springs like the first",
+     [](double v, Experiment& e, PredictOptions&) { resizeObject(e, v, true); }},
+    {"n_each", "number of masses, each like the first, springs like the first",
+     [](double v, Experiment& e, PredictOptions&) { resizeObject(e, v, false); }},
+    {"hand_mass_kg", "mass of the hand", [](double v, Experiment&, PredictOptions& o) { o.handMass = v; }},
+    {"hand_damping_n_s_per_m", "damping of the hand itself", [](double v, Experiment&, PredictOptions& o) { o.handDamping = v; }},
+}};
 
 }  // namespace
 
@@ -112,45 +135,14 @@ Sweep parseSweep(const std::string& text) {
   return sweep;
 }
 
-void applySweepValue(const std::string& key, double value, experiment::Experiment& experiment, PredictOptions& options) {
-  experiment::Object& object = experiment.object;
-  const auto coupling = [&]() -> experiment::Coupling& {
-    if (!experiment.coupling)
-      throw FaultError(Fault{"sweep", fmt::format("is of {}, and this object has no coupling", key), "another key"});
-    return *experiment.coupling;
-  };
+void applySweepValue(const std::string& key, double value, Experiment& experiment, PredictOptions& options) {
   const bool zeroAllowed = key == "damping_n_s_per_m" || key == "viscosity_n_s_per_m" || key.starts_with("hand_");
   if (!(value > 0) && !(zeroAllowed && value == 0)) throw FaultError(Fault{"sweep", fmt::format("is {} = {}", key, value), "above 0"});
   if (key == "duration_s" && !isWithin(experiment::durationRange(), value))
     throw FaultError(Fault{"sweep", fmt::format("is {} = {}", key, value), experiment::durationRange().allowed});
-  if (key == "duration_s") {
-    options.duration = value;
-  } else if (key == "stiffness_n_per_m") {
-    std::fill(object.stiffness.begin(), object.stiffness.end(), value);
-    if (experiment.coupling) experiment.coupling->stiffness = value;
-  } else if (key == "object.stiffness_n_per_m") {
-    std::fill(object.stiffness.begin(), object.stiffness.end(), value);
-  } else if (key == "coupling.stiffness_n_per_m") {
-    coupling().stiffness = value;
-  } else if (key == "damping_n_s_per_m") {
-    object.damping.assign(object.stiffness.size(), value);
-    if (experiment.coupling) experiment.coupling->damping = value;
-  } else if (key == "viscosity_n_s_per_m") {
-    object.viscosity = value;
-  } else if (key == "mass_kg") {
-    std::fill(object.masses.begin(), object.masses.end(), value);
-  } else if (key == "total_mass_kg") {
-    const double total = std::accumulate(object.masses.begin(), object.masses.end(), 0.0);
-    for (double& m : object.masses) m *= value / total;
-  } else if (key == "n" || key == "n_each") {
-    resizeObject(experiment, value, key == "n");
-  } else if (key == "hand_mass_kg") {
-    options.handMass = value;
-  } else if (key == "hand_damping_n_s_per_m") {
-    options.handDamping = value;
-  } else {
-    throw FaultError(Fault{"sweep", fmt::format("has '{}', which is no key", key), "a key that is listed"});
-  }
+  const auto found = std::find_if(kKeys.begin(), kKeys.end(), [&](const SweepKey& k) { return k.name == key; });
+  if (found == kKeys.end()) throw FaultError(Fault{"sweep", fmt::format("has '{}', which is no key", key), "a key that is listed"});
+  found->set(value, experiment, options);
 }
 
 std::vector<SweepRow> computeSweep(const experiment::CompiledExperiment& compiled, Criterion criterion, const PredictOptions& options,

@@ -25,6 +25,7 @@ struct Sweep {
 Sweep parseSweep(const std::string& text);
 struct SweepKey {
   std::string_view name, meaning;
+  void (*set)(double value, experiment::Experiment& experiment, PredictOptions& options);
 };
 std::span<const SweepKey> sweepKeys();
 /// Sets one key of experiment or options. Throws FaultError for a value that makes no sense for this object.
