@@ -193,9 +193,7 @@ TEST_F(OneStation, AFollowerPutsUpWhatTheConductorArmsAndEndsWhenItIsTold) {
   tell(1, LinkEvent::Kind::Arm, 2);
   EXPECT_TRUE(pollUntil(begun).begun);
   tell(1, LinkEvent::Kind::Finish, 2);
-  EXPECT_FALSE(pollUntil(finished, 0.2).finished) << "the trial under way goes to its end";
-  tell(1, LinkEvent::Kind::Interrupt, 2);
-  EXPECT_TRUE(pollUntil(finished).finished);
+  EXPECT_TRUE(pollUntil(finished).finished) << "a trial that waits for its hand ends; without an end it would hold the station";
 }
 
 TEST_F(OneStation, ATrialThatIsOverForTheOthersIsNotPutUp) {
