@@ -27,6 +27,17 @@ CompiledExperiment changed(const CompiledExperiment& from, const std::vector<exp
 
 experiment::Patch placeOf(const char* key, const std::vector<double>& place) { return {key, fmt::format("[{}]", fmt::join(place, ","))}; }
 
+// From the target to the start, through the same places in the other order.
+std::vector<experiment::Patch> wayBack(const CompiledExperiment& out, const std::vector<double>& target) {
+  const experiment::Task& task = experiment::requiredTask(out.experiment());
+  std::vector<experiment::Patch> changes{placeOf("task.start", target), placeOf("task.target", task.start)};
+  std::vector<std::string> places;
+  for (auto place = task.via.rbegin(); place != task.via.rend(); ++place)
+    places.push_back(fmt::format("[{},{},{}]", place->x, place->y, place->z));
+  if (places.size() > 1) changes.push_back({"task.via_m", fmt::format("[{}]", fmt::join(places, ","))});
+  return changes;
+}
+
 std::vector<std::vector<double>> targetsOf(const TrialMix& mix, const CompiledExperiment& experiment) {
   const experiment::Task& task = experiment::requiredTask(experiment.experiment());
   if (!mix.ring) return mix.targets.empty() ? std::vector<std::vector<double>>{task.target} : mix.targets;
@@ -103,7 +114,6 @@ std::vector<BlockScene> scenesOf(const PlanBlock& block, const CompiledExperimen
   };
   const auto addTargets = [&](const std::string& kind, const CompiledExperiment& ofKind) {
     const std::vector<std::vector<double>> targets = targetsOf(mix, ofKind);
-    const std::vector<double> start = experiment::requiredTask(ofKind.experiment()).start;
     for (std::size_t t = 0; t < targets.size(); ++t) {
       const std::string key = mix.ring ? "targets.ring" : mix.targets.empty() ? "kinds." + kind : fmt::format("targets[{}]", t);
       collect([&] {
@@ -112,7 +122,7 @@ std::vector<BlockScene> scenesOf(const PlanBlock& block, const CompiledExperimen
           const CompiledExperiment out = changed(ofKind, {placeOf("task.target", targets[t])});
           if (const std::vector<Fault> wrong = trial::taskProblems(out); !wrong.empty()) throw FaultError(wrong);
           add(out);
-          if (mix.wayBack) add(changed(ofKind, {placeOf("task.start", targets[t]), placeOf("task.target", start)}));
+          if (mix.wayBack) add(changed(ofKind, wayBack(ofKind, targets[t])));
         });
       });
     }

@@ -125,7 +125,7 @@ bool isPlan(const std::string& text, const std::string& file) { return parseJson
 
 std::optional<std::string> findPlan(const std::string& fileOrName) {
   std::error_code error;
-  if (fs::exists(fileOrName, error)) return fileOrName;
+  if (fs::exists(fileOrName, error) && !fs::is_directory(fileOrName, error)) return fileOrName;
   const bool plainName = fileOrName.find('/') == std::string::npos;
   const std::string shipped = fmt::format("{}/plans/{}.json", experiment::resourceFolder(), fileOrName);
   if (plainName && fs::is_regular_file(shipped, error)) return shipped;

@@ -54,7 +54,7 @@ experiment::CompiledExperiment openExperimentOf(const PlanBlock& block);
 
 /// True when the text is a plan and not an experiment: an object with a member `blocks`.
 bool isPlan(const std::string& text, const std::string& file);
-/// The file that `fileOrName` means: itself if it exists, else the shipped plan of that name. Nullopt if both are missing.
+/// The file that `fileOrName` means: itself if it is there and no folder, else the shipped plan of that name. Nullopt if both are missing.
 std::optional<std::string> findPlan(const std::string& fileOrName);
 /// Names of the shipped plans, in order.
 std::vector<std::string> shippedPlans();

@@ -19,10 +19,11 @@ std::vector<RecordedBlock> readRecordedBlocks(const SessionPlace& place, std::ve
   std::vector<RecordedBlock> blocks;
   for (const RunOnDisk& run : recordedRuns(place)) {
     try {
-      const record::RunLog log = record::RunLog::open(run.path, record::LogCheck::Trials);
+      // What lies behind damage is in no table, so it is not done: a session that is resumed does it again.
+      const record::RunLog log = record::RunLog::open(run.path, mustRead ? record::LogCheck::Everything : record::LogCheck::Trials);
       const record::RunConfiguration& configuration = log.configuration();
-      auto block =
-          std::find_if(blocks.begin(), blocks.end(), [&](const RecordedBlock& b) { return b.configuration.run == configuration.firstRun; });
+      auto block = std::find_if(blocks.begin(), blocks.end(),
+                                [&](const RecordedBlock& b) { return b.configuration.firstRun == configuration.firstRun; });
       if (block == blocks.end()) block = blocks.insert(blocks.end(), RecordedBlock{.configuration = configuration});
       for (const record::RecordedTrial& trial : log.trials()) {
         block->lastTrial = std::max(block->lastTrial, trial.trial);

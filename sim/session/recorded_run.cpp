@@ -106,7 +106,7 @@ void RecordedRun::completeConfiguration() {
   c.timing = block_.experiment.experiment().timing;
   c.otherHands.assign(hands.begin() + 1, hands.end());
   if (const auto& task = block_.experiment.experiment().task) c.rest = task->rest;
-  if (options_.instruments != nullptr) c.instruments = options_.instruments->names();
+  c.instruments = options_.instruments != nullptr ? options_.instruments->names() : decltype(c.instruments)();
   c.method = choice_.method;
   c.methodReason = choice_.reason;
   for (std::size_t i = 0; c.scenes && i < c.scenes->size(); ++i) {
@@ -138,7 +138,7 @@ void RecordedRun::openLog() {
 
 // A repeat is not repeated. The instruments' events are of the trial, and of the time before it.
 void RecordedRun::takeEnded(const haptics::ConductedTrial& trial) {
-  const bool isRepeat = ++conducted_ > block_.trials.size();
+  const bool isRepeat = ++conducted_ > block_.trials.size() - block_.repeats;
   if (block_.configuration.repeatAborted && trial::isPutUpAgain(trial.result) && !isRepeat) repeat(trial.planned);
   if (options_.instruments == nullptr) return;
   options_.instruments->awaitTrial(0);

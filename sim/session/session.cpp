@@ -39,13 +39,17 @@ bool hasScenes(const record::RunConfiguration& c, const std::vector<BlockScene>&
   });
 }
 
+// `first`: the recording of the session's first block that has one. Those of the blocks after it are of the same session, and not of one that
+// was recorded before it.
 const RecordedBlock* findRecordedBlock(const std::vector<RecordedBlock>& blocks, const Plan& plan, int number,
-                                       const experiment::Experiment& experiment) {
+                                       const experiment::Experiment& experiment, const RecordedBlock* first) {
   const RecordedBlock* found = nullptr;
   for (const RecordedBlock& block : blocks) {
     const record::RunConfiguration& c = block.configuration;
     const bool same = plan.text.empty() ? c.planText.empty() && isOf(c, experiment) : c.planText == plan.text && c.block == number;
-    if (same) found = &block;
+    const bool ofSession =
+        first == nullptr || (c.sessionSeed == first->configuration.sessionSeed && c.firstRun > first->configuration.firstRun);
+    if (same && ofSession) found = &block;
   }
   return found;
 }
@@ -123,11 +127,15 @@ void addUnreadable(record::RunConfiguration c, const experiment::CompiledExperim
   }
 }
 
-std::vector<trial::PlannedTrial> remainingTrials(const record::RunConfiguration& configuration, const std::set<int>& done) {
-  std::vector<trial::PlannedTrial> trials;
-  for (const trial::PlannedTrial& planned : configuration.trials)
-    if (!done.contains(planned.index)) trials.push_back(planned);
-  return trials;
+// In their order, and behind them the repeats of aborted ones.
+void addRemainingTrials(BlockToRun& block, const RecordedBlock* before) {
+  std::vector<trial::PlannedTrial> repeats;
+  for (const trial::PlannedTrial& planned : block.configuration.trials) {
+    if (before != nullptr && before->done.contains(planned.index)) continue;
+    (before != nullptr && before->putUpAgain.contains(planned.index) ? repeats : block.trials).push_back(planned);
+  }
+  block.trials.insert(block.trials.end(), repeats.begin(), repeats.end());
+  block.repeats = repeats.size();
 }
 
 // A block that broke off goes on with the number of the trial it broke off in. Where single trials are left (repeats of aborted
@@ -167,13 +175,15 @@ void refuseOpenRuns(const SessionPlace& place) {
 std::vector<OrderedBlock> orderBlocks(const SessionRequest& request, const Programme& programme, const Plan& plan,
                                       const std::vector<int>& order, const std::vector<RecordedBlock>& recorded) {
   std::vector<OrderedBlock> blocks;
+  const RecordedBlock* first = nullptr;
   for (const int index : order) {
     const auto k = static_cast<std::size_t>(index);
     const int number = static_cast<int>(blocks.size()) + 1;
     const experiment::CompiledExperiment& experiment = programme.experiments.at(k);
     trial::checkTask(experiment, programme.isPlan() ? plan.blocks[k].experiment : request.what);
-    blocks.push_back(
-        {number, plan.blocks[k], experiment, programme.scenes.at(k), findRecordedBlock(recorded, plan, number, experiment.experiment())});
+    const RecordedBlock* found = findRecordedBlock(recorded, plan, number, experiment.experiment(), first);
+    if (first == nullptr) first = found;
+    blocks.push_back({number, plan.blocks[k], experiment, programme.scenes.at(k), found});
   }
   return blocks;
 }
@@ -223,7 +233,7 @@ BlockToRun makeBlock(const SessionRequest& request, const Plan& plan, const Orde
     c.seed = blockSeed(seed, c.block);
     c.trials = planTrials(ordered.planned, c.seed);
   }
-  block.trials = remainingTrials(c, before != nullptr ? before->done : std::set<int>{});
+  addRemainingTrials(block, before);
   c.device = request.device;
   c.participant = request.participant;
   c.notes = request.notes;
@@ -313,7 +323,7 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
 
 void takeFreeRun(BlockToRun& block, const SessionPlace& place, bool askedFor) {
   record::RunConfiguration& c = block.configuration;
-  const std::vector<RunOnDisk> runs = recordedRuns(place);
+  const std::vector<RunOnDisk> runs = takenRuns(place);
   if (std::none_of(runs.begin(), runs.end(), [&](const RunOnDisk& run) { return run.run == c.run; })) return;
   if (c.firstRun != c.run)
     throw ResourceError(

@@ -44,6 +44,7 @@ struct BlockToRun {
   record::RunConfiguration configuration;
   std::string logPath;
   std::vector<trial::PlannedTrial> trials;  // still to be done, in order, and numbered from configuration.firstTrial
+  std::size_t repeats = 0;                  // the last so many of `trials` repeat aborted ones, and are not repeated again
   double restSeconds = 0;                   // [s] at least, between the end of the block before and this block
   std::string instructions = {};            // of the plan, to be read before it begins
 };

@@ -25,6 +25,21 @@ std::string partOf(const std::string& name, const std::string& key) {
   return name.substr(from, name.find('_', from) - from);
 }
 
+// The files of the session in a folder whose names end so.
+std::vector<RunOnDisk> runsIn(const fs::path& folder, const SessionPlace& place, std::string_view ending) {
+  std::vector<RunOnDisk> runs;
+  std::error_code error;
+  const std::string prefix = fmt::format("sub-{}_ses-{}_", place.subject, place.session);
+  if (!fs::is_directory(folder, error)) return runs;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (!name.starts_with(prefix) || !name.ends_with(ending)) continue;
+    if (const auto run = asNumber<int>(partOf(name, "run"))) runs.push_back({*run, partOf(name, "task"), entry.path().string()});
+  }
+  std::sort(runs.begin(), runs.end(), [](const RunOnDisk& a, const RunOnDisk& b) { return a.run < b.run; });
+  return runs;
+}
+
 }  // namespace
 
 std::string logPath(const SessionPlace& place, const std::string& task, int run) {
@@ -40,22 +55,19 @@ std::string labelOf(const std::string& name) {
 }
 
 std::vector<RunOnDisk> recordedRuns(const SessionPlace& place) {
-  std::vector<RunOnDisk> runs;
-  std::error_code error;
-  const std::string prefix = fmt::format("sub-{}_ses-{}_", place.subject, place.session);
-  const fs::path logs = fs::path(place.data) / record::kLogsFolder;
-  if (!fs::exists(logs, error)) return runs;
-  for (const fs::directory_entry& entry : fs::directory_iterator(logs)) {
-    const std::string name = entry.path().filename().string();
-    if (!name.starts_with(prefix) || !name.ends_with(kLogEnding)) continue;
-    if (const auto run = asNumber<int>(partOf(name, "run"))) runs.push_back({*run, partOf(name, "task"), entry.path().string()});
-  }
-  std::sort(runs.begin(), runs.end(), [](const RunOnDisk& a, const RunOnDisk& b) { return a.run < b.run; });
+  return runsIn(fs::path(place.data) / record::kLogsFolder, place, kLogEnding);
+}
+
+std::vector<RunOnDisk> takenRuns(const SessionPlace& place) {
+  std::vector<RunOnDisk> runs = recordedRuns(place);
+  const fs::path motion = fs::path(place.data) / ("sub-" + place.subject) / ("ses-" + place.session) / "motion";
+  for (RunOnDisk& run : runsIn(motion, place, "")) runs.push_back(std::move(run));
+  std::stable_sort(runs.begin(), runs.end(), [](const RunOnDisk& a, const RunOnDisk& b) { return a.run < b.run; });
   return runs;
 }
 
 int chooseRun(const SessionPlace& place, std::optional<int> asked) {
-  const std::vector<RunOnDisk> runs = recordedRuns(place);
+  const std::vector<RunOnDisk> runs = takenRuns(place);
   const int free = runs.empty() ? 1 : runs.back().run + 1;
   if (!asked && free <= record::kMaxRun) return free;
   if (!asked) throw FaultError(Fault{"session", fmt::format("{} has {} runs", place.session, record::kMaxRun), "another session"});

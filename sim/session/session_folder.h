@@ -28,6 +28,8 @@ std::string labelOf(const std::string& name);
 bool liesInSourcedata(const std::string& path);
 /// The session's logs, by run number. Empty when there are no logs.
 std::vector<RunOnDisk> recordedRuns(const SessionPlace& place);
+/// The same with the session's BIDS files (`motion/…_run-01_…`) behind its logs: their numbers are taken, wherever their logs are.
+std::vector<RunOnDisk> takenRuns(const SessionPlace& place);
 /// The next free run number, or `asked`. Throws FaultError with a proposal when that number is taken: nothing is overwritten.
 int chooseRun(const SessionPlace& place, std::optional<int> asked);
 

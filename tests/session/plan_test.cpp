@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include "base/fault.h"
@@ -12,6 +13,7 @@
 #include "sim/session/planned_trials.h"
 #include "test_paths.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 
 namespace reachlab::session {
 namespace {
@@ -240,6 +242,18 @@ TEST(Plan, HasTheSameFaultsAsAValue) {
   EXPECT_EQ(keys, (std::vector<std::string>{"blocks[0].experiment", "blocks[0].trials", "blocks[0].day", "blocks[0].foreperiod_s"}));
   plan.blocks.clear();
   EXPECT_EQ(problems(plan).at(0).key, "blocks");
+}
+
+TEST(Plan, IsNoFolderOfItsName) {
+  const TemporaryFolder folder;
+  const std::filesystem::path before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  for (const char* name : {"paper", "chain-moderate"}) {
+    std::filesystem::create_directory(name);
+    EXPECT_EQ(refusalOf([&] { (void)readProgramme(name); }, "read"), "read") << name;
+  }
+  EXPECT_TRUE(holds(refusalOf([&] { (void)readProgramme(folder.path()); }), "is a folder"));
+  std::filesystem::current_path(before);
 }
 
 TEST(Plan, TellsWhatStandsForAllBlocksOnceAndThere) {

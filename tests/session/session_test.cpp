@@ -150,6 +150,37 @@ TEST_F(PlannedSession, GoesOnWithTheTrialThatWasBrokenOffAndWithTheSameOrder) {
   EXPECT_EQ(third.blocks[0].configuration.run, 3);
 }
 
+// A session that was done once before with the same labels is another one: its blocks are not taken for those of the one that broke off.
+TEST_F(PlannedSession, ThatBrokeOffDoesItsOwnBlocksWhateverWasRecordedBefore) {
+  SessionRequest r = request(write("p.json", planOf(2, {"chain-slow", "chain-moderate", "chain-fast"})));
+  r.seed = 1;
+  for (const BlockToRun& block : planSession(r).blocks) recordOutcomes(block, {trial::Outcome::Success, trial::Outcome::Success});
+  r.seed = 2;
+  recordAndBreakOff(planSession(r).blocks[0], 1);
+  r.seed.reset();
+  r.resume = true;
+  const SessionToRun resumed = planSession(r);
+  ASSERT_EQ(resumed.blocks.size(), 3u);
+  EXPECT_EQ(resumed.seed, 2u);
+  EXPECT_EQ(indicesOf(resumed.blocks[0]), std::vector<int>{1});
+  EXPECT_EQ(indicesOf(resumed.blocks[2]), (std::vector<int>{0, 1}));
+}
+
+// Whichever number a run that goes on was given, and whether the first one can be read or not.
+TEST_F(PlannedSession, CountsEveryRunOfABlockWhateverItsNumber) {
+  SessionRequest r = request("chain-slow");
+  r.trials = 6;
+  r.run = 5;
+  recordAndBreakOff(planSession(r).blocks[0], 2);
+  r.resume = true;
+  r.run = 3;
+  recordAndBreakOff(planSession(r).blocks[0], 2);
+  r.run.reset();
+  EXPECT_EQ(indicesOf(planSession(r).blocks[0]), (std::vector<int>{4, 5}));
+  write("data/sourcedata/sub-01_ses-01_task-chainslow_run-05_log.reach", "damaged");
+  EXPECT_EQ(indicesOf(planSession(r).blocks[0]), (std::vector<int>{0, 1, 4, 5})) << "what the damaged run had is done again, and no more";
+}
+
 TEST_F(PlannedSession, ThatIsCompleteHasNothingLeftToResume) {
   SessionRequest r = request("chain-moderate");
   r.trials = 3;
@@ -308,7 +339,8 @@ TEST_F(PlannedSession, RepeatsWhatWasInterruptedAndWhatWasAbortedOnlyIfThePlanSa
     recordOutcomes(first.blocks[0], outcomes);
     r.resume = true;
     const SessionToRun second = planSession(r);
-    EXPECT_EQ(indicesOf(second.blocks[0]), (repeat ? std::vector<int>{1, 3, 4} : std::vector<int>{3, 4}));
+    EXPECT_EQ(indicesOf(second.blocks[0]), (repeat ? std::vector<int>{3, 4, 1} : std::vector<int>{3, 4})) << "repeats are last";
+    EXPECT_EQ(second.blocks[0].repeats, repeat ? 1u : 0u) << "and are not repeated again";
     // One stretch goes on with the number it broke off in; single trials get numbers that were not used.
     EXPECT_EQ(second.blocks[0].configuration.firstTrial, repeat ? 5 : 4);
   }
@@ -485,6 +517,18 @@ TEST(SessionFolder, FindsTheRunsOfItsOwnSessionByNumber) {
   EXPECT_EQ(chooseRun(place, {}), 11);
   EXPECT_EQ(chooseRun(place, 3), 3);
   EXPECT_THROW(chooseRun(place, 10), FaultError);
+}
+
+// The logs of a dataset that was passed on may be elsewhere.
+TEST(SessionFolder, TakesNoNumberOfABidsFileWithoutALog) {
+  const TemporaryFolder folder;
+  const SessionPlace place{folder / "data", "1", "2"};
+  const std::string motion = folder / "data/sub-1/ses-2/motion/";
+  for (const char* name : {"sub-1_ses-2_task-a_tracksys-haptic_run-01_motion.tsv", "sub-1_ses-2_task-a_run-02_events.tsv"})
+    record::writeFileAtomically(motion + name, "");
+  EXPECT_TRUE(recordedRuns(place).empty());
+  EXPECT_EQ(chooseRun(place, {}), 3);
+  EXPECT_TRUE(holds(refusalOf([&] { (void)chooseRun(place, 2); }), "run-02_events.tsv"));
 }
 
 }  // namespace

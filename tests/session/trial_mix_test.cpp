@@ -263,6 +263,16 @@ TEST(BlockScenes, AreKindsTimesTargetsWithTheirChangesAndWaysBack) {
     EXPECT_EQ(trials[i + 1].scene, trials[i].scene + 1) << "the way back from the same target";
 }
 
+TEST(BlockScenes, TheWayBackPassesTheSamePlacesInTheOtherOrder) {
+  const PlanBlock block =
+      blockOf(R"("trials": 2, "return": "reach", "kinds": { "round": { "task.via_m": [[-0.05, 0, 0.02], [0.05, 0, 0.02]] } })");
+  const std::vector<BlockScene> scenes = scenesOf(block, experiment::openExperiment("free-point"));
+  ASSERT_EQ(scenes.size(), 2u);
+  const std::vector<Vec3> out = scenes[0].experiment.experiment().task->via, back = scenes[1].experiment.experiment().task->via;
+  EXPECT_EQ(out, (std::vector<Vec3>{{-0.05, 0, 0.02}, {0.05, 0, 0.02}}));
+  EXPECT_EQ(back, (std::vector<Vec3>{out[1], out[0]}));
+}
+
 std::string scenesRefused(const std::string& experiment, const std::string& settings) {
   return refusalOf<FaultError>([&] { scenesOf(blockOf(settings), experiment::openExperiment(experiment)); });
 }
