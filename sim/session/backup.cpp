@@ -120,11 +120,25 @@ RunName runNameOf(const std::string& file) {
   return {file.substr(0, std::min(file.find("_tracksys-"), run)), file.substr(run, end - run)};
 }
 
-bool isTemporary(const std::string& name) { return name.starts_with('.'); }
-
 // The calls ask for the rights of the user for whom the program works.
 bool canBeRead(const fs::path& path, bool folder) {
   return ::faccessat(AT_FDCWD, path.c_str(), folder ? R_OK | X_OK : R_OK, AT_EACCESS) == 0;
+}
+
+// Links followed, so that a folder has one name.
+fs::path wholePath(const std::string& folder) {
+  std::error_code error;
+  fs::path whole = fs::weakly_canonical(fs::absolute(folder), error).lexically_normal();
+  if (error) whole = fs::absolute(folder).lexically_normal();
+  return whole.has_filename() ? whole : whole.parent_path();
+}
+
+bool isInside(const fs::path& folder, const fs::path& outer) {
+  std::error_code error;
+  for (fs::path at = folder;; at = at.parent_path()) {
+    if (at == outer || fs::equivalent(at, outer, error)) return true;
+    if (at == at.parent_path()) return false;
+  }
 }
 
 struct DatasetFiles {
@@ -132,21 +146,24 @@ struct DatasetFiles {
   std::string unreadable;  // files and folders, a sentence and a line each
 };
 
-// Every file of the dataset that is to be kept: not what can be made again from it, not what is being written.
+// Every file of the dataset that is to be kept, also behind linked folders: not what can be made again from it, not what is being written.
 DatasetFiles filesOf(const fs::path& dataset, const fs::path& backup) {
   DatasetFiles found;
   std::error_code error;
-  for (auto entry = fs::recursive_directory_iterator(dataset); entry != fs::end(entry); ++entry) {
+  constexpr auto kFollow = fs::directory_options::follow_directory_symlink;
+  for (auto entry = fs::recursive_directory_iterator(dataset, kFollow); entry != fs::end(entry); ++entry) {
+    const fs::path& path = entry->path();
     const bool folder = entry->is_directory(error);
-    if (folder && ((entry.depth() == 0 && entry->path().filename() == "derivatives") || entry->path() == backup)) {
-      entry.disable_recursion_pending();
-    } else if (!canBeRead(entry->path(), folder)) {
-      if (folder) entry.disable_recursion_pending();
+    // A link to a folder above it would lead round without end.
+    const bool left = folder && ((entry.depth() == 0 && path.filename() == "derivatives") || isInside(path.parent_path(), path) ||
+                                 fs::equivalent(path, backup, error));
+    const bool readable = left || canBeRead(path, folder);
+    if (!readable)
       found.unreadable +=
-          fmt::format("{}{}: cannot be read: {}", found.unreadable.empty() ? "" : "\n", entry->path().string(), std::strerror(errno));
-    } else if (!folder && entry->is_regular_file(error) && !isTemporary(entry->path().filename().string())) {
-      found.files.push_back(entry->path());
-    }
+          fmt::format("{}{}: cannot be read: {}", found.unreadable.empty() ? "" : "\n", path.string(), std::strerror(errno));
+    if (!folder || left || !readable) entry.disable_recursion_pending();
+    if (!folder && readable && entry->is_regular_file(error) && !record::isTemporaryName(path.filename().string()))
+      found.files.push_back(path);
   }
   std::sort(found.files.begin(), found.files.end());
   return found;
@@ -171,22 +188,6 @@ std::string copyVerified(const std::string& from, const std::string& to, std::ui
       fmt::format("{}: reads back with other bytes than were written; the copy was removed: that disk cannot be trusted", to));
 }
 
-// Links followed, so that a folder has one name.
-fs::path wholePath(const std::string& folder) {
-  std::error_code error;
-  fs::path whole = fs::weakly_canonical(fs::absolute(folder), error).lexically_normal();
-  if (error) whole = fs::absolute(folder).lexically_normal();
-  return whole.has_filename() ? whole : whole.parent_path();
-}
-
-bool isInside(const fs::path& folder, const fs::path& outer) {
-  std::error_code error;
-  for (fs::path at = folder;; at = at.parent_path()) {
-    if (at == outer || fs::equivalent(at, outer, error)) return true;
-    if (at == at.parent_path()) return false;
-  }
-}
-
 class Backup {
  public:
   Backup(const std::string& dataset, const std::string& backup)
@@ -197,7 +198,7 @@ class Backup {
       throw FaultError(fileFault(backup_.string(), "lies in the dataset itself", "a folder elsewhere, best on another disk"));
     const auto [files, unreadable] = filesOf(dataset_, backup_);
     std::vector<RunName> left;  // runs that are not copied
-    std::string refused = unreadable;
+    refused_ = unreadable;
     for (const fs::path& file : files) {
       const std::string name = file.filename().string();
       if (!name.ends_with(kLogEnding)) continue;
@@ -205,7 +206,7 @@ class Backup {
       const std::string fault = open ? std::string() : faultOf(file);
       if (open) ++report_.pending;
       else if (fault.empty()) ++report_.runs;
-      else refused += (refused.empty() ? "" : "\n") + fault;
+      else refuse(fault);
       if (open || !fault.empty()) left.push_back(runNameOf(name));
     }
     for (const fs::path& file : files)
@@ -213,11 +214,13 @@ class Backup {
           run.run.empty() || std::find(left.begin(), left.end(), run) == left.end())
         keep(file);
     if (report_.copiedFiles > 0) writeList(backup_.string(), list_);
-    if (!refused.empty()) throw ResourceError(refused);
+    if (!refused_.empty()) throw ResourceError(refused_);
     return report_;
   }
 
  private:
+  void refuse(const std::string& sentence) { refused_ += (refused_.empty() ? "" : "\n") + sentence; }
+
   // Why a log that nobody writes is not copied; empty where it is, or is there already.
   std::string faultOf(const fs::path& log) const {
     const fs::path copy = backup_ / inDataset(log, dataset_);
@@ -250,19 +253,25 @@ class Backup {
     const bool sameSize = fs::exists(copy, error) && fs::file_size(copy, error) == fs::file_size(file, error);
     // A closed log never changes; what is written again may, at the same length.
     if (listed != list_.end() && sameSize && (isLog || fileHash(file.string(), false) == listed->second)) return;
-    if (isLog && fs::exists(copy, error)) {  // with the same bytes, and in no list
-      list_[name] = fileHash(copy.string(), true);
+    if (listed == list_.end() && fs::exists(copy, error)) {
+      std::string there = fileHash(copy.string(), true);
+      if (there != fileHash(file.string(), false))
+        return refuse(
+            fmt::format("{}: is there already with other bytes, and no backup put it there; choose another folder", copy.string()));
+      list_[name] = std::move(there);
       ++report_.copiedFiles;
       return;
     }
     list_[name] = copyVerified(file.string(), copy.string(), report_.copiedBytes);
     ++report_.copiedFiles;
-    if (isLog) writeList(backup_.string(), list_);  // what is safe is said to be, whatever comes after
+    // What is safe is said to be, whatever comes after. A table that runs share changes, and must be known then as ours.
+    if (isLog || runNameOf(file.filename().string()).run.empty()) writeList(backup_.string(), list_);
   }
 
   fs::path dataset_, backup_;
   List list_;
   BackupReport report_;
+  std::string refused_;  // a sentence and a line each
 };
 
 }  // namespace

@@ -19,8 +19,9 @@ struct BackupReport {
 };
 
 /// Brings a second data folder up to date. Every closed run that it lacks is copied: its log, its files of the dataset, and the tables that
-/// the runs share. Each copy is read back from the disk and its hash compared before its line enters the list. Nothing is overwritten: a
-/// log that has other bytes there, or that was not ended in order, is named after all other copies. Throws ResourceError, and FaultError
+/// the runs share. Each copy is read back from the disk and its hash compared before its line enters the list. A log that
+/// has other bytes there or was not ended in order, and any file that has other bytes there and is in no list, are named after all other
+/// copies and not overwritten. Links to folders are followed. Throws ResourceError, and FaultError
 /// where the backup is the dataset itself or lies in it. Finished copies stay good.
 BackupReport backUp(const std::string& dataset, const std::string& backup);
 

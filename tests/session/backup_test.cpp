@@ -116,6 +116,25 @@ TEST_F(Backups, NameWhatCannotBeReadAndCopyTheRest) {
   fs::permissions(dataset_ + "/code", fs::perms::owner_all);
 }
 
+TEST_F(Backups, FollowLinkedFoldersAndNoLoop) {
+  for (const char* name : {"/sourcedata", "/sub-01"}) {
+    const std::string moved = folder_ / ("elsewhere" + std::string(name));
+    record::makeFolders(folder_ / "elsewhere");
+    fs::rename(dataset_ + name, moved);
+    fs::create_directory_symlink(moved, dataset_ + name);
+  }
+  record::makeFolders(backup_);
+  fs::create_directory_symlink(dataset_, dataset_ + "/sub-01/round");
+  fs::create_directory_symlink(folder_ / "second", dataset_ + "/copies");
+  std::ofstream(dataset_ + "/.bidsignore") << "kept";
+  for (int k = 0; k < 2; ++k) {
+    EXPECT_EQ(backUp(dataset_, backup_).runs, 1u);
+    EXPECT_EQ(contentOf(inBackup(logOf(1))), contentOf(logOf(1)));
+    for (const char* name : {"/sub-01/ses-01/sub-01_ses-01_scans.tsv", "/.bidsignore"}) EXPECT_TRUE(fs::exists(backup_ + name)) << name;
+    for (const char* name : {"/sub-01/round", "/copies/data"}) EXPECT_FALSE(fs::exists(backup_ + name)) << name;
+  }
+}
+
 // The list is for who does not have this program.
 TEST_F(Backups, AreCheckedBySha256sum) {
   (void)backUp(dataset_, backup_);
@@ -176,6 +195,20 @@ TEST_F(Backups, NeverOverwriteALogOfAnother) {
   std::ofstream(inBackup(logOf(1))) << "another laboratory's only copy";
   EXPECT_TRUE(holds(refusal(), "is there already with other bytes; nothing is overwritten"));
   EXPECT_EQ(contentOf(inBackup(logOf(1))), "another laboratory's only copy");
+}
+
+TEST_F(Backups, NeverOverwriteAFileThatNoBackupPutThere) {
+  record::makeFolders(backup_);
+  std::ofstream(backup_ + "/README.md") << "another dataset's";
+  fs::copy_file(dataset_ + "/participants.tsv", backup_ + "/participants.tsv");
+  EXPECT_EQ(refusal(), backup_ + "/README.md: is there already with other bytes, and no backup put it there; choose another folder");
+  EXPECT_EQ(contentOf(backup_ + "/README.md"), "another dataset's");
+  EXPECT_EQ(contentOf(inBackup(logOf(1))), contentOf(logOf(1))) << "the rest is copied";
+  EXPECT_TRUE(faultsOfBackup(backup_).empty());
+  fs::remove(backup_ + "/README.md");
+  std::ofstream(dataset_ + "/participants.tsv", std::ios::app) << "changed since";
+  EXPECT_EQ(refusal(), "made");
+  EXPECT_EQ(contentOf(backup_ + "/participants.tsv"), contentOf(dataset_ + "/participants.tsv"));
 }
 
 TEST_F(Backups, OfARecoveredLogNameItAndKeepAllOthers) {

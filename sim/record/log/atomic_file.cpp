@@ -163,13 +163,14 @@ void ForeignFile::giveUp(const std::string& what) {
   throw ResourceError(fmt::format("{}: cannot be written: {}; check the folder and the space on its disk", path_, what));
 }
 
+bool isTemporaryName(std::string_view name) { return name.starts_with('.') && name.ends_with(kTemporaryEnding); }
+
 void removeLeftovers(const std::string& folder) {
   namespace fs = std::filesystem;
   std::error_code error;
   constexpr auto kOld = std::chrono::minutes(10);  // another program may be writing one this moment
   for (auto entry = fs::recursive_directory_iterator(folder, error); !error && entry != fs::end(entry); entry.increment(error)) {
-    const std::string name = entry->path().filename().string();
-    if (!name.starts_with('.') || !name.ends_with(kTemporaryEnding) || !entry->is_regular_file(error)) continue;
+    if (!isTemporaryName(entry->path().filename().string()) || !entry->is_regular_file(error)) continue;
     if (fs::file_time_type::clock::now() - entry->last_write_time(error) > kOld) fs::remove(entry->path(), error);
     error.clear();
   }

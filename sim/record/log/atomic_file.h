@@ -53,6 +53,8 @@ class ForeignFile : TemporaryFile {
   [[noreturn]] void giveUp(const std::string& what);
 };
 
+/// Whether a file of this name, without its folder, is a temporary one of the above.
+bool isTemporaryName(std::string_view name);
 /// Removes the temporary files of killed programs in a folder and the folders below it (`.….reachlab-tmp`, older than ten minutes). Throws
 /// nothing: files that cannot be removed stay.
 void removeLeftovers(const std::string& folder);
