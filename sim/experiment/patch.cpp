@@ -70,14 +70,7 @@ std::string valueText(const JsonNode& node) {
     case JsonNode::Kind::Null: return "null";
     case JsonNode::Kind::Boolean: return node.boolean ? "true" : "false";
     case JsonNode::Kind::Number: return fmt::format("{}", node.number);
-    case JsonNode::Kind::String: {
-      std::string text = "\"";
-      for (const char c : node.string) {
-        if (c == '"' || c == '\\') text += '\\';
-        text += c;
-      }
-      return text + "\"";
-    }
+    case JsonNode::Kind::String: return Json(node.string).dump();
     case JsonNode::Kind::Array: {
       std::string text = "[";
       for (const JsonNode& item : node.items) text += (text.size() > 1 ? "," : "") + valueText(item);
@@ -86,7 +79,8 @@ std::string valueText(const JsonNode& node) {
     case JsonNode::Kind::Object: break;
   }
   std::string text = "{";
-  for (const auto& [key, value] : node.members) text += fmt::format("{}\"{}\":{}", text.size() > 1 ? "," : "", key, valueText(value));
+  for (const auto& [key, value] : node.members)
+    text += fmt::format("{}{}:{}", text.size() > 1 ? "," : "", Json(key).dump(), valueText(value));
   return text + "}";
 }
 

@@ -72,8 +72,8 @@ TEST(Patch, GoesThroughArraysInObjectsInArrays) {
 }
 
 TEST(Patch, AValueIsWrittenAsItWasRead) {
-  for (const std::string text : {"null", "true", "false", "1.5", "-3", R"("a")", R"("a\"b\\c")", "[]", "[1]", "[1,[2,\"x\"],{}]", "{}",
-                                 R"({"a":1})", R"({"a":1,"b":{"c":[null,true]}})"})
+  for (const std::string text : {"null", "true", "false", "1.5", "-3", R"("a")", R"("a\"b\\c")", R"("a\nb\tc")", R"({"a\n\"":"ü"})", "[]",
+                                 "[1]", "[1,[2,\"x\"],{}]", "{}", R"({"a":1})", R"({"a":1,"b":{"c":[null,true]}})"})
     EXPECT_EQ(valueText(parseJson(text, "x")), text);
 }
 

@@ -327,7 +327,8 @@ TEST(FindLogs, OfADatasetASessionASubjectOrAFile) {
   const auto put = [&](const char* name) { writeFileAtomically(folder / name, ""); };
   for (const char* name : {"data/sourcedata/sub-01_ses-01_task-a_run-01_log.reach", "data/sourcedata/sub-01_ses-02_task-a_run-01_log.reach",
                            "data/sourcedata/sub-02_ses-01_task-a_run-01_log.reach", "data/sourcedata/notes.txt", "data/sub-01/ses-01/x",
-                           "data/sub-01/ses-09/x", "plain/b_log.reach", "plain/a_log.reach", "plain/a_log.reach.damaged"})
+                           "data/sub-01/ses-09/x", "plain/b_log.reach", "plain/a_log.reach", "plain/a_log.reach.damaged",
+                           "sub-pilot/sourcedata/c_log.reach", "sub-pilot/ses-old/sourcedata/d_log.reach"})
     put(name);
   const auto found = [&](const std::string& path) {
     std::vector<std::string> names;
@@ -343,6 +344,8 @@ TEST(FindLogs, OfADatasetASessionASubjectOrAFile) {
   EXPECT_EQ(found("data/sub-01"), (std::vector<std::string>{run("01", "01"), run("01", "02")}));
   EXPECT_EQ(found("data/sub-01/ses-01"), (std::vector<std::string>{run("01", "01")}));
   EXPECT_EQ(found("data/sub-01/ses-01/"), (std::vector<std::string>{run("01", "01")}));
+  EXPECT_EQ(found("sub-pilot"), (std::vector<std::string>{"c_log.reach"})) << "a dataset of that name";
+  EXPECT_EQ(found("sub-pilot/ses-old"), (std::vector<std::string>{"d_log.reach"}));
   EXPECT_EQ(found("plain"), (std::vector<std::string>{"a_log.reach", "b_log.reach"})) << "sorted";
   EXPECT_EQ(found("data/sourcedata/notes.txt"), (std::vector<std::string>{"notes.txt"})) << "a file is taken as it is";
   const auto refusal = [&](const std::string& path) {

@@ -53,7 +53,7 @@ const std::vector<TrialColumn>& trialColumns() {
        [](const Row& r) { return r.scene != nullptr ? r.scene->target : std::string(); }},
       {"outcome", "How the trial ended: success, failure, aborted or interrupted",
        [](const Row& r) { return textOf(trial::nameOf(r.trial.result.outcome)); }},
-      {"reason", "Which tolerance was missed, or what stopped the trial; empty for a success",
+      {"reason", "Which tolerance was missed, or what stopped the trial; none for a success",
        [](const Row& r) { return textOf(trial::nameOf(r.trial.result.reason)); }},
       measured("mass"),
       measured("movement_time_s"),

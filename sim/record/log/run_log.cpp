@@ -273,16 +273,17 @@ std::vector<std::string> findLogs(const std::string& path) {
   requireSearchable(path);
   if (!fs::is_directory(path, error)) throw FaultError(fileFault(path, "no such log or folder"));
   // A session's folder (sub-01/ses-01) holds the exported data; its logs lie in sourcedata of the same dataset, with its labels
-  // in their names.
+  // in their names. A dataset may itself be called sub-pilot.
   std::string prefix;
   fs::path root = fs::absolute(path).lexically_normal();
   if (!root.has_filename()) root = root.parent_path();
   const std::string name = root.filename().string();
   const std::string parent = root.parent_path().filename().string();
-  if (name.starts_with("ses-") && parent.starts_with("sub-")) {
+  const bool isDataset = fs::is_directory(root / kLogsFolder, error);
+  if (!isDataset && name.starts_with("ses-") && parent.starts_with("sub-")) {
     prefix = parent + "_" + name + "_";
     root = root.parent_path().parent_path();
-  } else if (name.starts_with("sub-")) {
+  } else if (!isDataset && name.starts_with("sub-")) {
     prefix = name + "_";
     root = root.parent_path();
   }

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "sim/record/log/disk_fault.h"
+#include "sim/record/log/folder_hold.h"
 
 namespace reachlab::record {
 namespace {
@@ -19,9 +20,18 @@ constexpr std::uint64_t kBytesPerDiskLook = 1 << 20;
 
 std::span<const std::uint8_t> bytesOf(const std::string& text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
 
-// Nothing is created for a run that nobody could read, and nothing is left of a log whose first record the disk does not take.
-LogWriter createLog(const std::string& path, const RunConfiguration& configuration) {
+// What a full disk would take with it is more than this recording.
+void keepReserve(const std::string& path, const os::DiskSpace& disk, std::uint64_t diskReserve) {
+  if (const std::string fault = reserveFault(path, disk, diskReserve); !fault.empty()) throw ResourceError(fault);
+}
+
+// Nothing is created for a run that nobody could read or that the disk has no space for, and nothing is left of a log whose first record
+// the disk does not take.
+LogWriter createLog(const std::string& path, const RunConfiguration& configuration, std::uint64_t diskReserve) {
   const std::string text = readableText(configuration, path);
+  const std::string folder = std::filesystem::path(path).parent_path().string();
+  makeFolders(folder);
+  keepReserve(path, os::diskSpace(folder.empty() ? "." : folder), diskReserve);
   std::error_code error;
   const bool another = std::filesystem::exists(path, error);
   try {
@@ -45,18 +55,11 @@ std::string readableText(const RunConfiguration& configuration, const std::strin
 }
 
 RunWriter::RunWriter(const std::string& path, const RunConfiguration& configuration, std::uint64_t diskReserve, CutBy cutBy)
-    : cutBy_(cutBy), diskReserve_(diskReserve), log_(createLog(path, configuration)), samples_(configuration.table.size()),
+    : cutBy_(cutBy), diskReserve_(diskReserve), log_(createLog(path, configuration, diskReserve)), samples_(configuration.table.size()),
       tracker_(configuration.firstTrial) {
   for (int hand = 2; hand <= configuration.table.hands; ++hand) handBlocks_.emplace_back(hand);
   log_.sync();
   lookedAt_ = log_.size();
-  keepReserve();
-}
-
-// What a full disk would take with it is more than this recording.
-void RunWriter::keepReserve() {
-  if (const std::string fault = reserveFault(log_.path(), os::diskSpace(log_.path()), diskReserve_); !fault.empty())
-    throw ResourceError(fault);
 }
 
 void RunWriter::announce(const TrialSetup& setup) {
@@ -97,7 +100,7 @@ void RunWriter::flushIfDue() {
 void RunWriter::flush() {
   if (log_.size() - lookedAt_ > kBytesPerDiskLook) {
     lookedAt_ = log_.size();
-    keepReserve();
+    keepReserve(log_.path(), os::diskSpace(log_.path()), diskReserve_);
   }
   const auto putBlock = [this](RecordType type, Block& block) {
     if (!block.empty()) log_.append(type, block.payload());

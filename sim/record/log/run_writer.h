@@ -41,7 +41,6 @@ class RunWriter {
     encode(members..., payload);
     return log_.append(type, payload.bytes());
   }
-  void keepReserve();
   void writeTrial(RecordedTrial trial);
 
   CutBy cutBy_;
