@@ -2,12 +2,14 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <optional>
 
 #include "cli/terminal/at_option.h"
 #include "cli/commands/commands.h"
 #include "cli/output/readable_logs.h"
 #include "sim/record/export/exporters.h"
 #include "sim/record/log/logs_folder.h"
+#include "sim/session/session_folder.h"
 
 namespace reachlab::cli {
 namespace {
@@ -25,7 +27,8 @@ fs::path datasetOf(const std::string& log) {
 }
 
 void exportLogs(const ExportOptions& options) {
-  const ReadableLogs logs = openReadableLogs(options.what);
+  const ReadableLogs logs = openReadableLogs(options.what, OpenLogs::LeaveOut);
+  for (const std::string& path : logs.open) fmt::print(stderr, "{}: is being recorded into; left out\n", path);
   for (const record::RunLog& run : logs.runs)
     if (run.goodBytes() < run.fileBytes())
       fmt::print(stderr, "{}: damaged after byte {} of {}: read up to there ({} trials)\n", run.path(), run.goodBytes(), run.fileBytes(),
@@ -34,6 +37,10 @@ void exportLogs(const ExportOptions& options) {
   std::vector<std::string> written;
   atOption("--out", [&] {
     const record::Exporter& exporter = *record::findExporter(options.format);
+    std::optional<record::FolderHold> hold;  // a run that ends meanwhile writes the same tables
+    std::error_code error;
+    const fs::path folder = options.out.empty() ? dataset : fs::path(options.out);
+    if (exporter.withEachRun && fs::is_directory(folder / record::kLogsFolder, error)) hold.emplace(session::holdDataset(folder.string()));
     written = options.out.empty() ? record::writeInto(dataset.string(), exporter, logs.runs) : exporter.write(logs.runs, options.out);
   });
   for (const std::string& path : written) fmt::print("{}\n", path);

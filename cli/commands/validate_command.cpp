@@ -33,10 +33,12 @@ constexpr const char* kExpected =
 std::string fileOf(const std::string& fileOrName) {
   namespace fs = std::filesystem;
   std::error_code error;
-  if (fs::is_directory(fileOrName, error)) throw FaultError(fileFault(fileOrName, "is a folder", kExpected));
-  if (!fs::exists(fileOrName, error))
+  const bool folder = fs::is_directory(fileOrName, error);
+  if (folder || !fs::exists(fileOrName, error))
     if (const auto shipped = experiment::shippedExperimentFile(fileOrName)) return *shipped;
-  return session::findPlan(fileOrName).value_or(fileOrName);
+  const auto plan = session::findPlan(fileOrName);
+  if (!plan && folder) throw FaultError(fileFault(fileOrName, "is a folder", kExpected));
+  return plan.value_or(fileOrName);
 }
 
 // A table or a recording would only be told where JSON breaks off.

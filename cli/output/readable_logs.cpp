@@ -6,6 +6,7 @@
 #include <exception>
 
 #include "base/error.h"
+#include "sim/record/log/append_file.h"
 
 namespace reachlab::cli {
 
@@ -15,10 +16,14 @@ void ReadableLogs::tellUnreadable() const {
                                   fmt::join(unreadable, "; ")));
 }
 
-ReadableLogs openReadableLogs(const std::string& what) {
+ReadableLogs openReadableLogs(const std::string& what, OpenLogs open) {
   ReadableLogs logs;
   std::exception_ptr first;
   for (const std::string& path : record::findLogs(what)) {
+    if (open == OpenLogs::LeaveOut && record::isBeingWritten(path)) {
+      logs.open.push_back(path);
+      continue;
+    }
     try {
       logs.runs.push_back(record::RunLog::open(path));
     } catch (const Error& error) {
@@ -27,6 +32,7 @@ ReadableLogs openReadableLogs(const std::string& what) {
     }
   }
   if (logs.runs.empty() && first) std::rethrow_exception(first);
+  if (logs.runs.empty()) throw ResourceError(logs.open.front() + ": is being recorded into; end that run first");
   return logs;
 }
 

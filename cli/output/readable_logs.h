@@ -10,10 +10,12 @@ namespace reachlab::cli {
 struct ReadableLogs {
   std::vector<record::RunLog> runs;
   std::vector<std::string> unreadable;  // one sentence each, with the log's name
+  std::vector<std::string> open;        // logs that are being recorded into and were asked to be left out
   /// To be called after the work on the readable logs. Throws ResourceError naming the unreadable logs.
   void tellUnreadable() const;
 };
-/// Throws the error of the first log where no log can be read.
-ReadableLogs openReadableLogs(const std::string& what);
+enum class OpenLogs { Read, LeaveOut };
+/// Throws the error of the first log where no log can be read, and ResourceError where all of them are left out.
+ReadableLogs openReadableLogs(const std::string& what, OpenLogs open = OpenLogs::Read);
 
 }  // namespace reachlab::cli

@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "tests/cli/program.h"
+#include "tests/record/made_run.h"
 
 using namespace reachlab::test;
 using Json = nlohmann::json;
@@ -70,6 +71,22 @@ TEST(Show, AndExportNameALogThatCannotBeRead) {
     EXPECT_NE(ended.out, "") << command;
   }
   EXPECT_EQ(reach("show " + other).exitCode, 2) << "alone it is a bad file";
+}
+
+TEST(Export, LeavesOutALogThatIsBeingRecordedInto) {
+  const Recorded recorded;
+  reachlab::record::RunConfiguration configuration = reachlab::record::madeConfiguration();
+  configuration.run = configuration.firstRun = 2;
+  const std::string open = recorded.data + "/sourcedata/sub-01_ses-01_task-made_run-02_log.reach";
+  const std::string table = recorded.data + "/sub-01/ses-01/motion/sub-01_ses-01_task-made_tracksys-haptic_run-02_motion.tsv";
+  reachlab::record::MadeRecording recording(open, configuration);
+  recording.until(reachlab::record::MadeRun::kTicksPerTrial);
+  for (const char* format : {" --format bids", " --format csv"})
+    EXPECT_TRUE(says(reach("export " + recorded.data + format), 0, open + ": is being recorded into; left out\n"));
+  EXPECT_FALSE(std::filesystem::exists(table));
+  EXPECT_TRUE(says(reach("export --format bids " + open), 3, open + ": is being recorded into\n"));
+  EXPECT_EQ(reach("show " + open).exitCode, 0);
+  recording.recorder.close();
 }
 
 TEST(Show, RefusesWhatIsNotThere) {

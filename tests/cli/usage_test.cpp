@@ -161,6 +161,8 @@ TEST_F(Usage, ValidateTakesNamesAndSaysWhatItExpects) {
   for (const std::string& what : {folder_.path(), folder_.write("hand.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n")}) {
     EXPECT_TRUE(says(reach("validate " + what), 2, "allowed: an experiment file, a constraint definition, a session plan or a study"));
   }
+  for (const char* name : {"chain-moderate", "paper"})
+    EXPECT_EQ(shell("cd " + folder_.path() + " && mkdir -p " + name + " && $REACH validate " + name).exitCode, 0) << "a folder is no file";
   EXPECT_TRUE(holds(reach("validate chain-modrate").err, "did you mean chain-moderate?"));
   EXPECT_TRUE(
       says(reach("validate " + folder_.write("old.json", lineExperiment("2", "2", "0.01", "1", "1"))), 2, "error: schema_version: is 2\n"));
