@@ -258,6 +258,10 @@ void checkRecordable(const Programme& programme) {
 
 int sessionDay(const SessionRequest& request, const Plan& plan) {
   const bool daysMatter = std::any_of(plan.blocks.begin(), plan.blocks.end(), [](const PlanBlock& block) { return block.day != 0; });
+  if (!daysMatter && request.day)
+    throw FaultError(
+        Fault{"day", fmt::format("is {}, and {} has no days", *request.day, plan.text.empty() ? "an experiment" : "the plan " + plan.name),
+              "none"});
   if (!daysMatter) return 0;
   const std::string& label = request.place.session;
   const std::optional<int> asked = request.day ? request.day : asNumber<int>(label);

@@ -248,6 +248,8 @@ TEST_F(PlannedSession, OfAPlanWithoutDaysMayHaveAnyName) {
     ASSERT_EQ(session.blocks.size(), 2u) << label;
     for (const BlockToRun& block : session.blocks) EXPECT_EQ(block.configuration.day, 0) << label;
   }
+  r.day = 2;
+  EXPECT_TRUE(holds(refusalOf([&] { planSession(r); }), "day: is 2, and the plan p has no days")) << "and is not ignored";
 }
 
 TEST_F(PlannedSession, GivesItsBlocksRunNumbersInTurn) {
