@@ -13,7 +13,7 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
-#include "sim/record/log/run_order.h"
+#include "sim/record/log/run_names.h"
 
 namespace reachlab::analysis {
 namespace {

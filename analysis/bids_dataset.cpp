@@ -14,7 +14,7 @@
 #include "base/ticks.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/export/bids.h"
-#include "sim/record/log/run_order.h"
+#include "sim/record/log/run_names.h"
 #include "sim/record/log/whole_file.h"
 
 namespace reachlab::analysis {
@@ -35,14 +35,6 @@ std::size_t columnOf(const TsvTable& table, const std::string& name, const fs::p
   const auto found = std::find(table.columns.begin(), table.columns.end(), name);
   if (found == table.columns.end()) throw FaultError(Fault{{}, "no column " + name, {}, FilePlace{file.string()}});
   return static_cast<std::size_t>(found - table.columns.begin());
-}
-
-/// "sub-01_ses-02_…": the label behind `key`.
-std::string labelIn(const std::string& name, const std::string& key) {
-  const std::size_t at = name.find(key + "-");
-  if (at == std::string::npos) return "";
-  const std::size_t begin = at + key.size() + 1;
-  return name.substr(begin, name.find_first_of("_.", begin) - begin);
 }
 
 constexpr double kMaxRunDuration = 1e6;  // [s]
@@ -218,10 +210,10 @@ RunSource readRun(const fs::path& motion) {
   };
   RunSource run;
   record::RunConfiguration& c = run.configuration;
-  c.subject = labelIn(name, "sub");
-  c.session = labelIn(name, "ses");
-  c.task = labelIn(name, "task");
-  c.run = countOf(numberOf(labelIn(name, "run"), "run", motion.native()));
+  c.subject = record::labelIn(name, "sub");
+  c.session = record::labelIn(name, "ses");
+  c.task = record::labelIn(name, "task");
+  c.run = countOf(numberOf(record::labelIn(name, "run"), "run", motion.native()));
   c.table = readChannels(sibling("channels.tsv"));
   c.device = "n/a";
   const auto about = nlohmann::json::parse(record::readWholeFile(sibling("motion.json").string()), nullptr, false);

@@ -2,7 +2,7 @@
 
 #include <tuple>
 
-#include "sim/record/log/run_order.h"
+#include "sim/record/log/run_names.h"
 
 namespace reachlab::analysis {
 

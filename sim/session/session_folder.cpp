@@ -10,6 +10,7 @@
 #include "sim/record/configuration/limits.h"
 #include "sim/record/log/log.h"
 #include "sim/record/log/logs_folder.h"
+#include "sim/record/log/run_names.h"
 
 namespace reachlab::session {
 namespace {
@@ -17,27 +18,18 @@ namespace {
 namespace fs = std::filesystem;
 using record::kLogEnding;
 
-// The value of a `key-value` part of a BIDS name.
-std::string partOf(const std::string& name, const std::string& key) {
-  const std::size_t at = name.find("_" + key + "-");
-  if (at == std::string::npos) return {};
-  const std::size_t from = at + key.size() + 2;
-  return name.substr(from, name.find('_', from) - from);
-}
-
-// The files of the session in a folder whose names end so.
-std::vector<RunOnDisk> runsIn(const fs::path& folder, const SessionPlace& place, std::string_view ending) {
-  std::vector<RunOnDisk> runs;
+// Adds the files of the session in a folder whose names end so. All are then by run number.
+void addRuns(std::vector<RunOnDisk>& runs, const fs::path& folder, const SessionPlace& place, std::string_view ending) {
   std::error_code error;
   const std::string prefix = fmt::format("sub-{}_ses-{}_", place.subject, place.session);
-  if (!fs::is_directory(folder, error)) return runs;
+  if (!fs::is_directory(folder, error)) return;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string name = entry.path().filename().string();
     if (!name.starts_with(prefix) || !name.ends_with(ending)) continue;
-    if (const auto run = asNumber<int>(partOf(name, "run"))) runs.push_back({*run, partOf(name, "task"), entry.path().string()});
+    if (const auto run = asNumber<int>(record::labelIn(name, "run")))
+      runs.push_back({*run, record::labelIn(name, "task"), entry.path().string()});
   }
-  std::sort(runs.begin(), runs.end(), [](const RunOnDisk& a, const RunOnDisk& b) { return a.run < b.run; });
-  return runs;
+  std::stable_sort(runs.begin(), runs.end(), [](const RunOnDisk& a, const RunOnDisk& b) { return a.run < b.run; });
 }
 
 }  // namespace
@@ -55,14 +47,14 @@ std::string labelOf(const std::string& name) {
 }
 
 std::vector<RunOnDisk> recordedRuns(const SessionPlace& place) {
-  return runsIn(fs::path(place.data) / record::kLogsFolder, place, kLogEnding);
+  std::vector<RunOnDisk> runs;
+  addRuns(runs, fs::path(place.data) / record::kLogsFolder, place, kLogEnding);
+  return runs;
 }
 
 std::vector<RunOnDisk> takenRuns(const SessionPlace& place) {
   std::vector<RunOnDisk> runs = recordedRuns(place);
-  const fs::path motion = fs::path(place.data) / ("sub-" + place.subject) / ("ses-" + place.session) / "motion";
-  for (RunOnDisk& run : runsIn(motion, place, "")) runs.push_back(std::move(run));
-  std::stable_sort(runs.begin(), runs.end(), [](const RunOnDisk& a, const RunOnDisk& b) { return a.run < b.run; });
+  addRuns(runs, fs::path(place.data) / ("sub-" + place.subject) / ("ses-" + place.session) / "motion", place, "");
   return runs;
 }
 

@@ -11,7 +11,7 @@
 #include "base/ticks.h"
 #include "sim/record/log/logs_folder.h"
 #include "sim/record/log/records.h"
-#include "sim/record/log/run_order.h"
+#include "sim/record/log/run_names.h"
 
 namespace reachlab::record {
 namespace {

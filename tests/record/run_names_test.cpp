@@ -1,4 +1,4 @@
-#include "sim/record/log/run_order.h"
+#include "sim/record/log/run_names.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sim/record/log/run_order.h"
+#include "sim/record/log/run_names.h"
 
 #include <algorithm>
 #include <filesystem>
@@ -10,15 +10,15 @@ bool isNumber(std::string_view label) {
   return !label.empty() && std::all_of(label.begin(), label.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-// The label behind `key` ("_ses-") of a file's name. Empty if it has none.
-std::string_view labelOf(std::string_view name, std::string_view key) {
-  const std::size_t at = name.find(key);
-  if (at == std::string_view::npos) return {};
-  const std::string_view rest = name.substr(at + key.size());
-  return rest.substr(0, rest.find('_'));
-}
-
 }  // namespace
+
+std::string labelIn(const std::string& name, const std::string& key) {
+  const std::string whole = "_" + name, before = "_" + key + "-";
+  const std::size_t at = whole.find(before);
+  if (at == std::string::npos) return {};
+  const std::size_t begin = at + before.size();
+  return whole.substr(begin, whole.find_first_of("_.", begin) - begin);
+}
 
 bool labelBefore(std::string_view a, std::string_view b) {
   if (isNumber(a) != isNumber(b)) return isNumber(a);
@@ -30,10 +30,10 @@ bool labelBefore(std::string_view a, std::string_view b) {
 }
 
 bool runBefore(const std::string& a, const std::string& b) {
-  const std::string x = "_" + std::filesystem::path(a).filename().string(), y = "_" + std::filesystem::path(b).filename().string();
-  if (const auto p = labelOf(x, "_sub-"), q = labelOf(y, "_sub-"); p != q) return p < q;
-  for (const char* key : {"_ses-", "_run-"})
-    if (const auto p = labelOf(x, key), q = labelOf(y, key); p != q) return labelBefore(p, q);
+  const std::string x = std::filesystem::path(a).filename().string(), y = std::filesystem::path(b).filename().string();
+  if (const auto p = labelIn(x, "sub"), q = labelIn(y, "sub"); p != q) return p < q;
+  for (const char* key : {"ses", "run"})
+    if (const auto p = labelIn(x, key), q = labelIn(y, key); p != q) return labelBefore(p, q);
   return a < b;
 }
 
