@@ -12,11 +12,8 @@
 #include "base/fault.h"
 
 namespace reachlab::analysis {
-namespace {
 
 namespace fs = std::filesystem;
-
-}  // namespace
 
 bool isMotionFile(const std::string& path) { return path.ends_with("_motion.tsv"); }
 

@@ -111,6 +111,17 @@ std::optional<experiment::SquareMatrix<3>> trainedField(std::span<const experime
   return known == index.trained.end() ? std::nullopt : std::optional(known->second);
 }
 
+// The dataset's folder: above those of the subject, the session and the kind of data.
+std::string datasetOf(const std::string& motionFile) {
+  std::filesystem::path folder = std::filesystem::absolute(motionFile).parent_path();
+  while (folder.has_relative_path()) {
+    const std::string name = folder.filename().string();
+    folder = folder.parent_path();
+    if (name.starts_with("sub-")) break;
+  }
+  return folder.string();
+}
+
 }  // namespace
 
 const std::vector<experiment::CompiledExperiment>& ScenesOfRuns::of(const record::RunConfiguration& c) {
@@ -160,21 +171,6 @@ void addRun(const RunSource& run, std::span<const experiment::CompiledExperiment
     sink.add(std::move(trial), condition);
   }
 }
-
-namespace {
-
-// The dataset's folder: above those of the subject, the session and the kind of data.
-std::string datasetOf(const std::string& motionFile) {
-  std::filesystem::path folder = std::filesystem::absolute(motionFile).parent_path();
-  while (folder.has_relative_path()) {
-    const std::string name = folder.filename().string();
-    folder = folder.parent_path();
-    if (name.starts_with("sub-")) break;
-  }
-  return folder.string();
-}
-
-}  // namespace
 
 BidsExperiments readBidsExperiments(const RunSource& run, const std::string& motionFile, const std::string& experimentFile) {
   const record::RunConfiguration& c = run.configuration;

@@ -63,7 +63,7 @@ std::vector<ClockTiming> measureLatency(const std::string& spec, double seconds)
   const experiment::CompiledExperiment experiment = experiment::openExperiment("chain-slow");
   std::vector<ClockTiming> rows;
   std::vector<std::string> ways{spec};
-  if (spec.starts_with("phantom") && spec.find(",clock=") == std::string::npos) ways.push_back(spec + ",clock=computer");
+  if (const std::string other = byComputersClock(spec); other != spec) ways.push_back(other);
   for (const std::string& way : ways) {
     const std::shared_ptr<haptics::HapticDevice> device = makeDevice(way, experiment, 1);
     if (device->info().virtualHand)

@@ -76,9 +76,9 @@ LiveDevice::View LiveDevice::look() {
   const std::string said = device_->healthText(), name = device_->info().name;
   const bool isLost = device_->health() == haptics::DeviceHealth::Lost;
   if (!isLost && loop_->fault() == haptics::DeviceFault::Device) loop_->resetFault();  // it is back; nothing is felt here
-  if (const haptics::DeviceFault fault = isLost ? haptics::DeviceFault::None : loop_->fault(); fault != haptics::DeviceFault::None)
+  if (isLost) view.fault = "device " + name + " is lost";
+  else if (const haptics::DeviceFault fault = loop_->fault(); fault != haptics::DeviceFault::None)
     view.fault = haptics::describe(fault, name);
-  else if (isLost) view.fault = "device " + name + " is lost";
   if (!said.empty()) view.fault += (view.fault.empty() ? "" : ": ") + said;
   return view;
 }

@@ -58,17 +58,11 @@ std::unique_ptr<haptics::HapticDevice> makeBy(const DeviceDriver& driver, const 
   return guardDevice(makeInScenes(driver, {asked.name, argument}, block), hand);
 }
 
-// Only the first hand's device may be the clock; another one that could be is sampled, unless it is told how.
-Spec sampled(const Spec& asked) {
-  if (asked.name != "phantom" || ("," + asked.argument).find(",clock=") != std::string::npos) return asked;
-  return {asked.name, asked.argument + ",clock=computer"};
-}
-
 std::unique_ptr<haptics::HapticDevice> makeHand(const std::string& spec, const Block& block, bool first) {
-  const Spec asked = parse(spec);
+  const Spec asked = parse(first ? spec : byComputersClock(spec));  // only the first hand's device may be the clock
   if (const DeviceDriver* driver = findDriver(asked.name)) {
     try {
-      return makeBy(*driver, first ? asked : sampled(asked), block);
+      return makeBy(*driver, asked, block);
     } catch (const ResourceError& error) {  // a loader's or a system's own words do not say what was asked for
       if (std::string_view(error.what()).starts_with(asked.words())) throw;
       throw ResourceError(asked.words() + ": " + error.what());
@@ -118,6 +112,12 @@ std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, std::
 
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::Experiment& experiment, std::uint64_t seed) {
   return makeDevice(spec, experiment::CompiledExperiment(experiment), seed);
+}
+
+std::string byComputersClock(const std::string& hand) {
+  const Spec asked = parse(hand);
+  const bool hasChoice = asked.name == "phantom" && ("," + asked.argument).find(",clock=") == std::string::npos;
+  return hasChoice ? hand + ",clock=computer" : hand;
 }
 
 HandSettings handSettingsOf(const std::string& spec) {

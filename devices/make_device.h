@@ -23,6 +23,9 @@ std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, std::
 /// Checks and compiles the experiment first.
 std::unique_ptr<haptics::HapticDevice> makeDevice(const std::string& spec, const experiment::Experiment& experiment, std::uint64_t seed);
 
+/// The hand, sampled by the computer's clock, if its kind may drive the clock and the text does not choose. Otherwise unchanged.
+std::string byComputersClock(const std::string& hand);
+
 /// The options of a device besides its driver's options: mapping and guards (docs/devices.md). Throws FaultError.
 HandSettings handSettingsOf(const std::string& spec);
 

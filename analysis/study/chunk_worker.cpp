@@ -84,8 +84,8 @@ void ChunkWorker::computeSubject(std::int64_t subject, std::vector<MeasuredTrial
   const bool ofPlan = !design_.planText.empty();
   std::shared_ptr<void> learnt;
   std::vector<double> who(identity_, std::nan(""));
-  who[0] = static_cast<double>(point_->index);
-  who[1] = static_cast<double>(subject);
+  who[column::Point] = static_cast<double>(point_->index);
+  who[column::Subject] = static_cast<double>(subject);
   const std::size_t firstAxis = identity_ - design_.axes.size(), trialColumn = firstAxis - 2;
   for (std::size_t k = 0; k < design_.axes.size(); ++k) {
     const Column& column = columns_[firstAxis + k];
@@ -103,9 +103,9 @@ void ChunkWorker::computeSubject(std::int64_t subject, std::vector<MeasuredTrial
       BlockRun& run = *kit.run;
       run.begin(kit.hands(own, day, learnt));
       if (ofPlan) {
-        who[2] = who[3] = day;
-        who[4] = number;
-        who[6] = block.practice ? 1 : 0;
+        who[column::Session] = who[column::Day] = day;
+        who[column::Block] = number;
+        who[column::Practice] = block.practice ? 1 : 0;
       }
       who[trialColumn + 1] = static_cast<double>(seed);
       const std::size_t first = trials.size();
@@ -115,12 +115,12 @@ void ChunkWorker::computeSubject(std::int64_t subject, std::vector<MeasuredTrial
         const auto scene = static_cast<std::size_t>(planned.scene);
         trials.push_back(kit.measurers[scene]->measure(run, recorded, block.practice, trials.size() - first));
         if (ofPlan) {
-          const std::size_t condition = placeOf(columns_[5].words, names[scene].condition);
-          if (condition == columns_[5].words.size())
+          const std::size_t condition = placeOf(columns_[column::Condition].words, names[scene].condition);
+          if (condition == columns_[column::Condition].words.size())
             throw FaultError(Fault{"plan.blocks", "have a condition that the plan has not", "the plan's own conditions"});
-          who[5] = static_cast<double>(condition);
+          who[column::Condition] = static_cast<double>(condition);
+          who[column::CatchTrial] = planned.catchTrial ? 1 : 0;
         }
-        if (ofPlan) who[7] = planned.catchTrial ? 1 : 0;
         who[trialColumn] = recorded.trial;
         identity.insert(identity.end(), who.begin(), who.end());
       }

@@ -97,7 +97,9 @@ std::vector<predict::Criterion> criteriaOf(const Design& design) {
   return predict::orAll(named);
 }
 
-std::size_t identityColumns(const Design& design) { return (design.planText.empty() ? 4 : 10) + design.axes.size(); }
+std::size_t identityColumns(const Design& design) {
+  return (design.planText.empty() ? column::Session : column::EndOfPlan) + 2 + design.axes.size();
+}
 
 std::vector<Column> columnsOf(const Design& design) {
   std::vector<Column> columns{{"point", {}}, {"subject", {}}};

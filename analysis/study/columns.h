@@ -13,6 +13,11 @@ struct Column {
   std::vector<std::string> words;  // empty: a number
 };
 
+/// The places of the first columns. Those from Session to CatchTrial are in studies of a plan alone. Trial and seed come next.
+namespace column {
+enum Place : std::size_t { Point, Subject, Session, Day, Block, Condition, Practice, CatchTrial, EndOfPlan };
+}
+
 /// The computations that the requested measures need, beside the judgement of each trial.
 struct Needs {
   bool samples = false;  // the recording at 100 Hz, in memory

@@ -120,8 +120,6 @@ std::optional<std::size_t> candidateOf(const Named& named, const std::string& tr
   return criterion ? analysis::placeOf(named.candidates, *criterion) : std::nullopt;
 }
 
-constexpr std::size_t kPractice = 6, kCatchTrial = 7;  // columns of a plan's trials (columnsOf)
-
 class Reader {
  public:
   explicit Reader(const StudyFolder& folder)
@@ -153,7 +151,7 @@ class Reader {
     for (std::int64_t row = 0; row < rows.rows; ++row) {
       const auto outcome = static_cast<trial::Outcome>(at(rows, identity_, row));
       if (outcome != trial::Outcome::Success && outcome != trial::Outcome::Failure) continue;
-      if (!folder_.design.planText.empty() && (at(rows, kPractice, row) == 1 || at(rows, kCatchTrial, row) == 1)) continue;
+      if (!folder_.design.planText.empty() && (at(rows, column::Practice, row) == 1 || at(rows, column::CatchTrial, row) == 1)) continue;
       const auto count = [&](std::size_t column, std::size_t order) {
         const double value = at(rows, column, row);
         SuccessAt& share = success_[{order, value}];
@@ -175,8 +173,8 @@ class Reader {
 
   std::string blockOf(const ChunkRows& rows, std::int64_t row) const {
     if (folder_.design.planText.empty()) return {};
-    const double day = at(rows, 3, row);
-    return wordOf(columns_[5], at(rows, 5, row)) + (day > 0 ? fmt::format(" day {}", day) : "");
+    const double day = at(rows, column::Day, row);
+    return wordOf(columns_[column::Condition], at(rows, column::Condition, row)) + (day > 0 ? fmt::format(" day {}", day) : "");
   }
 
   void takeScores(const ChunkRows& rows) {
@@ -191,7 +189,8 @@ class Reader {
       Population& population = populations_[{cell, name}];
       population.cell = cell;
       population.truth = name;
-      const auto who = std::pair{static_cast<std::int64_t>(at(rows, 0, row)), static_cast<std::int64_t>(at(rows, 1, row))};
+      const auto who =
+          std::pair{static_cast<std::int64_t>(at(rows, column::Point, row)), static_cast<std::int64_t>(at(rows, column::Subject, row))};
       PersonTrials& person = population.people[who];  // who has no scores is drawn, too
       if (!std::isfinite(at(rows, score + criteria_, row))) continue;
       auto& [number, scores] = person[blockOf(rows, row)];

@@ -102,6 +102,9 @@ LoopSettings heldLoop(const experiment::Coupling& coupling, const haptics::Devic
   return loop;
 }
 
+// The damping of a hand that holds the device lightly, as the world sees it.
+double lightestDamping(const haptics::DeviceInfo& device) { return kLightestHandDamping / device.scale; }
+
 PreflightLine passivity(const Experiment& experiment, const experiment::Coupling& coupling, const haptics::DeviceInfo& device) {
   const LoopSettings loop = heldLoop(coupling, device, experiment);
   const double margin = passivityMargin(loop), asked = loop.friction - margin;
@@ -116,12 +119,12 @@ PreflightLine passivity(const Experiment& experiment, const experiment::Coupling
     if (coupling.stiffness > most) line.verdict = Verdict::Held;
   }
   if (margin < 0) {
-    line.verdict = -margin <= kLightestHandDamping / device.scale ? Verdict::Held : Verdict::Warning;
+    line.verdict = -margin <= lightestDamping(device) ? Verdict::Held : Verdict::Warning;
     line.sentence += fmt::format(": the hand must bring {:.3g} N s/m{}", -margin,
                                  line.verdict == Verdict::Held ? ", as any hand that holds it does" : ", more than a light grasp does");
   }
   if (line.verdict == Verdict::Warning) {
-    const double softer = 2 * (kLightestHandDamping / device.scale + device.viscosity - std::abs(coupling.damping)) / loop.period;
+    const double softer = 2 * (lightestDamping(device) + device.viscosity - std::abs(coupling.damping)) / loop.period;
     line.remedy = softer > 0 ? fmt::format("a coupling of k_h <= {:.4g} N/m", softer)
                              : fmt::format("less coupling damping than b_h = {:.3g} N s/m", coupling.damping);
   }
@@ -187,7 +190,7 @@ PreflightLine fieldPower(const CompiledExperiment& compiled, double curl, const 
   const trial::ProtocolSettings settings = trial::makeProtocolSettings(experiment, compiled.constraint());
   const double radius = norm(settings.target - settings.start) / 2, omega = std::numbers::pi / experiment.task->duration;
   const double speed = omega * radius, delay = haptics::velocityDelay(experiment.velocityEstimator);
-  const double friction = device.viscosity + kLightestHandDamping / device.scale;
+  const double friction = device.viscosity + lightestDamping(device);
   PreflightLine line{"field_power", Verdict::Fine, curl * speed * speed * std::sin(omega * delay), friction * speed * speed, "W", {}, {}};
   line.sentence = fmt::format(
       "the curl field of {:.4g} N s/m gives {:.3g} W on average, because the velocity estimate lags by {:.2g} ms "

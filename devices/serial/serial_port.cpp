@@ -58,7 +58,8 @@ class SerialPort final : public MessageLink {
   }
 
   Got receive(std::string& line, int milliseconds) noexcept override try {
-    const std::int64_t end = os::now() + (milliseconds + 2) * std::int64_t{1'000'000};  // [ns]  // also of a line that never ends
+    constexpr std::int64_t kNsPerMs = 1'000'000;
+    const std::int64_t end = os::now() + (milliseconds + 2) * kNsPerMs;  // also of a line that never ends
     for (bool waited = false;; waited = true) {
       const std::string_view waiting(waiting_.data(), count_);
       if (const std::size_t feed = waiting.find('\n'); feed != std::string_view::npos) {
