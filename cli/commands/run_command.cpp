@@ -18,7 +18,6 @@
 #include "sim/record/configuration/limits.h"
 #include "sim/record/configuration/run_configuration.h"
 #include "sim/session/backup_worker.h"
-#include "sim/session/recorded_blocks.h"
 #include "sim/session/recorded_session.h"
 #include "sim/trial/protocol.h"
 #include "sim/trial/task_places.h"
@@ -26,7 +25,10 @@
 namespace reachlab::cli {
 namespace {
 
-void printNotice(const session::SessionNotice& notice) {
+void printNotice(const session::SessionNotice& notice, const std::string& device) {
+  if (!notice.deviceBefore.empty())
+    fmt::print(stderr, "warning: this session was recorded with the device {}, and is resumed with {}; its trials may not be comparable\n",
+               notice.deviceBefore, device);
   if (notice.unfinished)
     fmt::print(stderr, "note: an earlier run of this session is not finished. --resume continues it. This is a new run\n");
   for (const std::string& sentence : notice.unreadable) fmt::print(stderr, "warning: {}\n", sentence);
@@ -70,12 +72,7 @@ void printNoStart(const session::RecordedRun& run) {
 int runSession(const session::SessionRequest& request) {
   const std::unique_ptr<record::InstrumentLink> instruments = devices::openInstruments(request.instruments);
   session::RecordedSession session(session::readProgramme(request.what), request, checkedDeviceMaker(), nullptr, instruments.get());
-  printNotice(session.notice());
-  if (request.resume)
-    if (const std::string before = session::otherDeviceBefore(request.place, request.device); !before.empty())
-      fmt::print(stderr,
-                 "warning: this session was recorded with the device {}, and is resumed with {}; its trials may not be comparable\n",
-                 before, request.device);
+  printNotice(session.notice(), request.device);
   if (session.blocksLeft() == 0) fmt::print(stderr, "nothing is left to do: every trial of this session is recorded\n");
   std::fflush(stdout);
   SuccessTable table;
@@ -166,7 +163,7 @@ void addRunCommand(CLI::App& app, int& exitCode) {
   command->add_option("--data", r->place.data, "Folder of the dataset [default: ./data]");
   command->add_option("--backup", r->backup, "Second data folder: every finished run is copied there and verified");
   command->add_option("--seed", r->seed, "Seed of noise and order [default: one is drawn, printed and stored]")
-      ->check(CLI::Validator(session::seedRefusal, "SEED"));
+      ->check(CLI::Validator(session::seedFault, "SEED"));
   command->add_flag("--fast", r->fast, "Virtual clock: as fast as the processor allows, the same results");
   command->add_flag("--resume", r->resume, "Continue with the trial at which this session broke off, in the same order");
   const auto saveMapping = std::make_shared<bool>(false);

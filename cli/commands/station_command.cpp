@@ -118,7 +118,7 @@ void addStationCommand(CLI::App& app, int& exitCode) {
   command->add_option("--session", s.place.session, "Session's label, letters and digits [default: 01]");
   command->add_option("--data", s.place.data, "Folder of the dataset, this station's own [default: ./data]");
   command->add_option("--seed", s.seed, "Seed of noise [default: one is drawn and stored]")
-      ->check(CLI::Validator(session::seedRefusal, "SEED"));
+      ->check(CLI::Validator(session::seedFault, "SEED"));
   command->add_flag("--every-tick", s.everyTick, "Samples at 1 kHz instead of 100 Hz");
   command->footer(
       "Prints one line per trial, as reach run does. No trial is armed while a station is missing, differs in experiment or version, or has "

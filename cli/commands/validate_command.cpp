@@ -17,6 +17,7 @@
 #include "constraints/catalogue/definition.h"
 #include "devices/make_device.h"
 #include "devices/preflight/preflight.h"
+#include "sim/dynamics/scene.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
@@ -63,7 +64,7 @@ std::vector<Fault> warningsOf(const session::Programme& programme) {
   for (std::size_t block = 0; block < programme.scenes.size(); ++block)
     for (const session::BlockScene& scene : programme.scenes[block]) {
       const std::string key = scene.kind.empty() ? fmt::format("blocks[{}].experiment", block) : "kinds." + scene.kind;
-      for (Fault& warning : inside(key, session::warningsOf(std::span(&scene.experiment, 1))))
+      for (Fault& warning : inside(key, session::warningsOf(scene.experiment, dynamics::compileScene(scene.experiment).choice)))
         if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(std::move(warning));
     }
   return warnings;
@@ -92,7 +93,7 @@ std::optional<session::Programme> validateFile(const std::string& fileOrName) {
     const experiment::CompiledExperiment experiment = experiment::openExperimentText(text, file);
     if (experiment.experiment().task) trial::checkTask(experiment, file);
     session::Programme programme = session::programmeOf(experiment);
-    warn(session::warningsOf(programme.experiments), text, file);
+    warn(session::warningsOf(experiment, dynamics::compileScene(experiment).choice), text, file);
     return programme;
   }
   return std::nullopt;

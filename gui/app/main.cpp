@@ -78,7 +78,7 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
   app.add_option("--data", r.place.data, "Folder of the dataset [default: ./data]");
   app.add_option("--day", r.day, "Day of the plan, when the session's label is no number")->check(CLI::Range(1, session::kMaxDay));
   app.add_option("--seed", r.seed, "Seed of noise and order [default: a seed is drawn and stored]")
-      ->check(CLI::Validator(session::seedRefusal, "SEED"));
+      ->check(CLI::Validator(session::seedFault, "SEED"));
   app.add_flag("--resume", r.resume, "Continue with the trial at which this session broke off");
   app.add_option("--pictures", a.pictures, "Draw every constraint and every shipped experiment into this folder, and end");
   int number = 0;

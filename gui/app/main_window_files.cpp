@@ -133,7 +133,9 @@ bool MainWindow::mayEndRun(const QString& doing) {
 bool MainWindow::mayUseDevice() {
   if (!session_.resumes()) return true;
   const QString now = QString::fromStdString(docks_.session->device());
-  const QString before = QString::fromStdString(session::otherDeviceBefore(docks_.session->request().place, now.toStdString()));
+  std::vector<std::string> unreadable;  // the run says so
+  const std::vector<session::RecordedBlock> recorded = session::readRecordedBlocks(docks_.session->request().place, unreadable);
+  const QString before = QString::fromStdString(session::otherDeviceBefore(recorded, now.toStdString()));
   return before.isEmpty() ||
          ask(*this, "askAboutDevice", "Another device",
              QStringLiteral("This session was recorded with the device %1. You resume it with %2, and its trials may not be comparable.")

@@ -75,16 +75,18 @@ void checkBlock(const std::string& key, const PlanBlock& block, std::vector<Faul
   if (block.condition.size() > kMaxCondition)
     faults.push_back({key + ".condition", fmt::format("has {} bytes", block.condition.size()), fmt::format("up to {}", kMaxCondition)});
   checkNumber(key + ".trials", block.trials, wholeNumber(1, kMaxTrials), faults);
-  checkNumber(key + ".pause_s", block.pauseSeconds, {0, kMaxPause, true, "0 to 86400 s"}, faults);
-  checkNumber(key + ".rest_s", block.restSeconds, {0, kMaxPause, true, "0 to 86400 s"}, faults);
-  checkNumber(key + ".catch_share", block.catchShare, {0, kMaxCatchShare, true, "a share from 0 to 0.5"}, faults);
+  const NumberRange pause{0, kMaxPause, true, fmt::format("0 to {:g} s", kMaxPause)};
+  checkNumber(key + ".pause_s", block.pauseSeconds, pause, faults);
+  checkNumber(key + ".rest_s", block.restSeconds, pause, faults);
+  checkNumber(key + ".catch_share", block.catchShare, {0, kMaxCatchShare, true, fmt::format("a share from 0 to {:g}", kMaxCatchShare)},
+              faults);
   if (block.day != 0) checkNumber(key + ".day", block.day, wholeNumber(1, kMaxDay), faults);
   const std::vector<Fault> ofMix = problems(block.mix, block.trials, key);
   faults.insert(faults.end(), ofMix.begin(), ofMix.end());
   if (block.mix.wayBack && block.catchShare > 0)
     faults.push_back({key + ".return", "is reach, and a catch trial has no way back", "free, or a catch_share of 0"});
   if (!(block.foreperiodMin >= 0 && block.foreperiodMin <= block.foreperiodMax && block.foreperiodMax <= kMaxForeperiod))
-    faults.push_back({key + ".foreperiod_s", "is no range", "[from, to] in s, 0 <= from <= to <= 60"});
+    faults.push_back({key + ".foreperiod_s", "is no range", fmt::format("[from, to] in s, 0 <= from <= to <= {:g}", kMaxForeperiod)});
 }
 
 // What the file gives for the plan as a whole is told once, where it stands.

@@ -15,15 +15,10 @@
 
 namespace reachlab::session {
 
-std::vector<Fault> warningsOf(std::span<const experiment::CompiledExperiment> scenes) {
-  std::vector<Fault> warnings;
-  for (const experiment::CompiledExperiment& scene : scenes) {
-    std::vector<Fault> found = trial::implausibleNumbers(scene);
-    for (Fault& fault : trial::describeWay(scene)) found.push_back(std::move(fault));
-    for (const std::string& sentence : dynamics::compileScene(scene).choice.warnings) found.push_back({{}, sentence});
-    for (Fault& fault : found)
-      if (std::find(warnings.begin(), warnings.end(), fault) == warnings.end()) warnings.push_back(std::move(fault));
-  }
+std::vector<Fault> warningsOf(const experiment::CompiledExperiment& scene, const dynamics::MethodChoice& choice) {
+  std::vector<Fault> warnings = trial::implausibleNumbers(scene);
+  for (Fault& fault : trial::describeWay(scene)) warnings.push_back(std::move(fault));
+  for (const std::string& sentence : choice.warnings) warnings.push_back({{}, sentence});
   return warnings;
 }
 

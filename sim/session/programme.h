@@ -1,8 +1,8 @@
 #pragma once
-#include <span>
 #include <string>
 #include <vector>
 
+#include "sim/dynamics/method_choice.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/session/block_scenes.h"
 #include "sim/session/plan.h"
@@ -22,9 +22,9 @@ struct Programme {
 /// scenes can be carried out. Throws FaultError with every fault, each at its position, and RefusedError for a single experiment whose scene
 /// cannot be computed.
 Programme readProgramme(const std::string& fileOrName);
-/// Warnings of scenes that can be computed, each once and under its key: numbers that are hardly meant, a way that rounding decides, and
-/// errors of the method that a person would not expect.
-std::vector<Fault> warningsOf(std::span<const experiment::CompiledExperiment> scenes);
+/// Warnings of a scene and of the method that it is computed by, under their keys: numbers that are hardly meant, a way that rounding
+/// decides, and errors of the method that a person would not expect.
+std::vector<Fault> warningsOf(const experiment::CompiledExperiment& scene, const dynamics::MethodChoice& choice);
 /// The experiment that every station of a session runs. Throws FaultError for a plan.
 const experiment::CompiledExperiment& experimentOfStations(const Programme& programme);
 /// A single experiment, as it is edited in a window or made by a program.

@@ -41,9 +41,7 @@ std::vector<RecordedBlock> readRecordedBlocks(const SessionPlace& place, std::ve
   return blocks;
 }
 
-std::string otherDeviceBefore(const SessionPlace& place, const std::string& device) {
-  std::vector<std::string> unreadable;
-  const std::vector<RecordedBlock> blocks = readRecordedBlocks(place, unreadable);
+std::string otherDeviceBefore(const std::vector<RecordedBlock>& blocks, const std::string& device) {
   const std::string before = blocks.empty() ? device : blocks.back().configuration.device;
   const bool same =
       before == device || before.starts_with(device + ':') || before.starts_with(device + ',');  // with a mapping that is kept

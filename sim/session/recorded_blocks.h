@@ -20,8 +20,8 @@ struct RecordedBlock {
 /// that the disk does not give is a ResourceError, since resuming would repeat its trials.
 std::vector<RecordedBlock> readRecordedBlocks(const SessionPlace& place, std::vector<std::string>& faults, bool mustRead = false);
 
-/// The device of the session's last recorded block, if it differs from `device`: trials with two devices may not be comparable. Otherwise
+/// The device of the last of a session's recorded blocks, if it differs from `device`: trials with two devices may not be comparable. Otherwise
 /// empty.
-std::string otherDeviceBefore(const SessionPlace& place, const std::string& device);
+std::string otherDeviceBefore(const std::vector<RecordedBlock>& blocks, const std::string& device);
 
 }  // namespace reachlab::session

@@ -92,6 +92,14 @@ RecordedRun::RecordedRun(BlockToRun block, std::unique_ptr<haptics::HapticDevice
   inDataset([this] { openLog(); });
 }
 
+std::vector<Fault> RecordedRun::warnings() const {
+  std::vector<Fault> warnings;
+  for (std::size_t i = 0; i < block_.scenes.size(); ++i)
+    for (Fault& warning : warningsOf(block_.scenes[i], conductor_->engine().choice(i)))
+      if (std::find(warnings.begin(), warnings.end(), warning) == warnings.end()) warnings.push_back(std::move(warning));
+  return warnings;
+}
+
 RecordedRun::~RecordedRun() {
   try {
     finish();
@@ -106,7 +114,8 @@ void RecordedRun::completeConfiguration() {
   c.timing = block_.experiment.experiment().timing;
   c.otherHands.assign(hands.begin() + 1, hands.end());
   if (const auto& task = block_.experiment.experiment().task) c.rest = task->rest;
-  c.instruments = options_.instruments != nullptr ? options_.instruments->names() : decltype(c.instruments)();
+  c.instruments.clear();  // a run that is resumed has its own
+  if (options_.instruments != nullptr) c.instruments = options_.instruments->names();
   c.method = choice_.method;
   c.methodReason = choice_.reason;
   for (std::size_t i = 0; c.scenes && i < c.scenes->size(); ++i) {

@@ -92,7 +92,8 @@ class RecordedRun {
   const dynamics::MethodChoice& choice() const { return choice_; }
   const record::RunConfiguration& configuration() const { return block_.configuration; }
   const experiment::CompiledExperiment& experiment() const { return block_.experiment; }
-  std::vector<Fault> warnings() const { return warningsOf(block_.scenes); }
+  /// The warnings of its scenes, each once.
+  std::vector<Fault> warnings() const;
   /// The experiment of a trial, by its kind and target.
   const experiment::CompiledExperiment& experimentOf(const trial::PlannedTrial& trial) const {
     return block_.scenes.at(static_cast<std::size_t>(trial.scene));

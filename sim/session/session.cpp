@@ -155,7 +155,7 @@ struct OrderedBlock {
   const RecordedBlock* recorded;  // null: nothing
 };
 
-void checkPlace(const SessionRequest& request) {
+void checkRequest(const SessionRequest& request) {
   std::vector<Fault> faults = record::problems(request.participant);
   for (const auto& [key, label] : {std::pair{"subject", request.place.subject}, std::pair{"session", request.place.session}})
     if (const auto fault = record::labelFault(label, key)) faults.push_back(*fault);
@@ -274,14 +274,8 @@ int sessionDay(const SessionRequest& request, const Plan& plan) {
   return *asked;
 }
 
-std::optional<Fault> seedFault(const std::string& text) {
-  if (asNumber<std::uint64_t>(text)) return std::nullopt;
-  return Fault{{}, "is " + text, "0 to 18446744073709551615"};
-}
-
-std::string seedRefusal(const std::string& text) {
-  const std::optional<Fault> fault = seedFault(text);
-  return fault ? toText(*fault) : std::string();
+std::string seedFault(const std::string& text) {
+  return asNumber<std::uint64_t>(text) ? std::string() : toText({{}, "is " + text, "0 to 18446744073709551615"});
 }
 
 std::uint64_t drawSeed() {
@@ -290,7 +284,7 @@ std::uint64_t drawSeed() {
 }
 
 SessionToRun planSession(const SessionRequest& request, const Programme& programme) {
-  checkPlace(request);
+  checkRequest(request);
   const Plan plan = planOf(request, programme);
   const int day = sessionDay(request, plan);
   const std::vector<int> order = blockOrder(plan, request.place.subject, day);
@@ -303,6 +297,8 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
   const std::vector<RecordedBlock> recorded = readRecordedBlocks(request.place, session.notice.unreadable, request.resume);
   const std::vector<OrderedBlock> blocks = orderBlocks(request, programme, plan, order, recorded);
   chooseSeed(request, request.resume ? findResumed(request, plan, blocks, recorded) : nullptr, session);
+
+  if (request.resume) session.notice.deviceBefore = otherDeviceBefore(recorded, request.device);
 
   std::vector<Fault> faults;
   int run = chooseRun(request.place, request.run);

@@ -33,6 +33,7 @@ struct SessionRequest {
 /// Warnings before a session begins. Each front end words them itself.
 struct SessionNotice {
   bool seedDrawn = false;               // drawn because the request has no seed
+  std::string deviceBefore;             // of the session that this request resumes, where it asks for another device. Empty: the same
   bool unfinished = false;              // an earlier run of this session broke off, and this request does not resume it
   std::vector<std::string> unreadable;  // logs that are left out, a sentence each
 };
@@ -69,11 +70,9 @@ int sessionDay(const SessionRequest& request, const Plan& plan);
 /// is refused then (FaultError). Keep holdDataset until the log is created.
 void takeFreeRun(BlockToRun& block, const SessionPlace& place, bool askedFor);
 
-/// The fault of a seed's text, which must be a whole number from 0 to 2^64 - 1. A sign or a larger number would silently become another
-/// seed.
-std::optional<Fault> seedFault(const std::string& text);
-/// The fault as one sentence. Empty for a seed.
-std::string seedRefusal(const std::string& text);
+/// The fault of a seed's text in one sentence: it must be a whole number from 0 to 2^64 - 1. A sign or a larger number would silently become
+/// another seed. Empty for a seed.
+std::string seedFault(const std::string& text);
 /// A seed from the system's entropy, for a session without a given seed.
 std::uint64_t drawSeed();
 

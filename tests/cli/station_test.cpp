@@ -97,8 +97,12 @@ void expectLostInTime(const record::RunLog& log, const record::RecordedTrial& tr
 
 // In real time, by two processes: among the long checks (tests/long/stations.sh).
 TEST_F(Stations, DISABLED_TwoMoveOneChainTogether) {
-  const auto [left, right] = both(station(1, "left", "--device simulated:noise=0 --insecure --trials 2"),
-                                  station(2, "right", "--device simulated:noise=0 --insecure"));
+  // A trial that ends for missed time is lost at the other station, however lately it was heard: this one asks for silence alone.
+  std::string text = test::contentOf(fs::path(REACHLAB_SOURCE_DIR) / "resources/experiments/two-hands/chain-two-hands.json");
+  text.insert(text.rfind('}'), R"(, "timing": { "max_missed_ticks": 100000, "max_gap_s": 10 } )");
+  const std::string patient = folder_.write("patient.json", text);
+  const auto [left, right] = both(station(1, "left", "--device simulated:noise=0 --insecure --trials 2", patient),
+                                  station(2, "right", "--device simulated:noise=0 --insecure", patient));
   ASSERT_EQ(left.exitCode, 0) << left.err << "\n--- right:\n" << right.err;
   ASSERT_EQ(right.exitCode, 0) << right.err;
   bool lost = false;

@@ -89,7 +89,7 @@ const std::vector<TrialColumn>& trialColumns() {
       measured("elapsed_s"),
       {"complete", "0: the log broke off in this trial", [](const Row& r) { return whole(r.trial.complete); }},
       // As text, because a double cannot hold every seed.
-      {"seed", "Seed of the block; up to 64 bits, read it as text or as an integer, not as a floating-point number",
+      {"seed", "Seed of the session, as it is asked for; up to 64 bits, read it as text or as an integer, not as a floating-point number",
        [](const Row& r) { return fmt::format("{}", r.run.sessionSeed); }},
       {"device", "Device as it was asked for", [](const Row& r) { return r.run.device; }},
       {"age_years", "Participant's age",
