@@ -37,13 +37,22 @@ std::optional<std::string> DeviceOptions::take(const std::string& key) {
   return value;
 }
 
-double DeviceOptions::number(const std::string& key, double otherwise, double least, double most) {
+template <class Number>
+Number DeviceOptions::within(const std::string& key, Number otherwise, Number least, Number most, const char* kind) {
   const auto text = take(key);
   if (!text) return otherwise;
-  const auto value = asNumber<double>(*text);
+  const auto value = asNumber<Number>(*text);
   if (!value || !(*value >= least) || !(*value <= most))
-    throw FaultError(Fault{"device", fmt::format("{}: {}={}", device_, key, *text), fmt::format("a number from {} to {}", least, most)});
+    throw FaultError(Fault{"device", fmt::format("{}: {}={}", device_, key, *text), fmt::format("{} from {} to {}", kind, least, most)});
   return *value;
+}
+
+double DeviceOptions::number(const std::string& key, double otherwise, double least, double most) {
+  return within(key, otherwise, least, most, "a number");
+}
+
+int DeviceOptions::count(const std::string& key, int otherwise, int least, int most) {
+  return within(key, otherwise, least, most, "a whole number");
 }
 
 std::string DeviceOptions::word(const std::string& key, const std::vector<std::string>& allowed) {

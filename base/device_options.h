@@ -18,6 +18,8 @@ class DeviceOptions {
   std::optional<std::string> take(const std::string& key);
   /// A number within [least, most]. Throws FaultError otherwise.
   double number(const std::string& key, double otherwise, double least, double most);
+  /// A whole number within [least, most]. Throws FaultError otherwise.
+  int count(const std::string& key, int otherwise, int least, int most);
   /// One of the words. The first word is the default. Throws FaultError for any other value.
   std::string word(const std::string& key, const std::vector<std::string>& allowed);
   /// The options that are left, as they were written. A driver hands them on.
@@ -26,6 +28,8 @@ class DeviceOptions {
   void done() const;
 
  private:
+  template <class Number>
+  Number within(const std::string& key, Number otherwise, Number least, Number most, const char* kind);
   std::string device_, plain_;
   std::vector<std::pair<std::string, std::string>> items_;
   std::vector<std::string> known_;

@@ -36,7 +36,7 @@ DeviceDriver partnerDriver() {
             spec.handMass = options.number("hand-mass", spec.handMass, 0.05, 50);
             spec.stiffness = options.number("arm-stiffness", spec.stiffness, 0, 1e5);
             spec.damping = options.number("arm-damping", spec.damping, 0, 1e4);
-            spec.mass = static_cast<int>(options.number("mass", 0, 0, experiment::kMaxMasses));
+            spec.mass = options.count("mass", 0, 0, experiment::kMaxMasses);
             if (spec.role == subjects::PartnerRole::Leader)
               return subjects::makePartnerHand(r.experiment, spec,
                                                subjects::makeSimulatedHand(r.experiment, subjects::parseSubject(options.rest()), r.seed));

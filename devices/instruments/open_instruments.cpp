@@ -26,9 +26,8 @@ std::unique_ptr<Instrument> open(const std::string& spec) {
     throw FaultError(Fault{"instrument", "is " + spec + ", which is unknown", kKnown});
   TriggerLine line{.name = spec, .path = options.plain()};
   if (line.path.empty()) throw FaultError(Fault{"instrument", kind + ": its port is missing", kind + ":/dev/…"});
-  for (std::size_t i = 0; i < kMarkNames.size(); ++i)
-    line.codes[i] = static_cast<int>(std::lround(options.number(kMarkNames[i], line.codes[i], 0, 255)));
-  if (kind == "byte") line.baud = static_cast<int>(options.number("baud", line.baud, 1, 1e7));
+  for (std::size_t i = 0; i < kMarkNames.size(); ++i) line.codes[i] = options.count(kMarkNames[i], line.codes[i], 0, 255);
+  if (kind == "byte") line.baud = options.count("baud", line.baud, 1, 10000000);
   else line.pulse = 1e-3 * options.number("pulse-ms", 1e3 * line.pulse, 1, 1000);
   options.done();
   return kind == "byte" ? openByteLine(line) : kind == "rts" ? openSerialLines(line) : openParallelPort(line);

@@ -126,7 +126,7 @@ std::unique_ptr<haptics::HapticDevice> makeVirtual(const DeviceRequest& request)
   chosen.hand.mass = options.number("arm-mass", chosen.hand.mass, 0, 50);
   chosen.hand.stiffness = options.number("arm-stiffness", kPractisedStiffness, 0, 1e5);
   chosen.hand.damping = options.number("arm-damping", kPractisedDamping, 0, 1e4);
-  chosen.delayTicks = static_cast<int>(options.number("delay-ms", 0, 0, VirtualDevice::kMostDelay - 1));
+  chosen.delayTicks = options.count("delay-ms", 0, 0, VirtualDevice::kMostDelay - 1);
   chosen.quantised = options.word("quantised", {"yes", "no"}) == "yes";
   return std::make_unique<VirtualDevice>(*model, chosen,
                                          subjects::makeSimulatedHand(request.experiment, takeSubject(options), request.seed));

@@ -340,7 +340,7 @@ TEST(OpenInstruments, RefusesWhatItDoesNotKnowAndBoundsItsNumbers) {
   EXPECT_EQ(refusal("trumpet"), "instrument: is trumpet, which is unknown; allowed: lsl, parallel:PATH, rts:PATH, byte:PATH");
   EXPECT_EQ(refusal("rts"), "instrument: rts: its port is missing; allowed: rts:/dev/…");
   EXPECT_EQ(refusal("byte,go=1"), "instrument: byte: its port is missing; allowed: byte:/dev/…");
-  EXPECT_TRUE(holds(refusal("byte:/dev/null,go=256"), "go=256; allowed: a number from 0 to 255"));
+  EXPECT_TRUE(holds(refusal("byte:/dev/null,go=256"), "go=256; allowed: a whole number from 0 to 255"));
   EXPECT_TRUE(holds(refusal("byte:/dev/null,pulse-ms=5"), "pulse-ms is not known")) << "a byte has no length";
   EXPECT_TRUE(holds(refusal("byte:/dev/null"), "/dev/null: Inappropriate ioctl for device"));
   const std::string missing = "/dev/no-such-line: No such file or directory";

@@ -56,6 +56,7 @@ TEST(DeviceOptions, TakeWhatIsKnownAndRefuseTheRest) {
   EXPECT_EQ(options.plain(), "SN1");
   EXPECT_EQ(options.number("gain", 1, 0, 2), 0.5);
   EXPECT_EQ(options.number("absent", 7, 0, 9), 7);
+  EXPECT_EQ(options.count("absent", 7, 0, 9), 7);
   EXPECT_EQ(options.word("mode", {"slow", "fast"}), "fast");
   EXPECT_EQ(options.take("flag"), "") << "a key without a value";
   EXPECT_EQ(options.take("mode"), std::nullopt) << "taken";
@@ -74,6 +75,8 @@ TEST(DeviceOptions, WhatIsWrongIsSaidWithWhatIsAllowed) {
   DeviceOptions options("gain=2.5,mode=slow,other=1", "device x");
   EXPECT_EQ(refusalOf([&] { DeviceOptions(options).number("gain", 1, 0, 2); }),
             "device: device x: gain=2.5; allowed: a number from 0 to 2");
+  EXPECT_EQ(refusalOf([&] { DeviceOptions(options).count("gain", 1, 0, 9); }),
+            "device: device x: gain=2.5; allowed: a whole number from 0 to 9");
   EXPECT_EQ(refusalOf([&] { DeviceOptions(options).word("mode", {"a", "b"}); }), "device: device x: mode=slow; allowed: a, b");
   EXPECT_EQ(refusalOf([&] { options.done(); }), "device: device x: gain is not known; allowed: nothing behind the name");
   EXPECT_EQ(options.number("gain", 1, 2.5, 2.5), 2.5) << "both bounds are within";
