@@ -1,5 +1,6 @@
 #include "devices/hid/hid_port.h"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <hidapi/hidapi.h>
 #include <unistd.h>
@@ -9,6 +10,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/system/hold_alone.h"
 
 namespace reachlab::devices {
 namespace {
@@ -46,7 +48,10 @@ std::string whyNotOpen(const HidInterface& interface) {
   return fmt::format("{}: {}{}", interface.path, std::strerror(error), remedy);
 }
 
-HidPort::HidPort(const HidInterface& interface) : device_(hid_open_path(interface.path.c_str())) {
+HidPort::HidPort(const HidInterface& interface)
+    : alone_(::open(interface.path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)), device_(nullptr) {
+  if (alone_ >= 0) os::holdAlone(alone_, interface.path);
+  device_ = hid_open_path(interface.path.c_str());
   if (device_ != nullptr) return;
   const std::string why = whyNotOpen(interface);
   throw ResourceError(fmt::format("{}: {}", interface.path, why.empty() ? narrow(hid_error(nullptr)) : why));

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "base/system/descriptor.h"
+
 struct hid_device_;  // of hidapi
 
 namespace reachlab::devices {
@@ -39,6 +41,7 @@ class HidPort {
   bool write(std::span<const std::uint8_t> bytes) noexcept;
 
  private:
+  os::Descriptor alone_;
   hid_device_* device_;
 };
 

@@ -14,6 +14,8 @@
 #include <new>
 
 #include "base/error.h"
+#include "base/system/descriptor.h"
+#include "base/system/hold_alone.h"
 #include "base/system/os.h"
 
 namespace reachlab::devices {
@@ -23,6 +25,7 @@ class SerialPort final : public MessageLink {
  public:
   explicit SerialPort(const std::string& path) : file_(::open(path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC)) {
     if (file_ < 0) refuse(path, "", errno == EACCES ? "; install packaging/udev/70-reachlab.rules and plug it in again" : "");
+    os::holdAlone(file_, path);
     termios line{};
     if (::tcgetattr(file_, &line) != 0) refuse(path, "is no serial line: ");
     ::cfmakeraw(&line);
@@ -36,9 +39,6 @@ class SerialPort final : public MessageLink {
       (void)::ioctl(file_, TIOCSSERIAL, &driver);
     }
   }
-  ~SerialPort() override { ::close(file_); }
-  SerialPort(const SerialPort&) = delete;
-  SerialPort& operator=(const SerialPort&) = delete;
 
   bool send(std::string_view line) noexcept override {
     constexpr int kPatienceMs = 20;
@@ -87,7 +87,6 @@ class SerialPort final : public MessageLink {
  private:
   [[noreturn]] void refuse(const std::string& path, const char* what, const char* remedy = "") const {
     const int error = errno;
-    if (file_ >= 0) ::close(file_);
     throw ResourceError(fmt::format("{}: {}{}{}", path, what, std::strerror(error), remedy));
   }
   bool lose(int error) noexcept {
@@ -99,7 +98,8 @@ class SerialPort final : public MessageLink {
     return Got::Gone;
   }
 
-  int file_, fault_ = 0;
+  os::Descriptor file_;
+  int fault_ = 0;
   std::array<char, 2 * kLongestLine> waiting_{};
   std::size_t count_ = 0;  // of the bytes that wait
 };

@@ -227,7 +227,8 @@ class SerialLine : public ::testing::Test {
   SerialLine() {
     char name[128] = {};
     if (::openpty(&wire, &slave, name, nullptr, nullptr) != 0) throw std::runtime_error("openpty");
-    line = openSerial(name);
+    path = name;
+    line = openSerial(path);
   }
   ~SerialLine() override {
     line.reset();
@@ -240,6 +241,7 @@ class SerialLine : public ::testing::Test {
     return line->receive(message, milliseconds) == MessageLink::Got::Message ? message : "nothing";
   }
   int wire = -1, slave = -1;
+  std::string path;
   std::unique_ptr<MessageLink> line;
 };
 
@@ -282,11 +284,17 @@ TEST_F(SerialLine, IsReadWithoutAskingForMemory) {
 }
 
 TEST_F(SerialLine, OneThatCannotBeSetUpIsRefused) {
-  char name[128] = {};
-  ASSERT_EQ(::ttyname_r(slave, name, sizeof name), 0);
+  line.reset();
   settingFault = EIO;
-  EXPECT_EQ(refusalOf([&] { openSerial(name); }), name + std::string(": cannot be set to 115200 baud, raw: Input/output error"));
+  EXPECT_EQ(refusalOf([&] { openSerial(path); }), path + ": cannot be set to 115200 baud, raw: Input/output error");
   settingFault = 0;
+}
+
+// Two hands or two programs would tell one arm two forces.
+TEST_F(SerialLine, IsHeldByOneAlone) {
+  EXPECT_TRUE(holds(refusalOf([&] { openSerial(path); }), path + ": is already in use"));
+  line.reset();
+  EXPECT_NE(openSerial(path), nullptr);
 }
 
 TEST_F(SerialLine, SendsAsItIsAndIsGoneWithItsOtherEnd) {

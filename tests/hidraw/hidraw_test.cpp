@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "devices/driver/registry.h"
+#include "devices/hid/hid_port.h"
 #include "devices/hot_plug.h"
 #include "devices/make_device.h"
 #include "tests/cli/patient.h"
@@ -100,6 +101,13 @@ TEST_F(ArmOverHidraw, GivesItsPlaceAndGetsItsForce) {
   }));
   EXPECT_TRUE(until([&] { return firmware.last == 0; })) << "a force that is not renewed is taken back";
   EXPECT_LE(firmware.most, 2000);
+}
+
+// Its serial number and its path are two names of one arm.
+TEST_F(ArmOverHidraw, IsHeldByOneHandAloneWhateverItIsCalled) {
+  ArmFirmware firmware(bed.wire());
+  const auto one = makeDevice("hid:SN0001", experiment, 1);
+  EXPECT_TRUE(holds(refusalOf([&] { makeDevice("hid:" + findHid().at(0).path, experiment, 1); }), "is already in use"));
 }
 
 TEST_F(ArmOverHidraw, ABlockOfReachesWhoseEncoderWrapsInEachOfThem) {
