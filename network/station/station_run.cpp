@@ -19,8 +19,9 @@ constexpr double kGoodFor = 0.5;  // [s] the links are heard before a trial
 constexpr double kPatience = 3;   // [s] for every station's word on a trial
 // share and [s] by which a round trip may become longer until it is simulated again
 constexpr double kLongerTrip = 0.25, kLongerBy = 0.005;
-constexpr double kOldWords = 0.05;      // [s] in which it is known whether a trial told of has ended already
-constexpr std::size_t kMostHeard = 64;  // events of stations that do not say who they are
+constexpr double kOldWords = 0.05;               // [s] in which it is known whether a trial told of has ended already
+constexpr std::int32_t kMostTrials = 1'000'000;  // of a run; a number beyond it is no station's count
+constexpr std::size_t kMostHeard = 64;           // events of stations that do not say who they are
 
 double now() { return static_cast<double>(os::now()) * 1e-9; }
 
@@ -214,10 +215,10 @@ void StationRun::putUp(StationNews& news) {
     link_->send(arm);
   } else {
     armed_ = armAsked_;
-    trialsBefore_ = armAsked_ - ++putUp_;  // this station may have come back in mid-run
-    sink_->countTrialsFrom(trialsBefore_);
     if (run_->trialsLeft() == 0) run_->repeat(planned_);
   }
+  trialsBefore_ = armed_ - ++putUp_;  // this station may have come back in mid-run
+  sink_->countTrialsFrom(trialsBefore_);
   sink_->synchroniseBy(frequency_);
   ended_.reset();
   (void)run_->putUpNext();
@@ -348,6 +349,8 @@ bool StationRun::obey(const LinkEvent& event, StationNews& news) {
 // Who broke the trial off has let go of the object: it is over for all.
 void StationRun::noteEnd(const LinkEvent& event, StationNews& news) {
   words_.add(event);
+  // A conductor that was started again counts on from what the others have ended, because they prepare no trial twice.
+  if (isConductor() && putUp_ == 0 && event.trial < kMostTrials) armed_ = std::max(armed_, event.trial);
   if (stage_ == Stage::UnderWay && event.trial == armed_ && isBrokenOff(event))
     sink_->breakOff(static_cast<int>(event.station), event.trial);
   news.words.push_back(wordsOf(event));

@@ -233,6 +233,19 @@ TEST_F(OneStation, TheConductorArmsWhenEveryLineIsGoodAndSaysWhyNot) {
   EXPECT_TRUE(noted("simulated with limp hands over this link (round trip 2.0 ms")) << "what was checked is in the log";
 }
 
+// It was killed in mid-run. The others have ended seven trials and prepare none of these again.
+TEST_F(OneStation, AConductorThatIsStartedAgainCountsOn) {
+  open(1, true);
+  showCard(2, false);
+  tell(2, LinkEvent::Kind::Ended, 7);
+  station_->armNext();
+  EXPECT_TRUE(pollUntil([&](const StationNews& news) {
+                hear(2, 0.002);
+                return news.begun;
+              }).begun);
+  EXPECT_EQ(sent(LinkEvent::Kind::Arm).value_or(LinkEvent{}).trial, 8);
+}
+
 // The rod is stiffer than what the design was studied with: 100 ms are within what a link may take, and too much for it.
 TEST_F(OneStation, NothingIsArmedThatWouldNotComeToRestOverThisLine) {
   open(1, true, 2, "body-two-hands");
