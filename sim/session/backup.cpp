@@ -12,6 +12,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <set>
 #include <sstream>
 #include <system_error>
 
@@ -188,6 +189,14 @@ std::string copyVerified(const std::string& from, const std::string& to, std::ui
       fmt::format("{}: reads back with other bytes than were written; the copy was removed: that disk cannot be trusted", to));
 }
 
+// The first cells of a table's rows, as they stand.
+std::set<std::string> rowsOf(const fs::path& table) {
+  std::set<std::string> rows;
+  std::istringstream lines(record::readWholeFile(table.string()));
+  for (std::string line; std::getline(lines, line);) rows.insert(line.substr(0, line.find('\t')));
+  return rows;
+}
+
 class Backup {
  public:
   Backup(const std::string& dataset, const std::string& backup)
@@ -262,10 +271,19 @@ class Backup {
       ++report_.copiedFiles;
       return;
     }
+    const bool ofARun = !runNameOf(file.filename().string()).run.empty();
+    if (!ofARun && name.ends_with(".tsv") && fs::exists(copy, error)) {
+      const std::set<std::string> now = rowsOf(file), kept = rowsOf(copy);
+      for (const std::string& row : kept)
+        if (!now.contains(row))
+          return refuse(
+              fmt::format("{}: has a row of {} that {} lacks; it seems to be the backup of another dataset: choose another folder",
+                          copy.string(), row, file.string()));
+    }
     list_[name] = copyVerified(file.string(), copy.string(), report_.copiedBytes);
     ++report_.copiedFiles;
     // What is safe is said to be, whatever comes after. A table that runs share changes, and must be known then as ours.
-    if (isLog || runNameOf(file.filename().string()).run.empty()) writeList(backup_.string(), list_);
+    if (isLog || !ofARun) writeList(backup_.string(), list_);
   }
 
   fs::path dataset_, backup_;

@@ -211,6 +211,16 @@ TEST_F(Backups, NeverOverwriteAFileThatNoBackupPutThere) {
   EXPECT_EQ(contentOf(backup_ + "/participants.tsv"), contentOf(dataset_ + "/participants.tsv"));
 }
 
+TEST_F(Backups, LoseNoRowOfATableToAnotherDataset) {
+  const std::string table = dataset_ + "/participants.tsv", first = contentOf(table);
+  (void)backUp(dataset_, backup_);
+  std::ofstream(table, std::ios::app) << "sub-02\tn/a\tn/a\tn/a\n";
+  EXPECT_EQ(refusal(), "made") << "a dataset grows";
+  std::ofstream(table) << first;
+  EXPECT_TRUE(holds(refusal(), inBackup(table) + ": has a row of sub-02 that " + table + " lacks"));
+  EXPECT_TRUE(holds(contentOf(inBackup(table)), "sub-02"));
+}
+
 TEST_F(Backups, OfARecoveredLogNameItAndKeepAllOthers) {
   (void)backUp(dataset_, backup_);
   const std::string before = contentOf(inBackup(logOf(1)));
