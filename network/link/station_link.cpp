@@ -223,9 +223,10 @@ StationStatus StationLink::statusOf(int station) const {
   if (s.roundTrip > kMostRoundTrip)
     say(fmt::format("a round trip takes {:.0f} ms; allowed: up to {:.0f}", 1e3 * s.roundTrip, 1e3 * kMostRoundTrip));
   // Overtaken samples are dropped by design, so their share says nothing; what is lost and how long nothing comes does.
-  if (s.lossBound > kMostLoss)
-    say(fmt::format("{:.0f} % of what it sends is lost, perhaps {:.0f} %; allowed: up to {:.0f}", 100 * s.loss, 100 * s.lossBound,
-                    100 * kMostLoss));
+  // A sentence without the bound stays the same while the bound falls, and is printed once.
+  if (s.loss > kMostLoss) say(fmt::format("{:.0f} % of what it sends is lost; allowed: up to {:.0f}", 100 * s.loss, 100 * kMostLoss));
+  else if (s.lossBound > kMostLoss)
+    say(fmt::format("how much of what it sends is lost is not known well enough yet; allowed: up to {:.0f} %", 100 * kMostLoss));
   if (gap > kMostGap) say(fmt::format("nothing comes for {:.0f} ms at a time; allowed: up to {:.0f}", 1e3 * gap, 1e3 * kMostGap));
   if (offsets_[index].jumpNs != 0 && now - offsets_[index].jumpNs < kJumpNs)
     say(fmt::format("its clock jumped by {:.1f} ms against this one's; allowed: up to {:.0f}", 1e3 * offsets_[index].jump,

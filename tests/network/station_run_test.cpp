@@ -325,7 +325,9 @@ TEST_F(OneStation, ALinkThatLosesMoreThanAFifthStandsInTheWay) {
   EXPECT_EQ(status(0, 0.76, 0.03).light, Light::Good) << "what is overtaken is not lost";
   EXPECT_EQ(status(0.11, 0, 0.16).light, Light::Fair);
   EXPECT_EQ(status(0.13, 0, 0.2).obstacles, (std::vector<std::string>{}));
-  EXPECT_EQ(status(0.15, 0, 0.21).obstacles, (std::vector<std::string>{"15 % of what it sends is lost, perhaps 21 %; allowed: up to 20"}));
+  EXPECT_EQ(status(0.15, 0, 0.21).obstacles,
+            (std::vector<std::string>{"how much of what it sends is lost is not known well enough yet; allowed: up to 20 %"}));
+  EXPECT_EQ(status(0.21, 0, 0.3).obstacles, (std::vector<std::string>{"21 % of what it sends is lost; allowed: up to 20"}));
 }
 
 TEST_F(OneStation, StatusesSayHowGoodALineIs) {
