@@ -8,8 +8,8 @@
 
 namespace reachlab::constraints {
 
-/// A point on the constraint, given by its parameters (three metres if free) [m]. It is not finite outside the domain, or if the number of
-/// parameters differs from the constraint's. Any thread. Never allocates.
+/// A point on the constraint, given by its parameters (three metres if free) [m]. It is not finite where the formula has no value, or if the number
+/// of parameters differs from the constraint's. The ends of the domain are not looked at. Any thread. Never allocates.
 Vec3 placeOn(const Constraint& constraint, std::span<const double> q) noexcept;
 
 /// Of a task that leads nowhere.

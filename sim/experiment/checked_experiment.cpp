@@ -5,8 +5,10 @@
 
 #include "base/number_range.h"
 #include "constraints/constraint.h"
+#include "constraints/geometry/task_path.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment_keys.h"
+#include "sim/experiment/task_plane.h"
 
 namespace reachlab::experiment {
 namespace {
@@ -122,34 +124,35 @@ void checkHands(const Experiment& e, std::vector<Fault>& faults) {
 }
 
 // A joint field is a quotient by the bend of the arm: it has no value where the arm is stretched or does not reach.
-void checkReachOfArm(const Experiment& e, const std::string& key, std::vector<Fault>& faults) {
-  if (!e.task || e.constraint.name != "free") return;
+void checkReachOfArm(const Experiment& e, const std::string& key, const constraints::Constraint& constraint, std::vector<Fault>& faults) {
+  constexpr int kProbes = 64;
+  if (!e.task || e.task->start.size() != e.task->target.size()) return;
   const double least = std::abs(e.arm.length[0] - e.arm.length[1]), most = e.arm.length[0] + e.arm.length[1];
-  for (const auto& [name, at] : {std::pair{"start", &e.task->start}, std::pair{"target", &e.task->target}}) {
-    if (at->size() != 3) continue;
-    const double away = std::hypot((*at)[0] - e.arm.shoulder[0], -(*at)[2] - e.arm.shoulder[1]);
-    if (!(away > least && away < most))
-      faults.push_back({key + ".kind", fmt::format("is joint-viscous, but the task's {} is {:g} m from the arm's shoulder", name, away),
-                        fmt::format("more than {:g} and less than {:g} m, where the arm is bent", least, most)});
+  for (int i = 0; i <= kProbes; ++i) {
+    std::vector<double> q = e.task->start;
+    for (std::size_t k = 0; k < q.size(); ++k) q[k] += (e.task->target[k] - q[k]) * i / kProbes;
+    const Vec3 r = constraints::placeOn(constraint, q);
+    if (!isFinite(r)) return;
+    const double away = std::hypot(r.x - e.arm.shoulder[0], -r.z - e.arm.shoulder[1]);
+    if (away > least && away < most) continue;
+    const char* const where = i == 0 ? "the task's start" : i == kProbes ? "the task's target" : "the way to the target";
+    return faults.push_back({key + ".kind", fmt::format("is joint-viscous, but {} is {:g} m from the arm's shoulder", where, away),
+                             fmt::format("more than {:g} and less than {:g} m, where the arm is bent", least, most)});
   }
 }
 
-void checkEnvironment(const Experiment& e, std::vector<Fault>& faults) {
+void checkEnvironment(const Experiment& e, const constraints::Constraint* constraint, std::vector<Fault>& faults) {
   constexpr std::size_t kMostForces = 100;  // a servo cycle has time for them
   if (e.environment.size() > kMostForces)
     return faults.push_back({"environment", fmt::format("has {} forces", e.environment.size()), fmt::format("up to {}", kMostForces)});
-  const bool stays = e.task && e.task->start == e.task->target;
   for (std::size_t i = 0; i < e.environment.size(); ++i) {
     const std::string key = fmt::format("environment[{}]", i);
     const ForceLaw& law = e.environment[i].law;
-    if (std::holds_alternative<ChannelForce>(law) && stays)
-      faults.push_back(
-          {key + ".kind", "is channel, but start and target are the same place", "a task with a distance from start to target"});
     if (const auto* channel = std::get_if<ChannelForce>(&law); channel != nullptr && channel->breakDistance <= channel->halfWidth)
       faults.push_back({key + ".break_m",
                         fmt::format("is {:g}, so that the channel lets go before its walls are touched", channel->breakDistance),
                         fmt::format("more than {:g} m, its half_width_m", channel->halfWidth)});
-    if (std::holds_alternative<JointViscousForce>(law)) checkReachOfArm(e, key, faults);
+    if (constraint != nullptr && std::holds_alternative<JointViscousForce>(law)) checkReachOfArm(e, key, *constraint, faults);
     const auto* pulse = std::get_if<PulseForce>(&law);
     if (pulse == nullptr) continue;
     if (pulse->at.onset.has_value() == pulse->at.distance.has_value())
@@ -166,6 +169,14 @@ void checkCursor(const Experiment& e, std::vector<Fault>& faults) {
   if (!e.cursor) return;
   if (e.object.kind != ObjectKind::None)
     faults.push_back({"cursor", "is given with an object, which the subject sees where it is", "object { \"kind\": \"none\" }"});
+  if (e.task && e.task->start.size() == 3 && e.task->target.size() == 3 && (e.cursor->rotation != 0 || e.cursor->clamp)) {
+    constexpr double kAcross = 1e-9;  // of the way
+    const auto place = [](const std::vector<double>& q) { return Vec3{q[0], q[1], q[2]}; };
+    const Vec3 way = place(e.task->target) - place(e.task->start), normal = normalOf(e.task->plane);
+    if (norm(way) > 0 && norm(way - dot(way, normal) * normal) <= kAcross * norm(way))
+      faults.push_back({e.cursor->clamp ? "cursor.clamp_deg" : "cursor.rotation_deg",
+                        "turns the cursor in the task's plane, and the way to the target is normal to it", "another task.plane"});
+  }
   if (e.cursor->clamp && (e.cursor->rotation != 0 || e.cursor->gain != 1))
     faults.push_back({"cursor.clamp_deg", "is given with a rotation or a gain, and a clamped cursor has neither", "clamp_deg alone"});
 }
@@ -249,7 +260,7 @@ CheckedExperiment check(const Experiment& experiment, const constraints::Constra
   checkObject(experiment.object, faults);
   checkCoupling(experiment, faults);
   checkHands(experiment, faults);
-  checkEnvironment(experiment, faults);
+  checkEnvironment(experiment, checked.constraint.get(), faults);
   checkCursor(experiment, faults);
   if (experiment.task) {
     const auto& constraint = checked.constraint;

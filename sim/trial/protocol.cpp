@@ -92,6 +92,13 @@ bool hasPassedAll(const ProtocolSettings& s, const ProtocolInput& in, ProtocolSt
   return true;
 }
 
+// At onset every mass is at the target of a way that comes back.
+bool hasBeenAway(const ProtocolSettings& s, const ProtocolInput& in, ProtocolState& state) noexcept {
+  if (!s.comesBack || in.masses.empty()) return true;
+  state.farthest = std::max(state.farthest, norm(in.masses.back().r - s.target));
+  return state.farthest > s.positionTolerance;
+}
+
 void watchForOnset(const ProtocolSettings& s, const ProtocolInput& in, ProtocolState& state) noexcept {
   const auto waited = static_cast<std::int64_t>(in.tick - state.armedTick);
   const std::int64_t foreperiod = std::max(0, state.planned.foreperiodTicks);
@@ -114,7 +121,8 @@ void watchForArrival(const ProtocolSettings& s, const ProtocolInput& in, Protoco
   const auto moved = static_cast<std::int64_t>(in.tick - state.onsetTick);
   if (moved >= s.earliestTick) state.semaphore = Semaphore::Green;
   const bool passed = hasPassedAll(s, in, state);
-  if (passed && haveAllArrived(s, in.masses)) {
+  const bool beenAway = hasBeenAway(s, in, state);
+  if (passed && beenAway && haveAllArrived(s, in.masses)) {
     if (moved < s.earliestTick)
       end(state, in.tick, Outcome::Failure, Reason::TimeShort, {0, s.earliest - static_cast<double>(moved) * kTickSeconds});
     else end(state, in.tick, Outcome::Success, Reason::None);
@@ -126,6 +134,7 @@ void watchForArrival(const ProtocolSettings& s, const ProtocolInput& in, Protoco
   Worst worst = away ? position : findWorst(in.masses, s.velocityTolerance, [](const dynamics::MassState& m) { return norm(m.v); });
   if (s.judgesHand) worst.mass = 0;
   if (!passed) end(state, in.tick, Outcome::Failure, Reason::Via, {0, state.viaLeast - s.viaRadius});
+  else if (!beenAway) end(state, in.tick, Outcome::Failure, Reason::Position, {0, s.positionTolerance - state.farthest});
   else end(state, in.tick, Outcome::Failure, away ? Reason::Position : Reason::Velocity, worst);
   state.semaphore = Semaphore::Red;
 }

@@ -44,7 +44,8 @@ struct Constraint;
 /// Where several hands hold the object, each must be at the start, the one that moves first makes the onset, and losing one loses all.
 /// Of several at one tick the lower row of the table wins. Armed begins with the go signal unless the trial has a foreperiod.
 /// No mass is within dx and dv before the last mass has passed all places of `via` in their order. It passes a place when the straight line
-/// between its positions at two ticks comes within `viaRadius`. At T + dT the reason is `via` if a place was not passed, by its least
+/// between its positions at two ticks comes within `viaRadius`. On a way that comes back, no mass is within before the last mass has been
+/// farther than dx from the target; a trial in which it never was fails by `position`, by what was lacking. At T + dT the reason is `via` if a place was not passed, by its least
 /// distance. Otherwise it is `position` while any mass is farther than dx from the target, else `velocity`. The result names the mass
 /// with the largest excess in that quantity. The semaphore is green from T - dT on, red once T + dT has passed without success.
 namespace reachlab::trial {
@@ -61,6 +62,7 @@ struct ProtocolSettings {
   double restSpeed = 1000;        // [m/s] at most, of the estimated velocity
   std::vector<Vec3> via;          // [m] passed in this order
   double viaRadius = 0;           // [m]
+  bool comesBack = false;         // a bent way whose target lies within dx of the start, such as a full lap
   double positionTolerance = 0;   // [m] dx
   double velocityTolerance = 0;   // [m/s] dv
   double earliest = 0;            // [s] T - dT
@@ -106,6 +108,7 @@ struct ProtocolState {
   std::int32_t viaPassed = 0;    // places of `via`
   double viaLeast = 0;           // [m] least distance from the place that comes next
   Vec3 viaFrom = {};             // [m] the last mass at the tick before
+  double farthest = 0;           // [m] of the last mass from the target, since onset
   TrialResult result = {};       // in Done
 };
 

@@ -2,6 +2,7 @@
 
 #include "base/fault.h"
 #include "base/ticks.h"
+#include "constraints/constraint.h"
 #include "constraints/geometry/task_path.h"
 #include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment.h"
@@ -29,6 +30,8 @@ ProtocolSettings makeProtocolSettings(const experiment::Experiment& experiment, 
   s.restSpeed = task.rest.speed;
   s.positionTolerance = task.tolerance.position;
   s.velocityTolerance = task.tolerance.velocity;
+  s.comesBack =
+      constraint.kind != constraints::ConstraintKind::Free && !constraint.straight && norm(s.target - s.start) <= s.positionTolerance;
   s.earliest = task.duration - task.tolerance.time;
   s.earliestTick = std::llround(std::ceil(s.earliest * kTicksPerSecond - kWholeTick));
   s.latestTick = std::llround(std::floor((task.duration + task.tolerance.time) * kTicksPerSecond + kWholeTick));

@@ -15,6 +15,7 @@
 namespace reachlab::trial {
 namespace {
 
+constexpr double kOnePlace = 1e-9;  // [m] between start and target of a lap, whose sines and cosines are rounded
 constexpr double kLongTask = 60;    // [s]
 constexpr double kHeavyMass = 100;  // [kg]
 constexpr double kManyTurns = 1.5;  // a full lap is a reach, and may end a little behind its start
@@ -64,6 +65,15 @@ std::vector<Fault> taskProblems(const experiment::CompiledExperiment& compiled) 
   const bool flat = constraint.kind == constraints::ConstraintKind::Free || constraint.straight;
   if (experiment.task->start == experiment.task->target || (flat && place.start == place.target)) return {constraints::samePlaceFault()};
   std::vector<Fault> found;
+  // Some surfaces are left by their parameters and not by their places, as a sphere is at v beyond its pole.
+  if (const constraints::Domain& domain = constraint.domain[0]; constraint.kind == constraints::ConstraintKind::Curve && !domain.periodic)
+    if (const double target = experiment.task->target[0]; target < domain.lo || target > domain.hi)
+      found.push_back(
+          {"task.target[0]", fmt::format("is {}, beyond an end of the curve", target), fmt::format("{} to {}", domain.lo, domain.hi)});
+  for (std::size_t i = 0; i < experiment.environment.size(); ++i)
+    if (std::holds_alternative<experiment::ChannelForce>(experiment.environment[i].law) && !(norm(place.target - place.start) > kOnePlace))
+      found.push_back({fmt::format("environment[{}].kind", i), "is channel, but start and target are the same place",
+                       "a task with a distance from start to target"});
   for (std::size_t i = 0; i < place.via.size(); ++i)
     if (!canBePassed(constraint, place.via[i], place.viaRadius))
       found.push_back({fmt::format("task.via_m[{}]", i), "is farther from the constraint than via_radius_m, so that no mass can pass it",
@@ -121,6 +131,8 @@ std::vector<Fault> implausibleNumbers(const experiment::CompiledExperiment& comp
   if (task.tolerance.position > way)
     found.push_back({"task.tolerance.position_m",
                      fmt::format("is {} m, more than the way of {:.4g} m from start to target", task.tolerance.position, way)});
+  if (task.onset >= way)
+    found.push_back({"task.onset_m", fmt::format("is {} m, no less than the way of {:.4g} m from start to target", task.onset, way)});
   return found;
 }
 

@@ -60,6 +60,7 @@ TEST(EnvironmentKeys, RefuseForcesThatNoTrialCouldFeel) {
   EXPECT_TRUE(holds(joint(R"({ "shoulder_m": [0, -0.5] })"), "target is 0.6 m from the arm's shoulder")) << "stretched";
   EXPECT_TRUE(holds(joint(R"({ "shoulder_m": [3, 4] })"), "start is 5 m from the arm's shoulder"));
   EXPECT_TRUE(holds(joint(R"({ "shoulder_m": [0, 0], "link_length_m": [0.3, 0.3] })"), "start is 0 m")) << "folded";
+  EXPECT_TRUE(holds(joint(R"({ "shoulder_m": [0, 0.05], "link_length_m": [0.3, 0.29] })"), "the way to the target is")) << "folded between";
   const auto channel = [](const std::string& keys) { return refused(R"("environment": [{ "kind": "channel", )" + keys + " }]"); };
   EXPECT_EQ(channel(R"("half_width_m": 0.01)"), "");
   EXPECT_TRUE(holds(channel(R"("half_width_m": 0.01, "break_m": 0.01)"), "environment[0].break_m: is 0.01"));
@@ -91,14 +92,6 @@ TEST(EnvironmentKeys, RefuseWhatIsNoForceUnderItsKey) {
   EXPECT_TRUE(holds(told(R"({ "kind": "pulse", "force_n": [1, 0, 0], "at": {}, "when": "trial" })"), "when")) << "a pulse has its instant";
   EXPECT_TRUE(holds(told(R"({ "kind": "pulse", "force_n": [1, 0, 0], "at": {} })"), "exactly one of onset_s and distance_m"));
   EXPECT_TRUE(holds(told(R"({ "kind": "pulse", "force_n": [1, 0, 0], "at": { "onset_s": 0 }, "duration_s": 0.01 })"), "shorter than rise"));
-}
-
-TEST(EnvironmentKeys, AChannelNeedsALine) {
-  Experiment e = read(R"("environment": [ { "kind": "channel" } ])");
-  e.task->target = e.task->start;
-  const std::vector<Fault> faults = check(e).faults;
-  ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults[0].key, "environment[0].kind");
 }
 
 TEST(EnvironmentKeys, AFieldThatIsNotFiniteIsRefused) {
@@ -149,6 +142,13 @@ TEST(CursorKeys, AreReadAndWritten) {
 TEST(CursorKeys, RefuseWhatCannotBeReached) {
   EXPECT_TRUE(holds(refused(R"("cursor": { "gain": 0 })"), "cursor.gain: is 0"));
   EXPECT_TRUE(holds(refused(R"("cursor": { "clamp_deg": 30, "rotation_deg": 10 })"), "cursor.clamp_deg"));
+  Experiment up = read(R"("cursor": { "rotation_deg": 30 })");
+  EXPECT_TRUE(check(up).faults.empty());
+  up.task->target = up.task->start, up.task->target[1] += 0.1;  // out of the horizontal plane
+  ASSERT_EQ(check(up).faults.size(), 1u);
+  EXPECT_EQ(check(up).faults[0].key, "cursor.rotation_deg");
+  up.task->plane = TaskPlane::Frontal;
+  EXPECT_TRUE(check(up).faults.empty());
   Experiment e = readExperiment("chain-moderate");
   e.cursor.emplace();
   ASSERT_EQ(check(e).faults.size(), 1u);

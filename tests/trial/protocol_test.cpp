@@ -204,6 +204,33 @@ TEST_F(Protocol, ArrivalNeedsThePlacesOnTheWayInTheirOrder) {
   EXPECT_NEAR(state.result.by, 0.032 * std::cos(std::atan2(0.002, 0.05)) - 1e-4, 1e-12) << "from the way's first part, less the radius";
 }
 
+// Start and target of a full lap are one place, where all masses are at onset.
+TEST_F(Protocol, AWayThatComesBackIsOverOnceTheLastMassHasBeenAway) {
+  settings.target = settings.start;
+  settings.comesBack = true;
+  leave();
+  ticks(900);
+  EXPECT_EQ(state.phase, Phase::Moving) << "nothing has moved yet";
+  arrive(settings.positionTolerance);
+  tick();
+  EXPECT_EQ(state.phase, Phase::Moving) << "no farther than dx";
+  arrive(0.2);
+  tick();
+  arrive();
+  tick();
+  expectEnd(Outcome::Success, Reason::None);
+}
+
+TEST_F(Protocol, AWayThatComesBackAndWasNotGoneFailsByWhatWasLacking) {
+  settings.target = settings.start;
+  settings.comesBack = true;
+  leave();
+  arrive(0.004);
+  ticks(1200);
+  expectEnd(Outcome::Failure, Reason::Position);
+  EXPECT_NEAR(state.result.by, 0.006, 1e-15);
+}
+
 TEST_F(Protocol, TheDeadlineBlamesTheWorstMassForItsPositionElseForItsVelocity) {
   leave();
   arrive();

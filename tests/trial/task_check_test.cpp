@@ -73,12 +73,43 @@ TEST(TaskCheck, TellsOfAToleranceLargerThanTheWay) {
   EXPECT_EQ(onSurface(0.501).size(), 1u);
 }
 
-TEST(TaskCheck, NeedsATaskBetweenTwoPlaces) {
-  const auto problemsWith = [](const std::string& name, const std::function<void(experiment::Experiment&)>& change) {
-    experiment::Experiment e = experiment::readExperiment(name);
-    change(e);
-    return taskProblems(experiment::CompiledExperiment(e));
+TEST(TaskCheck, TellsOfAnOnsetThatIsNoShorterThanTheWay) {
+  EXPECT_TRUE(implausibleWith("chain-moderate", [](auto& e) { e.task->onset = 0.199; }).empty());
+  const auto found = implausibleWith("chain-moderate", [](auto& e) { e.task->onset = 0.201; });
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].key, "task.onset_m");
+}
+
+std::vector<Fault> problemsWith(const std::string& name, const std::function<void(experiment::Experiment&)>& change) {
+  experiment::Experiment e = experiment::readExperiment(name);
+  change(e);
+  return taskProblems(experiment::CompiledExperiment(e));
+}
+
+// A cycloid has two ends.
+TEST(TaskCheck, NeedsATargetOnTheCurve) {
+  const auto target = [](double phi) {
+    return problemsWith("ellipse", [&](auto& e) { e.constraint = {.name = "cycloid"}, e.task->start = {1}, e.task->target = {phi}; });
   };
+  EXPECT_TRUE(target(2 * std::numbers::pi).empty());
+  ASSERT_EQ(target(8).size(), 1u);
+  EXPECT_EQ(target(8)[0].what, "is 8, beyond an end of the curve");
+  EXPECT_EQ(target(-0.1).size(), 1u);
+}
+
+TEST(TaskCheck, NeedsAWayForAChannel) {
+  const auto lap = [](double target) {
+    return problemsWith("ellipse", [&](auto& e) {
+      e.environment = {{experiment::ChannelForce{}}};
+      e.task->start = {0}, e.task->target = {target};
+    });
+  };
+  EXPECT_TRUE(lap(1).empty());
+  ASSERT_EQ(lap(2 * std::numbers::pi).size(), 1u);
+  EXPECT_EQ(lap(2 * std::numbers::pi)[0].key, "environment[0].kind");
+}
+
+TEST(TaskCheck, NeedsATaskBetweenTwoPlaces) {
   EXPECT_TRUE(problemsWith("chain-moderate", [](auto&) {}).empty());
   const auto none = problemsWith("chain-moderate", [](auto& e) { e.task.reset(); });
   ASSERT_EQ(none.size(), 1u);
