@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/math/minimum_jerk.h"
 #include "constraints/geometry/task_path.h"
@@ -39,7 +40,7 @@ std::optional<double> measureRk4Error(Plant& plant, const experiment::Task& task
   const int steps = std::max(1, static_cast<int>(std::ceil(task.duration / step)));
   const std::vector<Vec3> whole = drive(plant, task, hand, step, steps, 1), halves = drive(plant, task, hand, step / 2, 2 * steps, 2);
   plant.placeAtRest(task.start);
-  if (whole.empty() || halves.empty()) return {};
+  if (whole.empty() || halves.empty()) return std::numeric_limits<double>::infinity();  // the first step fails
   double most = 0;
   for (std::size_t i = 0; i < std::min(whole.size(), halves.size()); ++i) most = std::max(most, norm(whole[i] - halves[i]));
   return most * 16 / 15;

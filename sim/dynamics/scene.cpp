@@ -221,12 +221,17 @@ void requireSharedCurve(const constraints::CurveRegularity& regularity, double s
                     speedRatio, kEvenly));
 }
 
-// What one step a tick errs is measured with the first hand alone, along the reach.
+// What one step a tick errs is measured with each hand alone, along the reach.
 void estimateShared(Scene& scene, experiment::Experiment experiment, double step) {
   if (!experiment.task) return;
-  experiment.hands.resize(1);
-  const auto alone = makeSharedPlant(experiment, *scene.constraint);
-  if (const auto measured = measureRk4Error(*alone, *experiment.task, *scene.constraint, step)) scene.choice.predictedError = *measured;
+  std::optional<double> most;
+  for (const experiment::Hand& hand : std::vector(experiment.hands)) {
+    experiment.hands.assign(1, hand);
+    const auto alone = makeSharedPlant(experiment, *scene.constraint);
+    if (const auto measured = measureRk4Error(*alone, *experiment.task, *scene.constraint, step))
+      most = std::max(most.value_or(0), *measured);
+  }
+  scene.choice.predictedError = most.value_or(scene.choice.predictedError);
   constexpr double kAccurate = 1e-6, kUseless = 1e-4;  // [m]
   if (scene.choice.predictedError > kUseless)
     throw RefusedError(

@@ -102,6 +102,27 @@ TEST(Stability, EigenvaluesSolveTheCharacteristicEquation) {
   EXPECT_NEAR(sum.real(), -5.8 / 0.5 - 8.8 / 2, 1e-11) << "all four: their sum is the trace";
 }
 
+// Held at p, a body swings across p by k (1/m + p^2/I) and along p by k/m, and turns freely about p.
+TEST(Stability, OfABodyThatIsHeldBesideItsCentreTheTurnIsKnown) {
+  experiment::Experiment e;
+  e.object.kind = experiment::ObjectKind::Body;
+  e.object.masses = {0.5};
+  e.object.inertia = {{{1e-3, 0, 0}, {0, 1e-3, 0}, {0, 0, 1e-3}}};
+  e.object.fpOffset = {0.06, 0, 0.08};
+  e.coupling = experiment::Coupling{200, 0};
+  const double along = std::sqrt(200 / 0.5), across = std::sqrt(200 * (1 / 0.5 + 0.01 / 1e-3));
+  std::vector<double> speeds;
+  for (const auto& value : computeEigenvalues(makeObjectModel(e))) {
+    EXPECT_NEAR(value.real(), 0, 1e-6);
+    speeds.push_back(std::abs(value));
+  }
+  std::sort(speeds.begin(), speeds.end());
+  ASSERT_EQ(speeds.size(), 12u);
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(speeds[i], 0) << i;
+  for (std::size_t i = 6; i < 8; ++i) EXPECT_NEAR(speeds[i], along, 1e-9) << i;
+  for (std::size_t i = 8; i < 12; ++i) EXPECT_NEAR(speeds[i], across, 1e-9) << i;
+}
+
 TEST(Stability, OfAHundredMassesEveryModeIsKnownAndOfMoreTheBound) {
   EXPECT_EQ(computeEigenvalues(makeObjectModel(makeChain(100, 0.6, 600))).size(), 200u);
   EXPECT_EQ(computeEigenvalues(makeObjectModel(makeChain(101, 0.6, 600))).size(), 2u);

@@ -5,7 +5,6 @@
 #include <string>
 
 #include "base/error.h"
-#include "sim/dynamics/object/hand_springs.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::dynamics {
@@ -55,6 +54,10 @@ ObjectModel makeObjectModel(const experiment::Experiment& experiment) {
     model.handDamping.assign(n, 0.0);
     model.handStiffness[0] = coupling.stiffness;
     model.handDamping[0] = coupling.damping;
+  }
+  if (object.kind == experiment::ObjectKind::Body) {
+    model.inertia = object.inertia;
+    model.hands = handSpringsOf(experiment);
   }
   if (experiment.hands.empty()) return model;
   model.handStiffness.assign(n, 0.0);

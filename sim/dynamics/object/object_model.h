@@ -1,6 +1,8 @@
 #pragma once
+#include <array>
 #include <vector>
 
+#include "sim/dynamics/object/hand_springs.h"
 #include "sim/experiment/experiment_fwd.h"
 #include "sim/experiment/object.h"
 
@@ -15,6 +17,9 @@ struct ObjectModel {
   std::vector<double> handStiffness, handDamping;  // [N/m], [N s/m] to the hand, N; the sum over several hands
   double viscosity = 0;                            // [N s/m] on every mass
   Vec3 gravity;                                    // [m/s^2]
+  // A body only: its inertia [kg m^2] in its own frame, and the hands that hold it.
+  std::array<std::array<double, 3>, 3> inertia{};
+  std::vector<HandSprings> hands = {};
 
   int count() const { return static_cast<int>(mass.size()); }
 };

@@ -9,7 +9,49 @@
 
 namespace reachlab::dynamics {
 
+namespace {
+
+Eigen::Matrix3d crossMatrix(const Vec3& p) {
+  Eigen::Matrix3d m;
+  m << 0, -p.z, p.y, p.z, 0, -p.x, -p.y, p.x, 0;
+  return m;
+}
+
+// At rest, with relaxed springs: M x'' = -B x' - K x for the place and a small turn of the body. The point that a hand holds at p moves by
+// H x, with H = [1, -(p x)]. The hand adds k H^T H to K and b H^T H to B.
+std::vector<std::complex<double>> computeBodyEigenvalues(const ObjectModel& model) {
+  constexpr int n = 6;
+  Eigen::MatrixXd spring = Eigen::MatrixXd::Zero(n, n), damper = spring, a = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+  damper.topLeftCorner(3, 3).diagonal().setConstant(model.viscosity);
+  for (const HandSprings& hand : model.hands) {
+    Eigen::MatrixXd held(3, n);
+    held << Eigen::Matrix3d::Identity(), -crossMatrix(hand.fpOffset);
+    spring += hand.stiffness[0] * held.transpose() * held;
+    damper += hand.damping[0] * held.transpose() * held;
+  }
+  Eigen::Matrix3d inertia;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) inertia(i, j) = model.inertia[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
+  const Eigen::Matrix3d inverse = inertia.inverse();
+  a.topRightCorner(n, n).setIdentity();
+  for (const auto& [column, rates] : {std::pair{0, &spring}, std::pair{n, &damper}}) {
+    a.block(n, column, 3, n) = -rates->topRows(3) / model.mass[0];
+    a.block(n + 3, column, 3, n) = -inverse * rates->bottomRows(3);
+  }
+  const Eigen::VectorXcd values = eigenvalues(a);
+  std::vector<std::complex<double>> modes(values.begin(), values.end());
+  // It turns freely about some axes. Such a pair of zeros comes out as the square root of a rounding.
+  constexpr double kNone = 1e-6;  // of the fastest mode
+  const double fastest = values.cwiseAbs().maxCoeff();
+  for (std::complex<double>& mode : modes)
+    if (std::abs(mode) < kNone * fastest) mode = 0;
+  return modes;
+}
+
+}  // namespace
+
 std::vector<std::complex<double>> computeEigenvalues(const ObjectModel& model) {
+  if (model.kind == experiment::ObjectKind::Body) return computeBodyEigenvalues(model);
   const int n = model.count();
   if (n > 100) {
     const double fastest = boundFastestMode(model);
