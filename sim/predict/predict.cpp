@@ -54,10 +54,14 @@ std::unique_ptr<Prediction> makeArmPrediction(const experiment::Experiment& expe
                                               const StraightTask& straight, const LineObject& object, double duration,
                                               const PredictOptions& options) {
   const ArmTask task{{straight.start.x, -straight.start.z}, {straight.target.x, -straight.target.z}, duration};
-  if (constraint.kind == constraints::ConstraintKind::Free)
+  constexpr double kInPlane = 1e-9;  // of the way
+  if (constraint.kind == constraints::ConstraintKind::Free) {
+    if (std::abs(straight.target.y - straight.start.y) > kInPlane * straight.distance)
+      throw RefusedError("min-torque-change: the arm moves in the plane of x and z, and the way from start to target leaves it");
     return makeFreeArmPrediction(experiment.arm, task, static_cast<int>(object.source.size()), options.unknowns);
+  }
   const Vec3 way = straight.target - straight.start;
-  if (std::hypot(way.y, way.z) > 1e-9 * norm(way))
+  if (std::hypot(way.y, way.z) > kInPlane * norm(way))
     throw RefusedError("min-torque-change: the line must lie along x, as the arm's task plane does");
   return makeLineArmPrediction(experiment.arm, task, object, options.unknowns, options.near);
 }
@@ -107,7 +111,10 @@ std::unique_ptr<Prediction> makeTogetherPrediction(const experiment::Experiment&
 
 void judge(Prediction& prediction, const LineObject* object) {
   if (object != nullptr && !object->parallel) prediction.travelTime = computeTravelTime(*object);
-  if (!std::isfinite(prediction.cost) || prediction.condition > kRefuseCondition || std::isnan(prediction.condition))
+  if (!std::isfinite(prediction.cost) && prediction.condition <= kRefuseCondition)
+    throw RefusedError(
+        fmt::format("the cost in {:.6g} s is beyond the largest number; allow more time, or take fewer masses", prediction.duration));
+  if (prediction.condition > kRefuseCondition || std::isnan(prediction.condition))
     throw RefusedError(fmt::format(
         "the object cannot be brought to rest in {:.6g} s with any precision (condition {:.1e} > {:.0e}{}); allow more time",
         prediction.duration, prediction.condition, kRefuseCondition,
@@ -226,6 +233,11 @@ std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, co
   std::vector<std::string> warnings;
   std::optional<LineObject> object;
   std::optional<PointIs> point;
+  const bool byForce = criterion == Criterion::MinHandForce || criterion == Criterion::MinHandForceChange;
+  if (byForce && !experiment.environment.empty())
+    warnings.push_back("environment acts on the hand, and its forces are no part of the prediction");
+  if (experiment.cursor && experiment.cursor->gain != 1 && experiment.cursor->judge == experiment::CursorJudge::Cursor)
+    warnings.push_back(fmt::format("distances are the cursor's; the hand moves by 1/{} of them", experiment.cursor->gain));
   const bool bare = experiment.object.kind == experiment::ObjectKind::None;
   const bool isPoint = bare || experiment.object.kind == experiment::ObjectKind::Point;
   if (options.point && (!isPoint || bare)) throw FaultError(Fault{"point", "the object is none", "only with an object of kind point"});

@@ -348,6 +348,17 @@ TEST(PredictRefusals, OfAnArmThatDoesNotReach) {
   EXPECT_REFUSED("0.050 m from the shoulder", predict(before, MinTorqueChange));
 }
 
+// Up, and partly up: the arm of the criterion knows no height.
+TEST(PredictRefusals, OfAWayOutOfTheArmsPlane) {
+  for (const double x : {-0.1, 0.0})
+    EXPECT_TRUE(holds(refusalOf([=] { predict(freely(dingwell(), {-0.1, 0, 0}, {x, 0.1, 0}), MinTorqueChange); }), "leaves it")) << x;
+}
+
+TEST(PredictRefusals, OfACostBeyondTheLargestNumber) {
+  experiment::Experiment e = makeChain(60, 0.1, 9000, 3);
+  EXPECT_TRUE(holds(refusalOf([&] { predict(e, MinCrackle); }), "beyond the largest number"));
+}
+
 TEST(PredictRefusals, OfAnObjectOnACurve) {
   const auto bent = onCurve(chainModerate(), {"0.1*cos(phi)", "0.1*sin(phi)", "0"}, 0, 1);
   PredictOptions options{.unknowns = 10};
@@ -416,6 +427,14 @@ TEST(StraightTasks, GravityAlongTheWayIsSaid) {
   }
 }
 
+TEST(StraightTasks, ForcesOnTheHandAreSaid) {
+  experiment::Experiment e = makeChain(2, 1, 300, 1.3);
+  e.environment = {{experiment::ChannelForce{}}};
+  EXPECT_TRUE(predict(e, MinHandJerk)->warnings.empty()) << "its cost has no force";
+  ASSERT_EQ(predict(e, MinHandForce)->warnings.size(), 1u);
+  EXPECT_TRUE(holds(predict(e, MinHandForce)->warnings[0], "environment"));
+}
+
 TEST(TravelTime, IsTwiceTheSumOfEachMasssOnItsSpring) {
   experiment::Experiment e = unevenChain();
   const double once = std::sqrt(0.5 / 700) + std::sqrt(1.0 / 300) + std::sqrt(1.4 / 500);
@@ -478,6 +497,20 @@ TEST(LineObject, IsTheExperimentsSpringsFromTheHandOn) {
   still.viscosity[1] = 0;
   still.dampers[2] = 0.1;
   EXPECT_TRUE(still.damped(false));
+}
+
+// A hand that is given by `hands` holds by its own spring; where it holds another mass the criteria are not defined.
+TEST(LineObject, TakesTheSpringsOfTheOneHand) {
+  experiment::Experiment e = unevenChain();
+  e.hands = {{.mass = 1, .stiffness = {900}, .damping = {7}, .fpOffset = {}}};
+  const LineObject chain = makeLineObject(e, 0, 0);
+  EXPECT_EQ(chain.springs, (std::vector<double>{900, 300, 500}));
+  EXPECT_EQ(chain.dampers[0], 7);
+  e.hands[0].mass = 2;
+  EXPECT_TRUE(holds(refusalOf([&] { makeLineObject(e, 0, 0); }), "hands[0].mass: is 2"));
+  experiment::Experiment pair = parallelPair();
+  pair.hands = {{.mass = 0, .stiffness = {11, 12}, .damping = {1, 2}, .fpOffset = {}}};
+  EXPECT_EQ(makeLineObject(pair, 0, 0).springs, (std::vector<double>{11, 12}));
 }
 
 TEST(RigidPrediction, EveryCriterionHasItsPolynomial) {

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include "base/fault.h"
 #include "tests/predict/objects.h"
@@ -48,11 +49,11 @@ TEST(Shape, SeesEveryWaveOfTheFastestFrequency) {
             80);
 }
 
-TEST(Sweep, HasBothEndsToHalfAStep) {
+TEST(Sweep, HasBothEndsWhereTheStepsMeetThem) {
   EXPECT_EQ((Sweep{"n", 1, 3, 1}.values()), (std::vector<double>{1, 2, 3}));
   EXPECT_EQ((Sweep{"n", 2, 2, 0.5}.values()), std::vector<double>{2});
   EXPECT_EQ((Sweep{"n", 1, 2.4, 1}.values()), (std::vector<double>{1, 2}));
-  EXPECT_EQ((Sweep{"n", 1, 2.6, 1}.values()), (std::vector<double>{1, 2, 3})) << "to half a step beyond";
+  EXPECT_EQ((Sweep{"n", 1, 2.6, 1}.values()), (std::vector<double>{1, 2})) << "never beyond";
   const auto tenths = Sweep{"duration_s", 0.5, 1.5, 0.1}.values();
   ASSERT_EQ(tenths.size(), 11u);
   for (std::size_t i = 0; i < 11; ++i) EXPECT_DOUBLE_EQ(tenths[i], 0.5 + 0.1 * static_cast<double>(i));
@@ -166,6 +167,10 @@ TEST(SweepKeys, TakeValuesThatMakeSenseAlone) {
   EXPECT_EQ(sweepKeys().size(), 12u);
   EXPECT_EQ(refusalOf([] { applied("duration_s", 3600); }), "");
   EXPECT_TRUE(holds(refusalOf([] { applied("duration_s", 3601); }), "0.001 to 3600 s"));
+  for (const auto& [key, value, allowed] : {std::tuple{"mass_kg", 1e7, "1e-06 to 1e+06 kg"},
+                                            {"coupling.stiffness_n_per_m", 1e10, "0 to 1e+09 N/m"},
+                                            {"viscosity_n_s_per_m", 1e10, "0 to 1e+09 N s/m"}})
+    EXPECT_TRUE(holds(refusalOf([&, key = key, value = value] { applied(key, value); }), allowed)) << key;
   EXPECT_TRUE(holds(refusalOf([] { applied("colour", 1); }), "'colour', which is no key"));
   Applied parallel;
   parallel.experiment = parallelPair();

@@ -33,6 +33,21 @@ bool LineObject::damped(bool withHand) const {
 
 double LineObject::totalMass() const { return std::accumulate(masses.begin(), masses.end(), handMass); }
 
+namespace {
+
+// One hand that is given by `hands` holds by its own springs: as a chain's first spring, or as all springs of a parallel object.
+void takeOneHand(const experiment::Hand& hand, LineObject& line) {
+  if (line.parallel != (hand.mass == 0) || hand.mass > 1)
+    throw FaultError(Fault{"hands[0].mass",
+                           fmt::format("is {}, and a prediction needs a hand that holds {}", hand.mass,
+                                       line.parallel ? "each mass of a parallel object" : "the first mass of a chain"),
+                           line.parallel ? "no key mass" : "1"});
+  std::copy(hand.stiffness.begin(), hand.stiffness.end(), line.springs.begin());
+  std::copy(hand.damping.begin(), hand.damping.end(), line.dampers.begin());
+}
+
+}  // namespace
+
 LineObject makeLineObject(const experiment::Experiment& experiment, double handMass, double handDamping) {
   const experiment::Object& object = experiment.object;
   if (object.kind == experiment::ObjectKind::Body)
@@ -58,6 +73,7 @@ LineObject makeLineObject(const experiment::Experiment& experiment, double handM
   line.dampers.resize(n, 0.0);
   if (n == 0 || line.springs.size() != n)
     throw FaultError(Fault{"object.stiffness_n_per_m", "has not as many springs to the hand as there are masses", {}});
+  if (experiment.hands.size() == 1) takeOneHand(experiment.hands.front(), line);
   requirePositive(line.masses, "mass", "kg");
   requirePositive(line.springs, line.parallel ? "spring" : "spring (the coupling is number 1)", "N/m");
   line.source.resize(n);

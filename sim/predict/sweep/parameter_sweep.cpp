@@ -7,6 +7,7 @@
 #include <cmath>
 #include <mutex>
 #include <numeric>
+#include <optional>
 #include <thread>
 
 #include "base/as_number.h"
@@ -45,6 +46,15 @@ void resizeObject(experiment::Experiment& experiment, double value, bool keepTot
   object.stiffness.assign(parallel ? n : n - 1, spring);
   object.damping.assign(object.stiffness.size(), damper);
   if (!parallel) object.kind = n == 1 ? experiment::ObjectKind::Point : experiment::ObjectKind::Chain;
+}
+
+// What an experiment's file may have. The numbers of masses have another bound.
+std::optional<NumberRange> rangeOf(const std::string& key) {
+  if (key == "duration_s") return experiment::durationRange();
+  if (key.ends_with("stiffness_n_per_m")) return experiment::stiffnessRange();
+  if (key.ends_with("_n_s_per_m")) return experiment::dampingRange();
+  if (key.ends_with("mass_kg")) return key.starts_with("hand_") ? experiment::handMassRange() : experiment::massRange();
+  return std::nullopt;
 }
 
 experiment::Coupling& couplingOf(experiment::Experiment& experiment) {
@@ -110,8 +120,9 @@ ProfileShape computeShape(const Prediction& prediction) {
 std::span<const SweepKey> sweepKeys() { return kKeys; }
 
 std::vector<double> Sweep::values() const {
+  constexpr double kWhole = 1e-6;  // of a step, by which TO may be missed
   std::vector<double> all;
-  const auto count = static_cast<long>(std::floor((to - from) / step + 0.5));
+  const auto count = static_cast<long>(std::floor((to - from) / step + kWhole));
   for (long i = 0; i <= count; ++i) all.push_back(from + static_cast<double>(i) * step);
   return all;
 }
@@ -138,10 +149,13 @@ Sweep parseSweep(const std::string& text) {
 void applySweepValue(const std::string& key, double value, Experiment& experiment, PredictOptions& options) {
   const bool zeroAllowed = key == "damping_n_s_per_m" || key == "viscosity_n_s_per_m" || key.starts_with("hand_");
   if (!(value > 0) && !(zeroAllowed && value == 0)) throw FaultError(Fault{"sweep", fmt::format("is {} = {}", key, value), "above 0"});
-  if (key == "duration_s" && !isWithin(experiment::durationRange(), value))
-    throw FaultError(Fault{"sweep", fmt::format("is {} = {}", key, value), experiment::durationRange().allowed});
+  if (const auto range = rangeOf(key); range && !isWithin(*range, value))
+    throw FaultError(Fault{"sweep", fmt::format("is {} = {}", key, value), range->allowed});
   const auto found = std::find_if(kKeys.begin(), kKeys.end(), [&](const SweepKey& k) { return k.name == key; });
   if (found == kKeys.end()) throw FaultError(Fault{"sweep", fmt::format("has '{}', which is no key", key), "a key that is listed"});
+  const bool ofSprings = key == "n" || key == "n_each" || key.ends_with("stiffness_n_per_m") || key == "damping_n_s_per_m";
+  if (ofSprings && !experiment.hands.empty())
+    throw FaultError(Fault{"sweep", fmt::format("is of {}, and this experiment's hands have springs of their own", key), "another key"});
   found->set(value, experiment, options);
 }
 
