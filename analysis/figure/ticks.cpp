@@ -25,7 +25,8 @@ std::string superscript(int exponent) {
 
 AxisTicks linearTicks(const Axis& axis, double low, double high, double length) {
   AxisTicks out;
-  if (!(high > low)) {  // one value, or none at all: an axis around it
+  constexpr double kOneValue = 1e-12;                                         // of a value: values nearer to each other differ by rounding
+  if (!(high - low > kOneValue * std::max(std::abs(low), std::abs(high)))) {  // one value, or none at all: an axis around it
     const double half = low == 0 || !std::isfinite(low) ? 1 : 0.5 * std::abs(low);
     const double middle = std::isfinite(low) ? low : 0;
     low = middle - half;
@@ -86,7 +87,10 @@ std::vector<double> niceTicks(double from, double to, int wanted) {
   if (!(from < to) || !std::isfinite(from) || !std::isfinite(to)) return ticks;
   const double step = niceStep(to - from, wanted);
   const double slack = 1e-9 * (to - from) / step;
-  for (double i = std::ceil(from / step - slack); i <= to / step + slack; ++i) ticks.push_back(i == 0 ? 0.0 : i * step);
+  const double first = std::ceil(from / step - slack), count = std::floor(to / step + slack) - first;
+  // Where the ends differ in their last digits only, no number between them is nicer than another.
+  if (!(std::abs(first) < 1e12)) return ticks;
+  for (int i = 0; i <= static_cast<int>(count); ++i) ticks.push_back(first + i == 0 ? 0.0 : (first + i) * step);
   return ticks;
 }
 

@@ -37,6 +37,7 @@ TEST(NiceTicks, OfNoIntervalAreNone) {
   EXPECT_TRUE(niceTicks(2, 1, 5).empty());
   EXPECT_TRUE(niceTicks(std::nan(""), 1, 5).empty());
   EXPECT_TRUE(niceTicks(0, std::numeric_limits<double>::infinity(), 5).empty());
+  EXPECT_TRUE(niceTicks(0.1, std::nextafter(0.1, 1), 5).empty()) << "no step is large enough to come from one to the next";
 }
 
 TEST(Figure, IsTheSameBytesEachTime) {

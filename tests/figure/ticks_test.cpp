@@ -67,6 +67,8 @@ TEST(ChooseTicks, OfOneValueOrNoneAreAroundIt) {
   EXPECT_TRUE(zero.from == -1 && zero.to == 1);
   const AxisTicks below = chooseTicks(Axis{}, -4, -4, 66);
   EXPECT_TRUE(below.from == -6 && below.to == -2);
+  const AxisTicks rounded = chooseTicks(Axis{}, 4, std::nextafter(4, 5), 66);
+  EXPECT_TRUE(rounded.from == one.from && rounded.to == one.to) << "values that differ by rounding are one";
 }
 
 // Five decades on 150 pt: every second is named, the others are short marks.
