@@ -71,7 +71,8 @@ bool describesPoorly(const Conclusion& c) {
   const bool systematic = c.systematic.p() < kSystematicLevel && c.systematic.share >= kLeastSystematic &&
                           c.systematic.share * (1 - c.r2) >= kLeastSystematicSpeed * kLeastSystematicSpeed;
   const bool mixed = c.mixtureP < kMixtureLevel && c.mixture.mean >= kLeastMixture;
-  return misfits || systematic || mixed || 1 - c.r2 > kMostUnexplained * (1 - c.ceiling);
+  constexpr double kRounding = 1e-9;  // a mean of ones is not always one
+  return misfits || systematic || mixed || 1 - c.r2 > kMostUnexplained * (1 - c.ceiling) + kRounding;
 }
 
 /// What keeps several people from one conclusion.

@@ -90,6 +90,9 @@ std::vector<double> layResidual(const FitWindow& window, std::span<const double>
   return out;
 }
 
+/// Two candidates nearer to each other than this part of what the one leaves are one: between them there is no share of the way.
+constexpr double kLeastWay = 1e-3;
+
 std::vector<std::vector<double>> computeSharesOfOthers(std::span<const LaidResiduals> fits, std::size_t of) {
   const LaidResiduals& own = fits[of];
   std::vector<std::vector<double>> out;
@@ -99,12 +102,12 @@ std::vector<std::vector<double>> computeSharesOfOthers(std::span<const LaidResid
       for (std::size_t k = 0; k < kPhases; ++k) sum[k] += own[i][k] - other[i][k];
     std::vector<double>& shares = out.emplace_back();
     for (std::size_t i = 0; i < own.size(); ++i) {
-      double along = 0, square = 0;
+      double along = 0, square = 0, rest = 0;
       for (std::size_t k = 0; k < kPhases; ++k) {
         const double way = (sum[k] - (own[i][k] - other[i][k])) / static_cast<double>(own.size() - 1);
-        along += own[i][k] * way, square += way * way;
+        along += own[i][k] * way, square += way * way, rest += own[i][k] * own[i][k];
       }
-      shares.push_back(square > 0 ? along / square : 0);
+      shares.push_back(square > kLeastWay * kLeastWay * rest ? along / square : 0);
     }
   }
   return out;

@@ -71,6 +71,15 @@ TEST(Conclusion, OfFivePeopleWhoAgreeIsDecided) {
   EXPECT_EQ(concludePeople(people(6, 2, 0.8), kCandidates, kReference).signFlipP, 2.0 / 64);
 }
 
+// A study has no R^2, and the mean of n ones differs from one by a rounding for some n.
+TEST(Conclusion, OfAnyNumberOfPeopleWhoLeaveNothingIsDecided) {
+  for (std::size_t n = 5; n <= 40; ++n) {
+    std::vector<PersonScores> all = people(n, 2, 0.8);
+    for (PersonScores& one : all) one.conditions[0].r2.assign(kCandidates, 1), one.conditions[0].ceiling = 1;
+    EXPECT_EQ(concludePeople(all, kCandidates, kReference).follows, 2u) << n;
+  }
+}
+
 TEST(Conclusion, ThatTheReferenceIsAsNearIsNone) {
   EXPECT_EQ(concludePeople(people(5, kReference, 1), kCandidates, kReference).reason, Obstacle::Reference);
   EXPECT_EQ(concludePeople(people(1, kReference, 1), kCandidates, kReference).reason, Obstacle::Reference);
