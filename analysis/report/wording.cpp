@@ -69,7 +69,8 @@ std::string describeCandidate(const std::vector<predict::Criterion>& criteria) {
   if (criteria.empty()) return "a minimum jerk that ignores the object";
   std::vector<std::string> names;
   for (const predict::Criterion c : criteria) names.push_back(numberedName(c));
-  return joined(names) + (names.size() > 1 ? ", which predict the same" : "");
+  if (names.size() == 1) return names.front();
+  return fmt::format("{} (the same prediction as {})", names.front(), joined(std::vector<std::string>(names.begin() + 1, names.end())));
 }
 
 namespace {
@@ -79,11 +80,13 @@ std::string fitText(const Conclusion& c, const Names& names) {
   std::string text;
   if (c.systematic.variance > 0)
     text += fmt::format("{} % of what it leaves is the same in every trial or grows with the duration ({}). ",
-                        shortNumber(100 * c.systematic.share), pText(c.systematic.p()));
-  if (c.mixedWith) {
+                        shortNumber(100 * std::max(0.0, c.systematic.share)), pText(c.systematic.p()));
+  constexpr double kMostShown = 2;  // farther beyond the other, the two hardly differ, and the share says nothing
+  if (c.mixedWith && std::abs(c.mixture.mean) <= kMostShown) {
     const Bounds interval = intervalOf(c.mixture);
-    text += fmt::format("The movements go {} % {} of the way towards {} ({}). ", shortNumber(100 * c.mixture.mean),
-                        intervalText({100 * interval.low, 100 * interval.high}), describeCandidate(names[*c.mixedWith]), pText(c.mixtureP));
+    const std::string within = intervalText({100 * interval.low, 100 * interval.high});
+    text += fmt::format("The movements go {} %{}{} of the way towards {} ({}). ", shortNumber(100 * c.mixture.mean),
+                        within.empty() ? "" : " ", within, describeCandidate(names[*c.mixedWith]), pText(c.mixtureP));
   }
   return text;
 }
@@ -276,7 +279,12 @@ std::string describeGroup(const std::string& training, bool rotated, const std::
                         sided(&Learning::last));
   const auto after = known(&Learning::afterEffect), first = known(&Learning::first);
   if (after.empty()) return text + " No trial without it followed, so that no after-effect is known.";
-  const bool opposite = computeMeanSd(after).mean * computeMeanSd(first).mean < 0;
+  const TTest shown = computeTTest(after);
+  const Bounds within = intervalOf(shown);
+  constexpr double kNothing = 1e-6;  // [mm] or [degrees]
+  if (scale * std::abs(shown.mean) < kNothing || (within.finite() && within.low <= 0 && within.high >= 0))
+    return text + fmt::format(" Without it they then deviated by {}. No after-effect is shown.", sided(&Learning::afterEffect));
+  const bool opposite = shown.mean * computeMeanSd(first).mean < 0;
   return text + fmt::format(" Without it they then deviated by {}, {} deviation at first (after-effect).", sided(&Learning::afterEffect),
                             opposite ? "against the" : "to the side of the");
 }

@@ -8,7 +8,7 @@ namespace reachlab::analysis {
 
 /// Sentences of the report, as they also go to the terminal. Plain text, no mark-up.
 
-/// A candidate as it is named: "(1) min-hand-jerk", "(4) min-hand-force and (6) min-com-acceleration, which predict the same", or "a
+/// A candidate as it is named: "(1) min-hand-jerk", "(4) min-hand-force (the same prediction as (6) min-com-acceleration)", or "a
 /// minimum jerk that ignores the object".
 std::string describeCandidate(const std::vector<predict::Criterion>& criteria);
 

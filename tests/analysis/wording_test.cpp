@@ -47,9 +47,10 @@ std::string told(const Conclusion& c) {
 
 TEST(Wording, OfAConclusionSaysWhomItIsAbout) {
   Conclusion c = decided();
-  EXPECT_EQ(told(c),
-            "The movements of these 6 subjects (123 trials) follow (4) min-hand-force and (6) min-com-acceleration, which predict the same "
-            "most closely among the candidates: it is nearer than every other, and than a minimum jerk that ignores the object.");
+  EXPECT_EQ(
+      told(c),
+      "The movements of these 6 subjects (123 trials) follow (4) min-hand-force (the same prediction as (6) "
+      "min-com-acceleration) most closely among the candidates: it is nearer than every other, and than a minimum jerk that ignores the object.");
   c.overSubjects = false;
   c.trials = 1;
   expectIn(told(c), {"This person's movements in these 1 trial follow", "; nothing follows about other people from one subject."});
@@ -66,10 +67,9 @@ TEST(Wording, OfNoConclusionSaysWhy) {
             "min-hand-jerk and 1 undecided.");
   c.reason = Obstacle::SubjectsDiffer;
   c.each = {2u, 0u};
-  EXPECT_EQ(
-      told(c),
-      "Nothing can be concluded: people differ. Closest over all is (4) min-hand-force and (6) min-com-acceleration, which predict the "
-      "same; each judged alone: 1 for (1) min-hand-jerk and 1 for (3) min-crackle.");
+  EXPECT_EQ(told(c),
+            "Nothing can be concluded: people differ. Closest over all is (4) min-hand-force (the same prediction as (6) "
+            "min-com-acceleration); each judged alone: 1 for (1) min-hand-jerk and 1 for (3) min-crackle.");
   c.reason = Obstacle::Poor;
   c.best = 0;
   c.misfit.mean = 0.5, c.misfit.p = 0.0021;
@@ -163,6 +163,7 @@ TEST(Wording, OfLearningGivesPlateauAfterEffectAndItsSide) {
       describeLearning(madeAdaptation({60}, -0.02)),
       "In a counterclockwise curl field of 13 N s/m, 1 subject learned to cancel 60 % of it (channel trials of the last quarter of the "
       "training). Without it they then deviated by 10 mm to the right, against the deviation at first (after-effect).");
+  expectIn(describeLearning(madeAdaptation({60}, 0)), {"Without it they then deviated by 0 mm", "No after-effect is shown."});
   // t(0.975; 2) sd / sqrt(3) = 4.3027 * 10 / 1.7321 = 24.8.
   expectIn(describeLearning(madeAdaptation({50, 60, 70}, 0.02)),
            {"3 subjects learned to cancel 60 [35.2, 84.8] % of it", "by 10 mm to the left, against the"});
