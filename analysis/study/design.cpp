@@ -25,14 +25,17 @@ std::optional<std::string> optionText(const JsonNode& node) {
   return std::nullopt;
 }
 
+constexpr const char* kOption = "a number or a word";
+// What holds the options of a device apart is in no option.
+bool isOption(const std::optional<std::string>& text) { return text && text->find_first_of(",=:") == std::string::npos; }
+
 void readSubject(ObjectReader& reader, Design& design) {
   const JsonNode* node = reader.optional("subject");
   if (node == nullptr) return;
   if (node->kind != JsonNode::Kind::Object) return reader.faults().add(*node, "subject", "is no object", "options of the simulated device");
   for (const auto& [key, value] : node->members) {
     const auto text = optionText(value);
-    if (!text || text->find_first_of(",=:") != std::string::npos)
-      reader.faults().add(value, "subject." + key, "is no option", "a number or a word");
+    if (!isOption(text)) reader.faults().add(value, "subject." + key, "is no option", kOption);
     else design.subject.emplace_back(key, *text);
   }
 }
@@ -66,6 +69,22 @@ std::int64_t readUniform(ObjectReader& axis, VariedKey& out) {
   return n;
 }
 
+// Whether two paths name a common value: "masses_kg[0]" and "masses_kg[*]", or "object" and "object.kind".
+bool nameOneValue(std::string_view one, std::string_view other) {
+  const auto take = [](std::string_view& path) {
+    const std::size_t end = std::min(path.find_first_of(".[", 1), path.size());
+    const std::string_view part = path.substr(0, end);
+    path.remove_prefix(end);
+    return part;
+  };
+  while (!one.empty() && !other.empty()) {
+    const std::string_view a = take(one), b = take(other);
+    const bool all = a.starts_with('[') && b.starts_with('[') && (a == "[*]" || b == "[*]");
+    if (a != b && !all) return false;
+  }
+  return true;
+}
+
 void readAxes(ObjectReader& reader, Design& design) {
   const JsonNode* node = reader.optional("vary");
   if (node == nullptr) return;
@@ -75,8 +94,14 @@ void readAxes(ObjectReader& reader, Design& design) {
     VariedKey axis;
     axis.path = path;
     const std::string key = "vary." + path;
+    for (const VariedKey& before : design.axes)
+      if (nameOneValue(before.path, path))
+        reader.faults().add(value, key, fmt::format("sets a value that vary.{} sets, too", before.path), "each value in one key");
     if (value.kind == JsonNode::Kind::Array) {
-      for (const JsonNode& item : value.items) axis.values.push_back(experiment::valueText(item));
+      for (const JsonNode& item : value.items) {
+        axis.values.push_back(experiment::valueText(item));
+        if (path.starts_with("subject.") && !isOption(optionText(item))) reader.faults().add(item, key, "is no option", kOption);
+      }
       if (axis.values.empty()) reader.faults().add(value, key, "is empty", "one value or more");
     } else if (value.kind == JsonNode::Kind::Object) {
       ObjectReader inner(reader.faults(), value, key);

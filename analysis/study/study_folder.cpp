@@ -63,6 +63,9 @@ StudyFolder makeFolder(const Design& design, const std::string& path) {
   record::makeFolders(path);
   record::removeLeftovers(path);
   const std::string file = designPath(path), text = textOf(folder);
+  std::error_code error;
+  if (!fs::exists(file, error) && !fs::is_empty(path, error))
+    throw ResourceError(path + ": holds other files, and no study; allowed: a new folder, or that of this study");
   if (!record::createFileAtomically(file, text) && record::readWholeFile(file) != text)
     throw ResourceError(file +
                         ": is of another study, or of this one with other files or another version of the program; allowed: a folder of "

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -70,6 +71,11 @@ std::vector<Fault> warningsOf(const session::Programme& programme) {
   return warnings;
 }
 
+bool isStudy(const JsonNode& tree) {
+  constexpr std::array kOwn{"subjects", "vary", "measures", "experiment", "plan"};  // in no other file
+  return std::any_of(kOwn.begin(), kOwn.end(), [&](const char* key) { return tree.find(key) != nullptr; });
+}
+
 // What a file is shows in its keys; a file that shows nothing is read as an experiment, whose faults then say what is missing. Returns what can
 // be done with it, if it is an experiment or a plan.
 std::optional<session::Programme> validateFile(const std::string& fileOrName) {
@@ -85,7 +91,7 @@ std::optional<session::Programme> validateFile(const std::string& fileOrName) {
     session::Programme programme = session::readProgramme(file);
     warn(warningsOf(programme), text, file);
     return programme;
-  } else if (tree.find("subjects") != nullptr) {
+  } else if (isStudy(tree)) {
     study::checkPoints(study::readDesign(file), prepareSimulated());
   } else if (tree.find("curve") != nullptr || tree.find("surface") != nullptr) {
     constraints::parseDefinition(text, file);

@@ -1,5 +1,6 @@
 #include "analysis/study/design.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -51,7 +52,8 @@ TEST(StudyDesign, RefusesWhatIsOutOfItsBounds) {
   expectIn(refusalOf("", R"("subjects": 3, "plan": "nowhere")"), {"is nowhere, which is not there"});
   expectIn(refusalOf(R"(, "subject": 3)"), {"is no object"});
   for (const char* option : {R"("a,b")", R"("a=b")", R"("a:b")", "true"})
-    expectIn(refusalOf(R"(, "subject": { "k": )" + std::string(option) + "}"), {"subject.k: is no option"});
+    for (const char* form : {R"(, "subject": {{ "k": {} }})", R"(, "vary": {{ "subject.k": [{}] }})"})
+      expectIn(refusalOf(fmt::format(fmt::runtime(form), option)), {"subject.k: is no option"});
 }
 
 TEST(StudyDesign, TakesStepsWithBothEnds) {
@@ -70,6 +72,9 @@ TEST(StudyDesign, TakesStepsWithBothEnds) {
   expectIn(refusalOf(R"(, "vary": { "x": [] })"), {"vary.x: is empty"});
   expectIn(refusalOf(R"(, "vary": { "x": 3 })"), {"is no list of values"});
   expectIn(refusalOf(R"(, "vary": 3)"), {"vary: is no object"});
+  for (const char* second : {"object.masses_kg[*]", "object.masses_kg", "object"})
+    expectIn(refusalOf(fmt::format(R"(, "vary": {{ "object.masses_kg[0]": [1], "{}": [2] }})", second)), {"sets a value that vary."});
+  EXPECT_EQ(refusalOf(R"(, "vary": { "object.masses_kg[0]": [1], "object.masses_kg[10]": [2], "object.mass": [1] })"), "");
 }
 
 TEST(StudyDesign, DrawsOneNumberOfSamplesForAllRandomAxes) {
