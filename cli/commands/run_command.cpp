@@ -31,6 +31,11 @@ void printNotice(const session::SessionNotice& notice, const std::string& device
                notice.deviceBefore, device);
   if (notice.unfinished)
     fmt::print(stderr, "note: an earlier run of this session is not finished. --resume continues it. This is a new run\n");
+  if (notice.again)
+    fmt::print(stderr,
+               "warning: this session has blocks of this plan already, and they are recorded again; --resume continues after them\n");
+  if (notice.nothingToResume)
+    fmt::print(stderr, "warning: nothing of this session is recorded, so there is nothing to resume. It begins\n");
   for (const std::string& sentence : notice.unreadable) fmt::print(stderr, "warning: {}\n", sentence);
 }
 

@@ -66,7 +66,10 @@ CompiledExperiment openExperiment(const std::string& fileOrName) {
     const std::string file = (fs::path(resourceFolder()) / "plans" / (fileOrName + ".json")).string();
     return openExperimentText(readTextFile(file), file);  // which refuses a plan
   }
-  const std::string nearest = nearestName(fileOrName, names);
+  std::vector<std::string> all = names;
+  for (const std::vector<std::string>& more : {shippedForTwoHands(), shippedNames("plans")})
+    all.insert(all.end(), more.begin(), more.end());
+  const std::string nearest = nearestName(fileOrName, all);
   throw FaultError(Fault{
       fileOrName, "is neither a file nor a shipped experiment" + (nearest.empty() ? std::string() : "; did you mean " + nearest + "?"),
       "a file, or one of " + listOf(names)});

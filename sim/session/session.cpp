@@ -267,7 +267,7 @@ int sessionDay(const SessionRequest& request, const Plan& plan) {
   const std::optional<int> asked = request.day ? request.day : asNumber<int>(label);
   if (!asked)
     throw FaultError(Fault{"session", fmt::format("\"{}\" is no number, and the plan {} has days", label, plan.name),
-                           "01, 02 …, or a day asked for beside it"});
+                           "01, 02 …, or a day given separately"});
   if (*asked < 1)
     throw FaultError(
         Fault{"session", fmt::format("\"{}\" is day 0, and the days of the plan {} begin with 1", label, plan.name), "01, 02 …"});
@@ -289,8 +289,7 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
   const int day = sessionDay(request, plan);
   const std::vector<int> order = blockOrder(plan, request.place.subject, day);
   if (order.empty())
-    throw FaultError(
-        Fault{"day", fmt::format("is {}, for which the plan {} has no block", day, plan.name), "a day, or a session, that it has"});
+    throw FaultError(Fault{"day", fmt::format("is {}, for which the plan {} has no block", day, plan.name), "a day that it has"});
 
   SessionToRun session;
   if (request.resume) refuseOpenRuns(request.place);
@@ -315,9 +314,13 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
     session.blocks.push_back(std::move(block));
   }
   if (!faults.empty()) throw FaultError(std::move(faults));
-  session.notice.unfinished = !request.resume && std::any_of(blocks.begin(), blocks.end(), [](const OrderedBlock& block) {
-    return block.recorded != nullptr && !block.recorded->complete();
-  });
+  const auto anyRecorded = [&](bool complete) {
+    return std::any_of(blocks.begin(), blocks.end(),
+                       [&](const OrderedBlock& block) { return block.recorded != nullptr && block.recorded->complete() == complete; });
+  };
+  session.notice.unfinished = !request.resume && anyRecorded(false);
+  session.notice.again = !request.resume && programme.isPlan() && anyRecorded(true);
+  session.notice.nothingToResume = request.resume && recorded.empty();
   return session;
 }
 

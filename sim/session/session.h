@@ -35,6 +35,8 @@ struct SessionNotice {
   bool seedDrawn = false;               // drawn because the request has no seed
   std::string deviceBefore;             // of the session that this request resumes, where it asks for another device. Empty: the same
   bool unfinished = false;              // an earlier run of this session broke off, and this request does not resume it
+  bool again = false;                   // blocks of this plan are recorded already, and this request does not resume it
+  bool nothingToResume = false;         // this request resumes a session of which nothing is recorded
   std::vector<std::string> unreadable;  // logs that are left out, a sentence each
 };
 

@@ -267,13 +267,17 @@ TEST_F(PlannedSession, GivesItsBlocksRunNumbersInTurn) {
     EXPECT_TRUE(holds(block.logPath, "_run-0" + std::to_string(block.configuration.run) + "_log"));
   for (const BlockToRun& block : first.blocks) EXPECT_EQ(block.configuration.seed, blockSeed(first.seed, block.configuration.block));
 
+  EXPECT_FALSE(first.notice.again || first.notice.nothingToResume);
+  r.resume = true;
+  EXPECT_TRUE(planSession(r).notice.nothingToResume);
   recordOutcomes(first.blocks[0], {trial::Outcome::Success, trial::Outcome::Failure});
   recordAndBreakOff(first.blocks[1], 1);
-  r.resume = true;
   const SessionToRun second = planSession(r);
+  EXPECT_FALSE(second.notice.again || second.notice.nothingToResume);
   EXPECT_EQ(runs(second), (std::vector<std::array<int, 3>>{{2, 3, 2}, {3, 4, 4}})) << "the block that is done is left out";
   r.resume = false;
   r.run = 7;
+  EXPECT_TRUE(planSession(r).notice.again) << "the first block is recorded a second time";
   EXPECT_EQ(runs(planSession(r)), (std::vector<std::array<int, 3>>{{1, 7, 7}, {2, 8, 8}, {3, 9, 9}}));
 }
 
