@@ -27,8 +27,10 @@ std::string SuccessTable::text() const {
   for (const auto& [condition, c] : rows_) {
     std::string reasons;
     for (const auto& [reason, count] : c.reasons) reasons += fmt::format("{}{}={}", reasons.empty() ? "" : ",", reason, count);
-    text += fmt::format("{:<{}}  {:>6}  {:>7}  {:>7}  {:>7}  {:>11}  {:>15.1f}  {}\n", condition, width, c.trials, c.success, c.failure,
-                        c.aborted, c.interrupted, 100.0 * c.success / c.trials, reasons.empty() ? "-" : reasons);
+    const int attempts = c.success + c.failure;  // a trial that was broken off is none
+    const std::string percent = attempts > 0 ? fmt::format("{:.1f}", 100.0 * c.success / attempts) : "-";
+    text += fmt::format("{:<{}}  {:>6}  {:>7}  {:>7}  {:>7}  {:>11}  {:>15}  {}\n", condition, width, c.trials, c.success, c.failure,
+                        c.aborted, c.interrupted, percent, reasons.empty() ? "-" : reasons);
   }
   return text;
 }

@@ -75,13 +75,13 @@ PreflightLine peakForce(const CompiledExperiment& experiment, const haptics::Dev
 PreflightLine continuousForce(const CompiledExperiment& experiment, const haptics::DeviceInfo& device, const ReachDemand& demand) {
   PreflightLine line{"continuous_force", Verdict::Unknown, demand.rmsForce, std::nullopt, "N", {}, {}};
   if (!(device.maxContinuousForce > 0)) {
-    line.sentence =
-        fmt::format("the movement needs {:.3g} N (root mean square); what {} stands for ever is not known", demand.rmsForce, device.name);
+    line.sentence = fmt::format("the movement needs {:.3g} N (root mean square); what {} can hold continuously is not known",
+                                demand.rmsForce, device.name);
     return line;
   }
   line.limit = device.maxContinuousForce;
-  line.sentence =
-      fmt::format("the movement needs {:.3g} N (root mean square); {} stands {:.3g} N for ever", demand.rmsForce, device.name, *line.limit);
+  line.sentence = fmt::format("the movement needs {:.3g} N (root mean square); {} can hold {:.3g} N continuously", demand.rmsForce,
+                              device.name, *line.limit);
   line.verdict = demand.rmsForce <= *line.limit ? Verdict::Fine : Verdict::Warning;
   if (line.verdict == Verdict::Fine) return line;
   const double share = *line.limit / demand.rmsForce;

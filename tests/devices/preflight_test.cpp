@@ -238,7 +238,7 @@ TEST(Preflight, PausesLetTheMotorsCool) {
   const PreflightLine unknown = lineOf(checkBeforeBlock(e, info), "continuous_force");
   EXPECT_EQ(unknown.verdict, Verdict::Unknown);
   EXPECT_FALSE(unknown.limit);
-  EXPECT_TRUE(unknown.sentence.ends_with("what plain stands for ever is not known")) << unknown.sentence;
+  EXPECT_TRUE(unknown.sentence.ends_with("what plain can hold continuously is not known")) << unknown.sentence;
 }
 
 TEST(Preflight, PassivityAsksForHalfTheStiffnessTimesThePeriodAndTheDamping) {
