@@ -1,9 +1,13 @@
 #include "gui/app/main_window.h"
 
+#include <QAbstractSpinBox>
 #include <QAction>
+#include <QApplication>
+#include <QComboBox>
 #include <QDesktopServices>
 #include <QFileInfo>
 #include <QGuiApplication>
+#include <QLineEdit>
 #include <QSettings>
 #include <QSignalBlocker>
 #include <QStatusBar>
@@ -322,7 +326,8 @@ void MainWindow::trialEnded() {
   if (session_.run() != nullptr) docks_.trials->add(session_.run()->numberOf(*session_.lastTrial()), result);
   if (result.outcome == trial::Outcome::Success) ++score_, sounds_.play(SoundCues::Cue::Success);
   if (result.outcome == trial::Outcome::Failure) sounds_.play(SoundCues::Cue::Failure);
-  if (result.outcome == trial::Outcome::Success || result.outcome == trial::Outcome::Failure)
+  const bool judged = result.outcome == trial::Outcome::Success || result.outcome == trial::Outcome::Failure;
+  if (judged && session_.run() != nullptr)
     forecast_.compare(trace_.points(), trace_.path(), {session_.run()->configuration().sampleEveryTicks, result.onsetTick, result.endTick},
                       result.outcome == trial::Outcome::Success);
   if (result.outcome == trial::Outcome::Success && session_.run() != nullptr) fitRun();
@@ -342,7 +347,7 @@ void MainWindow::fitRun() {
 void MainWindow::oneFrame() {
   session_.poll();
   drainTrace();
-  if (session_.takeNextTrial()) nextTrial();
+  if (QApplication::activeModalWidget() == nullptr && session_.takeNextTrial()) nextTrial();  // nobody answers a question in a movement
   if (const haptics::TickState* seen = session_.seen()) {
     screens_->showState(*seen, session_.otherHands());
     showOverlay();
@@ -381,7 +386,19 @@ void MainWindow::playGo(const haptics::TickState& state) {
 
 docks::ConstraintChooser& MainWindow::chooser() { return docks_.constraint->chooser(); }
 
+// What is typed in a field is taken when the field loses the focus, and a button or a key outside of it does not take the focus.
+void MainWindow::takeEntry() {
+  QWidget* const entry = focusWidget();
+  if (entry == nullptr || strip_->isAncestorOf(entry)) return;
+  if (qobject_cast<QLineEdit*>(entry) == nullptr && qobject_cast<QAbstractSpinBox*>(entry) == nullptr &&
+      qobject_cast<QComboBox*>(entry) == nullptr)
+    return;
+  entry->clearFocus();
+  entry->setFocus();
+}
+
 void MainWindow::nextTrial() {
+  if (session_.run() == nullptr) takeEntry();
   if (session_.run() == nullptr && plans_->resumes()) session_.resume();
   beginNext();
 }
@@ -414,6 +431,7 @@ void MainWindow::repeatTrial() {
 }
 
 void MainWindow::resumeSession() {
+  if (session_.run() == nullptr) takeEntry();
   session_.resume();
   beginNext();
 }
@@ -423,8 +441,9 @@ QString MainWindow::dataFolder() const {
 }
 
 void MainWindow::endRun() {
-  if (session_.run() == nullptr || !mayEndRun(tr("End run"))) return;
+  if (session_.run() == nullptr) return;
   const int run = session_.run()->configuration().run;
+  if (!mayEndRun(tr("End run")) || session_.run() == nullptr) return;  // a fault may end it behind the question
   session_.endRun();
   tell(tr("Run %1 is saved in %2.").arg(run).arg(dataFolder()));
 }

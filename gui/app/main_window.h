@@ -110,6 +110,7 @@ class MainWindow : public QMainWindow {
 
  private:
   void addCentre();
+  void takeEntry();
   void beginNext();
   void showPage();
   void wireDocks();

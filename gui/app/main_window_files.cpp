@@ -26,7 +26,7 @@ void MainWindow::openExperiment(const QString& what) {
     screens_->lookIn(QFileInfo(what).path());
     const session::Programme opened = session::readProgramme(what.toStdString());
     edits_.open(opened, QStringLiteral("open %1").arg(what));
-    edits_.stack().setClean();
+    edits_.stack().clear();  // undo would bring another experiment back under this file's name
     what_ = what;
     file_ = QFileInfo::exists(what) ? what : QString();
     if (!file_.isEmpty()) rememberFile(file_);
@@ -64,23 +64,27 @@ void MainWindow::beginNew(const Template& from) {
   edits_.open(session::programmeOf(newExperiment(from)), "new experiment");
 }
 
-bool MainWindow::saveExperiment() { return file_.isEmpty() ? saveExperimentAs() : saveTo(file_, session_.experiment()); }
+bool MainWindow::saveExperiment() {
+  takeEntry();
+  return file_.isEmpty() ? saveExperimentAs() : saveTo(file_, session_.experiment());
+}
 
 bool MainWindow::saveExperimentAs() {
+  takeEntry();
   const QString proposed = file_.isEmpty() ? QString::fromStdString(session_.experiment().name + ".json") : file_;
   QString file = QFileDialog::getSaveFileName(this, "Save experiment", proposed, "Experiments (*.json)");
   if (file.isEmpty()) return false;
   if (QFileInfo(file).suffix().isEmpty()) file += ".json";
   experiment::Experiment named = session_.experiment();
   named.name = QFileInfo(file).completeBaseName().toStdString();  // or two experiments would be recorded under one name
-  return saveTo(file, named);
+  return (named.name == session_.experiment().name || mayEndRun("Another name")) && saveTo(file, named);
 }
 
 bool MainWindow::saveTo(const QString& file, const experiment::Experiment& experiment) {
   if (session_.isPlan()) return say("Use Session plan… (Ctrl+P) to compose and save a plan."), false;
   const QString fault = widgets::faultIn([&] {
     writeExperiment(experiment, file);
-    if (experiment.name != session_.experiment().name && session_.run() == nullptr)
+    if (experiment.name != session_.experiment().name)
       edits_.open(session::readProgramme(file.toStdString()), QStringLiteral("save as %1").arg(QFileInfo(file).fileName()));
     file_ = file;
     rememberFile(file);
@@ -196,6 +200,7 @@ bool MainWindow::event(QEvent* event) {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  takeEntry();
   if (!mayEndRun("Closing the window") || !mayBeLeft() || !plans_->mayBeLeft()) return event->ignore();
   rememberLayout(*this, layout_);
   session_.endRun();  // an unfinished trial is kept as interrupted

@@ -75,6 +75,9 @@ WindowLayout restoreLayout(QMainWindow& window) {
   return layout;
 }
 
-void forgetLayout() { QSettings().remove("window"); }
+void forgetLayout() {
+  QSettings settings;
+  for (const char* name : {"geometry", "layout", "docksSetUp", "docksRun", "docksInspect"}) settings.remove(key(name));
+}
 
 }  // namespace reachlab::gui::app

@@ -49,7 +49,7 @@ QString tipOf(std::string_view key) {
       {"rise_s", "Time in which the pulse rises, and in which it falls."},
       {"when", "From movement onset, or from arming. The force grows over 20 ms."},
       {"rotation_deg", "Angle of the cursor about the start, counterclockwise as seen from above or by the subject."},
-      {"gain", "Distance of the cursor from the start by that of the hand."},
+      {"gain", "Distance of the cursor from the start divided by the distance of the hand."},
       {"clamp_deg", "The cursor moves along a line at this angle to the target, whatever direction the hand takes."},
       {"delay_s", "Delay of the picture. The recorded and judged cursor is not delayed."},
       {"show", "The part of a trial in which the subject sees the cursor. You always see it."},

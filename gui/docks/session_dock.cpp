@@ -85,6 +85,7 @@ QHBoxLayout* SessionDock::makeDeviceRow() {
   look->start(1000);
   trials_ = widgets::tipped(widgets::named<QSpinBox>("trialCount"), "Trials of the next run. A plan has its own number of trials.");
   trials_->setRange(1, session::kMaxTrials);
+  trials_->setValue(20);
   auto* devices = widgets::tipped(widgets::named<QPushButton>("devicesButton", "…"),
                                   "opens the dock Devices: the present devices, why others are missing, and a live view");
   devices->setMaximumWidth(48);
@@ -142,7 +143,7 @@ void SessionDock::setRequest(const session::SessionRequest& request) {
   data_->setText(QString::fromStdString(request.place.data));
   day_->setValue(request.day.value_or(0));
   device_->setCurrentText(QString::fromStdString(request.device));
-  trials_->setValue(request.trials.value_or(20));
+  if (request.trials) trials_->setValue(*request.trials);  // a plan has its own
   age_->setText(request.participant.age ? QString::number(*request.participant.age) : QString());
   choose(*sex_, request.participant.sex);
   choose(*hand_, request.participant.handedness);

@@ -51,6 +51,9 @@ MarksPanel::MarksPanel(QWidget* parent) : QWidget(parent) {
 
 void MarksPanel::show(const QString& title, const record::TrialMark& mark, double onset, double end) {
   const QSignalBlocker quiet[] = {QSignalBlocker(flag_), QSignalBlocker(exclude_), QSignalBlocker(reason_), QSignalBlocker(note_)};
+  // The table is drawn again when fits are ready, and must not take what is being typed.
+  const bool same = isEnabled() && title == title_->text(), reasonTyped = same && reason_->hasFocus(),
+             noteTyped = same && note_->hasFocus();
   mark_ = mark;
   setEnabled(true);
   title_->setText(title);
@@ -60,10 +63,12 @@ void MarksPanel::show(const QString& title, const record::TrialMark& mark, doubl
                          : tr("%1 s to %2 s%3").arg(onset, 0, 'f', 3).arg(end, 0, 'f', 3).arg(moved ? tr(", moved by hand") : QString()));
   byRule_->setEnabled(moved);
   flag_->setChecked(mark.flagged);
-  exclude_->setChecked(!mark.excluded.empty());
-  reason_->setText(QString::fromStdString(mark.excluded));
-  reason_->setEnabled(!mark.excluded.empty());
-  note_->setText(QString::fromStdString(mark.note));
+  if (!reasonTyped) {
+    exclude_->setChecked(!mark.excluded.empty());
+    reason_->setText(QString::fromStdString(mark.excluded));
+    reason_->setEnabled(!mark.excluded.empty());
+  }
+  if (!noteTyped) note_->setText(QString::fromStdString(mark.note));
 }
 
 void MarksPanel::clear() {

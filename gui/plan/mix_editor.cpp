@@ -241,7 +241,12 @@ void MixEditor::takeTargets() {
   const QString places = list_->text().trimmed();
   if (kind != kList) mix_.targets.clear();
   else if (places.isEmpty()) faults_ << tr("targets: there is no place yet");
-  else if (places != listText(mix_.targets)) mix_.targets = readText("targets", QStringLiteral("[%1]").arg(places), faults_).targets;
+  else if (places != listText(mix_.targets)) {
+    QStringList faults;
+    const session::TrialMix read = readText("targets", QStringLiteral("[%1]").arg(places), faults);
+    if (faults.isEmpty()) mix_.targets = read.targets;
+    faults_ << faults;
+  }
   mix_.order = static_cast<session::TrialOrder>(order_->currentIndex());
   mix_.wayBack = wayBack_->isChecked();
   enableTargets();

@@ -9,6 +9,7 @@ namespace reachlab::gui::app {
 PlanPages::PlanPages(SessionController& session, docks::SessionDock& dock, scene::SceneView& view)
     : QObject(&view), session_(session), dock_(dock), view_(view), page_(new plan::StartPage(view)) {
   connect(page_, &plan::StartPage::placeEdited, this, [this](const QString& subject, const QString& sessionLabel) {
+    if (session_.run() != nullptr) return;  // a field that loses the focus because its page is hidden
     session::SessionRequest request = dock_.request();
     request.place.subject = subject.toStdString();
     request.place.session = sessionLabel.toStdString();

@@ -120,14 +120,18 @@ void SessionController::planRuns(const session::SessionRequest& request) {
   auto planned = std::make_unique<session::RecordedSession>(
       programme_, asked, [this](const auto& spec, auto scenes, auto seed) { return makeDeviceHere(spec, scenes, seed); }, &trace_,
       instruments_.get());
-  if (planned->blocksLeft() == 0)
+  if (planned->blocksLeft() == 0) {
+    resume_ = false;
     throw FaultError(Fault{{}, "nothing is left to do: every trial of this session is recorded", "another subject or session"});
+  }
   recorded_ = std::move(planned);
   asked_ = request;
   learnt_.reset();
   resume_ = false;
   if (recorded_->notice().unfinished)
     onOpening_ << "An earlier run of this session is not finished. Trial, Resume continues it. This is a new run.";
+  if (recorded_->notice().again)
+    onOpening_ << "This session has blocks of this plan already, and they are recorded again. Trial, Resume continues after them.";
   for (const std::string& sentence : recorded_->notice().unreadable) onOpening_ << QString::fromStdString(sentence);
 }
 
@@ -155,7 +159,8 @@ void SessionController::openRun(const session::SessionRequest& request) {
 
 void SessionController::planAnew(bool resume) {
   const std::scoped_lock lock(changing_);
-  if (run() == nullptr) recorded_.reset();  // planned from what is on the disk
+  if (run() != nullptr) return;
+  recorded_.reset();  // planned from what is on the disk
   resume_ = resume;
 }
 
@@ -320,17 +325,17 @@ void SessionController::poll() {
     }
     tellTiming();
     tellStation(news);
-    if (news.finished) {
+    if (const std::optional<haptics::ConductedTrial>& ended = news.ended) {
+      tellInstruments();
+      last_ = *ended;
+      recorded_->trialEnded(std::chrono::steady_clock::now(), ownPause_ ? ownPause_() : std::nullopt);
+      Q_EMIT trialEnded();
+    }
+    if (news.finished && run() != nullptr) {
       endRun();
       Q_EMIT done(tr("The conductor has ended the run."));
     }
-    const std::optional<haptics::ConductedTrial>& ended = news.ended;
-    if (!ended) return;
-    tellInstruments();
-    last_ = *ended;
-    if (run() != nullptr) recorded_->trialEnded(std::chrono::steady_clock::now(), ownPause_ ? ownPause_() : std::nullopt);
-    Q_EMIT trialEnded();
-    if (run() == nullptr) return;
+    if (!news.ended || run() == nullptr) return;
     if (const auto fault = run()->fault()) throw ResourceError(*fault);
     if (!endAfterTrial_) return;
     endRun();

@@ -78,6 +78,34 @@ TEST_F(Files, ASavedChangeIsInTheFileAndTheStarGoes) {
   EXPECT_FALSE(window.isWindowModified());
 }
 
+// A key or a button elsewhere takes no focus from the field.
+TEST_F(Files, WhatIsBeingTypedIsSavedAndRunToo) {
+  MainWindow& window = open();
+  window.activateWindow();
+  ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
+  auto* masses = window.findChild<QLineEdit*>("masses");
+  masses->setFocus();
+  masses->selectAll();
+  QTest::keyClicks(masses, "2.5");
+  QTest::keyClick(&window, Qt::Key_S, Qt::ControlModifier);
+  EXPECT_EQ(experiment::openExperiment(path_.toStdString()).experiment().object.masses, (std::vector<double>{2.5}));
+  masses->selectAll();
+  QTest::keyClicks(masses, "3.5");
+  window.nextTrial();
+  ASSERT_NE(window.session().run(), nullptr) << window.message().toStdString();
+  EXPECT_EQ(window.session().run()->experimentNow().experiment().object.masses, (std::vector<double>{3.5}));
+}
+
+// Saved again, that file would hold the experiment before it.
+TEST_F(Files, OpeningAFileIsNoChangeThatUndoTakesBack) {
+  MainWindow& window = open();
+  const QString other = folder_.filePath("other.json");
+  writeExperiment(experiment::openExperiment("torus").experiment(), other);
+  window.openExperiment(other);
+  window.edits().undo();
+  EXPECT_EQ(window.session().experiment().constraint.name, "torus");
+}
+
 TEST_F(Files, ADroppedFileIsOpenedAndRemembered) {
   request_.what = "chain-moderate";
   MainWindow& window = open();

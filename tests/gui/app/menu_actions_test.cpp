@@ -258,7 +258,8 @@ TEST_F(MenuActions, OfTheViewMoveTheCameraAndChangeTheDrawing) {
   EXPECT_TRUE(waits([&] { return QFileInfo::exists(written("film/frame-000001.png")); }));
   trigger("View/Record pictures for a film…");
   trigger("View/Light theme");
-  EXPECT_EQ(QSettings().value("window/theme").toString(), "light");
+  trigger("View/Docks/In their places");
+  EXPECT_EQ(QSettings().value("window/theme").toString(), "light") << "the theme is no place";
   trigger("View/Light theme");
   EXPECT_EQ(QSettings().value("window/theme").toString(), "dark");
 }
