@@ -141,6 +141,12 @@ void checkReachOfArm(const Experiment& e, const std::string& key, const constrai
   }
 }
 
+// As start and target of a full lap are, but for the rounding of sines and cosines.
+bool areOnePlace(const Task& task, const constraints::Constraint& constraint) {
+  constexpr double kOnePlace = 1e-9;  // [m]
+  return norm(constraints::placeOn(constraint, task.target) - constraints::placeOn(constraint, task.start)) <= kOnePlace;
+}
+
 void checkEnvironment(const Experiment& e, const constraints::Constraint* constraint, std::vector<Fault>& faults) {
   constexpr std::size_t kMostForces = 100;  // a servo cycle has time for them
   if (e.environment.size() > kMostForces)
@@ -148,6 +154,9 @@ void checkEnvironment(const Experiment& e, const constraints::Constraint* constr
   for (std::size_t i = 0; i < e.environment.size(); ++i) {
     const std::string key = fmt::format("environment[{}]", i);
     const ForceLaw& law = e.environment[i].law;
+    if (std::holds_alternative<ChannelForce>(law) && constraint != nullptr && e.task && areOnePlace(*e.task, *constraint))
+      faults.push_back(
+          {key + ".kind", "is channel, but start and target are the same place", "a task with a distance from start to target"});
     if (const auto* channel = std::get_if<ChannelForce>(&law); channel != nullptr && channel->breakDistance <= channel->halfWidth)
       faults.push_back({key + ".break_m",
                         fmt::format("is {:g}, so that the channel lets go before its walls are touched", channel->breakDistance),

@@ -15,7 +15,6 @@
 namespace reachlab::trial {
 namespace {
 
-constexpr double kOnePlace = 1e-9;  // [m] between start and target of a lap, whose sines and cosines are rounded
 constexpr double kLongTask = 60;    // [s]
 constexpr double kHeavyMass = 100;  // [kg]
 constexpr double kManyTurns = 1.5;  // a full lap is a reach, and may end a little behind its start
@@ -70,10 +69,6 @@ std::vector<Fault> taskProblems(const experiment::CompiledExperiment& compiled) 
     if (const double target = experiment.task->target[0]; target < domain.lo || target > domain.hi)
       found.push_back(
           {"task.target[0]", fmt::format("is {}, beyond an end of the curve", target), fmt::format("{} to {}", domain.lo, domain.hi)});
-  for (std::size_t i = 0; i < experiment.environment.size(); ++i)
-    if (std::holds_alternative<experiment::ChannelForce>(experiment.environment[i].law) && !(norm(place.target - place.start) > kOnePlace))
-      found.push_back({fmt::format("environment[{}].kind", i), "is channel, but start and target are the same place",
-                       "a task with a distance from start to target"});
   for (std::size_t i = 0; i < place.via.size(); ++i)
     if (!canBePassed(constraint, place.via[i], place.viaRadius))
       found.push_back({fmt::format("task.via_m[{}]", i), "is farther from the constraint than via_radius_m, so that no mass can pass it",

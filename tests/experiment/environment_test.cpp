@@ -94,6 +94,18 @@ TEST(EnvironmentKeys, RefuseWhatIsNoForceUnderItsKey) {
   EXPECT_TRUE(holds(told(R"({ "kind": "pulse", "force_n": [1, 0, 0], "at": { "onset_s": 0 }, "duration_s": 0.01 })"), "shorter than rise"));
 }
 
+TEST(EnvironmentKeys, AChannelNeedsALine) {
+  Experiment still = read(R"("environment": [ { "kind": "channel" } ])"), lap = readExperiment("ellipse");
+  still.task->target = still.task->start;
+  lap.environment = still.environment;
+  EXPECT_TRUE(check(lap).faults.empty());
+  lap.task->target[0] = lap.task->start[0] + 2 * std::numbers::pi;
+  for (const Experiment& e : {still, lap}) {
+    ASSERT_EQ(check(e).faults.size(), 1u);
+    EXPECT_EQ(check(e).faults[0].key, "environment[0].kind");
+  }
+}
+
 TEST(EnvironmentKeys, AFieldThatIsNotFiniteIsRefused) {
   Experiment e = read(R"("environment": [ { "kind": "viscous", "matrix_n_s_per_m": [[1, 0, 0], [0, 1, 0], [0, 0, 1]] } ])");
   std::get<ViscousForce>(e.environment[0].law).matrix[2][0] = std::nan("");

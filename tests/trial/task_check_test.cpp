@@ -97,18 +97,6 @@ TEST(TaskCheck, NeedsATargetOnTheCurve) {
   EXPECT_EQ(target(-0.1).size(), 1u);
 }
 
-TEST(TaskCheck, NeedsAWayForAChannel) {
-  const auto lap = [](double target) {
-    return problemsWith("ellipse", [&](auto& e) {
-      e.environment = {{experiment::ChannelForce{}}};
-      e.task->start = {0}, e.task->target = {target};
-    });
-  };
-  EXPECT_TRUE(lap(1).empty());
-  ASSERT_EQ(lap(2 * std::numbers::pi).size(), 1u);
-  EXPECT_EQ(lap(2 * std::numbers::pi)[0].key, "environment[0].kind");
-}
-
 TEST(TaskCheck, NeedsATaskBetweenTwoPlaces) {
   EXPECT_TRUE(problemsWith("chain-moderate", [](auto&) {}).empty());
   const auto none = problemsWith("chain-moderate", [](auto& e) { e.task.reset(); });
