@@ -9,16 +9,15 @@
 #include "sim/experiment/scene_look.h"
 
 namespace reachlab::gui::app {
-namespace {
 
-class Change : public QUndoCommand {
+class EditHistory::Change : public QUndoCommand {
  public:
-  Change(SessionController& session, session::Programme before, session::Programme after, const QString& what)
-      : QUndoCommand(what), session_(session), before_(std::move(before)), after_(std::move(after)) {}
+  Change(EditHistory& history, State before, State after, const QString& what)
+      : QUndoCommand(what), history_(history), before_(std::move(before)), after_(std::move(after)) {}
   void redo() override {
-    if (!std::exchange(fresh_, false)) session_.setProgramme(after_);  // what is pushed has been done already
+    if (!std::exchange(fresh_, false)) restore(after_);  // what is pushed has been done already
   }
-  void undo() override { session_.setProgramme(before_); }
+  void undo() override { restore(before_); }
   // A slider's way is one change.
   int id() const override { return text() == QLatin1String("shape") ? 1 : -1; }
   bool mergeWith(const QUndoCommand* other) override {
@@ -27,12 +26,14 @@ class Change : public QUndoCommand {
   }
 
  private:
+  void restore(const State& state) {
+    history_.session_.setProgramme(state.programme);
+    history_.opened_ = state.opened;
+  }
   bool fresh_ = true;
-  SessionController& session_;
-  session::Programme before_, after_;
+  EditHistory& history_;
+  State before_, after_;
 };
-
-}  // namespace
 
 bool EditHistory::isSameScene(experiment::Experiment changed) const {
   changed.text = session_.experiment().text;
@@ -42,7 +43,7 @@ bool EditHistory::isSameScene(experiment::Experiment changed) const {
 QStringList EditHistory::tryEdit(const experiment::Experiment& changed, const QString& what) {
   const bool sameLook = experiment::lookOf(changed) == experiment::lookOf(session_.experiment());
   if (isSameScene(changed) && sameLook) return {};  // back to what holds: the run goes on
-  const session::Programme before = session_.programme();
+  const State before = now();
   try {
     const QStringList faults = widgets::inWords(session_.tryEdit(changed));
     if (faults.isEmpty()) push(before, what);
@@ -52,14 +53,13 @@ QStringList EditHistory::tryEdit(const experiment::Experiment& changed, const QS
   }
 }
 
-void EditHistory::open(const session::Programme& programme, const QString& what) {
-  const session::Programme before = session_.programme();
+void EditHistory::open(const session::Programme& programme, const QString& what, const Opened& opened) {
+  State before = now();
   session_.setProgramme(programme);
-  push(before, what);
+  opened_ = opened;
+  push(std::move(before), what);
 }
 
-void EditHistory::push(const session::Programme& before, const QString& what) {
-  stack_.push(new Change(session_, before, session_.programme(), what));
-}
+void EditHistory::push(State before, const QString& what) { stack_.push(new Change(*this, std::move(before), now(), what)); }
 
 }  // namespace reachlab::gui::app

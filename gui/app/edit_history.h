@@ -7,6 +7,12 @@
 
 namespace reachlab::gui::app {
 
+/// Where the programme comes from.
+struct Opened {
+  QString what;  // file or shipped name that was opened
+  QString file;  // what was opened or saved; empty: shipped or new
+};
+
 /// Changes by the user, for undo and redo. Each change holds the whole programme, checked and compiled.
 class EditHistory {
  public:
@@ -16,14 +22,23 @@ class EditHistory {
   QStringList tryEdit(const experiment::Experiment& changed, const QString& what);
   /// Whether nothing but the look of the scene differs from the present experiment.
   bool isSameScene(experiment::Experiment changed) const;
-  /// Takes over a programme that was opened.
-  void open(const session::Programme& programme, const QString& what);
+  /// Takes over a programme that was opened. Undo takes its file back with it.
+  void open(const session::Programme& programme, const QString& what, const Opened& opened);
+  const Opened& opened() const { return opened_; }
+  void setOpened(const Opened& opened) { opened_ = opened; }
   QUndoStack& stack() { return stack_; }
 
  private:
-  void push(const session::Programme& before, const QString& what);
+  struct State {
+    session::Programme programme;
+    Opened opened;
+  };
+  class Change;
+  State now() const { return {session_.programme(), opened_}; }
+  void push(State before, const QString& what);
 
   SessionController& session_;
+  Opened opened_;
   QUndoStack stack_;
 };
 

@@ -66,8 +66,8 @@ MainWindow::MainWindow(const session::SessionRequest& request, const std::option
     : QMainWindow(parent), session_(request, station), edits_(session_) {
   setObjectName("reachlab");
   setAcceptDrops(true);
-  what_ = QString::fromStdString(request.what);
-  if (QFileInfo::exists(what_)) file_ = what_;
+  const QString what = QString::fromStdString(request.what);
+  edits_.setOpened({what, QFileInfo::exists(what) ? what : QString()});
   words_.setLanguage(QSettings().value("subject/language", "en").toString());
   addCentre();
   docks_ = docks::makeDocks(*this, station.has_value());
@@ -81,7 +81,7 @@ MainWindow::MainWindow(const session::SessionRequest& request, const std::option
   screens_->setSubjectsActions({actions_.next, actions_.abort, actions_.repeat, actions_.end, actions_.subjectsScreen});
   new KeyFocus(*this, *view_);
   plans_ = new PlanPages(session_, *docks_.session, *view_);
-  if (!file_.isEmpty()) screens_->lookIn(QFileInfo(file_).path());
+  if (const QString& file = edits_.opened().file; !file.isEmpty()) screens_->lookIn(QFileInfo(file).path());
   connect(screens_, &Screens::said, this, &MainWindow::say);
   connect(screens_, &Screens::placeChosen, this, &MainWindow::movePlace);
   connect(screens_, &Screens::optionsChanged, this, &MainWindow::showOverlay);
@@ -298,7 +298,7 @@ void MainWindow::runOpened() {
   status_->runOpened(run);
   if (session_.station() == nullptr) {
     session::SessionRequest request = docks_.session->request();
-    request.what = what_.toStdString();
+    request.what = edits_.opened().what.toStdString();
     rememberOpenRun(run.configuration(), request);
   }
   plans_->refresh();
@@ -470,7 +470,6 @@ void MainWindow::offerResume() {
                {{tr("Not now"), "resumeNot", [] { forgetOpenRun(); }},
                 {tr("Resume"), "resumeYes",
                  [this, run = *found] {
-                   what_ = file_ = QString::fromStdString(run.request.what);
                    session::SessionRequest request = docks_.session->request();  // with the instruments and the backup of this start
                    request.what = run.request.what;
                    request.place = run.request.place;
@@ -479,7 +478,8 @@ void MainWindow::offerResume() {
                    request.trials = run.request.trials;
                    request.seed.reset();  // the session has one
                    session_.resume(request);
-                   edits_.open(run.programme, tr("resume"));
+                   const QString what = QString::fromStdString(run.request.what);
+                   edits_.open(run.programme, tr("resume"), {what, what});
                    edits_.stack().setClean();
                    docks_.session->setRequest(request);
                    docks_.session->showExperiment(session_.compiled(), !session_.isPlan());
@@ -522,7 +522,7 @@ void MainWindow::openManual() {
                        : QStringLiteral("No program opens the manual. Open this file in a browser: %1").arg(page));
 }
 
-void MainWindow::composePlan() { plans_->compose(this, file_); }
+void MainWindow::composePlan() { plans_->compose(this, edits_.opened().file); }
 void MainWindow::chooseConstraint() { docks_.constraint->choose(); }
 
 void MainWindow::setSubjectsLanguage(const QString& code) {

@@ -155,8 +155,6 @@ class MainWindow : public QMainWindow {
   TrialActions actions_;
   QByteArray firstLayout_;                                                         // of the docks
   WindowLayout layout_ = WindowLayout::SetUp, reachLayout_ = WindowLayout::SetUp;  // what holds, and the one on the first page
-  QString what_;                                                                   // file or shipped name that was opened
-  QString file_;                                                                   // what was opened or saved; empty: shipped or new
   std::unique_ptr<StatusLine> status_;
   SessionStrip* strip_ = nullptr;
   widgets::Messages* messages_ = nullptr;

@@ -25,11 +25,10 @@ void MainWindow::openExperiment(const QString& what) {
   const QString fault = widgets::faultIn([&] {
     screens_->lookIn(QFileInfo(what).path());
     const session::Programme opened = session::readProgramme(what.toStdString());
-    edits_.open(opened, QStringLiteral("open %1").arg(what));
-    edits_.stack().clear();  // undo would bring another experiment back under this file's name
-    what_ = what;
-    file_ = QFileInfo::exists(what) ? what : QString();
-    if (!file_.isEmpty()) rememberFile(file_);
+    const QString file = QFileInfo::exists(what) ? what : QString();
+    edits_.open(opened, QStringLiteral("open %1").arg(what), {what, file});
+    edits_.stack().setClean();
+    if (!file.isEmpty()) rememberFile(file);
     messages_->clear();
   });
   messages_->say(widgets::Grade::Error, fault);
@@ -60,18 +59,19 @@ void MainWindow::openFile() {
 
 void MainWindow::beginNew(const Template& from) {
   if (!mayEndRun("A new experiment") || !mayBeLeft()) return;
-  file_.clear();
-  edits_.open(session::programmeOf(newExperiment(from)), "new experiment");
+  edits_.open(session::programmeOf(newExperiment(from)), "new experiment", {});
 }
 
 bool MainWindow::saveExperiment() {
   takeEntry();
-  return file_.isEmpty() ? saveExperimentAs() : saveTo(file_, session_.experiment());
+  const QString file = edits_.opened().file;
+  return file.isEmpty() ? saveExperimentAs() : saveTo(file, session_.experiment());
 }
 
 bool MainWindow::saveExperimentAs() {
   takeEntry();
-  const QString proposed = file_.isEmpty() ? QString::fromStdString(session_.experiment().name + ".json") : file_;
+  const QString opened = edits_.opened().file,
+                proposed = opened.isEmpty() ? QString::fromStdString(session_.experiment().name + ".json") : opened;
   QString file = QFileDialog::getSaveFileName(this, "Save experiment", proposed, "Experiments (*.json)");
   if (file.isEmpty()) return false;
   if (QFileInfo(file).suffix().isEmpty()) file += ".json";
@@ -85,8 +85,8 @@ bool MainWindow::saveTo(const QString& file, const experiment::Experiment& exper
   const QString fault = widgets::faultIn([&] {
     writeExperiment(experiment, file);
     if (experiment.name != session_.experiment().name)
-      edits_.open(session::readProgramme(file.toStdString()), QStringLiteral("save as %1").arg(QFileInfo(file).fileName()));
-    file_ = file;
+      edits_.open(session::readProgramme(file.toStdString()), QStringLiteral("save as %1").arg(QFileInfo(file).fileName()), {file, file});
+    edits_.setOpened({edits_.opened().what, file});
     rememberFile(file);
     edits_.stack().setClean();
   });

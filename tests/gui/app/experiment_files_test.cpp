@@ -96,14 +96,17 @@ TEST_F(Files, WhatIsBeingTypedIsSavedAndRunToo) {
   EXPECT_EQ(window.session().run()->experimentNow().experiment().object.masses, (std::vector<double>{3.5}));
 }
 
-// Saved again, that file would hold the experiment before it.
-TEST_F(Files, OpeningAFileIsNoChangeThatUndoTakesBack) {
+// The experiment that is brought back is saved in its own file.
+TEST_F(Files, UndoTakesTheFileBackWithItsExperiment) {
   MainWindow& window = open();
   const QString other = folder_.filePath("other.json");
   writeExperiment(experiment::openExperiment("torus").experiment(), other);
   window.openExperiment(other);
   window.edits().undo();
-  EXPECT_EQ(window.session().experiment().constraint.name, "torus");
+  changeMasses("2.5");
+  QTest::keyClick(&window, Qt::Key_S, Qt::ControlModifier);
+  EXPECT_EQ(experiment::openExperiment(other.toStdString()).experiment().constraint.name, "torus");
+  EXPECT_EQ(experiment::openExperiment(path_.toStdString()).experiment().object.masses, (std::vector<double>{2.5}));
 }
 
 TEST_F(Files, ADroppedFileIsOpenedAndRemembered) {
