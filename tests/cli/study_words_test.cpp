@@ -106,8 +106,8 @@ TEST(SuccessTable, CountsOutcomesByConditionInTheOrderInWhichTheyCame) {
   table.add("fast", ended(Outcome::Success, Reason::None));
   EXPECT_EQ(table.text(),
             "condition         trials  success  failure  aborted  interrupted  success_percent  reasons\n"
-            "slow                   6        2        3        0            1             33.3  device_lost=1,position=1,velocity=2\n"
-            "a long condition       1        0        0        1            0              0.0  no_onset=1\n"
+            "slow                   6        2        3        0            1             40.0  device_lost=1,position=1,velocity=2\n"
+            "a long condition       1        0        0        1            0                -  no_onset=1\n"
             "fast                   1        1        0        0            0            100.0  -\n");
 }
 
