@@ -69,22 +69,6 @@ std::int64_t readUniform(ObjectReader& axis, VariedKey& out) {
   return n;
 }
 
-// Whether two paths name a common value: "masses_kg[0]" and "masses_kg[*]", or "object" and "object.kind".
-bool nameOneValue(std::string_view one, std::string_view other) {
-  const auto take = [](std::string_view& path) {
-    const std::size_t end = std::min(path.find_first_of(".[", 1), path.size());
-    const std::string_view part = path.substr(0, end);
-    path.remove_prefix(end);
-    return part;
-  };
-  while (!one.empty() && !other.empty()) {
-    const std::string_view a = take(one), b = take(other);
-    const bool all = a.starts_with('[') && b.starts_with('[') && (a == "[*]" || b == "[*]");
-    if (a != b && !all) return false;
-  }
-  return true;
-}
-
 void readAxes(ObjectReader& reader, Design& design) {
   const JsonNode* node = reader.optional("vary");
   if (node == nullptr) return;
@@ -95,7 +79,7 @@ void readAxes(ObjectReader& reader, Design& design) {
     axis.path = path;
     const std::string key = "vary." + path;
     for (const VariedKey& before : design.axes)
-      if (nameOneValue(before.path, path))
+      if (experiment::nameOneValue(before.path, path))
         reader.faults().add(value, key, fmt::format("sets a value that vary.{} sets, too", before.path), "each value in one key");
     if (value.kind == JsonNode::Kind::Array) {
       for (const JsonNode& item : value.items) {

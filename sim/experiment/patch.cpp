@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "base/as_number.h"
@@ -64,6 +65,15 @@ void put(Json& node, std::span<const Step> steps, const Json& value, const std::
 }
 
 }  // namespace
+
+bool nameOneValue(const std::string& one, const std::string& other) try {
+  const std::vector<Step> a = stepsOf(one), b = stepsOf(other);
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+    if (a[i].key != b[i].key || (a[i].at && b[i].at && *a[i].at != *b[i].at)) return false;
+  return true;
+} catch (const FaultError&) {
+  return false;
+}
 
 std::string valueText(const JsonNode& node) {
   switch (node.kind) {

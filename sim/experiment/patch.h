@@ -21,6 +21,10 @@ std::vector<Patch> readPatches(const JsonNode& node, const std::string& key, Fau
 /// A node as JSON, in one line.
 std::string valueText(const JsonNode& node);
 
+/// Whether two paths name a common value: `masses_kg[0]` and `masses_kg[*]`, or `object` and `object.kind`. False where patchedText refuses
+/// one of them.
+bool nameOneValue(const std::string& one, const std::string& other);
+
 /// The file's text with these changes and without comments. A missing key is added, so that the file's reader judges it. A missing
 /// element of a list is refused. Throws FaultError under the patch's path.
 std::string patchedText(const std::string& text, const std::string& file, std::span<const Patch> patches);
