@@ -141,20 +141,21 @@ void checkReachOfArm(const Experiment& e, const std::string& key, const constrai
   }
 }
 
-// As start and target of a full lap are, but for the rounding of sines and cosines.
-bool areOnePlace(const Task& task, const constraints::Constraint& constraint) {
-  constexpr double kOnePlace = 1e-9;  // [m]
-  return norm(constraints::placeOn(constraint, task.target) - constraints::placeOn(constraint, task.start)) <= kOnePlace;
+// Not finite where start or target has no place.
+Vec3 wayOf(const Task& task, const constraints::Constraint& constraint) {
+  return constraints::placeOn(constraint, task.target) - constraints::placeOn(constraint, task.start);
 }
 
 void checkEnvironment(const Experiment& e, const constraints::Constraint* constraint, std::vector<Fault>& faults) {
   constexpr std::size_t kMostForces = 100;  // a servo cycle has time for them
   if (e.environment.size() > kMostForces)
     return faults.push_back({"environment", fmt::format("has {} forces", e.environment.size()), fmt::format("up to {}", kMostForces)});
+  constexpr double kOnePlace = 1e-9;  // [m] between start and target of a full lap, whose sines and cosines are rounded
+  const bool stays = constraint != nullptr && e.task && norm(wayOf(*e.task, *constraint)) <= kOnePlace;
   for (std::size_t i = 0; i < e.environment.size(); ++i) {
     const std::string key = fmt::format("environment[{}]", i);
     const ForceLaw& law = e.environment[i].law;
-    if (std::holds_alternative<ChannelForce>(law) && constraint != nullptr && e.task && areOnePlace(*e.task, *constraint))
+    if (std::holds_alternative<ChannelForce>(law) && stays)
       faults.push_back(
           {key + ".kind", "is channel, but start and target are the same place", "a task with a distance from start to target"});
     if (const auto* channel = std::get_if<ChannelForce>(&law); channel != nullptr && channel->breakDistance <= channel->halfWidth)
@@ -174,14 +175,14 @@ void checkEnvironment(const Experiment& e, const constraints::Constraint* constr
     faults.push_back({"environment", fmt::format("is given with {} hands", e.hands.size()), "one hand"});
 }
 
-void checkCursor(const Experiment& e, std::vector<Fault>& faults) {
+void checkCursor(const Experiment& e, const constraints::Constraint* constraint, std::vector<Fault>& faults) {
   if (!e.cursor) return;
   if (e.object.kind != ObjectKind::None)
     faults.push_back({"cursor", "is given with an object, which the subject sees where it is", "object { \"kind\": \"none\" }"});
-  if (e.task && e.task->start.size() == 3 && e.task->target.size() == 3 && (e.cursor->rotation != 0 || e.cursor->clamp)) {
+  if (e.task && constraint != nullptr && constraint->kind == constraints::ConstraintKind::Free &&
+      (e.cursor->rotation != 0 || e.cursor->clamp)) {
     constexpr double kAcross = 1e-9;  // of the way
-    const auto place = [](const std::vector<double>& q) { return Vec3{q[0], q[1], q[2]}; };
-    const Vec3 way = place(e.task->target) - place(e.task->start), normal = normalOf(e.task->plane);
+    const Vec3 way = wayOf(*e.task, *constraint), normal = normalOf(e.task->plane);
     if (norm(way) > 0 && norm(way - dot(way, normal) * normal) <= kAcross * norm(way))
       faults.push_back({e.cursor->clamp ? "cursor.clamp_deg" : "cursor.rotation_deg",
                         "turns the cursor in the task's plane, and the way to the target is normal to it", "another task.plane"});
@@ -270,7 +271,7 @@ CheckedExperiment check(const Experiment& experiment, const constraints::Constra
   checkCoupling(experiment, faults);
   checkHands(experiment, faults);
   checkEnvironment(experiment, checked.constraint.get(), faults);
-  checkCursor(experiment, faults);
+  checkCursor(experiment, checked.constraint.get(), faults);
   if (experiment.task) {
     const auto& constraint = checked.constraint;
     const bool free = constraint && constraint->kind == constraints::ConstraintKind::Free;
