@@ -11,6 +11,7 @@
 #include "base/math/seeded.h"
 #include "base/system/os.h"
 #include "sim/experiment/experiment.h"
+#include "sim/session/plan.h"
 
 namespace reachlab::network {
 namespace {
@@ -19,9 +20,8 @@ constexpr double kGoodFor = 0.5;  // [s] the links are heard before a trial
 constexpr double kPatience = 3;   // [s] for every station's word on a trial
 // share and [s] by which a round trip may become longer until it is simulated again
 constexpr double kLongerTrip = 0.25, kLongerBy = 0.005;
-constexpr double kOldWords = 0.05;               // [s] in which it is known whether a trial told of has ended already
-constexpr std::int32_t kMostTrials = 1'000'000;  // of a run; a number beyond it is no station's count
-constexpr std::size_t kMostHeard = 64;           // events of stations that do not say who they are
+constexpr double kOldWords = 0.05;      // [s] in which it is known whether a trial told of has ended already
+constexpr std::size_t kMostHeard = 64;  // events of stations that do not say who they are
 
 double now() { return static_cast<double>(os::now()) * 1e-9; }
 
@@ -350,7 +350,7 @@ bool StationRun::obey(const LinkEvent& event, StationNews& news) {
 void StationRun::noteEnd(const LinkEvent& event, StationNews& news) {
   words_.add(event);
   // A conductor that was started again counts on from what the others have ended, because they prepare no trial twice.
-  if (isConductor() && putUp_ == 0 && event.trial < kMostTrials) armed_ = std::max(armed_, event.trial);
+  if (isConductor() && putUp_ == 0 && event.trial < session::kMaxTrials) armed_ = std::max(armed_, event.trial);
   if (stage_ == Stage::UnderWay && event.trial == armed_ && isBrokenOff(event))
     sink_->breakOff(static_cast<int>(event.station), event.trial);
   news.words.push_back(wordsOf(event));
