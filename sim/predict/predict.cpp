@@ -66,12 +66,13 @@ std::unique_ptr<Prediction> makeArmPrediction(const experiment::Experiment& expe
   return makeLineArmPrediction(experiment.arm, task, object, options.unknowns, options.near);
 }
 
+bool weighsForce(Criterion criterion) { return criterion == Criterion::MinHandForce || criterion == Criterion::MinHandForceChange; }
+
 // A point that is the hand itself, along a line.
 std::unique_ptr<Prediction> makeStraightHandPrediction(const LineObject& object, Criterion criterion, double distance, double duration) {
   if (criterion == Criterion::MinTorqueChange)
     throw RefusedError("min-torque-change: on a line it is computed for a point behind its spring; allowed: a point behind its spring");
-  const bool byForce = criterion == Criterion::MinHandForce || criterion == Criterion::MinHandForceChange;
-  if (byForce && (object.handDamping > 0 || (!object.viscosity.empty() && object.viscosity[0] > 0)))
+  if (weighsForce(criterion) && (object.handDamping > 0 || (!object.viscosity.empty() && object.viscosity[0] > 0)))
     throw RefusedError(
         fmt::format("{}: a point that is the hand itself is computed without damping; allowed: no viscosity and no damping of "
                     "the hand, or a point behind its spring",
@@ -233,8 +234,7 @@ std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, co
   std::vector<std::string> warnings;
   std::optional<LineObject> object;
   std::optional<PointIs> point;
-  const bool byForce = criterion == Criterion::MinHandForce || criterion == Criterion::MinHandForceChange;
-  if (byForce && !experiment.environment.empty())
+  if (weighsForce(criterion) && !experiment.environment.empty())
     warnings.push_back("environment acts on the hand, and its forces are no part of the prediction");
   if (experiment.cursor && experiment.cursor->gain != 1 && experiment.cursor->judge == experiment::CursorJudge::Cursor)
     warnings.push_back(fmt::format("distances are the cursor's; the hand moves by 1/{} of them", experiment.cursor->gain));
