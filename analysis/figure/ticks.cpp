@@ -25,8 +25,9 @@ std::string superscript(int exponent) {
 
 AxisTicks linearTicks(const Axis& axis, double low, double high, double length) {
   AxisTicks out;
-  constexpr double kOneValue = 1e-12;                                         // of a value: values nearer to each other differ by rounding
-  if (!(high - low > kOneValue * std::max(std::abs(low), std::abs(high)))) {  // one value, or none at all: an axis around it
+  constexpr double kOneValue = 1e-12;  // of a value: values nearer to each other differ by rounding
+  // One value, or none at all: an axis around it.
+  if (!(high - low > kOneValue * std::max(std::abs(low), std::abs(high)))) {
     const double half = low == 0 || !std::isfinite(low) ? 1 : 0.5 * std::abs(low);
     const double middle = std::isfinite(low) ? low : 0;
     low = middle - half;

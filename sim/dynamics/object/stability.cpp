@@ -8,7 +8,6 @@
 #include "base/math/elementary.h"
 
 namespace reachlab::dynamics {
-
 namespace {
 
 Eigen::Matrix3d crossMatrix(const Vec3& p) {
@@ -29,10 +28,7 @@ std::vector<std::complex<double>> computeBodyEigenvalues(const ObjectModel& mode
     spring += hand.stiffness[0] * held.transpose() * held;
     damper += hand.damping[0] * held.transpose() * held;
   }
-  Eigen::Matrix3d inertia;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) inertia(i, j) = model.inertia[static_cast<std::size_t>(i)][static_cast<std::size_t>(j)];
-  const Eigen::Matrix3d inverse = inertia.inverse();
+  const Eigen::Matrix3d inverse = Eigen::Map<const Eigen::Matrix3d>(model.inertia[0].data()).inverse();  // symmetric
   a.topRightCorner(n, n).setIdentity();
   for (const auto& [column, rates] : {std::pair{0, &spring}, std::pair{n, &damper}}) {
     a.block(n, column, 3, n) = -rates->topRows(3) / model.mass[0];

@@ -6,8 +6,8 @@
 
 namespace reachlab::dynamics {
 
-/// Eigenvalues [1/s] of the linear dynamics of the object along one line, or of a body's six freedoms at rest, conjugates included. Above 100 masses only the bound of
-/// boundFastestMode is returned, as one undamped and one real mode. Allocates.
+/// Eigenvalues [1/s] of the linear dynamics of the object along one line, or of a body's six freedoms at rest, conjugates included. Above 100
+/// masses only the bound of boundFastestMode is returned, as one undamped and one real mode. Allocates.
 std::vector<std::complex<double>> computeEigenvalues(const ObjectModel& model);
 
 inline constexpr double kRk4ImaginaryLimit = 2.8284271247461903;  // 2 sqrt 2: |R(iy)| = 1
