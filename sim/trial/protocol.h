@@ -45,9 +45,10 @@ struct Constraint;
 /// Of several at one tick the lower row of the table wins. Armed begins with the go signal unless the trial has a foreperiod.
 /// No mass is within dx and dv before the last mass has passed all places of `via` in their order. It passes a place when the straight line
 /// between its positions at two ticks comes within `viaRadius`. On a way that comes back, no mass is within before the last mass has been
-/// farther than dx from the target; a trial in which it never was fails by `position`, by what was lacking. At T + dT the reason is `via` if a place was not passed, by its least
-/// distance. Otherwise it is `position` while any mass is farther than dx from the target, else `velocity`. The result names the mass
-/// with the largest excess in that quantity. The semaphore is green from T - dT on, red once T + dT has passed without success.
+/// farther than dx from the target. A trial in which it never was fails by `position`, by what was lacking. At T + dT the reason is `via`
+/// if a place was not passed, by its least distance. Otherwise it is `position` while any mass is farther than dx from the target, else
+/// `velocity`. The result names the mass with the largest excess in that quantity. The semaphore is green from T - dT on, red once T + dT
+/// has passed without success.
 namespace reachlab::trial {
 
 inline constexpr std::int64_t kNoLimit = INT64_MAX;
