@@ -55,10 +55,12 @@ TEST_F(StationWindow, AFollowersWaitsForTheConductor) {
   MainWindow& window = openStation(2, false);
   ASSERT_NE(window.session().run(), nullptr);
   EXPECT_EQ(window.view().plan().ownHand, 1);
+  const QString waits = "Station 1 is missing. The window waits for it.";
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.overlay().instruction == waits; }, 5000));
   QTest::keyClick(&window, Qt::Key_Space);
   QTest::qWait(100);
   EXPECT_FALSE(window.session().underWay());
-  EXPECT_EQ(window.overlay().instruction, "Station 1 is missing. The window waits for it.");
+  EXPECT_EQ(window.overlay().instruction, waits) << "Space arms nothing here";
 }
 
 TEST_F(StationWindow, AnObserverHasNoHandAndRecordsNothing) {
