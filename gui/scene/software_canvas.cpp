@@ -37,6 +37,7 @@ SoftwareCanvas::SoftwareCanvas(vtkGenericOpenGLRenderWindow& window, QWidget* pa
   window.SetOwnContext(0);
   makeCurrent();
   window.OpenGLInitContext();
+  invertsRows_ = context_->hasExtension("GL_MESA_pack_invert");
 }
 
 SoftwareCanvas::~SoftwareCanvas() {
@@ -71,13 +72,18 @@ bool SoftwareCanvas::fit() {
 void SoftwareCanvas::keepPicture() {
   vtkOpenGLFramebufferObject* drawn = window_->GetDisplayFramebuffer();
   const int* size = drawn->GetLastSize();
-  QImage picture(size[0], size[1], QImage::Format_RGBX8888);
+  // The bytes of a screen's pixel, in memory that is there already: as many conversions and copies less.
+  if (picture_.width() != size[0] || picture_.height() != size[1]) picture_ = QImage(size[0], size[1], QImage::Format_RGB32);
   window_->GetState()->PushReadFramebufferBinding();
   drawn->Bind(GL_READ_FRAMEBUFFER);
   drawn->ActivateReadBuffer(0);
-  context_->functions()->glReadPixels(0, 0, size[0], size[1], GL_RGBA, GL_UNSIGNED_BYTE, picture.bits());
+  QOpenGLFunctions& gl = *context_->functions();
+  constexpr GLenum kPackInvert = 0x8758;  // GL_PACK_INVERT_MESA
+  if (invertsRows_) gl.glPixelStorei(kPackInvert, GL_TRUE);
+  gl.glReadPixels(0, 0, size[0], size[1], GL_BGRA, GL_UNSIGNED_BYTE, picture_.bits());
+  if (invertsRows_) gl.glPixelStorei(kPackInvert, GL_FALSE);
   window_->GetState()->PopReadFramebufferBinding();
-  picture_ = std::move(picture).mirrored();  // OpenGL's first row is the lowest
+  if (!invertsRows_) picture_ = std::move(picture_).mirrored();  // OpenGL's first row is the lowest
   update();
 }
 

@@ -41,6 +41,7 @@ class SoftwareCanvas : public QWidget {
   std::unique_ptr<QOffscreenSurface> surface_;
   std::unique_ptr<QOpenGLContext> context_;
   QImage picture_;
+  bool invertsRows_ = false;
   double scale_ = 1;
 };
 
