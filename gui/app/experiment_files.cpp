@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/file_text.h"
 #include "sim/experiment/resources.h"
 
 namespace reachlab::gui::app {
@@ -20,7 +21,7 @@ QString recentKey() { return "recentFiles"; }
 
 void writeExperiment(const experiment::Experiment& experiment, const QString& file) {
   QSaveFile out(file);
-  const std::string text = experiment::toJson(experiment);
+  const std::string text = experiment::fileText(experiment);
   if (!out.open(QIODevice::WriteOnly) || out.write(text.data(), static_cast<qint64>(text.size())) < 0 || !out.commit())
     throw ResourceError(file.toStdString() + ": could not be written: " + out.errorString().toStdString());
 }

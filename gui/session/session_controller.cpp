@@ -15,6 +15,7 @@
 #include "gui/widgets/fault_in.h"
 #include "gui/widgets/fault_words.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/file_text.h"
 #include "sim/trial/protocol.h"
 #include "sim/trial/task_check.h"
 
@@ -79,7 +80,7 @@ void SessionController::setProgramme(const session::Programme& programme) {
 
 std::vector<Fault> SessionController::tryEdit(const experiment::Experiment& experiment) {
   experiment::Experiment edited = experiment;
-  edited.text = toJson(edited);
+  edited.text = fileText(edited);
   try {
     const experiment::CompiledExperiment compiled(edited);
     const session::Programme programme = session::programmeOf(compiled);

@@ -2,6 +2,7 @@
 
 #include "constraints/catalogue/definition.h"
 #include "sim/experiment/experiment_keys.h"
+#include "sim/experiment/file_text.h"
 #include "sim/experiment/scene_look.h"
 
 namespace reachlab::experiment {
@@ -80,6 +81,15 @@ std::string toJson(const Experiment& experiment) {
   Json json = Json::object();
   visitKeys(experiment, KeyWriter{json, experiment});
   if (!(lookOf(experiment) == SceneLook{})) json["look"] = Json::parse(experiment.text, nullptr, true, true)["look"];
+  return json.dump(2) + "\n";
+}
+
+std::string fileText(const Experiment& experiment) {
+  const Json text = Json::parse(experiment.text, nullptr, false, true);  // none, before the experiment has been a file
+  if (!text.is_object() || !text.contains("description")) return toJson(experiment);
+  const Json values = Json::parse(toJson(experiment));
+  Json json{{"schema_version", values["schema_version"]}, {"description", text["description"]}};
+  json.update(values);
   return json.dump(2) + "\n";
 }
 

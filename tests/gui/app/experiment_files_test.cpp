@@ -78,6 +78,16 @@ TEST_F(Files, ASavedChangeIsInTheFileAndTheStarGoes) {
   EXPECT_FALSE(window.isWindowModified());
 }
 
+TEST_F(Files, ASavedChangeKeepsTheDescription) {
+  request_.what = write("told.json", experiment::openExperiment("torus").experiment().text);
+  open();
+  changeMasses("2.5");
+  QTest::keyClick(window_.get(), Qt::Key_S, Qt::ControlModifier);
+  const experiment::Experiment saved = experiment::openExperiment(request_.what).experiment();
+  EXPECT_EQ(saved.object.masses, (std::vector<double>{2.5}));
+  EXPECT_NE(saved.text.find("One mass on a torus"), std::string::npos) << saved.text;
+}
+
 // A key or a button elsewhere takes no focus from the field.
 TEST_F(Files, WhatIsBeingTypedIsSavedAndRunToo) {
   MainWindow& window = open();
