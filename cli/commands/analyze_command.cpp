@@ -326,11 +326,25 @@ std::string commandOf(const AnalyzeOptions& o) {
   return text;
 }
 
+void refuseWithoutEffect(const CLI::App& command, const AnalyzeOptions& o) {
+  const struct {
+    const char *option, *of;
+    bool counts;
+  } options[] = {{"--jobs", "--recovery", o.recovery > 0},
+                 {"--seed", "--recovery", o.recovery > 0},
+                 {"--onset-percent", "--onset percent", o.onset == "percent"},
+                 {"--onset-speed", "--onset absolute", o.onset == "absolute"}};
+  for (const auto& [option, of, counts] : options)
+    if (command.count(option) > 0 && !counts) throw FaultError(Fault{option, fmt::format("changes nothing without {}", of)});
+}
+
 void run(CLI::App& command, const AnalyzeOptions& o) {
   std::optional<AnalysisPlan> plan;
   if (!o.plan.empty()) {
     plan = atOption("--plan", [&] { return readAnalysisPlan(o.plan); });
-    applyPlan(command, *plan);  // changes o
+    applyPlan(command, *plan);  // changes o, and lists what it does not plan
+  } else {
+    refuseWithoutEffect(command, o);
   }
   const analysis::AnalysisOptions options = analysisOptions(o);  // refused before hours of reading
   ProgressLine line;

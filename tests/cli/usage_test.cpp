@@ -172,3 +172,11 @@ TEST_F(Usage, ValidateAcceptsEveryShippedFile) {
   printed("validate " REACHLAB_SOURCE_DIR "/resources/experiments/*.json " REACHLAB_SOURCE_DIR
           "/resources/plans/*.json " REACHLAB_SOURCE_DIR "/constraints/definitions/*.json");
 }
+
+TEST_F(Usage, AnalyzeRefusesWhatWouldChangeNothing) {
+  for (const auto& [given, of] : {std::pair{"--jobs 2", "--recovery"},
+                                  {"--seed 3", "--recovery"},
+                                  {"--onset-speed 0.02", "--onset absolute"},
+                                  {"--onset task --onset-percent 3", "--onset percent"}})
+    EXPECT_TRUE(says(reach(std::string("analyze . ") + given), 2, std::string("changes nothing without ") + of)) << given;
+}
