@@ -161,9 +161,10 @@ bool exportPlot(QwtPlot& plot, const QString& file, Write write) {
     return out.commit();
   }
   if (ending != QLatin1String("svg") && ending != QLatin1String("pdf")) return false;
+  if (!QFile(file).open(QIODevice::WriteOnly)) return false;  // the renderer tells nobody
   QwtPlotRenderer renderer;
   renderer.renderDocument(&plot, file, ending, QSizeF(180, 80), 150);
-  return QFileInfo::exists(file);
+  return QFileInfo(file).size() > 0;
 }
 
 /// A button that asks for a file and exports the plot to it.

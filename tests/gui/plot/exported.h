@@ -1,6 +1,7 @@
 #pragma once
 #include <gtest/gtest.h>
 
+#include <QDir>
 #include <QFile>
 #include <QTemporaryDir>
 
@@ -25,6 +26,10 @@ void expectDrawings(Plot& plot) {
     EXPECT_GT(QFile(folder.filePath(name)).size(), 2000) << name;
   }
   EXPECT_FALSE(plot.exportTo(folder.filePath("plot.doc")));
+  for (const char* name : {"folder.svg", "folder.pdf", "folder.csv"}) {
+    QDir(folder.path()).mkdir(name);
+    EXPECT_FALSE(plot.exportTo(folder.filePath(name))) << name << " cannot be written";
+  }
 }
 
 }  // namespace reachlab::gui::plot
