@@ -66,6 +66,7 @@ bool FaultList::isAbout(const std::string& key) const { return std::any_of(fault
 
 void FaultList::addOfValue(const JsonNode& root, Fault fault) {
   if (ofFile_ == kNone) ofFile_ = faults_.size();
+  if (fault.place && !fault.place->file.empty() && fault.place->file != file_) return faults_.push_back(std::move(fault));
   const auto endOfFile = faults_.begin() + static_cast<std::ptrdiff_t>(ofFile_);
   const auto told = std::find_if(faults_.begin(), endOfFile, isBeside(fault.key));
   if (told != endOfFile) {

@@ -18,6 +18,7 @@ class FaultList {
   bool requireKind(const JsonNode& node, JsonNode::Kind kind, const std::string& key, const std::string& allowed);
   /// Adds a fault of the value that was read from `root`, at the location of its key there, or as a missing key. It is left out if the file
   /// itself has a fault about that key, a key inside it or a key around it. In that case the value has a default.
+  /// A fault of another file, which this one names, keeps its place.
   void addOfValue(const JsonNode& root, Fault fault);
   /// True when there is a fault about that key, a key inside it or a key around it.
   bool isAbout(const std::string& key) const;

@@ -229,6 +229,8 @@ TEST(FaultList, AFaultOfAValueStandsWhereItsKeyStands) {
   EXPECT_EQ(placedOf(""), "f:1:1: is wrong; allowed: less");
   const std::vector<Fault> inText = atTheirPlaces({Fault{"object.curve", "ends", "", FilePlace{"", 1, 2}}}, kStudy, "f");
   EXPECT_EQ(toText(inText), "f:3:14: object.curve: ends") << "counted behind the quote";
+  const std::vector<Fault> named = atTheirPlaces({Fault{"object.curve", "ends", "", FilePlace{"bow.json", 4, 2}}}, kStudy, "f");
+  EXPECT_EQ(toText(named), "bow.json:4:2: object.curve: ends") << "a file that this one names";
   EXPECT_EQ(toText(atTheirPlaces({Fault{"object", "is wrong"}}, "", "f")), "object: is wrong");
   EXPECT_TRUE(atTheirPlaces({}, "no JSON", "f").empty());
 }
