@@ -35,25 +35,9 @@ double medianDuration(const ShapeFits& fits) {
   return medianOf(std::move(durations));
 }
 
-/// Costs are parabolas in ln P, scores are their logarithms: without scatter the score has a cusp that its own parabola misses.
-double leastCost(const std::map<int, ShapeFits>& plans, double centre) {
-  const auto best = std::min_element(plans.begin(), plans.end(),
-                                     [&](const auto& a, const auto& b) { return sumOf(a.second.score) < sumOf(b.second.score); });
-  if (best == plans.end()) return 0;
-  const auto before = plans.find(best->first - 1), after = plans.find(best->first + 1);
-  if (before == plans.end() || after == plans.end()) return 0;
-  double a = 0, c = 0;
-  for (std::size_t i = 0; i < best->second.score.size(); ++i) {
-    a += std::exp(std::min(60.0, before->second.score[i] - best->second.score[i]));
-    c += std::exp(std::min(60.0, after->second.score[i] - best->second.score[i]));
-  }
-  const double b = static_cast<double>(best->second.score.size()), curvature = a - 2 * b + c;
-  if (!(curvature > 0)) return 0;
-  return centre * std::exp(kPlanStep * (best->first + std::clamp(0.5 * (a - c) / curvature, -0.5, 0.5)));
-}
-
 /// The least of the parabola in ln P through the costs of a plan and of one on either side, and how far the mean score would fall to it.
-/// nullopt: there is none between them.
+/// Scores are logarithms of costs: without scatter the score has a cusp that a parabola of its own misses. nullopt: there is none between
+/// them.
 struct NearerPlan {
   double plan = 0, gain = 0;
 };
@@ -70,6 +54,17 @@ std::optional<NearerPlan> nearerPlan(const ShapeFits& before, const ShapeFits& m
   const double x = -slope / (2 * curvature);
   if (!(x > left && x < right)) return std::nullopt;
   return NearerPlan{middle.plan * std::exp(x), slope * slope / (4 * curvature) / static_cast<double>(middle.score.size())};
+}
+
+/// The plan of least cost, between the steps. nullopt: a neighbour of the best step was not fitted.
+std::optional<double> leastCost(const std::map<int, ShapeFits>& plans) {
+  const auto best = std::min_element(plans.begin(), plans.end(),
+                                     [&](const auto& a, const auto& b) { return sumOf(a.second.score) < sumOf(b.second.score); });
+  if (best == plans.end()) return std::nullopt;
+  const auto before = plans.find(best->first - 1), after = plans.find(best->first + 1);
+  if (before == plans.end() || after == plans.end()) return std::nullopt;
+  const std::optional<NearerPlan> between = nearerPlan(before->second, best->second, after->second);
+  return between ? between->plan : best->second.plan;
 }
 
 /// The best plan, refined by the parabola through its neighbours in ln P.
@@ -216,15 +211,15 @@ void ShapeFitter::fitPlans(const ProfileFamily& family, FamilyFits& out, Starts 
   for (int k = 0; k <= kPlansAside; ++k)
     for (const int step : {k, -k, consistent + k, consistent - k}) at(step);
   std::erase_if(out.plans, [](const auto& entry) { return entry.second.trials.empty(); });
-  const double plan = leastCost(out.plans, centre);
-  if (!(plan > 0)) return;
-  out.between = fitPlan(family, plan, out.anew.trials, thorough);
+  const std::optional<double> plan = leastCost(out.plans);
+  if (!plan) return;
+  out.between = fitPlan(family, *plan, out.anew.trials, thorough);
   // Where the scatter is small, the steps are wide beside the valley of the cost.
   const auto beside = [&](double sign) -> const ShapeFits* {
     const ShapeFits* nearest = nullptr;
     for (const auto& [step, fits] : out.plans) {
-      const double way = sign * std::log(fits.plan / plan);
-      if (way > 0 && (nearest == nullptr || way < sign * std::log(nearest->plan / plan))) nearest = &fits;
+      const double way = sign * std::log(fits.plan / *plan);
+      if (way > 0 && (nearest == nullptr || way < sign * std::log(nearest->plan / *plan))) nearest = &fits;
     }
     return nearest;
   };
