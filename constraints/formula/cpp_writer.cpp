@@ -83,10 +83,8 @@ CppWriter::CppWriter(ExpressionGraph& graph, const std::vector<int>& roots, Name
   }
 }
 
-std::string CppWriter::freshName(const std::string& wish) {
-  std::string name = wish;
+std::string CppWriter::freshName(std::string name) const {
   while (std::find(taken_.begin(), taken_.end(), name) != taken_.end()) name += "_";
-  taken_.push_back(name);
   return name;
 }
 

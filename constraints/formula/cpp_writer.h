@@ -33,7 +33,7 @@ class CppWriter {
   Text operation(int id) const;
   std::string function(const ExpressionNode& n) const;
   std::string waveSuffix(int argument);
-  std::string freshName(const std::string& wish);
+  std::string freshName(std::string name) const;
   void nameWave(int id);
 
   const ExpressionGraph& graph_;
