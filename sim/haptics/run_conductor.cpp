@@ -69,7 +69,7 @@ std::optional<ConductedTrial> RunConductor::poll() {
     advanceUntilDone(nullptr);
     loop_->advance();  // one tick in Done, whoever conducts: the same recording
   }
-  if (loop_->hangs() && underWay_ && !std::exchange(endedWithoutDevice_, true)) loop_->endWithoutDevice();
+  if (loop_->hangs() && underWay_) loop_->endWithoutDevice();
   if (const TickState* newer = loop_->takeLatest()) latest_ = newer;
   if (loop_->hangs() && !underWay_) throw ResourceError(describe(loop_->fault(), device_->info().name));
   if (!underWay_ || latest_->trial != trial_ || latest_->phase != trial::Phase::Done) return std::nullopt;

@@ -90,7 +90,7 @@ class RunConductor {
   std::size_t planned_ = 0;  // so many of them were not appended
   std::size_t next_ = 0;
   std::int32_t trial_ = 0;
-  bool underWay_ = false, finished_ = false, endedWithoutDevice_ = false;
+  bool underWay_ = false, finished_ = false;
   RunSink* sink_ = nullptr;
   std::unique_ptr<HapticLoop> loop_;
   std::unique_ptr<TickState> first_;
