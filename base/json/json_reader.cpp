@@ -53,8 +53,12 @@ Found findKey(const JsonNode& root, std::string_view key) {
 }  // namespace
 
 void FaultList::add(const JsonNode& where, const std::string& key, const std::string& what, const std::string& allowed) {
-  if (isFull()) return static_cast<void>(++more_);
-  faults_.push_back({key, what, allowed, FilePlace{file_, where.line, where.column}});
+  keep({key, what, allowed, FilePlace{file_, where.line, where.column}});
+}
+
+void FaultList::keep(Fault fault) {
+  if (isFull()) ++more_;
+  else faults_.push_back(std::move(fault));
 }
 
 bool FaultList::requireKind(const JsonNode& node, JsonNode::Kind kind, const std::string& key, const std::string& allowed) {
@@ -66,7 +70,7 @@ bool FaultList::isAbout(const std::string& key) const { return std::any_of(fault
 
 void FaultList::addOfValue(const JsonNode& root, Fault fault) {
   if (ofFile_ == kNone) ofFile_ = faults_.size();
-  if (fault.place && !fault.place->file.empty() && fault.place->file != file_) return faults_.push_back(std::move(fault));
+  if (fault.place && !fault.place->file.empty() && fault.place->file != file_) return keep(std::move(fault));
   const auto endOfFile = faults_.begin() + static_cast<std::ptrdiff_t>(ofFile_);
   const auto told = std::find_if(faults_.begin(), endOfFile, isBeside(fault.key));
   if (told != endOfFile) {
@@ -74,13 +78,12 @@ void FaultList::addOfValue(const JsonNode& root, Fault fault) {
     if (told->key == fault.key && told->allowed == anyNumber().allowed) told->allowed = fault.allowed;
     return;
   }
-  if (isFull()) return static_cast<void>(++more_);
   const Found found = findKey(root, fault.key);
   if (found.missing) fault.what = "is missing";
   FilePlace place{file_, found.node->line, found.node->column};
   if (fault.place && fault.place->file.empty()) place.column += fault.place->column;  // behind the string's opening quote
   fault.place = place;
-  faults_.push_back(std::move(fault));
+  keep(std::move(fault));
 }
 
 void FaultList::throwIfAny() const {

@@ -30,6 +30,8 @@ class FaultList {
   void throwIfAny() const;
 
  private:
+  void keep(Fault fault);  // or count it, when the list is full
+
   static constexpr std::size_t kMaxFaults = 100, kNone = static_cast<std::size_t>(-1);
   std::string file_;
   std::vector<Fault> faults_;
@@ -66,6 +68,8 @@ class ObjectReader {
   const JsonNode& node() const { return node_; }
 
  private:
+  void keep(Fault fault);  // or count it, when the list is full
+
   bool readNumber(const JsonNode& node, const std::string& path, const NumberRange& range, double& value);
 
   FaultList& faults_;
