@@ -7,6 +7,7 @@
 #include "base/fault.h"
 #include "cli/commands/commands.h"
 #include "devices/virtual/loop_stability.h"
+#include "devices/virtual/virtual_device.h"
 #include "sim/record/log/atomic_file.h"
 
 namespace reachlab::cli {
@@ -77,7 +78,7 @@ void addStabilityCommand(CLI::App& app, int&) {
       ->check(CLI::Range(0.0, 1000.0));
   command->add_option("--step", r->settings.dampingStep, "Step of b_h [default: 0.25 N s/m]")->check(CLI::Range(0.01, 1000.0));
   command->add_option("--delay-ms", r->settings.delayTicks, "Delay of the device beyond the tick's own [default: 0 ms]")
-      ->check(CLI::Range(0, 31));
+      ->check(CLI::Range(0, devices::VirtualDevice::kMostDelay - 1));
   command->add_option("--out", r->out, "Folder for the table and the figure [default: the table to stdout]");
   command->footer(
       "Linear: Coulomb friction and encoder steps are left out. `passive` is Colgate's bound, 2 (b - |b_h|)/T.\n\n"
