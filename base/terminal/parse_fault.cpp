@@ -84,8 +84,10 @@ Fault missing(const CLI::App& app) {
   for (const std::string& word : rest)  // a misspelt option is the likeliest reason
     if (word.starts_with("--") && !nearestOf(command, word).empty()) return unknownWord(app, command, word);
   for (const CLI::Option* option : command.get_options())
-    if (option->get_required() && option->empty())
+    if (option->get_required() && option->empty()) {
+      if (const std::string limit = allowedOf(*option); !limit.empty()) return {option->get_name(), "is missing", limit};
       return {option->get_name(), "is missing; " + option->get_name() + ": " + option->get_description()};
+    }
   if (!rest.empty() && !rest.front().starts_with('-')) return unknownWord(app, command, rest.front());
   return {command.get_parent() == nullptr ? std::string() : command.get_name(),
           "a command is missing; " + helpCommand(app, command) + " explains the commands", listOf(commandsOf(command))};

@@ -134,7 +134,7 @@ void addPredictCommand(CLI::App& app, int&) {
       app.add_subcommand("predict", "What the hand should do under one optimality criterion: profiles (CSV) or numbers (JSON)");
   const auto arguments = std::make_shared<PredictArguments>();
   command->add_option("experiment", arguments->experiment, "Experiment file, or the name of a shipped one")->required();
-  command->add_option("--criterion", arguments->criterion, "One of the criteria below")->required();
+  command->add_option("--criterion", arguments->criterion, "min-hand-jerk, min-crackle … `reach help predict` lists them all")->required();
   command->add_option("--duration", arguments->duration, "Movement time [s] [default: the task's]")->check(CLI::PositiveNumber);
   command->add_option("--hand-mass", arguments->handMass, "Mass of the hand [kg] [default: the experiment's]")
       ->check(CLI::NonNegativeNumber);

@@ -278,11 +278,8 @@ void addSimulateCommand(CLI::App& app, int&) {
   command->add_option("experiment", request->experiment, "Experiment file, or the name of a shipped one")->required();
   command
       ->add_option("--hand", request->hand,
-                   "none (no coupling), hold (at the start), min-jerk (along the chord), min-jerk-along (along the curve),\n"
-                   "or a CSV file with time_s,x_m,y_m,z_m in world coordinates [s, m]. A file is interpolated by a cubic spline\n"
-                   "with two continuous derivatives and not-a-knot ends; v_HIP is its derivative. At the first and the last\n"
-                   "sample's time v_HIP is the spline's inner velocity there; before the first and after the last the hand rests\n"
-                   "where it is, so that its velocity jumps unless the samples begin and end at rest")
+                   "none (no coupling), hold (at the start), min-jerk (along the chord), min-jerk-along (along the curve), or a "
+                   "CSV file with time_s,x_m,y_m,z_m in world coordinates [s, m]")
       ->required();
   command->add_option("--until", request->until, "End of the simulation [s] [default: the task's duration_s]")
       ->check(CLI::NonNegativeNumber);
@@ -298,6 +295,9 @@ void addSimulateCommand(CLI::App& app, int&) {
   command->add_option("--force", request->force, "Constant extra force on mass 1, X,Y,Z [N]")->delimiter(',');
   command->add_option("--out", request->out, "File for the rows [default: standard output]");
   command->footer(
+      "A CSV file of --hand is interpolated by a cubic spline with two continuous derivatives and not-a-knot ends; v_HIP is its derivative. "
+      "At the first and the last sample's time v_HIP is the spline's inner velocity there; before the first and after the last the hand "
+      "rests where it is, so that its velocity jumps unless the samples begin and end at rest.\n\n"
       "Units are in the column names; massI_q1 is the constraint's parameter. A stop at a constraint's end writes the last row there.\n"
       "A body starts unturned with its centre of mass at the start (or --at); its FP is at fp_offset_m from there. Its columns body_qw … "
       "are\n"

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <regex>
 #include <sstream>
 #include <string>
 #include <vector>
@@ -43,6 +44,19 @@ TEST_F(Usage, EveryCommandHasHelpOfOneForm) {
     std::istringstream lines(help);
     for (std::string line; std::getline(lines, line);)
       EXPECT_LE(std::count_if(line.begin(), line.end(), [](char c) { return (c & 0xC0) != 0x80; }), 100) << command << "\n" << line;
+  }
+}
+
+TEST_F(Usage, HelpSaysWhichOptionsMustBeGiven) {
+  const std::regex missing("(--\\S+): is missing");
+  for (const char* command :
+       {"run chain-slow", "export a.rlog", "predict dingwell", "simulate dingwell", "constraint eval torus", "peers init here"}) {
+    const std::string refusal = reach(command).err;
+    std::smatch option;
+    ASSERT_TRUE(std::regex_search(refusal, option, missing)) << command << "\n" << refusal;
+    const std::string help = printed(std::string(command) + " --help");
+    const std::size_t at = help.find(option[1].str() + " ");
+    EXPECT_LT(help.find("(required)", at), help.find("\n  -", at)) << command << " " << option[1];
   }
 }
 
@@ -88,7 +102,7 @@ TEST_F(Usage, MistakesAreAnsweredWithWhatWasMeant) {
         Mistake{"", "error: a command is missing\nhelp: `reach --help` explains the commands. Allowed: run, station"},
         Mistake{"constraint",
                 "error: constraint: a command is missing\nhelp: `reach constraint --help` explains the commands. Allowed: list, show"},
-        Mistake{"list", "error: what: is missing\nhelp: what: "}, Mistake{"run dingwell", "error: --device: is missing\nhelp: --device: "},
+        Mistake{"list", "error: what: is missing\nhelp: allowed: experiments, "}, Mistake{"run dingwell", "error: --device: is missing\nhelp: --device: "},
         Mistake{"predict paper --criterion min-hand-jerk", "paper.json: is a session plan, and an experiment is needed here"},
         Mistake{"run dingwell --device phantm",
                 "error: --device: is phantm, which is unknown\nhelp: did you mean phantom? Allowed: simulated, partner, replay"},
