@@ -80,6 +80,26 @@ TEST(Adaptation, TakesAClampedCursorAsATrialWithoutAnError) {
   EXPECT_EQ(written()[2].at("a_s"), "") << "a clamped error that is not 0 is not in the model";
 }
 
+// The fit's own derivatives would lead elsewhere if one of them were wrong.
+TEST(Adaptation, NoParameterLeavesLessWhenItIsMoved) {
+  const AdaptationSeries series = savings(kSmith, 0.1, 5);
+  const auto left = [&](const std::vector<LearningState>& states) {
+    const std::vector<double> x = simulateLearning(states, series);
+    double sum = 0;
+    for (std::size_t n = 0; n < series.size(); ++n) sum += (x[n] - *series[n].response) * (x[n] - *series[n].response);
+    return sum;
+  };
+  const AdaptationFit fit = fitAdaptation(series, 100, 1);
+  for (const std::vector<LearningState>& states : {fit.one.states, fit.two.states})
+    for (std::size_t k = 0; k < states.size(); ++k)
+      for (double LearningState::*parameter : {&LearningState::retention, &LearningState::learningRate})
+        for (const double way : {-1e-4, 1e-4}) {
+          std::vector<LearningState> moved = states;
+          moved[k].*parameter += way;
+          EXPECT_GT(left(moved), left(states)) << states.size() << " states, state " << k << " moved by " << way;
+        }
+}
+
 TEST(Adaptation, SaysThatOneStateIsEnoughWhereOneMadeTheSeries) {
   EXPECT_EQ(fitAdaptation(savings({{0.97, 0.1}}, 0.05, 3), 100, 1).count, StateCount::One);
 }

@@ -130,6 +130,7 @@ TEST(Dataset, OfBidsFilesThatAnotherProgramHasChangedIsRefusedWhereItsNumbersWou
   EXPECT_EQ(refusalOf("_motion.tsv", std::regex("\n"), "\r\n"), "") << "the ends of lines are no number";
   EXPECT_NE(refusalOf("_channels.tsv", std::regex("\tm\t"), "\tmm\t").find("hand_pos_x in m"), std::string::npos);
   EXPECT_NE(refusalOf("_channels.tsv", std::regex("hand_pos_y"), "hand_pos_z").find("hand_pos_y in m"), std::string::npos);
+  EXPECT_NE(refusalOf("_motion.tsv", std::regex("\\."), ",").find("_motion.tsv:1"), std::string::npos) << "in its first line";
   EXPECT_NE(refusalOf("_motion.tsv", std::regex("\\."), ",").find("is not a number"), std::string::npos);
   EXPECT_NE(refusalOf("_events.tsv", std::regex("\\."), ",").find("is not a number"), std::string::npos);
   EXPECT_NE(refusalOf("_events.tsv", std::regex("\n"), "\n9").find("and the recording at"), std::string::npos) << "90 s later";

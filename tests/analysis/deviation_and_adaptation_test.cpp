@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/math/minimum_jerk.h"
 #include "sim/experiment/experiment.h"
@@ -74,6 +75,17 @@ TEST(MeasuresAcross, OnlyAChannelTrialOfATrainedFieldHasAnAdaptation) {
   trial.scene.channel = false;
   EXPECT_TRUE(std::isnan(measuredAcross(trial).adaptation));
   EXPECT_TRUE(std::isnan(measuredAcross(trial).channelLeak));
+}
+
+// Half way the hand is to the right of the line, at the target's distance to its left; it goes on beyond.
+TEST(MeasuresAcross, TheAngleAtTheTargetsRadiusIsThatWhereTheHandFirstComesSoFar) {
+  TrialData trial = straightReach();
+  for (std::size_t i = 100; i < trial.hand.size(); ++i) {
+    const double x = static_cast<double>(i - 100) / 400;  // at the target's distance after 400 of the 500 rows
+    const double angle = x < 1 ? 0.2 * (1 - x) : 0.3 * (1 - x) - 0.1;
+    trial.hand[i] = trial.start + 0.1 * x * Vec3{std::sin(angle), 0, -std::cos(angle)};
+  }
+  EXPECT_NEAR(measuredAcross(trial).handAngleAtRadius, 0.1 * 180 / std::numbers::pi, 1e-9) << "to the left is positive";
 }
 
 TEST(MeasuresAcross, ALeakIsCountedOnAllSidesOfTheLine) {

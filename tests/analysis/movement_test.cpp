@@ -135,5 +135,13 @@ TEST(MovementWithin, OfNoWindowIsNone) {
   EXPECT_FALSE(movementWithin(v, 10, std::nan(""), 0.2).found);
 }
 
+TEST(NormaliseTime, LeadsFromTheOnsetToTheOffsetInEvenSteps) {
+  std::vector<double> line;
+  for (int i = 0; i < 300; ++i) line.push_back(2.0 * i / kSpeedRate);
+  const std::vector<double> normal = normaliseTime(line, kSpeedRate, 0.5, 1.75);
+  for (std::size_t i = 0; i < normal.size(); ++i)
+    EXPECT_NEAR(normal[i], 2 * (0.5 + 1.25 * static_cast<double>(i) / static_cast<double>(normal.size() - 1)), 1e-12);
+}
+
 }  // namespace
 }  // namespace reachlab::analysis

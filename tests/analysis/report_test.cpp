@@ -41,6 +41,14 @@ TEST(Report, SaysWhereNothingSucceededOrCouldBePredicted) {
   expectNotIn(reportOf(analysis), {"What the failed ones were like"});
 }
 
+TEST(Report, ShowsEveryFigure) {
+  const Analysis analysis = madeStudy();
+  const std::string text = reportOf(analysis);
+  std::size_t shown = 0;
+  for (std::size_t at = 0; (at = text.find("<svg", at)) != std::string::npos; ++at) ++shown;
+  EXPECT_EQ(shown, makeFigures(analysis, {}).size());
+}
+
 TEST(Report, OfOneConditionConcludesOnce) {
   Analysis analysis = madeStudy();
   analysis.conditions.pop_back(), analysis.results.pop_back();

@@ -41,6 +41,15 @@ TEST(Fault, IsToldFromOutside) {
   EXPECT_EQ(placed[1].place, (FilePlace{"old.json", 2, 3}));
 }
 
+TEST(Fault, OfATextWithinATextIsToldByItsKeyAlone) {
+  try {
+    underKey("change", [] { throw FaultError(Fault{"mass_kg", "is -1", "more than 0 kg", FilePlace{"", 2, 3}}); });
+    FAIL();
+  } catch (const FaultError& error) {
+    EXPECT_EQ(toText(error.faults.at(0)), "change.mass_kg: is -1; allowed: more than 0 kg") << "its line is none of the file's";
+  }
+}
+
 TEST(Names, TheNearestIsTheOneOfLeastEdits) {
   EXPECT_EQ(nearestName("elipse", {"circle", "ellipse", "eclipse"}), "ellipse");
   EXPECT_EQ(nearestName("cat", {"bat", "rat"}), "bat") << "the first of equals";

@@ -207,6 +207,13 @@ TEST_F(Devices, BothClocksOfAPhantomAreMeasuredByOneCommand) {
   }
 }
 
+TEST_F(Devices, AHandleThatTheComputerAsksHasTicksOfAMillisecond) {
+  const Json rows = printedJson("latency forcedimension:0 --seconds 0.3 --json", kFakes);
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0]["clock"], "computer");
+  EXPECT_LT(rows[0]["jitter_p50_s"], 0.01) << rows;
+}
+
 TEST_F(Devices, EstimatorsOfVelocityAreComparedByOneCommand) {
   EXPECT_EQ(printedJson("velocity --json").size(), 15u) << "five estimators on three resolutions";
 }

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "cli/output/predict_output.h"
 #include "tests/cli/program.h"
 
 using namespace reachlab::test;
@@ -62,6 +63,8 @@ TEST(Predict, SweepsAFamily) {
   const Table table = parseCsv(family);
   ASSERT_EQ(table.rows.size(), 6u);
   EXPECT_EQ(table.at(5, "duration_s"), 3);
+  const auto drawn = reachlab::cli::drawSweep({"duration_s", 1, 2, 0.5}, {}, reachlab::predict::Criterion::MinHandJerk);
+  EXPECT_EQ(drawn.panels.at(0).x.label, "Movement time (s)");
 }
 
 TEST(Predict, RefusesWithTheAgreedNumbers) {

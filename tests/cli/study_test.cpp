@@ -7,6 +7,7 @@
 #include <chrono>
 #include <random>
 #include <regex>
+#include <set>
 #include <thread>
 
 #include "tests/cli/program.h"
@@ -190,6 +191,9 @@ TEST_F(Study, ReportsWhatTheAnalysisWouldName) {
     EXPECT_EQ(confusion.rows[i][confusion.column("truth")], confusion.rows[i][confusion.column("named")]);
   }
   EXPECT_EQ(studies, 40);
+  std::set<std::string> truths;
+  for (const auto& row : confusion.rows) truths.insert(row[confusion.column("truth")]);
+  EXPECT_EQ(truths.size(), 3u) << "also a criterion that nobody follows";
   const Table smallest = parseCsv(contentOf(at("t") + "/report/smallest.csv"));
   EXPECT_EQ(smallest.at(0, "subjects"), 5);
   EXPECT_EQ(smallest.at(0, "trials"), 14);
@@ -201,6 +205,12 @@ TEST_F(Study, ReportsWhatTheAnalysisWouldName) {
   EXPECT_TRUE(std::any_of(std::sregex_iterator(drawing.begin(), drawing.end(), color), std::sregex_iterator(),
                           [](const std::smatch& m) { return m[1] != m[2] || m[2] != m[3]; }));
   EXPECT_EQ(reach("study report " + at("nothing")).exitCode, 2);
+}
+
+TEST_F(Study, TheManualHasTheSubjectsNumbersAsTheProgramPrintsThem) {
+  const std::string page = contentOf(std::string(REACHLAB_SOURCE_DIR) + "/docs/virtual-subjects.md");
+  std::istringstream lines(printed("study parameters"));
+  for (std::string line; std::getline(lines, line);) EXPECT_TRUE(holds(page, line + "\n")) << line;
 }
 
 TEST_F(Study, ReportsOfWhatItDrawsNoStudies) {

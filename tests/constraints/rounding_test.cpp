@@ -32,6 +32,18 @@ TEST(Rounding, OfArcsNearTheirEndsIsToldAsItIs) {
   }
 }
 
+// The angle of a point turns by what its coordinates are off across it, over their distance from the origin: here 1e6 roundings of y and none
+// of x, and the other way round.
+TEST(Rounding, OfAnAngleIsThatOfThePointAcrossIt) {
+  const auto told = [](const std::string& y) { return computeRounding(curve({"0", y, "0"}, {{"c", 1e6}}), 0.3); };
+  const double off = told("(c + phi) - c");
+  for (const double x : {0.25, 4.0}) {
+    const std::string far = std::to_string(x);
+    EXPECT_NEAR(told("atan2((c + phi) - c, " + far + ")"), off * x / (x * x + 0.09), 1e-3 * off) << far;
+    EXPECT_NEAR(told("atan2(" + far + ", (c + phi) - c)"), off * x / (x * x + 0.09), 1e-3 * off) << far;
+  }
+}
+
 // What is exact hands no error on, also where a function is steepest.
 TEST(Rounding, OfAnExactNumberIsNone) {
   const auto told = [](const std::string& y) {
