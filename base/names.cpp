@@ -1,6 +1,7 @@
 #include "base/names.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <numeric>
 
 namespace reachlab {
@@ -24,6 +25,11 @@ std::string nearestName(std::string_view name, const std::vector<std::string>& k
     if (row.back() < bestDistance) bestDistance = row.back(), best = candidate;
   }
   return best;
+}
+
+std::string nameOfFile(const std::string& path) {
+  const std::filesystem::path file(path);
+  return (file.extension() == ".json" ? file.stem() : file.filename()).string();
 }
 
 std::string listOf(const std::vector<std::string>& names) {

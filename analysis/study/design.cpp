@@ -7,6 +7,7 @@
 
 #include "analysis/study/columns.h"
 #include "base/json/json_reader.h"
+#include "base/names.h"
 #include "base/text_file.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/patch.h"
@@ -155,7 +156,7 @@ Design parseDesign(const std::string& text, const std::string& file, const std::
   const JsonNode root = parseJson(text, file);
   FaultList faults(file);
   Design design;
-  design.name = fs::path(file).stem().string();
+  design.name = nameOfFile(file);
   design.text = text;
   design.file = file;
   ObjectReader reader(faults, root, "");

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "base/error.h"
@@ -77,9 +76,12 @@ bench::BenchScene tickScene(const std::string& name) {
   for (bench::BenchScene& scene : bench::benchScenes())
     if (scene.name == name) return std::move(scene);
   experiment::Experiment experiment = experiment::readExperiment(name);
-  const std::string stem = std::filesystem::path(name).stem().string();
-  return {
-      .name = stem, .title = experiment::describe(experiment), .experiment = std::move(experiment), .hand = {}, .start = {}, .rate = {}};
+  return {.name = experiment.name,
+          .title = experiment::describe(experiment),
+          .experiment = std::move(experiment),
+          .hand = {},
+          .start = {},
+          .rate = {}};
 }
 
 void benchTicks(const BenchOptions& options) {

@@ -1,13 +1,13 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <thread>
 
 #include "analysis/study/points.h"
 #include "analysis/study/report.h"
 #include "analysis/study/run_study.h"
 #include "base/fault.h"
+#include "base/names.h"
 #include "cli/commands/commands.h"
 #include "cli/output/progress_line.h"
 #include "cli/output/study_words.h"
@@ -25,9 +25,7 @@ struct StudyRequest {
   bool resume = false;
 };
 
-std::string outOf(const std::string& out, const std::string& study) {
-  return out.empty() ? std::filesystem::path(study).stem().string() + "-study" : out;
-}
+std::string outOf(const std::string& out, const std::string& study) { return out.empty() ? nameOfFile(study) + "-study" : out; }
 
 void runStudy(const StudyRequest& request) {
   if (request.study.empty()) throw FaultError(Fault{"study", "is missing", "a study file, or one of status, report, point and sbatch"});
@@ -78,8 +76,7 @@ void tellPoint(const PointRequest& request) {
   if (!design.planText.empty())
     throw FaultError(Fault{"point", "is of a study that goes through a plan", "points of a study of experiments"});
   const study::PointExperiment& experiment = task.experiments.front();
-  const std::string file =
-      fmt::format("{}/point-{}-{}.json", folder, request.point, std::filesystem::path(experiment.name).stem().string());
+  const std::string file = fmt::format("{}/point-{}-{}.json", folder, request.point, nameOfFile(experiment.name));
   atOption("--out", [&] { record::writeFileAtomically(file, experiment.text); });
   fmt::print("reach run {} --device {} --trials {} --seed {} --fast\n", file, device, task.plan.blocks.front().trials,
              study::seedOf(design, request.point, request.subject, task.days.front()));

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "base/fault.h"
 #include "base/json/json_reader.h"
+#include "base/names.h"
 #include "constraints/catalogue/definition.h"
 #include "sim/experiment/compiled_experiment.h"
 #include "sim/experiment/experiment_keys.h"
@@ -246,7 +246,7 @@ Experiment readTree(const JsonNode& tree, const std::string& text, const std::st
   faults.throwIfAny();
   Experiment experiment;
   experiment.text = text;
-  experiment.name = std::filesystem::path(file).stem().string();
+  experiment.name = nameOfFile(file);
 
   experiment.constraint.definition = definition;
   visitKeys(experiment, KeyReader{root, experiment});

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "base/json/json_reader.h"
+#include "base/names.h"
 #include "base/text_file.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/resources.h"
@@ -110,9 +111,7 @@ std::string keyInPlan(const JsonNode& root, std::size_t block, const std::string
   return ofPlan ? setting : fmt::format("blocks[{}].{}", block, setting);
 }
 
-std::string conditionOf(const PlanBlock& block) {
-  return block.condition.empty() ? std::filesystem::path(block.experiment).stem().string() : block.condition;
-}
+std::string conditionOf(const PlanBlock& block) { return block.condition.empty() ? nameOfFile(block.experiment) : block.condition; }
 
 experiment::CompiledExperiment openExperimentOf(const PlanBlock& block) {
   experiment::CompiledExperiment plain = experiment::openExperiment(block.experiment);
@@ -140,7 +139,7 @@ Plan parsePlan(const std::string& text, const std::string& file) {
   const JsonNode root = parseJson(text, file);
   FaultList faults(file);
   Plan plan;
-  plan.name = fs::path(file).stem().string();
+  plan.name = nameOfFile(file);
   plan.text = text;
   ObjectReader reader(faults, root, "");
   double version = 1;

@@ -59,6 +59,12 @@ TEST(Names, TheNearestIsTheOneOfLeastEdits) {
   EXPECT_EQ(nearestName(front + "saturday", {front + "sunday", front + "saturXYZW"}), front + "sunday") << "3 edits, not 4";
 }
 
+TEST(Names, OfAFileAreWhatIsBeforeItsJson) {
+  for (const char* file : {"lab/chain.v2.json", "chain.v2.json", "lab/chain.v2", "chain.v2"})
+    EXPECT_EQ(nameOfFile(file), "chain.v2") << file;
+  EXPECT_EQ(nameOfFile("chain-moderate"), "chain-moderate");
+}
+
 TEST(Names, NoneIsNearThatIsTooFar) {
   EXPECT_EQ(nearestName("", {"a"}), "");
   EXPECT_EQ(nearestName("abc", {}), "");
