@@ -44,12 +44,17 @@ const Definition* findInCatalogue(const std::string& name) {
 }
 
 Definition findDefinition(const std::string& name, const std::string& key) {
-  if (const Definition* definition = findInCatalogue(name)) return *definition;
   // A user's own, saved under its name; a name with a path in it is none.
   const std::string file = userDefinitionFolder() + "/" + name + ".json";
   std::error_code error;
-  if (!name.empty() && name.find_first_of("/\\.") == std::string::npos && std::filesystem::is_regular_file(file, error))
-    return readDefinition(file);
+  const bool isOwn = !name.empty() && name.find_first_of("/\\.") == std::string::npos && std::filesystem::is_regular_file(file, error);
+  if (const Definition* shipped = findInCatalogue(name)) {
+    if (isOwn)
+      throw FaultError(Fault{keyIn(key, "name"), "is '" + name + "', the name of a shipped constraint and of " + file,
+                             "one of the two: give the file and its `name` another name"});
+    return *shipped;
+  }
+  if (isOwn) return readDefinition(file);
   std::vector<std::string> known{"free"};
   for (const Definition& definition : catalogue()) known.push_back(definition.name);
   const std::string near = nearestName(name, known);

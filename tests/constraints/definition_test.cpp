@@ -192,13 +192,18 @@ TEST(UserDefinitions, AreFoundInTheFolderThatTheEnvironmentNames) {
 
   const TemporaryFolder folder;
   EXPECT_TRUE(readDefinitionFolder(folder / "none").empty()) << "there is none";
+  ::setenv("REACHLAB_CONSTRAINTS", folder.path().c_str(), 1);
+  EXPECT_EQ(findDefinition("torus", "c").name, "torus");
+  folder.write("torus.json", kTubeDefinition);
+  EXPECT_TRUE(holds(refusalOf<FaultError>([] { (void)findDefinition("torus", "c"); }), folder / "torus.json"))
+      << "nobody is left to guess which of the two is meant";
+  std::filesystem::remove(folder / "torus.json");
   folder.write("own-tube.json", kTubeDefinition);
   folder.write("own-arc.json", kArcDefinition);
   folder.write("read.me", "no definition");
   const std::vector<Definition> all = readDefinitionFolder(folder.path());
   ASSERT_EQ(all.size(), 2u);
   EXPECT_EQ(all[0].name + " " + all[1].name, "own-arc own-tube");
-  ::setenv("REACHLAB_CONSTRAINTS", folder.path().c_str(), 1);
   EXPECT_EQ(findDefinition("own-tube", "c").name, "own-tube");
   EXPECT_EQ(findDefinition("circle", "c").name, "circle");
   for (const char* none : {"own-tub", "", "x/own-tube", "../own-tube", "own-tube.json"})
