@@ -133,6 +133,8 @@ void SessionController::planRuns(const session::SessionRequest& request) {
     onOpening_ << "An earlier run of this session is not finished. Trial, Resume continues it. This is a new run.";
   if (recorded_->notice().again)
     onOpening_ << "This session has blocks of this plan already, and they are recorded again. Trial, Resume continues after them.";
+  if (recorded_->notice().nothingToResume)
+    onOpening_ << "Nothing of this session is recorded, so there was nothing to resume. This is its first run.";
   for (const std::string& sentence : recorded_->notice().unreadable) onOpening_ << QString::fromStdString(sentence);
 }
 

@@ -209,6 +209,13 @@ TEST_F(MenuActions, OfTrialsConductARun) {
   trigger("Trial/Resume the session");
   ASSERT_NE(window.session().run(), nullptr) << window.message().toStdString();
   EXPECT_EQ(window.session().run()->configuration().firstRun, 1) << "run 2 resumes run 1";
+  {
+    const AnswerBox box("End the run");
+    trigger("Trial/End run");
+  }
+  trigger("Trial/Next subject");
+  trigger("Trial/Resume the session");
+  EXPECT_TRUE(window.message().contains("nothing to resume")) << window.message().toStdString();
 }
 
 TEST_F(MenuActions, OfTheViewMoveTheCameraAndChangeTheDrawing) {
