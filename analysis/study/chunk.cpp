@@ -86,7 +86,8 @@ std::uint64_t fingerprintOf(const Design& design) {
   const auto add = [&](std::string_view text) { print = mixBits(print ^ hashOf(text)); };
   add(design.name);
   add(design.planText);
-  for (const auto& [name, text] : design.experimentTexts) add(name), add(text);
+  for (const auto* texts : {&design.experimentTexts, &design.definitionTexts})
+    for (const auto& [name, text] : *texts) add(name), add(text);
   add(REACHLAB_VERSION);
   return print;
 }

@@ -33,7 +33,7 @@ std::string csvOf(const std::vector<Column>& columns, const std::vector<double>&
 }
 
 experiment::CompiledExperiment openPoint(const PointExperiment& point) {
-  experiment::CompiledExperiment experiment = experiment::openExperimentText(point.text, point.name);
+  experiment::CompiledExperiment experiment = experiment::openExperimentText(point.text, point.name, point.definition);
   trial::checkTask(experiment, point.name);
   if (!experiment.experiment().hands.empty())
     throw FaultError(Fault{"hands", "are several, and a virtual subject has one", "an experiment for one hand"});

@@ -166,17 +166,16 @@ std::vector<std::string> usualMeasures() {
 
 std::vector<Fault> measureProblems(const Design& design) {
   std::vector<Fault> faults;
-  const std::vector<std::string> known = measureNames();
-  std::vector<std::string> seen;
-  for (std::size_t i = 0; i < design.measures.size(); ++i) {
-    const std::string& name = design.measures[i];
-    checkChoice(fmt::format("measures[{}]", i), name, known, faults);
-    if (std::find(seen.begin(), seen.end(), name) != seen.end())
-      faults.push_back({fmt::format("measures[{}]", i), fmt::format("\"{}\" stands here twice", name), "each measure once"});
-    seen.push_back(name);
-  }
-  for (std::size_t i = 0; i < design.criteria.size(); ++i)
-    checkChoice(fmt::format("criteria[{}]", i), design.criteria[i], allCriteria(), faults);
+  const auto check = [&](const char* key, const std::vector<std::string>& names, const std::vector<std::string>& allowed) {
+    for (auto name = names.begin(); name != names.end(); ++name) {
+      const std::string place = fmt::format("{}[{}]", key, name - names.begin());
+      checkChoice(place, *name, allowed, faults);
+      if (std::find(names.begin(), name, *name) != name)
+        faults.push_back({place, fmt::format("\"{}\" stands here twice", *name), "each once"});
+    }
+  };
+  check("measures", design.measures, measureNames());
+  check("criteria", design.criteria, allCriteria());
   return faults;
 }
 

@@ -6,9 +6,11 @@
 #include <filesystem>
 
 #include "analysis/study/columns.h"
+#include "analysis/study/points.h"
 #include "base/json/json_reader.h"
 #include "base/names.h"
 #include "base/text_file.h"
+#include "constraints/catalogue/definition.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/patch.h"
 
@@ -113,10 +115,23 @@ std::string besideStudy(const std::string& study, const std::string& name) {
   return fs::is_regular_file(beside, error) ? beside.string() : name;
 }
 
+void keepDefinition(Design& design, const std::string& name) {
+  if (!name.empty() && name != "free" && constraints::findInCatalogue(name) == nullptr)
+    design.definitionTexts[name] = constraints::toJson(constraints::findDefinition(name, "constraint"));
+}
+
+/// Definitions that changes name, as `constraint.name` does.
+void keepDefinitions(Design& design, const std::vector<experiment::Patch>& changes) {
+  for (const experiment::Patch& change : changes)
+    if (change.path == "constraint.name") keepDefinition(design, unquoted(change.value));
+}
+
 void readExperiments(const JsonNode& root, Design& design, FaultList& faults) {
   const auto take = [&](const JsonNode& where, const std::string& key, const std::string& name, const std::string& file) {
     try {
-      const std::string text = experiment::readExperiment(file).text;
+      const experiment::Experiment experiment = experiment::readExperiment(file);
+      const std::string& text = experiment.text;
+      keepDefinition(design, experiment.constraint.name);
       if (const auto [known, fresh] = design.experimentTexts.emplace(name, text); !fresh && known->second != text)
         faults.add(where, key, fmt::format("names two experiments {}", name), "one experiment a name");
     } catch (const FaultError& error) {
@@ -126,8 +141,11 @@ void readExperiments(const JsonNode& root, Design& design, FaultList& faults) {
   if (!design.experiment.empty())
     take(*root.find("experiment"), "experiment", design.experiment, besideStudy(design.file, design.experiment));
   for (const VariedKey& axis : design.axes) {
+    if (axis.path == "constraint.name")
+      for (const std::string& value : axis.values) keepDefinition(design, unquoted(value));
     if (axis.path != "experiment") continue;
     const JsonNode& node = *root.find("vary")->find("experiment");
+    if (node.kind != JsonNode::Kind::Array) faults.add(node, "vary.experiment", "is no list", "names of experiments");
     for (const JsonNode& item : node.items)
       if (item.kind == JsonNode::Kind::String) take(item, "vary.experiment", item.string, besideStudy(design.file, item.string));
       else faults.add(item, "vary.experiment", "is no name", "names of experiments");
@@ -138,8 +156,10 @@ void readExperiments(const JsonNode& root, Design& design, FaultList& faults) {
     design.plan = fs::path(*found).filename().string();
     design.planText = readTextFile(*found);
     try {
-      for (const session::PlanBlock& block : session::parsePlan(design.planText, *found).blocks)
+      for (const session::PlanBlock& block : session::parsePlan(design.planText, *found).blocks) {
         take(where, "plan", experimentNameOf(block), block.experiment);
+        keepDefinitions(design, block.changes);
+      }
     } catch (const FaultError& error) {
       faults.add(where, "plan", error.what());
     }
@@ -183,14 +203,20 @@ Design parseDesign(const std::string& text, const std::string& file, const std::
     faults.add(root, "experiment", "needs exactly one of experiment and plan", "one of the two");
   if (!design.plan.empty() && root.find("trials") != nullptr)
     faults.add(*root.find("trials"), "trials", "a plan says how many", "none beside a plan");
-  for (const VariedKey& axis : design.axes)
+  for (const VariedKey& axis : design.axes) {
+    const auto refuse = [&](const char* what, const char* allowed) {
+      faults.add(*root.find("vary")->find(axis.path), "vary." + axis.path, what, allowed);
+    };
     if (!design.plan.empty() && (axis.path == "experiment" || axis.path == "trials"))
-      faults.add(*root.find("vary")->find(axis.path), "vary." + axis.path, "stands beside a plan, which has its own", "plan.KEY");
+      refuse("stands beside a plan, which has its own", "plan.KEY");
+    if (design.plan.empty() && axis.path.starts_with("plan.")) refuse("is of a plan, and this study has none", "a key of the experiment");
+  }
   for (const Fault& fault : measureProblems(design)) faults.addOfValue(root, fault);
   if (named) {
     design.plan = named->planFile;
     design.planText = named->plan;
     design.experimentTexts = named->experiments;
+    design.definitionTexts = named->definitions;
   } else {
     readExperiments(root, design, faults);
   }

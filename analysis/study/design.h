@@ -39,6 +39,7 @@ struct Design {
   /// Texts of the experiments and of the plan, by the names above: nothing is looked up again once the design is read.
   std::map<std::string, std::string> experimentTexts;
   std::string planText;
+  std::map<std::string, std::string> definitionTexts;  // of the constraints that are not shipped, by their names
 };
 
 inline constexpr std::int64_t kMaxPoints = 100'000'000, kMaxSubjects = 100'000'000;
@@ -46,7 +47,7 @@ inline constexpr std::int64_t kMaxPoints = 100'000'000, kMaxSubjects = 100'000'0
 /// The texts that a design names. A design that is kept in a folder has them beside it, so that nothing is looked up.
 struct NamedTexts {
   std::string planFile, plan;  // its name, its text
-  std::map<std::string, std::string> experiments;
+  std::map<std::string, std::string> experiments, definitions;
 };
 
 /// Throws FaultError with every fault, `FILE:LINE:COLUMN: KEY: what is wrong; allowed: …`. Points are checked when they are made.

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/json/json_tree.h"
 #include "base/math/philox.h"
 #include "base/math/seeded.h"
 
@@ -70,6 +71,14 @@ int trialsOf(const Design& design, const Point& point) {
   return static_cast<int>(trials);
 }
 
+/// Empty for a typed formula and free space.
+std::string constraintNameOf(const std::string& experimentText) {
+  const JsonNode root = parseJson(experimentText, "experiment");
+  const JsonNode* constraint = root.find("constraint");
+  const JsonNode* name = constraint == nullptr ? nullptr : constraint->find("name");
+  return name == nullptr ? "" : name->string;
+}
+
 std::vector<int> daysOf(const session::Plan& plan) {
   std::set<int> days;
   for (const session::PlanBlock& block : plan.blocks)
@@ -120,8 +129,11 @@ PointTask taskOf(const Design& design, const Point& point) try {
   const std::vector<experiment::Patch> patches = patchesOf(point, "");
   const auto experimentOf = [&](const std::string& name, std::vector<experiment::Patch> changes = {}) {
     changes.insert(changes.end(), patches.begin(), patches.end());
-    return PointExperiment{
-        name, changes.empty() ? design.experimentTexts.at(name) : experiment::patchedText(design.experimentTexts.at(name), name, changes)};
+    const std::string& own = design.experimentTexts.at(name);
+    PointExperiment made{name, changes.empty() ? own : experiment::patchedText(own, name, changes), {}};
+    if (const auto found = design.definitionTexts.find(constraintNameOf(made.text)); found != design.definitionTexts.end())
+      made.definition = found->second;
+    return made;
   };
   if (design.planText.empty()) {
     const experiment::Patch* other = findOwn(point, "experiment");

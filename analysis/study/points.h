@@ -18,6 +18,7 @@ struct Point {
 /// One experiment of a point, patched, as a recorded run would receive it.
 struct PointExperiment {
   std::string name, text;
+  std::string definition;  // of its constraint; empty: a shipped one, or none
 };
 
 /// The task that all subjects of a point perform.

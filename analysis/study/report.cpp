@@ -192,14 +192,15 @@ class Reader {
       const auto who =
           std::pair{static_cast<std::int64_t>(at(rows, column::Point, row)), static_cast<std::int64_t>(at(rows, column::Subject, row))};
       PersonTrials& person = population.people[who];  // who has no scores is drawn, too
+      const auto place = static_cast<int>(at(rows, trial, row));
+      population.trials = std::max(population.trials, static_cast<std::size_t>(place));
       if (!std::isfinite(at(rows, score + criteria_, row))) continue;
       auto& [number, scores] = person[blockOf(rows, row)];
       scores.score.resize(criteria_ + 1);
       for (std::size_t k = 0; k < scores.score.size(); ++k) scores.score[k].push_back(at(rows, score + k, row));
       scores.effectiveSamples = at(rows, score + criteria_ + 1, row);
       scores.own.push_back(at(rows, score + criteria_ + 2, row));
-      number.push_back(static_cast<int>(at(rows, trial, row)));
-      population.trials = std::max(population.trials, static_cast<std::size_t>(number.back()));
+      number.push_back(place);
     }
   }
 
@@ -235,6 +236,15 @@ std::vector<std::size_t> drawStudies(const Population& population, std::uint32_t
   return counts;
 }
 
+/// The designs that are asked for, from the smallest: the largest gives the confusion.
+std::vector<std::size_t> asked(std::vector<std::size_t> numbers, const char* what, std::size_t least, std::size_t most) {
+  for (const std::size_t n : numbers)
+    if (n < least || n > most)
+      throw FaultError(Fault{what, fmt::format("is {}", n), fmt::format("{} to the {} of this study", least, most)});
+  std::sort(numbers.begin(), numbers.end());
+  return numbers;
+}
+
 void judgeDesigns(std::vector<Population>& populations, const Named& named, const ReportOptions& options, StudyReport& report) {
   const auto studies = static_cast<std::size_t>(options.studies);
   std::map<std::string, Confusion> confusions;
@@ -250,11 +260,12 @@ void judgeDesigns(std::vector<Population>& populations, const Named& named, cons
                                          own ? "nothing is drawn from fewer than five" : "its criterion is not compared"));
       continue;
     }
-    std::vector<std::size_t> people =
-        options.subjects.empty() ? ladder(analysis::kFewestSubjects, std::max(analysis::kFewestSubjects, there / 2)) : options.subjects;
-    std::vector<std::size_t> trials = options.trials.empty() ? ladder(analysis::kFewestTrials, population.trials) : options.trials;
-    std::erase_if(people, [&](std::size_t n) { return n > there; });
-    for (std::vector<std::size_t>* list : {&people, &trials}) std::sort(list->begin(), list->end());  // the largest gives the confusion
+    const std::vector<std::size_t> people = options.subjects.empty()
+                                                ? ladder(analysis::kFewestSubjects, std::max(analysis::kFewestSubjects, there / 2))
+                                                : asked(options.subjects, "subjects", analysis::kFewestSubjects, there);
+    const std::vector<std::size_t> trials = options.trials.empty()
+                                                ? ladder(analysis::kFewestTrials, population.trials)
+                                                : asked(options.trials, "trials", analysis::kFewestTrials, population.trials);
     for (const std::size_t s : people)
       for (const std::size_t n : trials) {
         const std::vector<std::size_t> counts = drawStudies(population, static_cast<std::uint32_t>(p), s, n, studies, named);

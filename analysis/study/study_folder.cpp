@@ -46,6 +46,7 @@ std::string textOf(const StudyFolder& folder) {
   json["plan"] = design.planText;
   json["experiments"] = Json::object();
   for (const auto& [name, text] : design.experimentTexts) json["experiments"][name] = text;
+  json["definitions"] = Json(design.definitionTexts);
   return json.dump(2) + "\n";
 }
 
@@ -80,9 +81,10 @@ StudyFolder openFolder(const std::string& path) {
   if (!fs::exists(file, error)) throw FaultError(Fault{"study", file + " is not there", "the folder that a study was written to"});
   try {
     const Json json = Json::parse(record::readWholeFile(file));
-    const std::map<std::string, std::string> experiments = json.at("experiments").get<std::map<std::string, std::string>>();
+    using Texts = std::map<std::string, std::string>;
     Design design = parseDesign(json.at("text").get<std::string>(), json.at("file").get<std::string>(),
-                                NamedTexts{json.at("plan_name").get<std::string>(), json.at("plan").get<std::string>(), experiments});
+                                NamedTexts{json.at("plan_name").get<std::string>(), json.at("plan").get<std::string>(),
+                                           json.at("experiments").get<Texts>(), json.value("definitions", Texts())});
     StudyFolder folder = folderOf(std::move(design), path);
     folder.fingerprint = std::stoull(json.at("fingerprint").get<std::string>(), nullptr, 16);
     return folder;

@@ -56,8 +56,9 @@ void runStudy(const StudyRequest& request) {
 
 void tellStatus(const std::string& folder) {
   const study::StudyStatus s = study::statusOf(study::openFolder(folder));
-  fmt::print("chunks={} of={} trials={} of={} rate_per_s={:.0f} left_s={:.0f} tables={}\n", s.chunksDone, s.chunks, s.trialsDone, s.trials,
-             s.rate, s.secondsLeft, s.tables ? "yes" : "no");
+  const auto known = [&](double value) { return s.rate > 0 || s.tables ? fmt::format("{:.0f}", value) : ""; };
+  fmt::print("chunks={} of={} trials={} of={} rate_per_s={} left_s={} tables={}\n", s.chunksDone, s.chunks, s.trialsDone, s.trials,
+             known(s.rate), known(s.secondsLeft), s.tables ? "yes" : "no");
 }
 
 struct PointRequest {
@@ -70,6 +71,8 @@ void tellPoint(const PointRequest& request) {
   const std::int64_t points = study::pointCount(design);
   if (request.point < 0 || request.point >= points)
     throw FaultError(Fault{"point", fmt::format("is {}", request.point), fmt::format("0 to {}", points - 1)});
+  if (request.subject > design.subjects)
+    throw FaultError(Fault{"--subject", fmt::format("is {}", request.subject), fmt::format("1 to {}", design.subjects)});
   const study::PointTask task = study::taskOf(design, study::pointAt(design, request.point));
   const std::string folder = request.out.empty() ? "." : request.out;
   const std::string device = task.device;
@@ -179,8 +182,11 @@ void addStudyCommand(CLI::App& app, int&) {
       ->check(CLI::Range(1, 100000))
       ->capture_default_str();
   report->add_option("--subjects", q->options.subjects, "Numbers of subjects to look at [default: 5, 6, 7 … up to half of those there are]")
-      ->delimiter(',');
-  report->add_option("--trials", q->options.trials, "Numbers of trials to look at [default: 10, 12, 15 … up to all]")->delimiter(',');
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  report->add_option("--trials", q->options.trials, "Numbers of trials to look at [default: 10, 12, 15 … up to all]")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
   report->callback([q] { tellReport(*q); });
 
   CLI::App* sbatch = command->add_subcommand("sbatch", "Prints the script of a Slurm array for a study");

@@ -67,6 +67,9 @@ TEST(StudyColumns, RefuseMeasuresThatThereAreNoneOfOrTwice) {
   ASSERT_EQ(twice.size(), 1u);
   EXPECT_EQ(twice[0].key, "measures[2]");
   EXPECT_EQ(twice[0].what, "\"by\" stands here twice");
+  Design named = asking({"epsilon"});
+  named.criteria = {"min-hand-jerk", "min-hand-jerk"};
+  EXPECT_EQ(measureProblems(named).size(), 1u) << "two columns of one name";
   Design unknown = asking({"by", "bye"});
   unknown.criteria = {"min-hand-jerk", "min-jerk"};
   const std::vector<Fault> faults = measureProblems(unknown);

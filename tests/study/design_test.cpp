@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 
 #include "analysis/study/chunk.h"
 #include "analysis/study/points.h"
 #include "tests/refusal.h"
+#include "tests/temporary_folder.h"
 #include "tests/text_parts.h"
 
 namespace reachlab::study {
@@ -47,6 +49,9 @@ TEST(StudyDesign, RefusesWhatIsOutOfItsBounds) {
   expectIn(refusalOf("", R"("subjects": 3, "experiment": "chain-moderate", "plan": "paper")"),
            {"needs exactly one of experiment and plan"});
   expectIn(refusalOf(R"(, "trials": 3)", R"("subjects": 3, "plan": "paper")"), {"a plan says how many"});
+  expectIn(refusalOf(R"(, "vary": { "plan.blocks[0].trials": [3] })"), {"is of a plan, and this study has none"});
+  for (const char* names : {R"({ "from": 1, "to": 2, "step": 1 })", R"({ "uniform": [1, 2], "n": 2 })"})
+    expectIn(refusalOf(R"(, "vary": { "experiment": )" + std::string(names) + "}"), {"vary.experiment: is no list"});
   expectIn(refusalOf(R"(, "vary": { "trials": [3] })", R"("subjects": 3, "plan": "paper")"), {"stands beside a plan, which has its own"});
   expectIn(refusalOf(R"(, "vary": { "experiment": ["chain-fast"] })", R"("subjects": 3, "plan": "paper")"), {"stands beside a plan"});
   expectIn(refusalOf("", R"("subjects": 3, "plan": "nowhere")"), {"is nowhere, which is not there"});
@@ -54,6 +59,24 @@ TEST(StudyDesign, RefusesWhatIsOutOfItsBounds) {
   for (const char* option : {R"("a,b")", R"("a=b")", R"("a:b")", "true"})
     for (const char* form : {R"(, "subject": {{ "k": {} }})", R"(, "vary": {{ "subject.k": [{}] }})"})
       expectIn(refusalOf(fmt::format(fmt::runtime(form), option)), {"subject.k: is no option"});
+}
+
+// A share of the study on another computer would move along that computer's curve.
+TEST(StudyDesign, KeepsTheDefinitionsOfConstraintsThatAreNotShipped) {
+  const TemporaryFolder folder;
+  ::setenv("REACHLAB_CONSTRAINTS", folder.path().c_str(), 1);
+  const auto designWith = [&](const std::string& radius) {
+    folder.write("own.json", R"j({ "schema_version": 1, "name": "own", "kind": "curve", "curve": ["a_m*cos(phi)", "a_m*sin(phi)", "0"],
+      "shape": { "a_m": { "min": 0.01, "max": 1, "default": )j" +
+                                 radius + R"j( } }, "domain": [0, 3], "start": [0], "target": [2] })j");
+    return designOf(R"(, "vary": { "constraint.name": ["line", "own"] })");
+  };
+  const Design narrow = designWith("0.1"), wide = designWith("0.2");
+  ::unsetenv("REACHLAB_CONSTRAINTS");
+  EXPECT_EQ(narrow.definitionTexts.size(), 1u);
+  EXPECT_NE(fingerprintOf(narrow), fingerprintOf(wide));
+  EXPECT_EQ(taskOf(narrow, pointAt(narrow, 0)).experiments.at(0).definition, "") << "the line is shipped";
+  EXPECT_EQ(taskOf(narrow, pointAt(narrow, 1)).experiments.at(0).definition, narrow.definitionTexts.at("own"));
 }
 
 TEST(StudyDesign, TakesStepsWithBothEnds) {
