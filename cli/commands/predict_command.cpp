@@ -82,8 +82,12 @@ void runSweep(const PredictArguments& arguments, const experiment::CompiledExper
     shown = seconds;
     std::cerr << fmt::format("{} of {}\n", done, total);
   });
-  for (const predict::SweepRow& row : rows)
+  for (const predict::SweepRow& row : rows) {
     if (!row.prediction) std::cerr << fmt::format("{} = {}: {}\n", sweep.key, row.value, row.refusal);
+    else
+      for (const std::string& warning : row.prediction->warnings)
+        std::cerr << fmt::format("warning: {} = {}: {}\n", sweep.key, row.value, warning);
+  }
   writeText(writeSweepCsv(sweep, rows), arguments.out);
   if (!arguments.figure.empty()) writeFigure(drawSweep(sweep, rows, criterion), arguments.figure);
 }
@@ -95,6 +99,9 @@ void runPredict(const PredictArguments& arguments) {
   if (const NumberRange range = experiment::durationRange(); arguments.duration != 0 && !isWithin(range, arguments.duration))
     throw FaultError(Fault{"--duration", fmt::format("is {} s", arguments.duration), range.allowed});
   if (arguments.json && !arguments.sweep.empty()) throw FaultError(Fault{"--sweep", "writes CSV rows; --json is for a single prediction"});
+  if (arguments.time && !arguments.sweep.empty()) throw FaultError(Fault{"--sweep", "is not timed; --time is for a single prediction"});
+  if (!arguments.out.empty() && arguments.out == arguments.figure)
+    throw FaultError(Fault{"--figure", "is the file of --out", "another file"});
   const experiment::CompiledExperiment experiment = experiment::openExperiment(arguments.experiment);
   if (!experiment.experiment().task)
     throw FaultError(atTheirPlaces({predict::missingTaskFault()}, experiment.experiment().text, arguments.experiment));

@@ -177,6 +177,11 @@ TEST(SweepKeys, TakeValuesThatMakeSenseAlone) {
   EXPECT_TRUE(holds(refusalOf([&] { applied("coupling.stiffness_n_per_m", 1, parallel); }), "has no coupling"));
   EXPECT_EQ(applied("stiffness_n_per_m", 9, parallel).experiment.object.stiffness, (std::vector<double>{9, 9}));
   EXPECT_EQ(applied("damping_n_s_per_m", 9, parallel).experiment.object.damping, (std::vector<double>{9, 9}));
+  Applied bare;
+  bare.experiment.object.stiffness.clear(), bare.experiment.object.masses.clear();
+  EXPECT_TRUE(holds(refusalOf([&] { applied("object.stiffness_n_per_m", 1, bare); }), "no springs of its own"));
+  EXPECT_EQ(refusalOf([&] { applied("stiffness_n_per_m", 1, bare); }), "") << "there is the coupling";
+  EXPECT_TRUE(holds(refusalOf([&] { applied("mass_kg", 1, bare); }), "no masses"));
 }
 
 TEST(Sweep, HasARowForEachValueInOrderWithItsPredictionOrItsRefusal) {

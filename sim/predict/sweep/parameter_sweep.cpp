@@ -63,6 +63,18 @@ experiment::Coupling& couplingOf(experiment::Experiment& experiment) {
   return *experiment.coupling;
 }
 
+/// Each row would be the same where the object has nothing that the key could change.
+void requireSomething(const std::string& key, const experiment::Experiment& experiment) {
+  const bool springs = !experiment.object.stiffness.empty(), masses = !experiment.object.masses.empty();
+  const auto require = [&](bool has, const char* what) {
+    if (!has) throw FaultError(Fault{"sweep", fmt::format("is of {}, and this object has no {}", key, what), "another key"});
+  };
+  if (key == "object.stiffness_n_per_m") require(springs, "springs of its own");
+  if (key == "stiffness_n_per_m" || key == "damping_n_s_per_m") require(springs || experiment.coupling, "springs");
+  if (key == "n" || key == "n_each" || key == "viscosity_n_s_per_m" || key == "mass_kg" || key == "total_mass_kg")
+    require(masses, "masses");
+}
+
 constexpr std::array<SweepKey, 12> kKeys{{
     {"duration_s", "movement time", [](double v, Experiment&, PredictOptions& o) { o.duration = v; }},
     {"stiffness_n_per_m", "every spring, the coupling too",
@@ -156,6 +168,7 @@ void applySweepValue(const std::string& key, double value, Experiment& experimen
   const bool ofSprings = key == "n" || key == "n_each" || key.ends_with("stiffness_n_per_m") || key == "damping_n_s_per_m";
   if (ofSprings && !experiment.hands.empty())
     throw FaultError(Fault{"sweep", fmt::format("is of {}, and this experiment's hands have springs of their own", key), "another key"});
+  requireSomething(key, experiment);
   found->set(value, experiment, options);
 }
 
