@@ -221,15 +221,17 @@ AdaptationFit fitAdaptation(const AdaptationSeries& series, int resamples, std::
   constexpr double kLargest = 1e100;           // of a number and of its inverse, whose squares a double holds with room for sums
   constexpr double kStrong = 6;                // difference of criteria; Kass & Raftery (1995)
   AdaptationFit fit;
-  bool perturbed = false;
+  bool perturbed = false, answered = false;  // some trial is perturbed; a response is measured after one
   double largest = 0;
   for (const AdaptationTrial& trial : series) {
     largest = std::max({largest, std::abs(trial.perturbation.value_or(0)), std::abs(trial.response.value_or(0))});
     fit.responses += trial.response.has_value();
     fit.channels += !trial.perturbation;
+    answered = answered || (perturbed && trial.response);
     perturbed = perturbed || (trial.perturbation && *trial.perturbation != 0);
   }
   if (!perturbed) throw RefusedError("every perturbation is 0 or a channel, so there is nothing to learn");
+  if (!answered) throw RefusedError("no response is measured after a perturbation, so nothing shows what was learnt");
   if (fit.responses < kLeastResponses)
     throw RefusedError("only " + std::to_string(fit.responses) + " responses are measured; a fit needs " + std::to_string(kLeastResponses) +
                        " or more");

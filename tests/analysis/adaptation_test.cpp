@@ -116,6 +116,9 @@ TEST(Adaptation, RefusesASeriesThatTeachesNothing) {
   AdaptationSeries still(50, AdaptationTrial{0.0, 0.1});
   EXPECT_THROW(fitAdaptation(still, 100, 1), RefusedError);
   EXPECT_THROW(fitAdaptation(AdaptationSeries(11, AdaptationTrial{1.0, 0.1}), 100, 1), RefusedError);
+  AdaptationSeries before(40, AdaptationTrial{0.0, 0.1});
+  before.resize(80, AdaptationTrial{1.0, {}});
+  EXPECT_THROW(fitAdaptation(before, 100, 1), RefusedError) << "no response follows a perturbation";
 }
 
 // Squares of larger numbers are infinite and of smaller ones zero: nothing could be fitted to them.
