@@ -8,6 +8,7 @@
 #include "sim/record/replay.h"
 #include "sim/record/trial_marks.h"
 #include "tests/analysis/whole_dataset.h"
+#include "tests/analysis/written_tables.h"
 #include "tests/refusal.h"
 #include "tests/session/recorded_runs.h"
 
@@ -116,9 +117,16 @@ TEST_F(TwoHands, TheSecondHandMakesTheOnsetToo) {
 }
 
 TEST_F(TwoHands, EachHasARowForEveryTrialInTheAnalysis) {
-  record(pair(300));
-  const std::string table = analysis::handsTable(analysis::openDataset(request_.place.data));
-  EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 2 * static_cast<std::ptrdiff_t>(results_.size())) << table;
+  const record::RunLog run = record(pair(300));
+  const std::vector<analysis::Row> table = analysis::rowsOf(analysis::handsTable(analysis::openDataset(request_.place.data)));
+  ASSERT_EQ(table.size(), 2 * results_.size());
+  // From the onset to the last tick before the end, at which no force acts any more.
+  const record::SampleRows rows = run.rows(run.trials().at(0));
+  double sum = 0, ticks = 0;
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows.ticks[i] >= results_[0].onsetTick && rows.ticks[i] < results_[0].endTick)
+      sum += norm(rows.vectorAt(i, run.configuration().table.indexOf("coupling_force_x"))), ++ticks;
+  EXPECT_NEAR(std::stod(table[0].at("sampled_mean_force_n")), sum / ticks, 1e-12);
   const std::string log = recordedRuns(request_.place).at(0).path;
   record::writeMarks(log, {{{.trial = 1, .excluded = "coughed"}}});
   EXPECT_TRUE(holds(analysis::handsTable(analysis::openDataset(request_.place.data)), "recorded,0,coughed,"))
