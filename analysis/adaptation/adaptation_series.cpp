@@ -1,6 +1,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+
 #include "analysis/adaptation/state_space.h"
 #include "base/csv_table.h"
 #include "base/fault.h"
@@ -11,8 +13,8 @@ AdaptationSeries readAdaptationSeries(const std::string& file) {
   const CsvTable table = readCsvTable(file);
   const auto columnOf = [&](const char* name) {
     const auto column = table.find(name);
-    if (!column)
-      throw FaultError(Fault{name, "column is missing",
+    if (const auto count = std::count(table.columns.begin(), table.columns.end(), name); count != 1)
+      throw FaultError(Fault{name, count == 0 ? "column is missing" : "column stands there more than once",
                              fmt::format("a header with perturbation,response; this one has {}", fmt::join(table.columns, ", ")),
                              FilePlace{file, 1}});
     return *column;

@@ -8,6 +8,7 @@
 #include "analysis/adaptation/state_space.h"
 #include "cli/commands/commands.h"
 #include "cli/output/json_text.h"
+#include "sim/session/session.h"
 
 namespace reachlab::cli {
 namespace {
@@ -81,7 +82,7 @@ void addAdaptationCommand(CLI::App& app, int&) {
   const auto r = std::make_shared<AdaptationRequest>();
   command->add_option("series", r->series, "CSV file with the columns perturbation (empty in channel trials) and response")->required();
   command->add_option("--resamples", r->resamples, "Bootstrap series for the intervals [default: 400]")->check(CLI::Range(100, 100000));
-  command->add_option("--seed", r->seed, "Seed of the bootstrap [default: 1]");
+  command->add_option("--seed", r->seed, "Seed of the bootstrap [default: 1]")->check(CLI::Validator(session::seedFault, "SEED"));
   command->add_flag("--json", r->json, "an object");
   command->footer(
       "The model is Smith, Ghazizadeh & Shadmehr (2006): a fast and a slow state learn from each trial's error and forget. The response of a trial\n"

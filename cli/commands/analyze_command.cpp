@@ -21,6 +21,7 @@
 #include "cli/terminal/criterion_option.h"
 #include "cli/terminal/option_words.h"
 #include "sim/record/export/exporters.h"
+#include "sim/session/session.h"
 
 namespace reachlab::cli {
 namespace {
@@ -446,7 +447,7 @@ void addAnalyzeCommand(CLI::App& app, int&) {
                    "Simulate that many studies of this very design for each truth, and say how often each is named (all processors)")
       ->check(CLI::Range(1, 100000));
   command->add_option("--jobs", o->jobs, "Threads of the recovery [default: one per processor]")->check(CLI::PositiveNumber);
-  command->add_option("--seed", o->seed, "Seed of the recovery")->capture_default_str();
+  command->add_option("--seed", o->seed, "Seed of the recovery")->check(CLI::Validator(session::seedFault, "SEED"))->capture_default_str();
   command->add_option("--learning-bin", o->bin, "Trials a point of the learning curve")->capture_default_str();
   command->add_option("--experiment", o->experiment, "Experiment of a dataset without logs (file or shipped name)");
   command->add_option(
