@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 #include "base/json/json_reader.h"
 #include "base/math/eigen_solvers.h"
 #include "constraints/constraint.h"
 #include "constraints/geometry/arc_length.h"
 #include "constraints/geometry/task_path.h"
+#include "constraints/regularity/analysis.h"
 #include "sim/experiment/experiment.h"
 #include "sim/trial/protocol.h"
 
@@ -19,9 +21,12 @@ constexpr double kLongTask = 60;    // [s]
 constexpr double kHeavyMass = 100;  // [kg]
 constexpr double kManyTurns = 1.5;  // a full lap is a reach, and may end a little behind its start
 
-// Along the curve, so that a full lap is a way; the chord elsewhere. [m]
+// Along the curve, so that a full lap is a way; the chord elsewhere. Of a lap on a surface nobody knows it: infinite. [m]
 double wayOf(const constraints::Constraint& constraint, const experiment::Task& task, const ProtocolSettings& place) {
-  if (constraint.kind != constraints::ConstraintKind::Curve) return norm(place.target - place.start);
+  constexpr double kSamePlace = 1e-9;  // [m]
+  const double chord = norm(place.target - place.start);
+  if (constraint.kind == constraints::ConstraintKind::Surface && chord < kSamePlace) return std::numeric_limits<double>::infinity();
+  if (constraint.kind != constraints::ConstraintKind::Curve) return chord;
   return constraints::ArcLength(constraint, task.start[0], task.target[0]).length();
 }
 
@@ -49,6 +54,18 @@ bool canBePassed(const constraints::Constraint& c, const Vec3& place, double rad
   return false;
 }
 
+/// Some surfaces are left by their parameters and not by their places, as a sphere is at v beyond its pole.
+bool goesOnBehind(const constraints::Constraint& constraint, std::size_t parameter, double target) {
+  if (constraint.kind != constraints::ConstraintKind::Surface) return false;
+  constexpr double kSame = 1e-9;  // of the end's size
+  const double end = target > constraint.domain[parameter].hi ? constraint.domain[parameter].hi : constraint.domain[parameter].lo;
+  for (const constraints::DegeneratePlace& place : constraints::findDegeneratePlaces(constraint))
+    if (place.kind == constraints::DegenerateKind::Pole && place.fixed == static_cast<int>(parameter) &&
+        std::abs((parameter == 0 ? place.u : place.v) - end) <= kSame * (1 + std::abs(end)))
+      return true;
+  return false;
+}
+
 }  // namespace
 
 std::vector<Fault> taskProblems(const experiment::CompiledExperiment& compiled) {
@@ -64,11 +81,15 @@ std::vector<Fault> taskProblems(const experiment::CompiledExperiment& compiled) 
   const bool flat = constraint.kind == constraints::ConstraintKind::Free || constraint.straight;
   if (experiment.task->start == experiment.task->target || (flat && place.start == place.target)) return {constraints::samePlaceFault()};
   std::vector<Fault> found;
-  // Some surfaces are left by their parameters and not by their places, as a sphere is at v beyond its pole.
-  if (const constraints::Domain& domain = constraint.domain[0]; constraint.kind == constraints::ConstraintKind::Curve && !domain.periodic)
-    if (const double target = experiment.task->target[0]; target < domain.lo || target > domain.hi)
-      found.push_back(
-          {"task.target[0]", fmt::format("is {}, beyond an end of the curve", target), fmt::format("{} to {}", domain.lo, domain.hi)});
+  for (std::size_t k = 0; k < static_cast<std::size_t>(constraint.parameterCount()); ++k) {
+    const constraints::Domain& domain = constraint.domain[k];
+    const double target = experiment.task->target[k];
+    if (domain.periodic || (target >= domain.lo && target <= domain.hi) || goesOnBehind(constraint, k, target)) continue;
+    found.push_back(
+        {fmt::format("task.target[{}]", k),
+         fmt::format("is {}, beyond an end of the {}", target, constraint.kind == constraints::ConstraintKind::Curve ? "curve" : "surface"),
+         fmt::format("{} to {}", domain.lo, domain.hi)});
+  }
   for (std::size_t i = 0; i < place.via.size(); ++i)
     if (!canBePassed(constraint, place.via[i], place.viaRadius))
       found.push_back({fmt::format("task.via_m[{}]", i), "is farther from the constraint than via_radius_m, so that no mass can pass it",
@@ -113,6 +134,12 @@ std::vector<Fault> implausibleNumbers(const experiment::CompiledExperiment& comp
   findFieldsWithoutBound(experiment.environment, found);
   if (!experiment.task) return found;
   const experiment::Task& task = *experiment.task;
+  const auto findSlack = [&](const std::string& key, double stiffness) {
+    if (stiffness == 0) found.push_back({key, "is 0 N/m: the hand cannot bring to rest what is behind this spring"});
+  };
+  if (experiment.coupling) findSlack("coupling.stiffness_n_per_m", experiment.coupling->stiffness);
+  for (std::size_t i = 0; i < experiment.object.stiffness.size(); ++i)
+    findSlack(fmt::format("object.stiffness_n_per_m[{}]", i), experiment.object.stiffness[i]);
   if (task.duration > kLongTask)
     found.push_back({"task.duration_s", fmt::format("is {} s; more than {} s is hardly meant", task.duration, kLongTask)});
   for (std::size_t i = 0; i < task.target.size() && i < 2; ++i) {

@@ -97,6 +97,27 @@ TEST(TaskCheck, NeedsATargetOnTheCurve) {
   EXPECT_EQ(target(-0.1).size(), 1u);
 }
 
+// The helicoid ends at v = 1. A sphere goes on behind its pole at v = pi/2, and a torus has no ends.
+TEST(TaskCheck, NeedsATargetOnTheSurface) {
+  const auto problems = [](const char* name, std::vector<double> start, std::vector<double> target) {
+    return problemsWith("torus", [&](auto& e) {
+      e.constraint = {.name = name};
+      e.task->start = std::move(start), e.task->target = std::move(target);
+    });
+  };
+  ASSERT_EQ(problems("helicoid", {-1.5, 0.6}, {1, 1.5}).size(), 1u);
+  EXPECT_EQ(problems("helicoid", {-1.5, 0.6}, {1, 1.5})[0].key, "task.target[1]");
+  EXPECT_TRUE(problems("helicoid", {-1.5, 0.6}, {1, 1}).empty());
+  EXPECT_TRUE(problems("sphere", {0, 1}, {0, 2}).empty());
+  EXPECT_TRUE(problems("torus", {0, 0.5}, {0, 6.5}).empty());
+}
+
+TEST(TaskCheck, WarnsOfASpringThatHoldsNothing) {
+  const auto found = implausibleWith("chain-moderate", [](auto& e) { e.coupling->stiffness = 0, e.object.stiffness[2] = 0; });
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_EQ(found[0].key + " " + found[1].key, "coupling.stiffness_n_per_m object.stiffness_n_per_m[2]");
+}
+
 TEST(TaskCheck, NeedsATaskBetweenTwoPlaces) {
   EXPECT_TRUE(problemsWith("chain-moderate", [](auto&) {}).empty());
   const auto none = problemsWith("chain-moderate", [](auto& e) { e.task.reset(); });
