@@ -10,6 +10,7 @@
 #include "base/json/json_tree.h"
 #include "base/text_file.h"
 #include "cli/commands/commands.h"
+#include "cli/commands/definition_files.h"
 #include "cli/terminal/option_words.h"
 #include "constraints/catalogue/definition.h"
 #include "constraints/formula/cpp_writer.h"
@@ -82,7 +83,7 @@ void printList(const ConstraintOptions& o) {
     else fmt::print("{:<22} {:<8} {}\n", d.name, kind, d.sentence);
   };
   for (const constraints::Definition& d : constraints::catalogue()) print(d);
-  for (const constraints::Definition& d : constraints::readDefinitionFolder(constraints::userDefinitionFolder())) print(d);
+  for (const constraints::Definition& d : ownDefinitions()) print(d);
   if (o.json) fmt::print("\n]\n");
 }
 
@@ -199,21 +200,6 @@ void eval(const ConstraintOptions& o) {
   if (o.json) fmt::print("}}\n");
 }
 
-// What a definition refuses is told with its file and the shape at which it does so.
-constraints::Constraint makeIn(const std::string& file, const constraints::Definition& d, const std::map<std::string, double>& shape) {
-  try {
-    return constraints::makeConstraint(d, shape, "");
-  } catch (const FaultError& error) {
-    std::vector<Fault> faults = error.faults;
-    for (Fault& fault : faults) {
-      for (const auto& [name, value] : shape) fault.what = fmt::format("with {} = {}: {}", name, value, fault.what);
-      fault.place = FilePlace{file};
-    }
-    throw FaultError(std::move(faults));
-  }
-}
-
-// A definition is fine when it can be used at its defaults and at both ends of each shape parameter.
 void check(const ConstraintOptions& o) {
   std::vector<Fault> faults;
   for (const std::string& file : o.files) {
@@ -222,9 +208,7 @@ void check(const ConstraintOptions& o) {
       if (parseJson(text, file).find("object") != nullptr)
         throw FaultError(fileFault(file, "is an experiment file, no constraint definition; `reach validate` checks it"));
       const constraints::Definition d = constraints::parseDefinition(text, file);
-      const constraints::Constraint c = makeIn(file, d, {});
-      for (const constraints::ShapeParameter& p : d.shape)
-        for (const double value : {p.min, p.max}) makeIn(file, d, {{p.name, value}});
+      const constraints::Constraint c = makeAtAllShapes(d, text, file);
       fmt::print("{}: fine: {} {}\n", file, isCurve(d) ? "curve" : "surface", d.name);
       showPlaces(c);
     } catch (const FaultError& error) {

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "cli/commands/commands.h"
+#include "cli/commands/definition_files.h"
 #include "cli/output/json_text.h"
 #include "constraints/catalogue/definition.h"
 #include "devices/driver/registry.h"
@@ -69,7 +70,7 @@ Json listConstraints() {
         {{"name", d.name}, {"kind", d.kind == constraints::ConstraintKind::Curve ? "curve" : "surface"}, {"description", d.sentence}});
   };
   for (const constraints::Definition& d : constraints::catalogue()) add(d);
-  for (const constraints::Definition& d : constraints::readDefinitionFolder(constraints::userDefinitionFolder())) add(d);
+  for (const constraints::Definition& d : ownDefinitions()) add(d);
   return rows;
 }
 

@@ -12,6 +12,7 @@
 #include "base/terminal/message.h"
 #include "base/text_file.h"
 #include "cli/commands/commands.h"
+#include "cli/commands/definition_files.h"
 #include "cli/output/json_text.h"
 #include "cli/output/study_words.h"
 #include "cli/terminal/option_words.h"
@@ -94,7 +95,7 @@ std::optional<session::Programme> validateFile(const std::string& fileOrName) {
   } else if (isStudy(tree)) {
     study::checkPoints(study::readDesign(file), prepareSimulated());
   } else if (tree.find("curve") != nullptr || tree.find("surface") != nullptr) {
-    constraints::parseDefinition(text, file);
+    (void)makeAtAllShapes(constraints::parseDefinition(text, file), text, file);
   } else {
     const experiment::CompiledExperiment experiment = experiment::openExperimentText(text, file);
     if (experiment.experiment().task) trial::checkTask(experiment, file);

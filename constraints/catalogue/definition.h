@@ -53,8 +53,9 @@ std::vector<Fault> problems(const Definition& definition);
 /// The definition as a file that reads back equal.
 std::string toJson(const Definition& definition);
 
-/// All definitions (*.json) of a folder, ordered by name. Empty if the folder does not exist. Throws FaultError on a faulty file.
-std::vector<Definition> readDefinitionFolder(const std::string& folder);
+/// All definitions (*.json) of a folder, ordered by name. Empty if the folder does not exist. Faulty files are left out, and their faults
+/// added to `faults`.
+std::vector<Definition> readDefinitionFolder(const std::string& folder, std::vector<Fault>& faults);
 /// Where the user's own definitions are saved: $REACHLAB_CONSTRAINTS, else reachlab/constraints in $XDG_DATA_HOME or ~/.local/share.
 std::string userDefinitionFolder();
 

@@ -87,7 +87,8 @@ class DefinitionReader {
   // A number, or a constant expression in the shape's names, as text.
   bool readText(const JsonNode& node, const std::string& key, std::string& text) {
     if (node.kind == JsonNode::Kind::Number) text = fmt::format("{}", node.number);
-    else if (node.kind == JsonNode::Kind::String) text = node.string;
+    else if (node.kind == JsonNode::Kind::String && !node.string.empty()) text = node.string;
+    else if (node.kind == JsonNode::Kind::String) faults_.add(node, key, "is empty", "a number, or an expression such as \"2*pi\"");
     else faults_.add(node, key, fmt::format("is {}", nameOf(node.kind)), "a number, or an expression such as \"2*pi\"");
     return !text.empty();
   }
@@ -203,14 +204,18 @@ Definition parseDefinition(const std::string& text, const std::string& file) {
 
 Definition readDefinition(const std::string& file) { return parseDefinition(readTextFile(file), file); }
 
-std::vector<Definition> readDefinitionFolder(const std::string& folder) {
+std::vector<Definition> readDefinitionFolder(const std::string& folder, std::vector<Fault>& faults) {
   std::vector<std::string> files;
   std::error_code error;
   for (const auto& entry : std::filesystem::directory_iterator(folder, error))
     if (entry.path().extension() == ".json") files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   std::vector<Definition> definitions;
-  for (const std::string& file : files) definitions.push_back(readDefinition(file));
+  for (const std::string& file : files) try {
+      definitions.push_back(readDefinition(file));
+    } catch (const FaultError& faulty) {
+      faults.insert(faults.end(), faulty.faults.begin(), faulty.faults.end());
+    }
   return definitions;
 }
 

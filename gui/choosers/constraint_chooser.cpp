@@ -141,11 +141,10 @@ void ConstraintChooser::fillList() {
   const QSignalBlocker quiet(list_);
   list_->clear();
   definitions_ = constraints::catalogue();
-  const QString unreadable = widgets::faultIn([this] {
-    for (constraints::Definition& own : constraints::readDefinitionFolder(constraints::userDefinitionFolder()))
-      definitions_.push_back(std::move(own));
-  });
-  if (!unreadable.isEmpty()) saved_->setText(unreadable);
+  std::vector<Fault> faults;
+  for (constraints::Definition& own : constraints::readDefinitionFolder(constraints::userDefinitionFolder(), faults))
+    definitions_.push_back(std::move(own));
+  if (!faults.empty()) saved_->setText(widgets::inWords(faults).join(QLatin1Char('\n')));
   for (const constraints::Definition& d : definitions_) {
     auto* item = new QListWidgetItem(
         QStringLiteral("%1\n%2").arg(text(d.name), d.kind == constraints::ConstraintKind::Surface ? "surface" : "curve"));

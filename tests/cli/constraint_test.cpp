@@ -39,6 +39,13 @@ TEST_F(ConstraintCommand, PointsAtTheCharacterOfASyntaxFault) {
   EXPECT_TRUE(holds(ended.err, "bad.json:1:"));
 }
 
+TEST_F(ConstraintCommand, ValidateRefusesADefinitionThatNobodyCouldUse) {
+  const std::string file = folder_.write("log.json", R"j({"schema_version": 1, "name": "log", "kind": "curve",
+    "curve": ["phi/10", "log(phi - 0.5)", "0"], "domain": [0, 1], "start": [0.1], "target": [0.9]})j");
+  EXPECT_TRUE(says(reach("validate " + file), 2, "pole of log(phi - 0.5)"));
+  EXPECT_TRUE(says(reach("constraint check " + file), 2, "pole of log(phi - 0.5)"));
+}
+
 // sin(10 u) sin(10 v) …: singular along 40 lines and between them at more points than are listed.
 TEST_F(ConstraintCommand, CheckTellsWhatItFoundAndWhereItStoppedLooking) {
   const auto check = [&](const std::string& name, const std::string& kind, const std::string& lines, const std::string& domain) {

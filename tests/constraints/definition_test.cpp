@@ -90,6 +90,7 @@ TEST(DefinitionFile, IsRefusedInWords) {
   EXPECT_EQ(curveWith("\"schema_version\": 1", "\"schema_version\": 2"),
             "d:1:20: schema_version: is 2; allowed: 1, the version that this program reads");
   EXPECT_EQ(curveWith("\"name\": \"own-arc\", ", ""), "d:1:1: name: is missing; allowed: the definition's name");
+  EXPECT_TRUE(holds(curveWith("\"domain\": [-1,", "\"domain\": [\"\","), "domain[0]: is empty"));
   EXPECT_EQ(curveWith("\"kind\": \"curve\",", ""), "d:1:1: kind: is missing; allowed: curve or surface");
   EXPECT_EQ(curveWith("\"curve\": [\"a_m*cos(phi)\", \"a_m*sin(n*phi)\", \"0\"],", ""),
             "d:1:1: curve: is missing; allowed: three formulas, one a coordinate");
@@ -191,7 +192,8 @@ TEST(UserDefinitions, AreFoundInTheFolderThatTheEnvironmentNames) {
   EXPECT_EQ(userDefinitionFolder(), "/home/me/.local/share/reachlab/constraints");
 
   const TemporaryFolder folder;
-  EXPECT_TRUE(readDefinitionFolder(folder / "none").empty()) << "there is none";
+  std::vector<Fault> faults;
+  EXPECT_TRUE(readDefinitionFolder(folder / "none", faults).empty()) << "there is none";
   ::setenv("REACHLAB_CONSTRAINTS", folder.path().c_str(), 1);
   EXPECT_EQ(findDefinition("torus", "c").name, "torus");
   folder.write("torus.json", kTubeDefinition);
@@ -201,8 +203,12 @@ TEST(UserDefinitions, AreFoundInTheFolderThatTheEnvironmentNames) {
   folder.write("own-tube.json", kTubeDefinition);
   folder.write("own-arc.json", kArcDefinition);
   folder.write("read.me", "no definition");
-  const std::vector<Definition> all = readDefinitionFolder(folder.path());
-  ASSERT_EQ(all.size(), 2u);
+  EXPECT_TRUE(faults.empty());
+  folder.write("broken.json", "{");
+  const std::vector<Definition> all = readDefinitionFolder(folder.path(), faults);
+  ASSERT_EQ(all.size(), 2u) << "one broken file does not hide the others";
+  ASSERT_EQ(faults.size(), 1u);
+  EXPECT_TRUE(holds(toText(faults[0]), "broken.json"));
   EXPECT_EQ(all[0].name + " " + all[1].name, "own-arc own-tube");
   EXPECT_EQ(findDefinition("own-tube", "c").name, "own-tube");
   EXPECT_EQ(findDefinition("circle", "c").name, "circle");

@@ -121,7 +121,8 @@ TEST_F(Chooser, ASavedDefinitionIsInTheListReadsBackAndHasItsSlidersInTheDock) {
   typeFormulas("0", "0.1*cos(phi)", "depth*sin(2*phi)");
   type("definitionName", "my-eight");
   QTest::mouseClick(find<QPushButton>("save"), Qt::LeftButton);
-  const auto own = constraints::readDefinitionFolder(constraints::userDefinitionFolder());
+  std::vector<Fault> faults;
+  const auto own = constraints::readDefinitionFolder(constraints::userDefinitionFolder(), faults);
   ASSERT_EQ(own.size(), 1u) << find<QLabel>("saved")->text().toStdString();
   EXPECT_EQ(own[0].name, "my-eight");
   EXPECT_EQ(own[0].coordinates[2], "depth*sin(2*phi)");
