@@ -46,7 +46,7 @@ std::string textOf(const StudyFolder& folder) {
   json["plan"] = design.planText;
   json["experiments"] = Json::object();
   for (const auto& [name, text] : design.experimentTexts) json["experiments"][name] = text;
-  json["definitions"] = Json(design.definitionTexts);
+  if (!design.definitionTexts.empty()) json["definitions"] = Json(design.definitionTexts);
   return json.dump(2) + "\n";
 }
 
