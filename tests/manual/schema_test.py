@@ -45,7 +45,7 @@ OF_KINDS = [level + key for level in ("", "blocks[].") for key in (
     "order", "not_first", "not_twice", "return")]
 CURVE = {"schema_version": 1, "name": "x", "kind": "curve", "curve": ["a_m*cos(phi)", "a_m*sin(phi)*cos(phi)", "0"],
          "shape": {"a_m": {"default": 0.1, "min": 0.01, "max": 1}}, "domain": [0, "2*pi"], "start": [0], "target": ["pi"]}
-SURFACE = {**CURVE, "kind": "surface", "surface": ["a_m*u", "a_m*v", "a_m*u*v"], "domain": [[0, 6], [-1, 1]], "start": [0, 0], "target": [1, 1]}
+SURFACE = {**CURVE, "kind": "surface", "surface": ["a_m*cos(u)", "a_m*sin(u)", "a_m*v"], "domain": [[0, "2*pi"], [-1, 1]], "start": [0, 0], "target": [1, 1]}
 del SURFACE["curve"]
 
 STUDY = {"schema_version": 1, "experiment": "chain-moderate", "subjects": 2}
@@ -54,6 +54,7 @@ PLANNED_STUDY = {"schema_version": 1, "subjects": 2}
 BASES = {"experiment": POINT, "plan": PLAN, "definition": CURVE, "study": STUDY}
 # Where a key or one of its examples needs another neighbourhood than the base file's: path, example or None for every one.
 NEIGHBOURS = {
+    ("shape.*.whole", None): {**CURVE, "shape": {"a_m": {"default": 1, "min": 1, "max": 2}}},
     ("object.kind", None): CHAIN, ("object.masses_kg", None): CHAIN, ("object.stiffness_n_per_m", None): CHAIN,
     ("object.damping_n_s_per_m", None): CHAIN, ("object.inertia_kg_m2", None): BODY, ("object.fp_offset_m", None): BODY,
     ("constraint.name", None): {**POINT, "task": {**POINT["task"], "start": [0, 0.5], "target": [1, 2]}},
