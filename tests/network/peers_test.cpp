@@ -56,6 +56,9 @@ TEST_F(Peers, KeysAreTheOwnersAlone) {
     ASSERT_EQ(::stat(at(key).c_str(), &status), 0) << key;
     EXPECT_EQ(status.st_mode & 0777, 0600u) << key;
   }
+  struct stat folder {};
+  ASSERT_EQ(::stat(at("lab").c_str(), &folder), 0);
+  EXPECT_EQ(folder.st_mode & 0777, 0700u) << "and so is their folder";
   ::chmod(at("lab/key.pem").c_str(), 0644);
   EXPECT_FALSE(listPeers(at("lab")).at(0).fault.empty());
 }
