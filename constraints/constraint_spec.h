@@ -30,6 +30,8 @@ struct Domain {
   double hi = std::numeric_limits<double>::infinity();
   bool periodic = false;
   AtEnd atEnd = AtEnd::Stop;
+  /// Where the domain is periodic, every number is in it. NaN is in none that has ends.
+  bool has(double parameter) const noexcept { return periodic || (parameter >= lo && parameter <= hi); }
   bool operator==(const Domain&) const = default;
 };
 

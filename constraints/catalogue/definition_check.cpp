@@ -17,7 +17,7 @@ void checkPlace(const std::string& key, const std::vector<double>& place, const 
                 std::vector<Fault>& faults) {
   if (place.size() != dimensions) return faults.push_back({key, "is no place", dimensions == 1 ? "[phi]" : "[u, v]"});
   for (std::size_t k = 0; k < dimensions; ++k)
-    if (!domain[k].periodic && !(place[k] >= domain[k].lo && place[k] <= domain[k].hi))
+    if (!domain[k].has(place[k]))
       faults.push_back(
           {fmt::format("{}[{}]", key, k), fmt::format("is {}", place[k]), fmt::format("{} to {}", domain[k].lo, domain[k].hi)});
 }

@@ -133,7 +133,7 @@ void requireStart(const constraints::Constraint& c, const std::vector<double>& s
   if (start.size() != wanted) throw RefusedError(fmt::format("the start has {} numbers where the constraint has {}", start.size(), wanted));
   for (std::size_t k = 0; k < start.size(); ++k) {
     if (!std::isfinite(start[k])) throw RefusedError("the start is not finite");
-    if (c.kind != constraints::ConstraintKind::Free && !c.domain[k].periodic && (start[k] < c.domain[k].lo || start[k] > c.domain[k].hi))
+    if (c.kind != constraints::ConstraintKind::Free && !c.domain[k].has(start[k]))
       throw RefusedError(
           fmt::format("the start {} lies outside the constraint's domain, {} to {}", start[k], c.domain[k].lo, c.domain[k].hi));
   }

@@ -55,11 +55,10 @@ std::vector<std::vector<double>> targetsOf(const TrialMix& mix, const CompiledEx
   return targets;
 }
 
-// A place on the constraint's domain. Where the domain is periodic, every number is one.
 void checkDomain(const std::vector<double>& target, const constraints::Constraint& constraint) {
   for (std::size_t i = 0; i < target.size() && constraint.kind != constraints::ConstraintKind::Free && i < constraint.domain.size(); ++i) {
     const constraints::Domain& domain = constraint.domain[i];
-    if (!domain.periodic && !(target[i] >= domain.lo && target[i] <= domain.hi))
+    if (!domain.has(target[i]))
       throw FaultError(Fault{"", fmt::format("has {}, which is outside the constraint's domain", target[i]),
                              fmt::format("{} to {}", domain.lo, domain.hi)});
   }

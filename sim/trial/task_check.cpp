@@ -21,7 +21,7 @@ constexpr double kLongTask = 60;    // [s]
 constexpr double kHeavyMass = 100;  // [kg]
 constexpr double kManyTurns = 1.5;  // a full lap is a reach, and may end a little behind its start
 
-// Along the curve, so that a full lap is a way; the chord elsewhere. Of a lap on a surface nobody knows it: infinite. [m]
+// Along the curve, so that a full lap is a way; the chord elsewhere. A lap on a surface has no chord: it counts as infinitely long. [m]
 double wayOf(const constraints::Constraint& constraint, const experiment::Task& task, const ProtocolSettings& place) {
   constexpr double kSamePlace = 1e-9;  // [m]
   const double chord = norm(place.target - place.start);
@@ -84,7 +84,7 @@ std::vector<Fault> taskProblems(const experiment::CompiledExperiment& compiled) 
   for (std::size_t k = 0; k < static_cast<std::size_t>(constraint.parameterCount()); ++k) {
     const constraints::Domain& domain = constraint.domain[k];
     const double target = experiment.task->target[k];
-    if (domain.periodic || (target >= domain.lo && target <= domain.hi) || goesOnBehind(constraint, k, target)) continue;
+    if (domain.has(target) || goesOnBehind(constraint, k, target)) continue;
     found.push_back(
         {fmt::format("task.target[{}]", k),
          fmt::format("is {}, beyond an end of the {}", target, constraint.kind == constraints::ConstraintKind::Curve ? "curve" : "surface"),

@@ -183,9 +183,7 @@ struct SurfaceSystem : SpaceSystem<Springs<1>> {
   bool inside(const State& y) const noexcept {
     if (branches != nullptr && !onBranch(y)) return false;
     if (inPolar) return true;  // left long before another end comes near
-    for (int k = 0; k < 2; ++k)
-      if (!domain[k].periodic && !(y[k] >= domain[k].lo && y[k] <= domain[k].hi)) return false;
-    return true;
+    return domain[0].has(y[0]) && domain[1].has(y[1]);
   }
   /// Takes the branch at q. On a line itself it takes the branch to which the rates lead.
   void findBranch(std::span<const double> q, std::span<const double> qRate) noexcept;
