@@ -31,9 +31,16 @@ double parseNumber(std::string_view text, const std::string& whole) {
   return *value;
 }
 
+/// Each row would be the same where the object has nothing that the key could change.
+void require(bool has, const char* what) {
+  if (!has) throw FaultError(Fault{"sweep", fmt::format("would change nothing: this object has no {}", what), "another key"});
+}
+void requireSprings(const Experiment& e) { require(!e.object.stiffness.empty() || e.coupling, "springs"); }
+void requireMasses(const Experiment& e) { require(!e.object.masses.empty(), "masses"); }
+
 void resizeObject(experiment::Experiment& experiment, double value, bool keepTotal) {
   experiment::Object& object = experiment.object;
-  if (object.masses.empty()) throw FaultError(Fault{"sweep", "is of n, and this experiment has no object", "another key"});
+  requireMasses(experiment);
   if (value != std::floor(value) || value < 1 || value > experiment::kMaxMasses)
     throw FaultError(
         Fault{"sweep", fmt::format("is n = {}", value), fmt::format("whole numbers of masses from 1 to {}", experiment::kMaxMasses)});
@@ -57,43 +64,43 @@ std::optional<NumberRange> rangeOf(const std::string& key) {
   return std::nullopt;
 }
 
-experiment::Coupling& couplingOf(experiment::Experiment& experiment) {
-  if (!experiment.coupling)
-    throw FaultError(Fault{"sweep", "is of coupling.stiffness_n_per_m, and this object has no coupling", "another key"});
-  return *experiment.coupling;
-}
-
-/// Each row would be the same where the object has nothing that the key could change.
-void requireSomething(const std::string& key, const experiment::Experiment& experiment) {
-  const bool springs = !experiment.object.stiffness.empty(), masses = !experiment.object.masses.empty();
-  const auto require = [&](bool has, const char* what) {
-    if (!has) throw FaultError(Fault{"sweep", fmt::format("is of {}, and this object has no {}", key, what), "another key"});
-  };
-  if (key == "object.stiffness_n_per_m") require(springs, "springs of its own");
-  if (key == "stiffness_n_per_m" || key == "damping_n_s_per_m") require(springs || experiment.coupling, "springs");
-  if (key == "n" || key == "n_each" || key == "viscosity_n_s_per_m" || key == "mass_kg" || key == "total_mass_kg")
-    require(masses, "masses");
-}
-
 constexpr std::array<SweepKey, 12> kKeys{{
     {"duration_s", "movement time", [](double v, Experiment&, PredictOptions& o) { o.duration = v; }},
     {"stiffness_n_per_m", "every spring, the coupling too",
      [](double v, Experiment& e, PredictOptions&) {
+       requireSprings(e);
        std::ranges::fill(e.object.stiffness, v);
        if (e.coupling) e.coupling->stiffness = v;
      }},
     {"object.stiffness_n_per_m", "every spring of the object",
-     [](double v, Experiment& e, PredictOptions&) { std::ranges::fill(e.object.stiffness, v); }},
-    {"coupling.stiffness_n_per_m", "the coupling", [](double v, Experiment& e, PredictOptions&) { couplingOf(e).stiffness = v; }},
+     [](double v, Experiment& e, PredictOptions&) {
+       require(!e.object.stiffness.empty(), "springs of its own");
+       std::ranges::fill(e.object.stiffness, v);
+     }},
+    {"coupling.stiffness_n_per_m", "the coupling",
+     [](double v, Experiment& e, PredictOptions&) {
+       require(e.coupling.has_value(), "coupling");
+       e.coupling->stiffness = v;
+     }},
     {"damping_n_s_per_m", "every damper, the coupling's too",
      [](double v, Experiment& e, PredictOptions&) {
+       requireSprings(e);
        e.object.damping.assign(e.object.stiffness.size(), v);
        if (e.coupling) e.coupling->damping = v;
      }},
-    {"viscosity_n_s_per_m", "viscosity of the surroundings", [](double v, Experiment& e, PredictOptions&) { e.object.viscosity = v; }},
-    {"mass_kg", "every mass", [](double v, Experiment& e, PredictOptions&) { std::ranges::fill(e.object.masses, v); }},
+    {"viscosity_n_s_per_m", "viscosity of the surroundings",
+     [](double v, Experiment& e, PredictOptions&) {
+       requireMasses(e);
+       e.object.viscosity = v;
+     }},
+    {"mass_kg", "every mass",
+     [](double v, Experiment& e, PredictOptions&) {
+       requireMasses(e);
+       std::ranges::fill(e.object.masses, v);
+     }},
     {"total_mass_kg", "the object's mass, shared as it is",
      [](double v, Experiment& e, PredictOptions&) {
+       requireMasses(e);
        const double total = std::accumulate(e.object.masses.begin(), e.object.masses.end(), 0.0);
        for (double& m : e.object.masses) m *= v / total;
      }},
@@ -168,7 +175,6 @@ void applySweepValue(const std::string& key, double value, Experiment& experimen
   const bool ofSprings = key == "n" || key == "n_each" || key.ends_with("stiffness_n_per_m") || key == "damping_n_s_per_m";
   if (ofSprings && !experiment.hands.empty())
     throw FaultError(Fault{"sweep", fmt::format("is of {}, and this experiment's hands have springs of their own", key), "another key"});
-  requireSomething(key, experiment);
   found->set(value, experiment, options);
 }
 
