@@ -120,10 +120,9 @@ void keepDefinition(Design& design, const std::string& name) {
     design.definitionTexts[name] = constraints::toJson(constraints::findDefinition(name, "constraint"));
 }
 
-/// Definitions that changes name, as `constraint.name` does.
-void keepDefinitions(Design& design, const std::vector<experiment::Patch>& changes) {
-  for (const experiment::Patch& change : changes)
-    if (change.path == "constraint.name") keepDefinition(design, unquoted(change.value));
+/// A change of an experiment may name another constraint.
+void keepDefinitionIn(Design& design, const std::string& path, const std::string& value) {
+  if (path == "constraint.name") keepDefinition(design, unquoted(value));
 }
 
 void readExperiments(const JsonNode& root, Design& design, FaultList& faults) {
@@ -141,8 +140,11 @@ void readExperiments(const JsonNode& root, Design& design, FaultList& faults) {
   if (!design.experiment.empty())
     take(*root.find("experiment"), "experiment", design.experiment, besideStudy(design.file, design.experiment));
   for (const VariedKey& axis : design.axes) {
-    if (axis.path == "constraint.name")
-      for (const std::string& value : axis.values) keepDefinition(design, unquoted(value));
+    try {
+      for (const std::string& value : axis.values) keepDefinitionIn(design, axis.path, value);
+    } catch (const FaultError& error) {
+      faults.add(*root.find("vary")->find(axis.path), "vary." + axis.path, error.what());
+    }
     if (axis.path != "experiment") continue;
     const JsonNode& node = *root.find("vary")->find("experiment");
     if (node.kind != JsonNode::Kind::Array) faults.add(node, "vary.experiment", "is no list", "names of experiments");
@@ -158,7 +160,7 @@ void readExperiments(const JsonNode& root, Design& design, FaultList& faults) {
     try {
       for (const session::PlanBlock& block : session::parsePlan(design.planText, *found).blocks) {
         take(where, "plan", experimentNameOf(block), block.experiment);
-        keepDefinitions(design, block.changes);
+        for (const experiment::Patch& change : block.changes) keepDefinitionIn(design, change.path, change.value);
       }
     } catch (const FaultError& error) {
       faults.add(where, "plan", error.what());

@@ -131,6 +131,7 @@ PointTask taskOf(const Design& design, const Point& point) try {
     changes.insert(changes.end(), patches.begin(), patches.end());
     const std::string& own = design.experimentTexts.at(name);
     PointExperiment made{name, changes.empty() ? own : experiment::patchedText(own, name, changes), {}};
+    if (design.definitionTexts.empty()) return made;
     if (const auto found = design.definitionTexts.find(constraintNameOf(made.text)); found != design.definitionTexts.end())
       made.definition = found->second;
     return made;

@@ -237,10 +237,10 @@ std::vector<std::size_t> drawStudies(const Population& population, std::uint32_t
 }
 
 /// The designs that are asked for, from the smallest: the largest gives the confusion.
-std::vector<std::size_t> asked(std::vector<std::size_t> numbers, const char* what, std::size_t least, std::size_t most) {
+std::vector<std::size_t> asked(std::vector<std::size_t> numbers, const char* key, std::size_t least, std::size_t most) {
   for (const std::size_t n : numbers)
     if (n < least || n > most)
-      throw FaultError(Fault{what, fmt::format("is {}", n), fmt::format("{} to the {} of this study", least, most)});
+      throw FaultError(Fault{key, fmt::format("is {}", n), fmt::format("{} to the {} of this study", least, most)});
   std::sort(numbers.begin(), numbers.end());
   return numbers;
 }
