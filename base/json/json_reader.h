@@ -68,8 +68,6 @@ class ObjectReader {
   const JsonNode& node() const { return node_; }
 
  private:
-  void keep(Fault fault);  // or count it, when the list is full
-
   bool readNumber(const JsonNode& node, const std::string& path, const NumberRange& range, double& value);
 
   FaultList& faults_;

@@ -6,6 +6,7 @@
 
 #include "base/names.h"
 #include "base/number_range.h"
+#include "tests/refusal.h"
 
 namespace reachlab {
 namespace {
@@ -42,12 +43,10 @@ TEST(Fault, IsToldFromOutside) {
 }
 
 TEST(Fault, OfATextWithinATextIsToldByItsKeyAlone) {
-  try {
+  const auto refused = [] {
     underKey("change", [] { throw FaultError(Fault{"mass_kg", "is -1", "more than 0 kg", FilePlace{"", 2, 3}}); });
-    FAIL();
-  } catch (const FaultError& error) {
-    EXPECT_EQ(toText(error.faults.at(0)), "change.mass_kg: is -1; allowed: more than 0 kg") << "its line is none of the file's";
-  }
+  };
+  EXPECT_EQ(refusalOf(refused), "change.mass_kg: is -1; allowed: more than 0 kg") << "its line is none of the file's";
 }
 
 TEST(Names, TheNearestIsTheOneOfLeastEdits) {
