@@ -60,7 +60,7 @@ std::map<std::string, double> parseShape(const std::vector<std::string>& setting
 
 // A name of the catalogue or of the user's folder, else a file.
 constraints::Definition definitionOf(const std::string& nameOrFile) {
-  if (const constraints::Definition* definition = constraints::findInCatalogue(nameOrFile)) return *definition;
+  if (constraints::findInCatalogue(nameOrFile) != nullptr) return constraints::findDefinition(nameOrFile, "constraint");
   if (nameOrFile.find_first_of("/.") != std::string::npos) return constraints::readDefinition(nameOrFile);
   if (nameOrFile == "free") throw FaultError(Fault{"constraint", "free binds nothing: it has no formula", "a curve or surface"});
   std::error_code error;

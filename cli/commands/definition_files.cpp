@@ -4,13 +4,14 @@
 
 #include "base/fault.h"
 #include "base/json/json_reader.h"
+#include "base/terminal/message.h"
 
 namespace reachlab::cli {
 
 std::vector<constraints::Definition> ownDefinitions() {
   std::vector<Fault> faults;
   std::vector<constraints::Definition> own = constraints::readDefinitionFolder(constraints::userDefinitionFolder(), faults);
-  for (const Fault& fault : faults) fmt::print(stderr, "warning: {}\n", toText(fault));
+  for (const Fault& fault : faults) fmt::print(stderr, "{}", messageOf(fault, "warning"));
   return own;
 }
 

@@ -7,7 +7,7 @@
 
 namespace reachlab::cli {
 
-/// The definitions of the user's folder. Files that cannot be read are told on stderr and left out.
+/// The definitions of the user's folder. Prints a warning on stderr for each file that cannot be read, and leaves the file out.
 std::vector<constraints::Definition> ownDefinitions();
 
 /// The constraint of a definition at its defaults. It must be usable at both ends of each shape parameter as well. Throws FaultError with the

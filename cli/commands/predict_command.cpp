@@ -83,10 +83,12 @@ void runSweep(const PredictArguments& arguments, const experiment::CompiledExper
     std::cerr << fmt::format("{} of {}\n", done, total);
   });
   for (const predict::SweepRow& row : rows) {
-    if (!row.prediction) std::cerr << fmt::format("{} = {}: {}\n", sweep.key, row.value, row.refusal);
-    else
-      for (const std::string& warning : row.prediction->warnings)
-        std::cerr << fmt::format("warning: {} = {}: {}\n", sweep.key, row.value, warning);
+    if (!row.prediction) {
+      std::cerr << fmt::format("{} = {}: {}\n", sweep.key, row.value, row.refusal);
+      continue;
+    }
+    for (const std::string& warning : row.prediction->warnings)
+      std::cerr << fmt::format("warning: {} = {}: {}\n", sweep.key, row.value, warning);
   }
   writeText(writeSweepCsv(sweep, rows), arguments.out);
   if (!arguments.figure.empty()) writeFigure(drawSweep(sweep, rows, criterion), arguments.figure);

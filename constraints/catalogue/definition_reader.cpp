@@ -87,9 +87,10 @@ class DefinitionReader {
   // A number, or a constant expression in the shape's names, as text.
   bool readText(const JsonNode& node, const std::string& key, std::string& text) {
     if (node.kind == JsonNode::Kind::Number) text = fmt::format("{}", node.number);
-    else if (node.kind == JsonNode::Kind::String && !node.string.empty()) text = node.string;
-    else if (node.kind == JsonNode::Kind::String) faults_.add(node, key, "is empty", "a number, or an expression such as \"2*pi\"");
-    else faults_.add(node, key, fmt::format("is {}", nameOf(node.kind)), "a number, or an expression such as \"2*pi\"");
+    else if (node.kind == JsonNode::Kind::String) text = node.string;
+    if (text.empty())
+      faults_.add(node, key, node.kind == JsonNode::Kind::String ? "is empty" : fmt::format("is {}", nameOf(node.kind)),
+                  "a number, or an expression such as \"2*pi\"");
     return !text.empty();
   }
 
@@ -211,11 +212,13 @@ std::vector<Definition> readDefinitionFolder(const std::string& folder, std::vec
     if (entry.path().extension() == ".json") files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
   std::vector<Definition> definitions;
-  for (const std::string& file : files) try {
+  for (const std::string& file : files) {
+    try {
       definitions.push_back(readDefinition(file));
     } catch (const FaultError& faulty) {
       faults.insert(faults.end(), faulty.faults.begin(), faulty.faults.end());
     }
+  }
   return definitions;
 }
 
