@@ -12,12 +12,11 @@ namespace reachlab::analysis {
 AdaptationSeries readAdaptationSeries(const std::string& file) {
   const CsvTable table = readCsvTable(file);
   const auto columnOf = [&](const char* name) {
-    const auto column = table.find(name);
     if (const auto count = std::count(table.columns.begin(), table.columns.end(), name); count != 1)
       throw FaultError(Fault{name, count == 0 ? "column is missing" : "column stands there more than once",
                              fmt::format("a header with perturbation,response; this one has {}", fmt::join(table.columns, ", ")),
                              FilePlace{file, 1}});
-    return *column;
+    return *table.find(name);
   };
   const std::size_t perturbation = columnOf("perturbation"), response = columnOf("response");
   AdaptationSeries series;

@@ -36,8 +36,8 @@ double medianDuration(const ShapeFits& fits) {
 }
 
 /// The least of the parabola in ln P through the costs of a plan and of one on either side, and how far the mean score would fall to it.
-/// Scores are logarithms of costs: without scatter the score has a cusp that a parabola of its own misses. nullopt: there is none between
-/// them.
+/// The parabola is laid through costs and not through scores, which are their logarithms: without scatter a score has a cusp at its least, and
+/// no parabola follows it. nullopt: the least does not lie between the two plans.
 struct NearerPlan {
   double plan = 0, gain = 0;
 };
