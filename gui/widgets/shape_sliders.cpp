@@ -34,15 +34,32 @@ QString plainName(const constraints::ShapeParameter& p) {
 ShapeSliders::ShapeSliders(QWidget* parent) : QWidget(parent) { filling<QVBoxLayout>(this); }
 
 void ShapeSliders::setParameters(const std::vector<constraints::ShapeParameter>& parameters, const std::map<std::string, double>& values) {
+  const auto valueOf = [&](const constraints::ShapeParameter& p) {
+    const auto given = values.find(p.name);
+    return given == values.end() ? p.defaultValue : given->second;
+  };
+  if (isShown(parameters)) {
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      rows_[i].box->show(valueOf(parameters[i]));
+      fit(rows_[i]);
+    }
+    return;
+  }
   rows_.clear();
   delete body_;
   body_ = new QWidget;
   layout()->addWidget(body_);
   form_ = filling<QFormLayout>(body_);
-  for (const constraints::ShapeParameter& p : parameters) {
-    const auto given = values.find(p.name);
-    addRow(p, given == values.end() ? p.defaultValue : given->second);
-  }
+  for (const constraints::ShapeParameter& p : parameters) addRow(p, valueOf(p));
+}
+
+bool ShapeSliders::isShown(const std::vector<constraints::ShapeParameter>& parameters) const {
+  return !rows_.empty() && std::equal(rows_.begin(), rows_.end(), parameters.begin(), parameters.end(),
+                                      [](const Row& row, const constraints::ShapeParameter& p) {
+                                        const constraints::ShapeParameter& shown = row.parameter;
+                                        return shown.name == p.name && shown.meaning == p.meaning &&
+                                               (row.low != nullptr || (shown.min == p.min && shown.max == p.max));
+                                      });
 }
 
 void ShapeSliders::addRow(const constraints::ShapeParameter& p, double value) {

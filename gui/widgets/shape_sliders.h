@@ -22,7 +22,8 @@ class ShapeSliders : public QWidget {
   Q_OBJECT
  public:
   explicit ShapeSliders(QWidget* parent = nullptr);
-  /// Makes rows for these parameters. Missing values get their defaults.
+  /// Makes rows for these parameters. Missing values get their defaults. Rows that are there already stay, because one of them may be the
+  /// one whose entry is answered, and they get the values.
   void setParameters(const std::vector<constraints::ShapeParameter>& parameters, const std::map<std::string, double>& values = {});
   std::map<std::string, double> values() const;
   /// With the ranges as they are now.
@@ -39,6 +40,7 @@ class ShapeSliders : public QWidget {
     UnitSpinBox *low = nullptr, *high = nullptr;  // of a typed name
     int steps = 0;
   };
+  bool isShown(const std::vector<constraints::ShapeParameter>& parameters) const;
   void addRow(const constraints::ShapeParameter& parameter, double value);
   void addEnds(std::size_t row, QHBoxLayout& line);
   /// Lays slider and ends around the value.
