@@ -67,12 +67,10 @@ void SessionController::setProgramme(const session::Programme& programme) {
   } catch (const Error&) {  // the plan has nothing for this subject and day: that is said when a run is to be opened
     shown_ = programme.experiments.front();
   }
-  if (underWay()) {
-    endAfterTrial_ = true;
-  } else {
-    endRun();
+  endRun();  // first: a trial under way is that of the scene that its subject sees
+  {
     const std::scoped_lock lock(changing_);
-    recorded_.reset();
+    recorded_.reset();  // what is to be done next is another
   }
   Q_EMIT experimentChanged();
   if (observed) tellFault(widgets::faultIn([this] { join(asked_); }));
@@ -285,7 +283,6 @@ void SessionController::note(const QString& text) {
 void SessionController::endRun() {
   if (run() == nullptr) return;
   recorded_->pacing() = {};
-  endAfterTrial_ = false;
   mouse_ = nullptr;
   std::unique_lock lock(changing_);
   const bool unfinished = run()->trialsLeft() > 0;
@@ -340,10 +337,6 @@ void SessionController::poll() {
     }
     if (!news.ended || run() == nullptr) return;
     if (const auto fault = run()->fault()) throw ResourceError(*fault);
-    if (!endAfterTrial_) return;
-    endRun();
-    const std::scoped_lock lock(changing_);
-    recorded_.reset();  // what is to be done next is another
   }));
 }
 

@@ -23,8 +23,9 @@ class MouseDevice;
 
 namespace reachlab::gui::app {
 
-/// The session behind the window: the opened or edited programme, and the open run. Uses no widget. Changes take effect between trials. An
-/// open run is then ended, and the next trial opens a new run with the new settings, so that each log holds one configuration. A signal
+/// The session behind the window: the opened or edited programme, and the open run. Uses no widget. A change ends the open
+/// run, a trial under way is kept as interrupted, and the next trial opens a new run with the new settings, so that each log holds one
+/// configuration. A signal
 /// that asks the program to end (base/system/stop_signals.h) ends it within a second, even if the window is busy. A separate thread then
 /// keeps the trial as interrupted and closes the log.
 class SessionController : public QObject {
@@ -148,7 +149,7 @@ class SessionController : public QObject {
 
   session::Programme programme_;
   experiment::CompiledExperiment shown_;
-  bool endAfterTrial_ = false, resume_ = false;
+  bool resume_ = false;
   bool timingTold_ = false;                // of the run that is open
   std::optional<StopRequest> stop_;        // while a run is open a signal ends its trial first; at other times the program, at once
   QStringList onOpening_;                  // what is to be said of the run that is being opened, all at once
