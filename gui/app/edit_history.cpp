@@ -12,8 +12,9 @@ namespace reachlab::gui::app {
 
 class EditHistory::Change : public QUndoCommand {
  public:
-  Change(EditHistory& history, State before, State after, const QString& what)
-      : QUndoCommand(what), history_(history), before_(std::move(before)), after_(std::move(after)) {}
+  Change(EditHistory& history, session::Programme before, const QString& what, std::optional<Opened> openedBefore)
+      : QUndoCommand(what), history_(history), before_(std::move(before)), after_(history.session_.programme()),
+        otherOpened_(std::move(openedBefore)) {}
   void redo() override {
     if (!std::exchange(fresh_, false)) restore(after_);  // what is pushed has been done already
   }
@@ -26,13 +27,14 @@ class EditHistory::Change : public QUndoCommand {
   }
 
  private:
-  void restore(const State& state) {
-    history_.session_.setProgramme(state.programme);
-    history_.opened_ = state.opened;
+  void restore(const session::Programme& programme) {
+    if (otherOpened_) std::swap(*otherOpened_, history_.opened_);
+    history_.session_.setProgramme(programme);
   }
   bool fresh_ = true;
   EditHistory& history_;
-  State before_, after_;
+  session::Programme before_, after_;
+  std::optional<Opened> otherOpened_;  // of the other side of this change, if it opened another file
 };
 
 bool EditHistory::isSameScene(experiment::Experiment changed) const {
@@ -43,10 +45,10 @@ bool EditHistory::isSameScene(experiment::Experiment changed) const {
 QStringList EditHistory::tryEdit(const experiment::Experiment& changed, const QString& what) {
   const bool sameLook = experiment::lookOf(changed) == experiment::lookOf(session_.experiment());
   if (isSameScene(changed) && sameLook) return {};  // back to what holds: the run goes on
-  const State before = now();
+  session::Programme before = session_.programme();
   try {
     const QStringList faults = widgets::inWords(session_.tryEdit(changed));
-    if (faults.isEmpty()) push(before, what);
+    if (faults.isEmpty()) stack_.push(new Change(*this, std::move(before), what, std::nullopt));
     return faults;
   } catch (const Error& e) {
     return {QString::fromUtf8(e.what())};
@@ -54,12 +56,10 @@ QStringList EditHistory::tryEdit(const experiment::Experiment& changed, const QS
 }
 
 void EditHistory::open(const session::Programme& programme, const QString& what, const Opened& opened) {
-  State before = now();
+  session::Programme before = session_.programme();
+  Opened openedBefore = std::exchange(opened_, opened);
   session_.setProgramme(programme);
-  opened_ = opened;
-  push(std::move(before), what);
+  stack_.push(new Change(*this, std::move(before), what, std::move(openedBefore)));
 }
-
-void EditHistory::push(State before, const QString& what) { stack_.push(new Change(*this, std::move(before), now(), what)); }
 
 }  // namespace reachlab::gui::app

@@ -25,17 +25,12 @@ class EditHistory {
   /// Takes over a programme that was opened. Undo takes its file back with it.
   void open(const session::Programme& programme, const QString& what, const Opened& opened);
   const Opened& opened() const { return opened_; }
+  /// After a save under another name. Undo of an edit keeps it.
   void setOpened(const Opened& opened) { opened_ = opened; }
   QUndoStack& stack() { return stack_; }
 
  private:
-  struct State {
-    session::Programme programme;
-    Opened opened;
-  };
   class Change;
-  State now() const { return {session_.programme(), opened_}; }
-  void push(State before, const QString& what);
 
   SessionController& session_;
   Opened opened_;

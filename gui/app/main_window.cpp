@@ -81,7 +81,6 @@ MainWindow::MainWindow(const session::SessionRequest& request, const std::option
   screens_->setSubjectsActions({actions_.next, actions_.abort, actions_.repeat, actions_.end, actions_.subjectsScreen});
   new KeyFocus(*this, *view_);
   plans_ = new PlanPages(session_, *docks_.session, *view_);
-  if (const QString& file = edits_.opened().file; !file.isEmpty()) screens_->lookIn(QFileInfo(file).path());
   connect(screens_, &Screens::said, this, &MainWindow::say);
   connect(screens_, &Screens::placeChosen, this, &MainWindow::movePlace);
   connect(screens_, &Screens::optionsChanged, this, &MainWindow::showOverlay);
@@ -149,7 +148,9 @@ void MainWindow::wireDocks() {
           [this](int number) { strip_->beginNote(QStringLiteral("trial %1: ").arg(number)); });
   connect(docks_.trials, &docks::TrialsDock::markRequested, this, &MainWindow::markTrial);
   connect(docks_.trials, &docks::TrialsDock::takeBackRequested, this, [this] {
-    if (!session_.takeBackRepeat()) warn(tr("No repeat is planned."));
+    if (!session_.takeBackRepeat()) return warn(tr("No repeat is planned."));
+    showStage();
+    if (stageOf(session_) == Stage::Finished) showEnd();
   });
   connect(&plans_->startPage(), &plan::StartPage::beginRequested, this, [this] {
     session_.beginAnew();
@@ -227,6 +228,7 @@ void MainWindow::showExperiment() {
   for (docks::Dock* dock : docks_.all) dock->showExperiment(compiled, !session_.isPlan());
   const auto& task = compiled.experiment().task;
   trace_.setPath(task ? constraints::TaskPath(compiled.constraint(), task->start, task->target) : constraints::TaskPath());
+  screens_->lookIn(QFileInfo(edits_.opened().file).path());
   screens_->showExperiment(compiled, session_.blockPlaces());
   showOverlay();
   plans_->refresh();
@@ -431,6 +433,7 @@ void MainWindow::repeatTrial() {
 }
 
 void MainWindow::resumeSession() {
+  if (stageOf(session_) == Stage::Finished) session_.endRun();  // what is left is seen on the disk
   if (session_.run() == nullptr) takeEntry();
   session_.resume();
   beginNext();

@@ -23,7 +23,6 @@ void MainWindow::openExperiment(const QString& what) {
   if (isRecorded(what)) return inspect(what);
   if (!mayEndRun("Opening another experiment") || !mayBeLeft()) return;
   const QString fault = widgets::faultIn([&] {
-    screens_->lookIn(QFileInfo(what).path());
     const session::Programme opened = session::readProgramme(what.toStdString());
     const QString file = QFileInfo::exists(what) ? what : QString();
     edits_.open(opened, QStringLiteral("open %1").arg(what), {what, file});

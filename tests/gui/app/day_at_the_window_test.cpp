@@ -17,6 +17,7 @@
 #include "gui/scene/scene_overlay.h"
 #include "gui/subject/subject_window.h"
 #include "sim/experiment/experiment.h"
+#include "sim/record/log/run_log.h"
 #include "test_paths.h"
 #include "tests/analysis/whole_dataset.h"
 #include "tests/gui/answer_box.h"
@@ -391,6 +392,57 @@ TEST_F(Day, EpsilonOfTheRunIsTheAnalysissAndFailedTrialsStayOut) {
         << predict::nameOf(criterion);
   }
   EXPECT_GE(result.handEpsilon.size(), 3u);
+}
+
+// The rows of the dock go back to their values while one of them is still answering Enter.
+TEST_F(Day, AShapeThatIsNotToChangeInAnOpenRunGoesBack) {
+  request_.what = "ellipse";
+  MainWindow& window = open();
+  window.nextTrial();
+  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  auto* radius = find<QDoubleSpinBox>("value_b_m");
+  const double before = radius->value();
+  {
+    const AnswerBox box("Continue it");
+    type(radius, "0.04");
+  }
+  EXPECT_NE(window.session().run(), nullptr);
+  EXPECT_EQ(radius->value(), before);
+}
+
+TEST_F(Day, AChangeInATrialEndsItSoThatNoTrialIsJudgedByAnotherScene) {
+  MainWindow& window = open();
+  window.nextTrial();
+  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  const std::string log = window.session().run()->logPath();
+  {
+    const AnswerBox box("End the run");
+    type(find<QLineEdit>("taskTarget"), "3");
+  }
+  EXPECT_EQ(window.session().run(), nullptr);
+  EXPECT_EQ(window.session().experiment().task->target, std::vector<double>{3});
+  const record::RunLog read = record::RunLog::open(log);
+  ASSERT_EQ(read.trials().size(), 1u);
+  EXPECT_EQ(read.trials()[0].result.outcome, trial::Outcome::Interrupted);
+}
+
+TEST_F(Day, ACompleteRunStaysCompleteWhenItsRepeatIsTakenBack) {
+  request_.device = "simulated:noise=0";
+  request_.fast = true;
+  request_.trials = 1;
+  MainWindow& window = open();
+  window.nextTrial();
+  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial() && !window.session().underWay(); }, 20000));
+  const std::string log = window.session().run()->logPath();
+  key(Qt::Key_R, Qt::ControlModifier);
+  find<QToolButton>("undoRepeat")->click();
+  EXPECT_TRUE(find<QLabel>("cardTitle")->isVisible());
+  key(Qt::Key_Space);
+  ASSERT_NE(window.session().run(), nullptr);
+  EXPECT_EQ(window.session().run()->logPath(), log);
+  window.resumeSession();
+  EXPECT_EQ(window.session().run(), nullptr);
+  EXPECT_TRUE(window.message().contains("every trial of this session is recorded")) << window.message().toStdString();
 }
 
 TEST_F(Day, WhatRestsIsNotDrawnAgain) {

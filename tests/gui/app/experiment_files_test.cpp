@@ -1,5 +1,6 @@
 #include "gui/app/experiment_files.h"
 
+#include <QDir>
 #include <QDockWidget>
 #include <QDropEvent>
 #include <QFileInfo>
@@ -9,6 +10,7 @@
 
 #include "sim/dynamics/scene.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/scene_look.h"
 #include "tests/gui/at_the_window.h"
 #include "tests/refusal.h"
 
@@ -117,6 +119,23 @@ TEST_F(Files, UndoTakesTheFileBackWithItsExperiment) {
   QTest::keyClick(&window, Qt::Key_S, Qt::ControlModifier);
   EXPECT_EQ(experiment::openExperiment(other.toStdString()).experiment().constraint.name, "torus");
   EXPECT_EQ(experiment::openExperiment(path_.toStdString()).experiment().object.masses, (std::vector<double>{2.5}));
+}
+
+TEST_F(Files, UndoTakesTheSceneFileBackToo) {
+  write("ball.wrl", "#VRML V2.0 utf8\nDEF mass1 Shape { geometry Sphere { radius 0.02 } }\n");
+  experiment::SceneLook look;
+  look.sceneFile = "ball.wrl";
+  request_.what = write("ball.json", experiment::withLook(experiment::openExperiment("dingwell").experiment(), look).text);
+  MainWindow& window = open();
+  const auto isDrawn = [&] { return window.view().plan().model != nullptr; };
+  ASSERT_TRUE(QTest::qWaitFor(isDrawn, 10'000)) << window.message().toStdString();
+  QDir(folder_.path()).mkdir("elsewhere");
+  const QString other = folder_.filePath("elsewhere/mine.json");
+  writeExperiment(experiment::openExperiment("ellipse").experiment(), other);
+  window.openExperiment(other);
+  EXPECT_FALSE(isDrawn());
+  window.edits().undo();
+  EXPECT_TRUE(QTest::qWaitFor(isDrawn, 10'000)) << window.message().toStdString();
 }
 
 TEST_F(Files, ADroppedFileIsOpenedAndRemembered) {

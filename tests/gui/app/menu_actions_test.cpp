@@ -15,9 +15,11 @@
 #include <algorithm>
 #include <functional>
 
+#include "base/text_file.h"
 #include "gui/choosers/constraint_chooser.h"
 #include "gui/plan/plan_composer.h"
 #include "gui/subject/subject_window.h"
+#include "sim/experiment/experiment.h"
 #include "test_paths.h"
 #include "tests/gui/answer_box.h"
 #include "tests/gui/at_the_window.h"
@@ -271,6 +273,26 @@ TEST_F(MenuActions, OfTheViewMoveTheCameraAndChangeTheDrawing) {
   EXPECT_EQ(QSettings().value("window/theme").toString(), "dark");
 }
 
+// The file that was left by Save as stays as it is.
+TEST_F(MenuActions, UndoKeepsTheFileOfSaveAs) {
+  experiment::Experiment mine = experiment::openExperiment("ellipse").experiment();
+  mine.name = "mine";
+  const std::string text = experiment::toJson(mine);
+  request_.what = write("mine.json", text);
+  MainWindow& window = open();
+  experiment::Experiment changed = window.session().experiment();
+  changed.object.masses = {2.5};
+  ASSERT_TRUE(window.edits().isClean());
+  window.edit(changed, "A change", "masses");
+  QDir(folder_.path()).mkdir("copies");
+  triggerWithFile("Experiment/Save as…", written("copies/mine.json"));
+  ASSERT_TRUE(QFileInfo::exists(written("copies/mine.json")));
+  trigger("Edit/Undo*");
+  trigger("Experiment/Save");
+  EXPECT_EQ(readTextFile(request_.what), text);
+  EXPECT_NE(experiment::openExperiment(written("copies/mine.json").toStdString()).experiment().object.masses, std::vector<double>{2.5});
+}
+
 TEST_F(MenuActions, OfTheLookReachTheExperiment) {
   request_.what = "chain-moderate";
   MainWindow& window = open();
@@ -283,8 +305,7 @@ TEST_F(MenuActions, OfTheLookReachTheExperiment) {
     EXPECT_FALSE(window.look() == before) << entry;
   }
   auto* slider = find<QSlider>("surfaceOpacity");
-  slider->setValue(90);
-  Q_EMIT slider->sliderReleased();
+  slider->setValue(90);  // as a key, or a click beside its handle
   EXPECT_NEAR(window.look().surfaceOpacity, 0.9, 1e-12);
   for (const std::string& part : experiment::colouredParts()) {
     Q_EMIT find<QMenu>("look")->aboutToShow();
