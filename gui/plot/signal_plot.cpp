@@ -65,6 +65,7 @@ void SignalPlot::setMasses(int count) {
   for (int i = 1; i <= count; ++i) watched_->addItem(tr("mass %1").arg(i));
   watched_->setCurrentIndex(std::max(0, before));
   clear();
+  Q_EMIT watchedChanged(watched());
 }
 
 int SignalPlot::watched() const { return watched_->currentIndex() - 1; }

@@ -53,6 +53,17 @@ TEST(SignalPlot, AnotherBodyIsAnotherSignal) {
   EXPECT_EQ(plot.pointCount(), 0);
 }
 
+TEST(SignalPlot, TellsWhatIsWatchedWhenTheObjectHasFewerMasses) {
+  SignalPlot plot;
+  plot.setMasses(3);
+  plot.findChild<QComboBox*>(QStringLiteral("signalWatched"))->setCurrentIndex(3);
+  int told = -2;
+  QObject::connect(&plot, &SignalPlot::watchedChanged, [&](int mass) { told = mass; });
+  plot.setMasses(1);
+  EXPECT_EQ(plot.watched(), 0);
+  EXPECT_EQ(told, 0);
+}
+
 TEST(SignalPlot, IsExportedAsItIsDrawn) {
   SignalPlot plot;
   plot.resize(600, 300);
