@@ -3,6 +3,7 @@
 #include <QFileDialog>
 #include <QInputDialog>
 #include <QSettings>
+#include <QSignalBlocker>
 #include <QSlider>
 #include <QStatusBar>
 #include <tuple>
@@ -69,12 +70,14 @@ void addDepthCues(MainWindow& window, QMenu& menu) {
 
 void addOpacity(MainWindow& window, QMenu& menu) {
   QSlider* slider = addSlider(menu, QObject::tr("Surface's opacity"), "surfaceOpacity", 140);
+  slider->setTracking(false);  // one change of the experiment for one drag, key or click
   QObject::connect(&menu, &QMenu::aboutToShow, slider, [&window, slider] {
+    const QSignalBlocker quiet(slider);
     slider->setValue(static_cast<int>(100 * window.look().surfaceOpacity + 0.5));
     slider->setEnabled(!window.session().isPlan());
   });
-  QObject::connect(slider, &QSlider::sliderReleased, &window,
-                   [&window, slider] { changeLook(window, [&](SceneLook& look) { look.surfaceOpacity = 0.01 * slider->value(); }); });
+  QObject::connect(slider, &QSlider::valueChanged, &window,
+                   [&window](int percent) { changeLook(window, [&](SceneLook& look) { look.surfaceOpacity = 0.01 * percent; }); });
 }
 
 void listColours(MainWindow& window, QMenu& menu) {

@@ -58,20 +58,20 @@ ProfilePlot::Mean meanOf(const analysis::Analysis& analysis, std::size_t conditi
 }
 
 std::vector<plot::PredictedLine> predictionsOf(const analysis::Analysis& analysis, std::size_t condition, Signal signal,
-                                               const std::vector<predict::Criterion>& criteria, bool fitted) {
+                                               const ShownPredictions& shown) {
   std::vector<plot::PredictedLine> out;
   const analysis::ConditionResult& r = analysis.results[condition];
-  for (const predict::Criterion criterion : criteria) {
+  for (const predict::Criterion criterion : shown.criteria) {
     plot::PredictedLine line{plot::titleOf(criterion), plot::styleOf(criterion)};
     for (const analysis::PredictedSignal& predicted : r.signals) {
-      if (fitted || predicted.criterion != criterion) continue;
+      if (!shown.predicted || predicted.criterion != criterion) continue;
       const analysis::PredictedCurve curve = analysis::curveOf(predicted);
       line.x = curve.time;
       line.y = signal == Signal::Hand ? curve.hand : curve.object;
       out.push_back(line);
     }
     const auto k = analysis::placeOf(namesOf(r.candidates), criterion);
-    if (!fitted || !k || signal != Signal::Hand) continue;
+    if (!shown.fitted || !k || signal != Signal::Hand) continue;
     line.title += ProfilePlot::tr(", fitted");
     line.fitted = true;
     for (const analysis::PersonResult& person : analysis.people) {
@@ -86,8 +86,7 @@ std::vector<plot::PredictedLine> predictionsOf(const analysis::Analysis& analysi
   return out;
 }
 
-figure::Figure figureOf(const Inspection& inspection, std::size_t condition, TimeAxis axis,
-                        const std::vector<predict::Criterion>& criteria) {
+figure::Figure figureOf(const Inspection& inspection, std::size_t condition, TimeAxis axis, const ShownPredictions& shown) {
   figure::Figure out{.columns = 2};
   for (const Signal signal : {Signal::Hand, Signal::Object}) {
     const bool object = signal == Signal::Object;
@@ -108,27 +107,24 @@ figure::Figure figureOf(const Inspection& inspection, std::size_t condition, Tim
         panel.bands.push_back(std::move(band));
         panel.series.push_back({.label = "mean", .x = mean.x, .y = mean.mean, .width = figure::kThick});
       }
-      for (const bool fitted : {false, true}) {
-        int colour = 0;
-        for (const plot::PredictedLine& line : predictionsOf(*inspection.analysis, condition, signal, criteria, fitted))
-          panel.series.push_back({.label = line.title.toStdString(),
-                                  .x = line.x,
-                                  .y = line.y,
-                                  .color = figure::palette::series(colour++),
-                                  .width = 1.4,
-                                  .dash = fitted ? figure::Dash::Dotted : figure::Dash::Dashed});
-      }
+      int colours[2] = {0, 0};
+      for (const plot::PredictedLine& line : predictionsOf(*inspection.analysis, condition, signal, shown))
+        panel.series.push_back({.label = line.title.toStdString(),
+                                .x = line.x,
+                                .y = line.y,
+                                .color = figure::palette::series(colours[line.fitted]++),
+                                .width = 1.4,
+                                .dash = line.fitted ? figure::Dash::Dotted : figure::Dash::Dashed});
     }
     out.panels.push_back(std::move(panel));
   }
   return out;
 }
 
-std::string linesCsv(const Inspection& inspection) {
+std::string linesCsv(const Inspection& inspection, TimeAxis axis) {
   TableText table(',', "");
   table.row({"subject", "session", "condition", "run", "trial", "time_s", "hand_velocity_m_per_s", "object_velocity_m_per_s"});
-  const std::vector<ProfilePlot::Line> hand = linesOf(inspection, Signal::Hand, TimeAxis::AsMoved),
-                                       object = linesOf(inspection, Signal::Object, TimeAxis::AsMoved);
+  const std::vector<ProfilePlot::Line> hand = linesOf(inspection, Signal::Hand, axis), object = linesOf(inspection, Signal::Object, axis);
   for (std::size_t i = 0; i < hand.size(); ++i) {
     const analysis::TrialKey& key = inspection.input.trials[i].key;
     for (std::size_t k = 0; k < hand[i].x.size(); ++k) {

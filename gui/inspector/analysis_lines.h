@@ -21,15 +21,17 @@ double zeroOf(const Inspection& inspection, std::size_t trial);
 /// Over the counted trials of the condition. Empty if no trial counts.
 ProfilePlot::Mean meanOf(const analysis::Analysis& analysis, std::size_t condition, Signal signal);
 
-/// The predictions of these criteria. They are dashed and for the task's T, unless `fitted`: then they are the mean of the fitted
-/// movements, dotted.
+/// Which predictions are drawn: for the task's T, dashed, and the mean of the fitted movements, dotted.
+struct ShownPredictions {
+  std::vector<predict::Criterion> criteria;
+  bool predicted = true, fitted = true;
+};
 std::vector<plot::PredictedLine> predictionsOf(const analysis::Analysis& analysis, std::size_t condition, Signal signal,
-                                               const std::vector<predict::Criterion>& criteria, bool fitted);
+                                               const ShownPredictions& shown);
 
 /// All of it for print.
-figure::Figure figureOf(const Inspection& inspection, std::size_t condition, TimeAxis axis,
-                        const std::vector<predict::Criterion>& criteria);
+figure::Figure figureOf(const Inspection& inspection, std::size_t condition, TimeAxis axis, const ShownPredictions& shown);
 /// The lines as they are drawn, one row a sample: trial, time, hand and object velocity.
-std::string linesCsv(const Inspection& inspection);
+std::string linesCsv(const Inspection& inspection, TimeAxis axis);
 
 }  // namespace reachlab::gui::inspector

@@ -123,6 +123,9 @@ void InspectorPage::wire() {
       report_->setEnabled(table_->rowCount() > 0 && !analysis_.busy());
     });
   };
+  connect(cancel_, &QPushButton::clicked, this, [this] {
+    if (inspector_.busy()) epsilons_->clear(tr("Not judged, because it was cancelled. Choose the trials again."));
+  });
   wireProgress(opener_);
   wireProgress(inspector_);
   wireProgress(analysis_);
@@ -234,6 +237,8 @@ void InspectorPage::showJudged() {
   draw();
 }
 
+ShownPredictions InspectorPage::shownPredictions() const { return {epsilons_->chosen(), predicted_->isChecked(), fitted_->isChecked()}; }
+
 TimeAxis InspectorPage::timeAxis() const { return axis_->currentIndex() == 0 ? TimeAxis::AsMoved : TimeAxis::Scaled; }
 
 void InspectorPage::draw() {
@@ -244,10 +249,7 @@ void InspectorPage::draw() {
     const analysis::Analysis& analysis = *inspection_->analysis;
     const std::size_t c = condition();
     if (inspection_->input.trials.size() > 1) mean = meanOf(analysis, c, signal);
-    for (const bool fitted : {false, true})
-      if ((fitted ? fitted_ : predicted_)->isChecked())
-        for (plot::PredictedLine& some : predictionsOf(analysis, c, signal, epsilons_->chosen(), fitted))
-          predictions.push_back(std::move(some));
+    predictions = predictionsOf(analysis, c, signal, shownPredictions());
     epsilons_->show(analysis, c);
   }
   plot_->setLines(inspection_ ? linesOf(*inspection_, signal, timeAxis()) : std::vector<ProfilePlot::Line>());
@@ -294,8 +296,10 @@ void InspectorPage::opened(const record::TrialIndex& index) {
 
 void InspectorPage::pick(int row) {
   if (row == picked_) return;
+  const std::size_t before = condition();
   picked_ = row;
-  showPicked();
+  if (condition() != before) draw();  // with the mean and the predictions of this one
+  else showPicked();
 }
 
 const analysis::Recording& InspectorPage::recordingOf(const std::string& path) {
@@ -378,8 +382,8 @@ void InspectorPage::exportTo(const QString& file) {
   if (!inspection_ || inspection_->input.trials.empty()) throw FaultError(Fault{"trials", "none is chosen", "rows of the table"});
   const std::string name = file.toStdString();
   const bool lines = QFileInfo(file).suffix().toLower() == QLatin1String("csv");
-  record::writeFileAtomically(
-      name, lines ? linesCsv(*inspection_) : figure::renderFor(name, figureOf(*inspection_, condition(), timeAxis(), epsilons_->chosen())));
+  record::writeFileAtomically(name, lines ? linesCsv(*inspection_, timeAxis())
+                                          : figure::renderFor(name, figureOf(*inspection_, condition(), timeAxis(), shownPredictions())));
 }
 
 void InspectorPage::exportTable(const QString& file) {

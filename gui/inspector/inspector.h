@@ -83,6 +83,7 @@ class InspectorPage : public QWidget {
   /// Runs it. If it fails, says why and returns false.
   bool attempt(const std::function<void()>& work);
   TimeAxis timeAxis() const;
+  ShownPredictions shownPredictions() const;
   int rowOf(const analysis::TrialKey& key) const;
   std::vector<int> chosenRows() const;
   std::size_t condition() const;

@@ -153,7 +153,7 @@ QWidget* InspectorPage::makeRight() {
   signal_->addItems({tr("velocity of the hand"), tr("velocity of the last mass")});
   axis_ = widgets::named<QComboBox>("inspectorAxis");
   axis_->addItems({tr("as moved"), tr("time-scaled to the mean")});
-  predicted_ = new QCheckBox(tr("predicted for T"));
+  predicted_ = widgets::named<QCheckBox>("inspectorPredicted", tr("predicted for T"));
   predicted_->setChecked(true);
   fitted_ = widgets::named<QCheckBox>("inspectorFitted", tr("fitted"));
   fitted_->setChecked(true);

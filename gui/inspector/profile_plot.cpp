@@ -67,6 +67,7 @@ ProfilePlot::ProfilePlot(QWidget* parent) : QWidget(parent), impl_(std::make_uni
   layout->addWidget(plot);
   auto* canvas = gui::plot::dress(*plot);
   canvas->installEventFilter(this);
+  canvas->setFocusPolicy(Qt::ClickFocus);  // an entry elsewhere is taken for its trial before another is picked
   gui::plot::setAxisFonts(*plot);
   plot->setAxisTitle(QwtPlot::xBottom, gui::plot::axisTitle(tr("time since onset [s]")));
   plot->setAxisTitle(QwtPlot::yLeft, gui::plot::axisTitle(tr("velocity [m/s]")));

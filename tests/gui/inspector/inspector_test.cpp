@@ -146,6 +146,21 @@ TEST_F(Inspecting, LineRowAndReplayGoTogether) {
   EXPECT_LE(page_.replay().view().frame().masses[4].x, high + 1e-12);
 }
 
+TEST_F(Inspecting, ANoteThatIsBeingTypedIsTheTrialsWhenALineIsClicked) {
+  choose(0, 4);
+  const int trial = page_.view().model()->index(page_.view().currentIndex().row(), TrialTable::kTrial).data().toInt();
+  auto* note = find<QLineEdit>("trialNote");
+  QTest::mouseClick(note, Qt::LeftButton);
+  QTest::keyClicks(note, "talked");
+  QWidget* canvas = page_.plot().childAt(page_.plot().pixelOf(0.2, 0.1));
+  ASSERT_NE(canvas, nullptr);
+  QTest::mouseClick(canvas, Qt::LeftButton);
+  const record::RunMarks marks = record::readMarks(log());
+  const record::TrialMark* mark = marks.find(trial);
+  ASSERT_NE(mark, nullptr);
+  EXPECT_EQ(mark->note, "talked");
+}
+
 TEST_F(Inspecting, TimeIsPlayedSteppedAndLooped) {
   choose(1, 1);
   auto* slider = find<QSlider>("replayTime");
@@ -265,6 +280,33 @@ TEST_F(Inspecting, FiguresAndTablesAreWritten) {
   const std::string table = record::readWholeFile((base + "-table.csv").toStdString());
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 27);
   EXPECT_THROW(page_.exportTo(base + ".doc"), Error);
+}
+
+TEST_F(Inspecting, WhatIsExportedIsWhatIsDrawn) {
+  choose(0, 11);
+  const std::string base = folder_->path() + "/drawn";
+  const auto written = [&](const char* suffix) {
+    page_.exportTo(QString::fromStdString(base + suffix));
+    return record::readWholeFile(base + suffix);
+  };
+  const std::string dashed = "stroke-dasharray";  // as a prediction is
+  EXPECT_NE(written(".svg").find(dashed), std::string::npos);
+  find<QCheckBox>("inspectorPredicted")->setChecked(false);
+  find<QCheckBox>("inspectorFitted")->setChecked(false);
+  EXPECT_EQ(written(".svg").find(dashed), std::string::npos);
+  // Scaled in time every movement begins at 0 and ends at the mean duration.
+  find<QComboBox>("inspectorAxis")->setCurrentIndex(1);
+  double sum = 0, latest = 0, earliest = 0;
+  int found = 0;
+  for (const analysis::TrialSignals& s : page_.inspection()->signals)
+    if (s.movement.found) sum += s.movement.duration(), ++found;
+  const QStringList rows = QString::fromStdString(written(".csv")).split(QLatin1Char('\n'), Qt::SkipEmptyParts).mid(1);
+  for (const QString& row : rows) {
+    const double time = row.section(QLatin1Char(','), 5, 5).toDouble();
+    latest = std::max(latest, time), earliest = std::min(earliest, time);
+  }
+  EXPECT_NEAR(latest, sum / found, 1e-9);
+  EXPECT_EQ(earliest, 0);
 }
 
 TEST_F(Inspecting, TheReportIsTheOneOfTheAnalysis) {
