@@ -323,6 +323,33 @@ Price priceOf(const Scene& scene, const Vec3& hand, int ticks) {
   return price;
 }
 
+// Masses of one natural frequency move as one mass does, here through the cusp of (phi^2, phi^3) with rounding of their own.
+TEST(Cusps, MassesThatArriveTogetherPassAsOne) {
+  const auto placesOf = [](std::vector<double> masses, std::vector<double> stiffness, const char* method) {
+    const Experiment e =
+        onCurve(makeExperiment(ObjectKind::Parallel, std::move(masses), std::move(stiffness)), "0.1*phi^2", "0.1*phi^3", "0");
+    const Scene scene = compileScene(e, {method, 1e-3, 0});
+    scene.plant->placeAtRest(std::array{-0.8});
+    const HandFunction hand = [](double t) {
+      const MinimumJerk law = heldMinimumJerk(t / 1.35);
+      const double phi = -0.8 + 1.6 * law.value, rate = 1.6 * law.rate / 1.35;
+      return HandSample{{0.1 * phi * phi, 0.1 * phi * phi * phi, 0}, {0.2 * phi * rate, 0.3 * phi * phi * rate, 0}, true};
+    };
+    double furthest = -1;
+    for (int tick = 0; tick < 1100; ++tick) {
+      EXPECT_EQ(scene.plant->step(makeSegment(hand, tick * 1e-3, 1e-3), 1e-3), StepStatus::Ok) << scene.plant->stopReason();
+      furthest = std::max(furthest, observed(*scene.plant)[0].q[0]);
+    }
+    EXPECT_GT(furthest, 0.2) << "behind the cusp";
+    std::vector<Vec3> places;
+    for (const MassState& mass : observed(*scene.plant)) places.push_back(mass.r);
+    return places;
+  };
+  const Vec3 one = placesOf({1}, {100}, "adaptive").at(0);
+  for (const char* method : {"abm", "adaptive"})
+    for (const Vec3& place : placesOf({1, 3, 2}, {100, 300, 200}, method)) EXPECT_LT(norm(place - one), 1e-9) << method;
+}
+
 // What is promised of hard curves (near-cusps of 1 % and 0.1 %, a cusp, and a flat ellipse): the energy of free motion, one or two
 // right-hand sides a tick where nothing is hard (twelve by sub-steps), and a tick that passes a cusp far below the thousand that cap it.
 TEST(Cusps, ArePassedWithinTheirBudget) {
@@ -353,6 +380,13 @@ TEST(Cusps, ArePassedWithinTheirBudget) {
   EXPECT_LE(price.mean, 15);
   EXPECT_LE(price.most, 175);
   EXPECT_LE(price.dear, 5);
+  // Five masses that pass a cusp within few ticks.
+  const Scene row = compileScene(onCurve(makeChain(5, 0.6, 600, {600, 0}), "0.1*phi^2", "0.1*phi^3", "0"), {"adaptive", 1e-3, 0});
+  row.plant->place(std::array{-0.5}, std::array{4.0});
+  const HandSample hand{{0.025, -0.0125, 0}, {}, true};
+  const double before = row.plant->energy(hand);
+  EXPECT_LE(priceOf(row, hand.position, 400).most, 2500);
+  EXPECT_NEAR(row.plant->energy(hand) / before, 1, 1e-9);
 }
 
 }  // namespace

@@ -40,14 +40,16 @@ class CuspAdaptive {
   }
 
  private:
-  static constexpr double kFar = 0.25;               // of the largest |r_phi|: mostly no hard place within a tick
-  static constexpr std::uint64_t kSuspicious = 100;  // right-hand sides of a tick that was not regular after all
-  static constexpr double kCusp = 1e-9;              // |r_phi| over c below which a minimum is a true cusp
-  static constexpr double kOnCusp = 1e-13;           // |r_phi| over c of a mass that is on it
-  static constexpr double kAtRest = 1e-14;           // [m/s] below it the side to which a mass leaves a cusp is undetermined
-  static constexpr double kLongest = 0.3;            // in phi: a longer sub-step could go over a minimum of |r_phi|
-  static constexpr double kGrowth = 5;               // largest ratio of a sub-step to the one before it; 1 right after a rejection
-  static constexpr double kLeast = 1e-300;           // instead of a divisor that is zero
+  static constexpr double kFar = 0.25;                // of the largest |r_phi|: mostly no hard place within a tick
+  static constexpr std::uint64_t kSuspicious = 100;   // right-hand sides of a tick that was not regular after all
+  static constexpr int kMaxRhs = 4 * kMaxRhsPerTick;  // of a tick that passes cusps: five masses that pass one in a tick take 1,900
+  static constexpr double kCusp = 1e-9;               // |r_phi| over c below which a minimum is a true cusp
+  static constexpr double kOnCusp = 1e-13;            // |r_phi| over c of a mass that is on it
+  static constexpr double kAtRest = 1e-14;            // [m/s] below it the side to which a mass leaves a cusp is undetermined
+  static constexpr double kTogether = 1e-13;          // of 1 + |phi|: the distance of masses at one place
+  static constexpr double kLongest = 0.3;             // in phi: a longer sub-step could go over a minimum of |r_phi|
+  static constexpr double kGrowth = 5;                // largest ratio of a sub-step to the one before it; 1 right after a rejection
+  static constexpr double kLeast = 1e-300;            // instead of a divisor that is zero
   static constexpr int kSize = System::kStates > 0 ? System::kStates + 1 : 0;
   using Extended = Numbers<kSize>;  // y and t
 
@@ -89,7 +91,10 @@ class CuspAdaptive {
       }
       const double factor = speed / c;
       for (int i = 0; i < n; ++i) d[i] = factor * rates[i];
-      d[lead.mass] = at[system.rates() + lead.mass] / c;
+      // Masses at one place have one |r_phi|. On the cusp their ratio is 0/0.
+      for (int i = 0; i < system.n(); ++i)
+        if (std::abs(at[i] - at[lead.mass]) <= kTogether * (1 + std::abs(at[i])) && &system.curveOf(i) == &system.curveOf(lead.mass))
+          d[i] = at[system.rates() + i] / c;
       d[n] = factor;
     }
     /// A sub-step of tau from y to `trial`. Returns its estimated error, where 1 is the most allowed.
@@ -134,7 +139,7 @@ class CuspAdaptive {
     }
     /// Shortens the sub-step of h so that it ends on the true cusp that it crosses, by Newton's method in tau. False if there is no cusp,
     /// or if the method does not reach it. `error` becomes that of the shortened sub-step.
-    bool endOnCusp(double h, double& error) noexcept {
+    bool endOnCusp(double& h, double& error) noexcept {
       constexpr int kRounds = 12;
       constexpr double kMet = 4e-16, kNear = 1e-12;  // of 1 + |phi|: rounding, and what Newton's last step comes to
       const double from = y[lead.mass], to = trial[lead.mass];
@@ -151,6 +156,7 @@ class CuspAdaptive {
       }
       if (!(std::abs(phi - trial[lead.mass]) < kNear * (1 + std::abs(phi)))) return false;
       trial[lead.mass] = phi;
+      if (error > 1) h = tau;  // otherwise h stays: the way to a cusp may be too short for the time to move on behind it
       return true;
     }
     /// Shortens the sub-step of h, which leads beyond the end of the tick, to end there. Newton's method in tau, kept between bounds by
@@ -211,8 +217,8 @@ class CuspAdaptive {
         growth = 1;
         status = std::isfinite(error) ? StepStatus::Capped : StepStatus::NotFinite;
       }
-      if (!onCusp) h *= factor;  // the way to a cusp may have been too short for the time to move on behind it
-      if (p.y[n] < dt && p.rhs + 2 * dop853::kStages > kMaxRhsPerTick) {
+      if (!onCusp || error > 1) h *= factor;
+      if (p.y[n] < dt && p.rhs + 2 * dop853::kStages > kMaxRhs) {
         status = StepStatus::Capped;
         break;
       }
