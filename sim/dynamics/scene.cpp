@@ -327,6 +327,26 @@ void compileOnSurface(Scene& scene, const ObjectModel& model, const std::array<d
   scene.plant = makeChartPlant(model, constraint, branches->smooth() ? nullptr : branches, request);
 }
 
+/// At an apex, a pinch point or the end of a cycloid nothing tells where a mass goes, and every trial would end at once.
+void requireContinuation(Scene& scene, const std::vector<double>& start, double step) {
+  const auto stepWithPull = [&](double pull) {
+    scene.plant->placeAtRest(start);
+    HandSegment held;
+    held.position[0] = constraints::placeOn(*scene.constraint, start) + Vec3{pull, pull, pull};
+    return scene.plant->step(held, step);
+  };
+  const StepStatus status = stepWithPull(0);
+  if (status == StepStatus::NoContinuation || status == StepStatus::NotFinite || status == StepStatus::Capped)
+    throw RefusedError(
+        fmt::format("no motion can begin at the start [{}]: {}; choose another start", fmt::join(start, ", "), scene.plant->stopReason()));
+  constexpr double kPull = 1e-4;  // [m] of the hand along each axis
+  for (const double pull : {-kPull, kPull})
+    if (const StepStatus pulled = stepWithPull(pull); pulled == StepStatus::AtEnd || pulled == StepStatus::Capped) {
+      scene.choice.warnings.push_back("the start lies on an end of the constraint: a pull beyond it ends the trial");
+      return;
+    }
+}
+
 }  // namespace
 
 Scene compileScene(const experiment::Experiment& experiment, const constraints::Constraint& constraint, const SceneOptions& options) {
@@ -379,6 +399,7 @@ Scene compileScene(const experiment::Experiment& experiment, const constraints::
   if (scene.choice.method == "rk4" && scene.shared == nullptr) estimateRk4(scene, experiment, options.step);
   if (experiment.task) {
     warnOfFarStart(scene, start);
+    if (scene.shared == nullptr) requireContinuation(scene, start, options.step);
     scene.plant->placeAtRest(start);
   }
   return scene;

@@ -88,6 +88,26 @@ TEST(Cusps, AStartAtRestOnOneIsRefused) {
   EXPECT_THROW((void)compileScene(from(onCurve(makePoint(), "0.1*cos(phi)^3", "0.1*sin(phi)^3", "0"), {0}, {1})), RefusedError);
 }
 
+TEST(Starts, WhereNothingTellsTheWayAreRefusedWithTheirReason) {
+  for (const auto& [name, start] : {std::pair<const char*, std::vector<double>>{"cone", {0, 0}}, {"whitney-umbrella", {0, 0}}}) {
+    Experiment e = makePoint();
+    e.constraint.name = name;
+    const std::string told = refusalOf([&] { (void)compileScene(from(e, start, start)); });
+    EXPECT_TRUE(holds(told, "no motion can begin at the start")) << name << ": " << told;
+  }
+}
+
+TEST(Starts, OnAnEndAreWarnedOf) {
+  for (const auto& [name, start, warned] : {std::tuple{"cycloid", 0.0, true}, {"parabola", -1.0, true}, {"parabola", -0.9, false}}) {
+    Experiment e = makePoint();
+    e.constraint.name = name;
+    const std::vector<std::string> warnings = compileScene(from(e, {start}, {start})).choice.warnings;
+    const bool told =
+        std::any_of(warnings.begin(), warnings.end(), [](const std::string& w) { return holds(w, "on an end of the constraint"); });
+    EXPECT_EQ(told, warned) << name << start;
+  }
+}
+
 TEST(Cusps, APointAtRestOnOneSaysThatNothingTellsWhereItGoes) {
   const Scene scene = compileScene(onCurve(makePoint(), "0.1*cos(phi)^3", "0.1*sin(phi)^3", "0"));
   scene.plant->placeAtRest(std::array{0.0});
