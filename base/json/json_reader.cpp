@@ -79,7 +79,7 @@ void FaultList::addOfValue(const JsonNode& root, Fault fault) {
     return;
   }
   const Found found = findKey(root, fault.key);
-  if (found.missing) fault.what = "is missing";
+  if (found.missing && !fault.what.starts_with("is missing")) fault.what = "is missing, and by default " + fault.what;
   FilePlace place{file_, found.node->line, found.node->column};
   if (fault.place && fault.place->file.empty()) place.column += fault.place->column;  // behind the string's opening quote
   fault.place = place;
