@@ -198,6 +198,18 @@ std::int64_t mostTrialsOfSubject(const Design& design) {
   return most > 0 ? most : design.trials;
 }
 
+std::int64_t trialsOfPairs(const Design& design, std::int64_t first, std::int64_t end) {
+  const bool varied = std::any_of(design.axes.begin(), design.axes.end(), [](const VariedKey& axis) { return axis.path == "trials"; });
+  if (!varied) return (end - first) * mostTrialsOfSubject(design);
+  std::int64_t trials = 0;
+  while (first < end) {
+    const std::int64_t point = first / design.subjects, next = std::min(end, (point + 1) * design.subjects);
+    trials += (next - first) * trialsOf(design, pointAt(design, point));
+    first = next;
+  }
+  return trials;
+}
+
 std::uint64_t seedOf(const Design& design, std::int64_t point, std::int64_t subject, int day) {
   const auto words =
       philox({static_cast<std::uint32_t>(point), static_cast<std::uint32_t>(subject), static_cast<std::uint32_t>(day), kSubjectStream},

@@ -148,10 +148,13 @@ class Reader {
   }
 
   void countSuccess(const ChunkRows& rows) {
+    numbered_.reset();
     for (std::int64_t row = 0; row < rows.rows; ++row) {
       const auto outcome = static_cast<trial::Outcome>(at(rows, identity_, row));
+      if (isPractice(rows, row)) continue;
+      const std::size_t number = numberOf(rows, row);
       if (outcome != trial::Outcome::Success && outcome != trial::Outcome::Failure) continue;
-      if (!folder_.design.planText.empty() && (at(rows, column::Practice, row) == 1 || at(rows, column::CatchTrial, row) == 1)) continue;
+      if (!folder_.design.planText.empty() && at(rows, column::CatchTrial, row) == 1) continue;
       const auto count = [&](std::size_t column, std::size_t order) {
         const double value = at(rows, column, row);
         SuccessAt& share = success_[{order, value}];
@@ -160,7 +163,6 @@ class Reader {
       };
       for (std::size_t k = firstAxis_; k < identity_; ++k) count(k, k);
       const std::string block = blockOf(rows, row);
-      const auto number = static_cast<std::size_t>(at(rows, firstAxis_ - 2, row));
       const std::size_t stretch = (number - 1) / kStretch;
       LearningAt& learning = learning_[{block, stretch}];
       learning.block = block;
@@ -177,8 +179,27 @@ class Reader {
     return wordOf(columns_[column::Condition], at(rows, column::Condition, row)) + (day > 0 ? fmt::format(" day {}", day) : "");
   }
 
+  bool isPractice(const ChunkRows& rows, std::int64_t row) const {
+    return !folder_.design.planText.empty() && at(rows, column::Practice, row) == 1;
+  }
+
+  std::pair<std::int64_t, std::int64_t> personOf(const ChunkRows& rows, std::int64_t row) const {
+    return {static_cast<std::int64_t>(at(rows, column::Point, row)), static_cast<std::int64_t>(at(rows, column::Subject, row))};
+  }
+
+  /// Number of a trial in its condition and day, for rows in their order. It goes on where a plan has several blocks of one condition.
+  std::size_t numberOf(const ChunkRows& rows, std::int64_t row) {
+    const auto inBlock = static_cast<std::size_t>(at(rows, firstAxis_ - 2, row));
+    if (folder_.design.planText.empty()) return inBlock;
+    if (const auto person = personOf(rows, row); person != numbered_) numbered_ = person, numbers_.clear();
+    Numbers& numbers = numbers_[blockOf(rows, row)];
+    if (const double block = at(rows, column::Block, row); block != numbers.block) numbers.block = block, numbers.before = numbers.last;
+    return numbers.last = numbers.before + inBlock;
+  }
+
   void takeScores(const ChunkRows& rows) {
-    const std::size_t truth = placeOf(columns_, kTruth), trial = firstAxis_ - 2;
+    const std::size_t truth = placeOf(columns_, kTruth);
+    numbered_.reset();
     // Behind the criteria are the reference, effective samples, and the score of the subject's own mean.
     const std::size_t score = placeOf(columns_, "score_reference") - criteria_;
     for (std::int64_t row = 0; row < rows.rows; ++row) {
@@ -189,18 +210,17 @@ class Reader {
       Population& population = populations_[{cell, name}];
       population.cell = cell;
       population.truth = name;
-      const auto who =
-          std::pair{static_cast<std::int64_t>(at(rows, column::Point, row)), static_cast<std::int64_t>(at(rows, column::Subject, row))};
-      PersonTrials& person = population.people[who];  // who has no scores is drawn, too
-      const auto place = static_cast<int>(at(rows, trial, row));
-      population.trials = std::max(population.trials, static_cast<std::size_t>(place));
+      PersonTrials& person = population.people[personOf(rows, row)];  // who has no scores is drawn, too
+      if (isPractice(rows, row)) continue;
+      const std::size_t place = numberOf(rows, row);
+      population.trials = std::max(population.trials, place);
       if (!std::isfinite(at(rows, score + criteria_, row))) continue;
       auto& [number, scores] = person[blockOf(rows, row)];
       scores.score.resize(criteria_ + 1);
       for (std::size_t k = 0; k < scores.score.size(); ++k) scores.score[k].push_back(at(rows, score + k, row));
       scores.effectiveSamples = at(rows, score + criteria_ + 1, row);
       scores.own.push_back(at(rows, score + criteria_ + 2, row));
-      number.push_back(place);
+      number.push_back(static_cast<int>(place));
     }
   }
 
@@ -218,6 +238,12 @@ class Reader {
   std::map<std::pair<std::size_t, double>, SuccessAt> success_;
   std::map<std::pair<std::string, std::size_t>, LearningAt> learning_;  // by block and stretch
   std::map<std::pair<std::string, std::string>, Population> populations_;
+  struct Numbers {
+    double block = 0;
+    std::size_t before = 0, last = 0;  // trials of the earlier blocks; the latest number
+  };
+  std::optional<std::pair<std::int64_t, std::int64_t>> numbered_;  // whose trials are being numbered
+  std::map<std::string, Numbers> numbers_;
 };
 
 /// Draws studies of one design; counts by candidate, undecided last.

@@ -46,13 +46,15 @@ void computeChunks(const StudyFolder& folder, const PrepareSubjects& prepare, un
 
 void workThrough(const StudyFolder& folder, const Shard& shard, const TellProgress& tell, const ComputeAll& work) {
   const ChunksToDo todo = chunksToDo(folder, shard);
-  const std::int64_t ofSubject = mostTrialsOfSubject(folder.design);
+  const auto trialsOf = [&](std::int64_t chunk) {
+    const PairRange range = folder.chunks.at(chunk);
+    return trialsOfPairs(folder.design, range.first, range.end);
+  };
   StudyProgress progress;
-  std::int64_t left = 0;
-  for (const std::int64_t chunk : todo.missing) left += (folder.chunks.at(chunk).end - folder.chunks.at(chunk).first) * ofSubject;
   for (std::int64_t chunk = 0; chunk < folder.chunks.count(); ++chunk)
-    if (shard.has(chunk)) progress.trials += (folder.chunks.at(chunk).end - folder.chunks.at(chunk).first) * ofSubject;
-  progress.trialsDone = progress.trials - left;
+    if (shard.has(chunk)) progress.trials += trialsOf(chunk);
+  progress.trialsDone = progress.trials;
+  for (const std::int64_t chunk : todo.missing) progress.trialsDone -= trialsOf(chunk);
   std::atomic<std::size_t> at{0};
   const std::int64_t began = os::now();
   const auto next = [&]() -> std::optional<std::int64_t> {

@@ -102,6 +102,13 @@ struct SbatchRequest {
   int tasks = 10, cpus = 1;
 };
 
+// One word of a shell, whatever the text holds.
+std::string shellWord(const std::string& text) {
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
+
 // A task may be killed or put back at any moment: the chunks that are there are done.
 void tellSbatch(const SbatchRequest& request) {
   const study::Design design = study::readDesign(request.study);
@@ -110,7 +117,7 @@ void tellSbatch(const SbatchRequest& request) {
   const auto tasks = static_cast<int>(std::min<std::int64_t>(request.tasks, chunks));
   fmt::print(
       "#!/bin/bash\n"
-      "#SBATCH --job-name={}\n"
+      "#SBATCH --job-name=\"{}\"\n"
       "#SBATCH --array=1-{}\n"
       "#SBATCH --cpus-per-task={}\n"
       "#SBATCH --time={}\n"
@@ -118,8 +125,8 @@ void tellSbatch(const SbatchRequest& request) {
       "# {} chunks, {} of them a task; SLURM_ARRAY_TASK_ID and SLURM_ARRAY_TASK_COUNT give the share. The task that finds all chunks "
       "there\n"
       "# writes the tables.\n"
-      "srun --ntasks=1 reach study '{}' --out '{}' --jobs \"$SLURM_CPUS_PER_TASK\" --resume\n",
-      design.name, tasks, request.cpus, request.time, chunks, (chunks + tasks - 1) / tasks, request.study, out);
+      "srun --ntasks=1 reach study {} --out {} --jobs \"$SLURM_CPUS_PER_TASK\" --resume\n",
+      design.name, tasks, request.cpus, request.time, chunks, (chunks + tasks - 1) / tasks, shellWord(request.study), shellWord(out));
 }
 
 void tellParameters() {

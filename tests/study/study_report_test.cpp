@@ -164,6 +164,28 @@ TEST(StudyReport, CountsNeitherPracticeNorCatchTrials) {
   EXPECT_EQ(report.success[0].successes, 1u);
 }
 
+// A, B, A: the second block of A goes on with A's trials.
+TEST(StudyReport, NumbersTheTrialsOfAConditionOverItsBlocks) {
+  const TemporaryFolder folder;
+  const std::string plan = folder.write("plan.json", R"({ "schema_version": 1, "trials": 10, "blocks": [
+      { "experiment": "chain-slow", "condition": "a" }, { "experiment": "chain-slow", "condition": "b" },
+      { "experiment": "chain-slow", "condition": "a" }] })");
+  const StudyFolder study = makeFolder(parseDesign(R"({ "schema_version": 1, "name": "made", "plan": ")" + plan +
+                                                       R"(", "subjects": 1, "vary": { "handmass_kg": [0.5] }, "measures": ["by"] })",
+                                                   "made.json"),
+                                       folder / "study");
+  std::vector<std::vector<double>> rows;
+  for (int block = 1; block <= 3; ++block)
+    for (int trial = 1; trial <= 10; ++trial)
+      rows.push_back({0, 1, 1, 0, 1.0 * block, block == 2 ? 1.0 : 0.0, 0, 0, 1.0 * trial, 7, 0.5, block == 3 ? kSuccess : kFailure, 0, 0});
+  writeChunk(study.path, 0, study.fingerprint, chunkOf(rows));
+  const StudyReport report = makeReport(study, {});
+  ASSERT_EQ(report.learning.size(), 3u);
+  EXPECT_EQ(report.learning[1].firstTrial, 11u);
+  EXPECT_EQ(report.learning[1].successes, 10u);
+  EXPECT_EQ(report.learning[0].successes, 0u);
+}
+
 TEST(StudyReport, OfTruthsThatCannotBeToldIsUndecided) {
   const TemporaryFolder folder;
   const StudyReport report = makeReport(madePower(folder.path(), 0.02, 12, 12), {.studies = 8, .subjects = {5, 6}, .trials = {12, 10}});
@@ -226,6 +248,14 @@ TEST(StudyFolder, GivesEachShareItsChunks) {
   EXPECT_FALSE(areTablesThere(study));
   const StudyStatus status = statusOf(study);
   EXPECT_TRUE(status.chunks == 7 && status.chunksDone == 2 && status.trials == 7 && status.trialsDone == 2 && !status.tables);
+}
+
+TEST(StudyFolder, CountsTheTrialsOfEachPoint) {
+  const TemporaryFolder folder;
+  const StudyFolder study = folderOf(folder.path(), R"("subjects": 2, "vary": { "trials": [4, 6] }, "chunk_trials": 6)");
+  writeChunk(folder.path(), 0, study.fingerprint, chunkOf({{0, 1}}));
+  EXPECT_EQ(statusOf(study).trials, 20);
+  EXPECT_EQ(statusOf(study).trialsDone, 4);
 }
 
 // Chunks a minute apart, after a pause of an hour: only what went on since then tells the rate.
