@@ -90,6 +90,8 @@ void runSweep(const PredictArguments& arguments, const experiment::CompiledExper
     for (const std::string& warning : row.prediction->warnings)
       std::cerr << fmt::format("warning: {} = {}: {}\n", sweep.key, row.value, warning);
   }
+  if (std::none_of(rows.begin(), rows.end(), [](const predict::SweepRow& row) { return row.prediction != nullptr; }))
+    throw RefusedError(fmt::format("--sweep: none of the {} values of {} has a prediction", rows.size(), sweep.key));
   writeText(writeSweepCsv(sweep, rows), arguments.out);
   if (!arguments.figure.empty()) writeFigure(drawSweep(sweep, rows, criterion), arguments.figure);
 }
