@@ -8,6 +8,7 @@
 #include <QUrl>
 #include <QVBoxLayout>
 
+#include "devices/kept_mapping.h"
 #include "gui/app/main_window.h"
 #include "gui/widgets/ask.h"
 #include "gui/widgets/fault_in.h"
@@ -83,9 +84,11 @@ bool MainWindow::saveTo(const QString& file, const experiment::Experiment& exper
   if (session_.isPlan()) return say("Use Session plan… (Ctrl+P) to compose and save a plan."), false;
   const QString fault = widgets::faultIn([&] {
     writeExperiment(experiment, file);
-    if (experiment.name != session_.experiment().name)
-      edits_.open(session::readProgramme(file.toStdString()), QStringLiteral("save as %1").arg(QFileInfo(file).fileName()), {file, file});
-    edits_.setOpened({edits_.opened().what, file});
+    const bool renamed = experiment.name != session_.experiment().name;
+    edits_.setOpened({renamed ? file : edits_.opened().what, file});  // first: undo of the name keeps the file, too
+    if (renamed)
+      edits_.open(session::readProgramme(file.toStdString()), QStringLiteral("save as %1").arg(QFileInfo(file).fileName()),
+                  edits_.opened());
     rememberFile(file);
     edits_.stack().setClean();
   });
@@ -135,9 +138,11 @@ bool MainWindow::mayEndRun(const QString& doing) {
 // A session that is resumed with another device asks, because its trials would not be comparable.
 bool MainWindow::mayUseDevice() {
   if (!session_.resumes()) return true;
-  const QString now = QString::fromStdString(docks_.session->device());
+  const session::SessionPlace place = docks_.session->request().place;
+  std::vector<std::string> mappings;  // the run says so
+  const QString now = QString::fromStdString(devices::withKeptMappings(docks_.session->device(), place.data, place.subject, mappings));
   std::vector<std::string> unreadable;  // the run says so
-  const std::vector<session::RecordedBlock> recorded = session::readRecordedBlocks(docks_.session->request().place, unreadable);
+  const std::vector<session::RecordedBlock> recorded = session::readRecordedBlocks(place, unreadable);
   const QString before = QString::fromStdString(session::otherDeviceBefore(recorded, now.toStdString()));
   return before.isEmpty() ||
          ask(*this, "askAboutDevice", "Another device",

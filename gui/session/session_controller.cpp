@@ -67,7 +67,7 @@ void SessionController::setProgramme(const session::Programme& programme) {
   } catch (const Error&) {  // the plan has nothing for this subject and day: that is said when a run is to be opened
     shown_ = programme.experiments.front();
   }
-  endRun();  // first: a trial under way is that of the scene that its subject sees
+  endRun();  // before the new scene is shown, so that no trial is judged by another scene
   {
     const std::scoped_lock lock(changing_);
     recorded_.reset();  // what is to be done next is another
@@ -132,7 +132,7 @@ void SessionController::planRuns(const session::SessionRequest& request) {
   if (recorded_->notice().again)
     onOpening_ << "This session has blocks of this plan already, and they are recorded again. Trial, Resume continues after them.";
   if (recorded_->notice().nothingToResume)
-    onOpening_ << "Nothing of this session is recorded, so there was nothing to resume. This is its first run.";
+    onOpening_ << "Nothing that this session asks for is recorded yet, so there was nothing to resume. It begins.";
   for (const std::string& sentence : recorded_->notice().unreadable) onOpening_ << QString::fromStdString(sentence);
 }
 

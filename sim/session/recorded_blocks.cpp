@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/error.h"
+#include "sim/record/recover.h"
 
 namespace reachlab::session {
 namespace {
@@ -21,6 +22,7 @@ std::vector<RecordedBlock> readRecordedBlocks(const SessionPlace& place, std::ve
     try {
       // What lies behind damage is in no table, so it is not done: a session that is resumed does it again.
       const record::RunLog log = record::RunLog::open(run.path, mustRead ? record::LogCheck::Everything : record::LogCheck::Trials);
+      if (mustRead && log.goodBytes() < log.fileBytes()) faults.push_back(record::lossOf(log));
       const record::RunConfiguration& configuration = log.configuration();
       auto block = std::find_if(blocks.begin(), blocks.end(),
                                 [&](const RecordedBlock& b) { return b.configuration.firstRun == configuration.firstRun; });
@@ -41,11 +43,13 @@ std::vector<RecordedBlock> readRecordedBlocks(const SessionPlace& place, std::ve
   return blocks;
 }
 
+bool isBlockOf(const record::RunConfiguration& c, const std::string& planText, int day, int block) {
+  return c.planText == planText && c.day == day && c.block == block;
+}
+
 std::string otherDeviceBefore(const std::vector<RecordedBlock>& blocks, const std::string& device) {
   const std::string before = blocks.empty() ? device : blocks.back().configuration.device;
-  const bool same =
-      before == device || before.starts_with(device + ':') || before.starts_with(device + ',');  // with a mapping that is kept
-  return same ? std::string() : before;
+  return before == device ? std::string() : before;
 }
 
 }  // namespace reachlab::session

@@ -16,6 +16,9 @@ struct RecordedBlock {
   int lastTrial = 0;  // largest trial number used so far
 };
 
+/// True for a recording of that block of a plan. Blocks are numbered on each day from 1.
+bool isBlockOf(const record::RunConfiguration& c, const std::string& planText, int day, int block);
+
 /// The session's recorded blocks, by first run. Logs that cannot be read are left out, with a sentence in `faults`. With `mustRead` a log
 /// that the disk does not give is a ResourceError, since resuming would repeat its trials.
 std::vector<RecordedBlock> readRecordedBlocks(const SessionPlace& place, std::vector<std::string>& faults, bool mustRead = false);

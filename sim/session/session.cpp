@@ -41,12 +41,12 @@ bool hasScenes(const record::RunConfiguration& c, const std::vector<BlockScene>&
 
 // `first`: the recording of the session's first block that has one. Those of the blocks after it are of the same session, and not of one that
 // was recorded before it.
-const RecordedBlock* findRecordedBlock(const std::vector<RecordedBlock>& blocks, const Plan& plan, int number,
+const RecordedBlock* findRecordedBlock(const std::vector<RecordedBlock>& blocks, const Plan& plan, int day, int number,
                                        const experiment::Experiment& experiment, const RecordedBlock* first) {
   const RecordedBlock* found = nullptr;
   for (const RecordedBlock& block : blocks) {
     const record::RunConfiguration& c = block.configuration;
-    const bool same = plan.text.empty() ? c.planText.empty() && isOf(c, experiment) : c.planText == plan.text && c.block == number;
+    const bool same = plan.text.empty() ? c.planText.empty() && isOf(c, experiment) : isBlockOf(c, plan.text, day, number);
     const bool ofSession =
         first == nullptr || (c.sessionSeed == first->configuration.sessionSeed && c.firstRun > first->configuration.firstRun);
     if (same && ofSession) found = &block;
@@ -63,8 +63,9 @@ const RecordedBlock* findRecordedBlock(const std::vector<RecordedBlock>& blocks,
 void refuseChanged(const std::vector<RecordedBlock>& blocks, const Plan& plan, const experiment::Experiment& experiment) {
   for (const RecordedBlock& block : blocks) {
     const record::RunConfiguration& c = block.configuration;
-    const bool sameName = plan.text.empty() ? c.planText.empty() && c.experimentName == experiment.name : c.planName == plan.name;
-    if (sameName && !block.complete()) refuseToResume(plan.text.empty() ? experiment.name : plan.name, c.run);
+    const bool changed = plan.text.empty() ? c.planText.empty() && c.experimentName == experiment.name
+                                           : c.planName == plan.name && c.planText != plan.text;  // or it is of another day
+    if (changed && !block.complete()) refuseToResume(plan.text.empty() ? experiment.name : plan.name, c.run);
   }
 }
 
@@ -80,7 +81,7 @@ void checkSameWishes(const SessionRequest& request, const RecordedBlock& block) 
                            fmt::format("none, or {}", block.configuration.sessionSeed)});
 }
 
-record::RunConfiguration freshConfiguration(const SessionRequest& request, const Plan& plan, const PlanBlock& block,
+record::RunConfiguration freshConfiguration(const SessionRequest& request, const Plan& plan, const PlanBlock& block, int day,
                                             const experiment::Experiment& experiment, const std::vector<BlockScene>& scenes) {
   record::RunConfiguration c;
   c.subject = request.place.subject;
@@ -88,7 +89,7 @@ record::RunConfiguration freshConfiguration(const SessionRequest& request, const
   c.task = labelOf(experiment.name);
   c.practice = block.practice;
   c.condition = block.condition;
-  c.day = block.day;
+  c.day = day;
   c.pauseSeconds = block.pauseSeconds;
   c.repeatAborted = block.repeatAborted;
   c.experimentName = experiment.name;
@@ -181,7 +182,7 @@ std::vector<OrderedBlock> orderBlocks(const SessionRequest& request, const Progr
     const int number = static_cast<int>(blocks.size()) + 1;
     const experiment::CompiledExperiment& experiment = programme.experiments.at(k);
     trial::checkTask(experiment, programme.isPlan() ? plan.blocks[k].experiment : request.what);
-    const RecordedBlock* found = findRecordedBlock(recorded, plan, number, experiment.experiment(), first);
+    const RecordedBlock* found = findRecordedBlock(recorded, plan, sessionDay(request, plan), number, experiment.experiment(), first);
     if (first == nullptr) first = found;
     blocks.push_back({number, plan.blocks[k], experiment, programme.scenes.at(k), found});
   }
@@ -227,7 +228,7 @@ BlockToRun makeBlock(const SessionRequest& request, const Plan& plan, const Orde
   if (before != nullptr) {
     c = before->configuration;
   } else {
-    c = freshConfiguration(request, plan, ordered.planned, block.experiment.experiment(), ordered.scenes);
+    c = freshConfiguration(request, plan, ordered.planned, sessionDay(request, plan), block.experiment.experiment(), ordered.scenes);
     c.block = ordered.number;
     c.sessionSeed = seed;
     c.seed = blockSeed(seed, c.block);
@@ -249,7 +250,7 @@ void checkRecordable(const Programme& programme) {
   for (std::size_t k = 0; k < programme.experiments.size(); ++k) {
     const PlanBlock& block = programme.plan.blocks.at(k);
     record::RunConfiguration c =
-        freshConfiguration({}, programme.plan, block, programme.experiments[k].experiment(), programme.scenes.at(k));
+        freshConfiguration({}, programme.plan, block, block.day, programme.experiments[k].experiment(), programme.scenes.at(k));
     c.trials = planTrials(block, 0);
     addUnreadable(std::move(c), programme.experiments[k], programme.scenes.at(k), faults);
   }
@@ -295,9 +296,9 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
   if (request.resume) refuseOpenRuns(request.place);
   const std::vector<RecordedBlock> recorded = readRecordedBlocks(request.place, session.notice.unreadable, request.resume);
   const std::vector<OrderedBlock> blocks = orderBlocks(request, programme, plan, order, recorded);
-  chooseSeed(request, request.resume ? findResumed(request, plan, blocks, recorded) : nullptr, session);
-
-  if (request.resume) session.notice.deviceBefore = otherDeviceBefore(recorded, request.device);
+  const RecordedBlock* resumed = request.resume ? findResumed(request, plan, blocks, recorded) : nullptr;
+  chooseSeed(request, resumed, session);
+  if (resumed != nullptr) session.notice.deviceBefore = otherDeviceBefore(recorded, request.device);
 
   std::vector<Fault> faults;
   int run = chooseRun(request.place, request.run);
@@ -320,7 +321,7 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
   };
   session.notice.unfinished = !request.resume && anyRecorded(false);
   session.notice.again = !request.resume && programme.isPlan() && anyRecorded(true);
-  session.notice.nothingToResume = request.resume && recorded.empty();
+  session.notice.nothingToResume = request.resume && resumed == nullptr;
   return session;
 }
 

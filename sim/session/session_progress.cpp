@@ -26,8 +26,7 @@ SessionProgress progressOf(const SessionRequest& request, const Programme& progr
     BlockProgress one{c.block, c.condition,       c.experimentName,  c.practice, static_cast<int>(block.trials.size()),
                       0,       block.restSeconds, block.instructions};
     for (const RecordedBlock& recorded : before)
-      if (recorded.configuration.planText == c.planText && recorded.configuration.block == c.block &&
-          recorded.configuration.experimentName == c.experimentName)
+      if (isBlockOf(recorded.configuration, c.planText, c.day, c.block) && recorded.configuration.experimentName == c.experimentName)
         one.done = std::max(one.done, static_cast<int>(recorded.done.size()));
     progress.blocks.push_back(std::move(one));
   }

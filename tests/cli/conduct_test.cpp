@@ -40,7 +40,7 @@ TEST(Conduct, ThePlansBlocksAreRunsOfTheirOwnEachWithItsLabelAndItsRowsInTheData
     EXPECT_TRUE(holds(ended.err, "run " + std::to_string(k + 1) + ": " + conditions[k]));
   }
   EXPECT_TRUE(std::filesystem::exists(folder / "dataset_description.json"));
-  for (const auto& [device, warned] : {std::pair{"simulated:noise=0", false}, {"simulated", false}, {"simulated:noise=1", true}}) {
+  for (const auto& [device, warned] : {std::pair{"simulated:noise=0", false}, {"simulated", true}, {"simulated:noise=1", true}}) {
     const Ended again = reach("run " + plan + " --device " + device + " --fast --resume --data " + folder.path());
     EXPECT_TRUE(says(again, 0, "nothing is left to do"));
     EXPECT_EQ(bool(holds(again.err, "recorded with the device simulated:noise=0, and is resumed with")), warned) << again.err;

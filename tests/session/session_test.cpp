@@ -173,7 +173,7 @@ TEST_F(PlannedSession, CountsEveryRunOfABlockWhateverItsNumber) {
   r.run = 5;
   recordAndBreakOff(planSession(r).blocks[0], 2);
   r.resume = true;
-  r.run = 3;
+  r.run = 8;
   recordAndBreakOff(planSession(r).blocks[0], 2);
   r.run.reset();
   EXPECT_EQ(indicesOf(planSession(r).blocks[0]), (std::vector<int>{4, 5}));
@@ -221,6 +221,10 @@ TEST_F(PlannedSession, RefusesATakenRunNumberAndProposesAFreeOne) {
   EXPECT_EQ(fault.allowed, "2, the next free one, or none");
   r.what = "chain-fast";  // another task of the same session has the same run numbers
   EXPECT_THROW(planSession(r), FaultError);
+  r.run = 7;
+  recordAndBreakOff(planSession(r).blocks[0], 1);
+  r.run = 3;  // resuming takes their order for that in time
+  EXPECT_EQ(faultsToldBy([&] { planSession(r); }).at(0).allowed, "8 or more, or none");
 }
 
 TEST_F(PlannedSession, IsOneDayOfThePlan) {
@@ -236,8 +240,20 @@ TEST_F(PlannedSession, IsOneDayOfThePlan) {
   EXPECT_THROW(planSession(r), FaultError);
   r.place.session = "evening";
   EXPECT_THROW(planSession(r), FaultError);
+  r.day = 1;
+  r.seed = 1;
+  for (const BlockToRun& block : planSession(r).blocks) recordOutcomes(block, {trial::Outcome::Success});
+  r.seed.reset();
   r.day = 2;
-  EXPECT_EQ(planSession(r).blocks.size(), 3u);
+  r.resume = true;
+  const SessionToRun second = planSession(r);
+  ASSERT_EQ(second.blocks.size(), 3u) << "one label for two days: each day is its own";
+  EXPECT_TRUE(second.notice.nothingToResume);
+  for (const BlockToRun& block : second.blocks) EXPECT_EQ(block.trials.size(), block.configuration.trials.size());
+  r.resume = false;
+  EXPECT_FALSE(planSession(r).notice.again);
+  r.day = 1;
+  EXPECT_TRUE(planSession(r).notice.unfinished);
 }
 
 TEST_F(PlannedSession, OfAPlanWithoutDaysMayHaveAnyName) {
@@ -289,7 +305,10 @@ TEST_F(PlannedSession, ResumesTheRunOfItsOwnExperimentAlone) {
   slow.resume = fast.resume = true;
   slow.seed.reset();
   fast.seed = 6;
+  fast.device = "another";
   const SessionToRun other = planSession(fast);
+  EXPECT_TRUE(other.notice.nothingToResume);
+  EXPECT_EQ(other.notice.deviceBefore, "") << "no trial of another experiment is gone on with";
   ASSERT_EQ(other.blocks.size(), 1u);
   EXPECT_EQ(other.seed, 6u);
   EXPECT_EQ(indicesOf(other.blocks[0]), (std::vector<int>{0, 1, 2, 3}));
@@ -393,7 +412,7 @@ TEST_F(PlannedSession, KeepsWhatThePlanAndTheRequestSayInTheRecord) {
   expectRecorded(session.blocks[0].configuration,
                  {{"practice", true}, {"condition", "warm up"}, {"day", 4}, {"pause_s", 1.5}, {"task", "chainslow"}});
   expectRecorded(session.blocks[1].configuration,
-                 {{"practice", false}, {"condition", "epitrochoid"}, {"day", 0}, {"pause_s", 0.0}, {"task", "epitrochoid"}});
+                 {{"practice", false}, {"condition", "epitrochoid"}, {"day", 4}, {"pause_s", 0.0}, {"task", "epitrochoid"}});
   EXPECT_EQ(session.blocks[1].logPath, r.place.data + "/sourcedata/sub-s7_ses-b_task-epitrochoid_run-02_log.reach");
   for (const BlockToRun& block : session.blocks) {
     const experiment::Experiment& planned = block.experiment.experiment();
@@ -521,8 +540,8 @@ TEST(SessionFolder, FindsTheRunsOfItsOwnSessionByNumber) {
   EXPECT_EQ(runs[0].path, logPath(place, "b", 9).replace(logPath(place, "b", 9).find("run-09"), 6, "run-9"));
   EXPECT_EQ(runs[1].run, 10);
   EXPECT_EQ(chooseRun(place, {}), 11);
-  EXPECT_EQ(chooseRun(place, 3), 3);
-  EXPECT_THROW(chooseRun(place, 10), FaultError);
+  EXPECT_EQ(chooseRun(place, 13), 13);
+  for (const int taken : {10, 3}) EXPECT_THROW(chooseRun(place, taken), FaultError);
 }
 
 // The logs of a dataset that was passed on may be elsewhere.
