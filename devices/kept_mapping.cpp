@@ -38,8 +38,9 @@ std::string withKeptMappings(const std::string& device, const std::string& data,
     const std::string file = fileOf(hand, data, subject);
     std::error_code error;
     if (handSettingsOf(hand).mapped || !std::filesystem::exists(file, error)) continue;
+    const std::string options = optionsOf(readMapping(file));
     taken.push_back(file);
-    hand += (hand.size() == kind.size() ? "," : hand.back() == ':' ? "" : ",") + ("mapping=" + file);
+    hand += (hand.size() == kind.size() ? "," : hand.back() == ':' ? "" : ",") + options;
   }
   return joinHands(hands);
 }

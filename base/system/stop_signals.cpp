@@ -69,6 +69,8 @@ void endOnSignals() {
 StopRequest::StopRequest() { orderIsKept = true; }
 
 StopRequest::~StopRequest() {
+  const itimerval none{};  // the tables are written: there is nothing more to be patient for
+  ::setitimer(ITIMER_REAL, &none, nullptr);
   orderIsKept = false;
   tablesUnderWay = false;
 }

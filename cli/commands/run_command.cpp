@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <optional>
+#include <utility>
 
 #include "base/fault.h"
 #include "base/system/stop_signals.h"
@@ -35,7 +36,7 @@ void printNotice(const session::SessionNotice& notice, const std::string& device
     fmt::print(stderr,
                "warning: this session has blocks of this plan already, and they are recorded again; --resume continues after them\n");
   if (notice.nothingToResume)
-    fmt::print(stderr, "warning: nothing of this session is recorded, so there is nothing to resume. It begins\n");
+    fmt::print(stderr, "warning: nothing that this session asks for is recorded yet, so there is nothing to resume. It begins\n");
   for (const std::string& sentence : notice.unreadable) fmt::print(stderr, "warning: {}\n", sentence);
 }
 
@@ -71,10 +72,21 @@ void printNoStart(const session::RecordedRun& run) {
              c.firstHand.mapping.empty() ? "the device is not mapped" : "its mapping is " + c.firstHand.mapping, c.device);
 }
 
+void requireMapping(const std::string& device) {
+  const std::vector<std::string> hands = devices::splitHands(device);
+  if (std::none_of(hands.begin(), hands.end(), [](const std::string& hand) { return devices::handSettingsOf(hand).mapped; }))
+    throw FaultError(Fault{"--save-mapping", "the device has no mapping", "a device with scale=, offset=, rotation=, mirror= or mapping="});
+}
+
+void saveMappings(const session::SessionRequest& request) {
+  for (const std::string& file : devices::keepMappings(request.device, request.place.data, request.place.subject))
+    fmt::print(stderr, "mapping kept in {}\n", file);
+}
+
 // Conducts a session block by block. It prints one line per trial on stdout once the trial is safe on the disk. It writes the dataset at
 // each block's end and the success table at the end. Returns the exit code: 0, or 130 after Ctrl-C (the trial under way is kept as
 // interrupted). Throws the errors of planning, device, scene and disk. Finished trials are then on the disk.
-int runSession(const session::SessionRequest& request) {
+int runSession(const session::SessionRequest& request, bool savesMapping) {
   const std::unique_ptr<record::InstrumentLink> instruments = devices::openInstruments(request.instruments);
   session::RecordedSession session(session::readProgramme(request.what), request, checkedDeviceMaker(), nullptr, instruments.get());
   printNotice(session.notice(), request.device);
@@ -83,7 +95,8 @@ int runSession(const session::SessionRequest& request) {
   SuccessTable table;
   std::optional<StopRequest> stop;
   session::SessionWords words;
-  words.resting = [](const session::BlockToRun& next) {
+  words.resting = [&](const session::BlockToRun& next) {
+    stop.emplace();
     fmt::print("rest: {:g} s before the block {}\n", next.restSeconds, next.configuration.condition);
     std::fflush(stdout);
   };
@@ -91,6 +104,7 @@ int runSession(const session::SessionRequest& request) {
   words.opened = [&](const session::RecordedRun& run) {
     if (!seedTold) fmt::print("seed={}\n", session.seed());
     seedTold = true;
+    if (std::exchange(savesMapping, false)) saveMappings(request);
     printRun(run);
     if (!run.instructions().empty()) fmt::print("{}\n", run.instructions());
     stop.emplace();  // from here on a signal ends the trial, not the program
@@ -115,27 +129,22 @@ int runSession(const session::SessionRequest& request) {
   };
   std::optional<session::BackupWorker> backup;
   if (!request.backup.empty()) backup.emplace(request.place.data, request.backup);
+  if (backup && session.blocksLeft() == 0) backup->request();  // of what an earlier run could not copy
   words.closed = [&] {
     stop.reset();
     if (backup) backup->request();
   };
   const bool done = session::conduct(session, StopRequest::asked(), words);
+  stop.reset();
   fmt::print("{}", table.text());
   std::fflush(stdout);
   if (backup) {
+    if (!done) fmt::print(stderr, "the finished runs are copied to {}; another Ctrl-C ends the copy\n", request.backup);
     const session::BackupState state = backup->finish();
     if (state.kind == session::BackupState::Kind::Failed) throw ResourceError(state.sentence);
     fmt::print(stderr, "{}\n", state.sentence);
   }
   return done ? 0 : StopRequest::exitCode();
-}
-
-void saveMappings(const session::SessionRequest& request) {
-  if (record::labelFault(request.place.subject, "subject")) return;  // refused by the run, in its own words
-  const auto kept = devices::keepMappings(request.device, request.place.data, request.place.subject);
-  if (kept.empty())
-    throw FaultError(Fault{"--save-mapping", "the device has no mapping", "a device with scale=, offset=, rotation=, mirror= or mapping="});
-  for (const std::string& file : kept) fmt::print(stderr, "mapping kept in {}\n", file);
 }
 
 }  // namespace
@@ -160,7 +169,7 @@ void addRunCommand(CLI::App& app, int& exitCode) {
       ->add_option("--trials", r->trials,
                    "Trials of an experiment. A plan has its own [default: 1, or each file of a replayed folder once]")
       ->check(CLI::Range(1, session::kMaxTrials));
-  command->add_option("--run", r->run, "Run number. A taken one is refused [default: the next free one]")
+  command->add_option("--run", r->run, "Run number, above those that are taken [default: the next free one]")
       ->check(CLI::Range(1, record::kMaxRun));
   command->add_option("--subject", r->place.subject, "Label of the subject: letters and digits [default: 01]");
   command->add_option("--session", r->place.session,
@@ -209,9 +218,9 @@ void addRunCommand(CLI::App& app, int& exitCode) {
   command->callback([r, hands, saveMapping, &exitCode] {
     r->device = devices::joinHands(*hands);
     r->trialsOnOffer = devices::trialsOnOffer(r->device);
-    if (*saveMapping) saveMappings(*r);
+    if (*saveMapping) requireMapping(r->device);
     r->device = withMappings(*r);
-    exitCode = runSession(*r);
+    exitCode = runSession(*r, *saveMapping);
   });
 }
 

@@ -26,6 +26,9 @@ std::string toJson(const Mapping& mapping);
 Mapping mappingFromJson(const std::string& text, const std::string& origin);
 Mapping readMapping(const std::string& file);
 
+/// The same as options of a device: "scale=1.5,mirror=x". At least one of them.
+std::string optionsOf(const Mapping& mapping);
+
 /// The path in a dataset of a subject's mapping for a kind of device ("phantom"): `sourcedata/mappings/sub-03_phantom.json`.
 std::string mappingFile(const std::string& data, const std::string& subject, const std::string& device);
 /// Throws ResourceError.

@@ -109,6 +109,16 @@ TEST_F(Devices, AMappingIsKeptForDeviceAndSubjectAndRecordedWithTheRun) {
   EXPECT_TRUE(holds(contentOf(folder_ / "sourcedata/sub-04_ses-01_task-chainslow_run-01_log.reach"), "engaged"));
 }
 
+TEST_F(Devices, AMappingIsKeptOnlyWithARunAndInAFolderOfAnyName) {
+  const std::string data = folder_ / "a, b + c";
+  const std::string rest = " --trials 1 --seed 1 --fast --data \"" + data + "\"";
+  EXPECT_NE(reach("run no-such --device virtual:omni,scale=2 --save-mapping" + rest).exitCode, 0);
+  EXPECT_FALSE(std::filesystem::exists(data));
+  printed("run chain-slow --device virtual:omni,scale=2,rotation=0/0/90 --save-mapping" + rest);
+  EXPECT_TRUE(holds(reach("run chain-slow --device virtual:omni" + rest).err, "mapping of "));
+  EXPECT_TRUE(holds(contentOf(data + "/sourcedata/sub-01_ses-01_task-chainslow_run-02_log.reach"), "\\\"rotation_deg\\\":[0.0,0.0,90.0]"));
+}
+
 TEST_F(Devices, OfTwoHandsEachKeepsItsOwnMapping) {
   const std::string rest = " --subject 03 --trials 1 --seed 1 --fast --data " + folder_.path();
   printed("run chain-two-hands --device \"virtual:premium15,scale=1.25 + virtual:omni,scale=0.5,mirror=x\" --save-mapping" + rest);

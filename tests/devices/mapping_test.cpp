@@ -278,13 +278,13 @@ TEST_F(KeptMappings, AreTakenUpWhereNoneIsAskedFor) {
   EXPECT_EQ(readMapping(file("phantom")).scale, 2);
   EXPECT_TRUE(keepMappings("phantom:Left", data, "07").empty());
   EXPECT_TRUE(keepMappings("phantom,wall=0.1", data, "07").empty()) << "a wall is no mapping";
-  const std::string mapping = "mapping=" + file("phantom");
+  const std::string mapping = "scale=2";
   EXPECT_EQ(with("phantom"), "phantom," + mapping);
   EXPECT_EQ(files, std::vector<std::string>{file("phantom")});
   EXPECT_EQ(with("phantom:"), "phantom:" + mapping);
   for (const char* other : {"phantom:Right", "virtual:omni"}) EXPECT_EQ(with(other), other) << "another device";
   saveMapping({}, file("virtual-omni"));
-  EXPECT_EQ(with("virtual:omni,noise=0"), "virtual:omni,noise=0,mapping=" + file("virtual-omni"));
+  EXPECT_EQ(with("virtual:omni,noise=0"), "virtual:omni,noise=0,scale=1");
   EXPECT_EQ(with("virtual:premium15"), "virtual:premium15");
   EXPECT_EQ(with("phantom,wall=0.2"), "phantom,wall=0.2," + mapping);
   EXPECT_EQ(with("phantom,scale=3"), "phantom,scale=3") << "what is asked for goes first";
@@ -297,8 +297,7 @@ TEST_F(KeptMappings, OfSeveralHandsEachHasItsOwn) {
   const auto kept = keepMappings("phantom:Le-ft!,scale=2 + phantom:Right,mirror=x + hid,scale=3", data, "07");
   EXPECT_EQ(kept, (std::vector<std::string>{file("phantom-Left"), file("phantom-Right"), file("hid")}));
   EXPECT_TRUE(readMapping(kept[1]).mirrorX);
-  EXPECT_EQ(with("phantom:Right + hid + phantom:Middle"),
-            "phantom:Right,mapping=" + file("phantom-Right") + " + hid,mapping=" + file("hid") + " + phantom:Middle");
+  EXPECT_EQ(with("phantom:Right + hid + phantom:Middle"), "phantom:Right,mirror=x + hid,scale=3 + phantom:Middle");
   EXPECT_EQ(files.size(), 2u);
 }
 
