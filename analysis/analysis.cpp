@@ -24,8 +24,8 @@ bool isBefore(const AnalyzedTrial& a, const AnalyzedTrial& b) {
   return recordedBefore(a.key, b.key);
 }
 
-std::string whyExcluded(const AnalyzedTrial& trial, const std::string& excluded, const Movement& movement, const AnalysisOptions& options) {
-  if (!excluded.empty()) return "excluded: " + excluded;
+std::string whyExcluded(const AnalyzedTrial& trial, const TrialData& data, const Movement& movement, const AnalysisOptions& options) {
+  if (!data.excluded.empty()) return "excluded: " + data.excluded;
   if (trial.catchTrial) return "catch trial";
   if (trial.practice && !options.includePractice) return "practice";
   const bool failed = trial.result.outcome == trial::Outcome::Failure;
@@ -33,7 +33,8 @@ std::string whyExcluded(const AnalyzedTrial& trial, const std::string& excluded,
     return trial.result.outcome == trial::Outcome::Interrupted && trial.result.reason == trial::Reason::Timing
                ? "invalid timing"
                : std::string(nameOf(trial.result.outcome));
-  if (!movement.found) return "no movement found";
+  const bool marked = std::isfinite(data.markedOnset) || std::isfinite(data.markedOffset);
+  if (!movement.found) return marked ? "no movement between its marks, which count from the arming of the trial" : "no movement found";
   return {};
 }
 
@@ -74,15 +75,19 @@ void orderConditions(Analysis& analysis) {
   for (AnalyzedTrial& trial : analysis.trials) trial.condition = place[trial.condition];
 }
 
-/// Where the plan gave no day, the subject's sessions are days 1, 2, … in their order.
+/// Where the plan gave no day, the subject's sessions are days 1, 2, … in their order. A session with another run of a day is of that day.
 void numberDays(std::vector<AnalyzedTrial>& trials) {
   std::map<std::string, std::set<std::string, decltype(&record::labelBefore)>> sessions;
-  for (const AnalyzedTrial& trial : trials)
+  std::map<std::pair<std::string, std::string>, int> given;
+  for (const AnalyzedTrial& trial : trials) {
     sessions.try_emplace(trial.key.subject, record::labelBefore).first->second.insert(trial.key.session);
+    if (trial.key.day > 0) given.emplace(std::pair{trial.key.subject, trial.key.session}, trial.key.day);
+  }
   for (AnalyzedTrial& trial : trials) {
     if (trial.key.day > 0) continue;
     const auto& own = sessions.at(trial.key.subject);
-    trial.key.day = 1 + static_cast<int>(std::distance(own.begin(), own.find(trial.key.session)));
+    const auto known = given.find({trial.key.subject, trial.key.session});
+    trial.key.day = known != given.end() ? known->second : 1 + static_cast<int>(std::distance(own.begin(), own.find(trial.key.session)));
   }
 }
 
@@ -186,7 +191,7 @@ void AnalysisBuilder::add(TrialData&& data, std::size_t condition) {
   const TrialSignals signals = computeSignals(data, options.measure);
   trial.otherWay = signals.otherWay;
   trial.measures = computeMeasures(data, signals);
-  trial.exclusion = whyExcluded(trial, data.excluded, signals.movement, options);
+  trial.exclusion = whyExcluded(trial, data, signals.movement, options);
   trial.counted = data.excluded.empty() && !trial.catchTrial && (!trial.practice || options.includePractice) &&
                   (trial.result.outcome == trial::Outcome::Success || trial.result.outcome == trial::Outcome::Failure);
   if (signals.movement.found) {

@@ -253,6 +253,14 @@ RunSource readRun(const fs::path& motion) {
   return run;
 }
 
+/// Several datasets below one folder are often a dataset and its copy, whose trials would count twice.
+void requireOneDataset(const std::vector<std::string>& files) {
+  const std::string first = datasetOf(files.front());
+  for (const std::string& file : files)
+    if (const std::string other = datasetOf(file); other != first)
+      throw FaultError(Fault{{}, fmt::format("holds several datasets, {} and {}", first, other), "one of them"});
+}
+
 }  // namespace
 
 std::vector<std::string> findBidsRuns(const std::string& folder) {
@@ -268,6 +276,7 @@ std::vector<std::string> findBidsRuns(const std::string& folder) {
     throw FaultError(
         Fault{{}, "neither logs (sourcedata/…_log.reach) nor motion files (…_tracksys-haptic_…_motion.tsv)", {}, FilePlace{folder}});
   std::sort(files.begin(), files.end(), record::runBefore);
+  requireOneDataset(files);
   return files;
 }
 

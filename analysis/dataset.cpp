@@ -17,6 +17,7 @@
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/export/bids.h"
+#include "sim/record/export/tidy_csv.h"
 #include "sim/record/log/whole_file.h"
 #include "sim/record/recover.h"
 
@@ -111,7 +112,8 @@ std::optional<experiment::SquareMatrix<3>> trainedField(std::span<const experime
   return known == index.trained.end() ? std::nullopt : std::optional(known->second);
 }
 
-// The dataset's folder: above those of the subject, the session and the kind of data.
+}  // namespace
+
 std::string datasetOf(const std::string& motionFile) {
   std::filesystem::path folder = std::filesystem::absolute(motionFile).parent_path();
   while (folder.has_relative_path()) {
@@ -121,8 +123,6 @@ std::string datasetOf(const std::string& motionFile) {
   }
   return folder.string();
 }
-
-}  // namespace
 
 const std::vector<experiment::CompiledExperiment>& ScenesOfRuns::of(const record::RunConfiguration& c) {
   std::string key = c.definitionText + '\0' + c.experimentText;
@@ -187,6 +187,7 @@ namespace {
 void readLogs(const std::vector<std::string>& logs, DatasetIndex& dataset, const TrialSink& sink, const DatasetProgress& progress) {
   ScenesOfRuns parsed;
   EqualRuns equalRuns;
+  std::map<std::string, std::string> labels;  // path by the run's name
   for (std::size_t i = 0; i < logs.size(); ++i) {
     if (progress) progress(i, logs.size(), logs[i]);
     const std::size_t conditions = dataset.conditions.size(), runs = dataset.runs.size(), notes = dataset.notes.size();
@@ -217,6 +218,8 @@ void readLogs(const std::vector<std::string>& logs, DatasetIndex& dataset, const
             "{}: left out: it is {} recorded again (same experiment, seed and movements); two equal runs count once", logs[i], twin));
         continue;
       }
+      if (const auto [known, fresh] = labels.emplace(record::runName(c), logs[i]); !fresh)
+        dataset.notes.push_back(fmt::format("{} and {} are both recorded as {}; both count", known->second, logs[i], known->first));
       if (const int repeats = countRepeats(log.trials()); repeats > 0)
         dataset.notes.push_back(
             fmt::format("{}: {} of {} trials repeat an earlier one exactly (a hand without noise, or a reach replayed again); they count",
@@ -225,6 +228,7 @@ void readLogs(const std::vector<std::string>& logs, DatasetIndex& dataset, const
       addRun({c, log.trials(), [&](std::uint64_t first, std::uint64_t last) { return log.rows(first, last); }, marks}, scenes, dataset,
              handed);
       dataset.runs.back().file = logs[i];
+      dataset.runs.back().isLog = true;
       if (const std::string loss = record::lossOf(log); !loss.empty()) dataset.notes.push_back(loss);
       else if (!log.healthy()) dataset.notes.push_back(logs[i] + ": is being recorded into; read to its last record");
     } catch (const ResourceError& error) {
@@ -241,6 +245,7 @@ void readLogs(const std::vector<std::string>& logs, DatasetIndex& dataset, const
 void readExported(const std::string& folder, DatasetIndex& dataset, const TrialSink& sink, const std::string& experimentFile,
                   const DatasetProgress& progress) {
   bool foreign = false;  // an experiment that may not be the recorded one
+  bool severalHands = false;
   const std::vector<std::string> runs = findBidsRuns(folder);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (progress) progress(i, runs.size(), runs[i]);
@@ -249,9 +254,12 @@ void readExported(const std::string& folder, DatasetIndex& dataset, const TrialS
     if (!recorded.own) foreign = true;
     addRun(run, recorded.scenes, dataset, sink);
     dataset.runs.back().file = runs[i];
+    if (std::any_of(recorded.scenes.begin(), recorded.scenes.end(), [](const auto& scene) { return scene.experiment().hands.size() > 1; }))
+      severalHands = true;
   }
   dataset.notes.push_back(std::string("no logs in sourcedata/: read from the BIDS files, with the experiments ") +
                           (foreign ? "as they are shipped or given now" : "in code/experiments/"));
+  if (severalHands) dataset.notes.emplace_back("hands.csv is written from logs alone");
 }
 
 }  // namespace

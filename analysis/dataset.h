@@ -17,6 +17,7 @@ struct AnalysedRun {
   record::RunConfiguration configuration;
   std::size_t trials = 0;
   std::string file = {};
+  bool isLog = false;  // or a file of a dataset without logs
 };
 
 /// The content of a dataset without its trials.
@@ -73,6 +74,8 @@ BidsExperiments readBidsExperiments(const RunSource& run, const std::string& fol
 
 /// The motion files of a dataset without logs, in order. Each file is a run.
 std::vector<std::string> findBidsRuns(const std::string& folder);
+/// The dataset's folder: above those of the subject, the session and the kind of data.
+std::string datasetOf(const std::string& motionFile);
 /// Reads such a run from its motion, channels and events files.
 RunSource readBidsRun(const std::string& motionFile);
 

@@ -148,7 +148,7 @@ std::string handsTable(const DatasetIndex& dataset) {
                                    [](const Condition& condition) { return condition.experiment().hands.size() > 1; });
   std::vector<record::RunLog> runs;
   for (const AnalysedRun& run : dataset.runs) {
-    if (!several || !run.file.ends_with(record::kLogEnding)) continue;  // read from a dataset without logs
+    if (!several || !run.isLog) continue;
     if (record::RunLog log = record::RunLog::open(run.file); log.configuration().table.hands > 1) runs.push_back(std::move(log));
   }
   return runs.empty() ? std::string() : sheetText("hands.csv", runs, addRuns);

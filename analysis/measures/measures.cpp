@@ -94,7 +94,9 @@ double overshoot(const std::vector<Vec3>& positions, const Vec3& aim, const Vec3
 /// The movement ends with the trial at the latest: what the hand does after the masses were judged to have arrived is no part of it. A
 /// trial that ended because the hand never left the start has none, though a share of the peak speed of its trembling is soon found.
 Movement findWithinTrial(const TrialData& trial, const OnsetOptions& options, TrialSignals& signals) {
-  if (trial.result.reason == trial::Reason::NoOnset || trial.result.reason == trial::Reason::NoStart) return {};
+  const bool stayed = trial.result.reason == trial::Reason::NoOnset || trial.result.reason == trial::Reason::NoStart ||
+                      (trial.catchTrial && !std::isfinite(trial.taskOnset));
+  if (stayed) return {};
   const double taskEnd = trial.taskEnd - trial.first, taskOnset = trial.taskOnset - trial.first;  // since sample 0
   if (!std::isfinite(taskEnd)) return options.rule == OnsetRule::Task ? Movement{} : findMovement(signals.speed, trial.rate, options);
   // Rows are 10 ms apart, the trial ends between two of them; where the next was never taken it is continued in a straight line.
@@ -109,7 +111,8 @@ Movement findWithinTrial(const TrialData& trial, const OnsetOptions& options, Tr
   return movement;
 }
 
-/// Ends of the movement that were moved by hand hold in place of the rule's.
+/// Ends of the movement that were moved by hand hold in place of the rule's. Marks with nothing of the record between them leave
+/// no movement.
 void useMarks(const TrialData& trial, TrialSignals& signals) {
   const Movement& found = signals.movement;
   const auto either = [&](double marked, double own) { return std::isfinite(marked) ? marked - trial.first : own; };
@@ -117,7 +120,7 @@ void useMarks(const TrialData& trial, TrialSignals& signals) {
   const double longest = static_cast<double>(signals.speed.size() - 1) / trial.rate;
   const double onset = std::clamp(either(trial.markedOnset, found.onset), 0.0, longest);
   const double offset = std::clamp(either(trial.markedOffset, found.offset), 0.0, longest);
-  if (onset < offset) signals.movement = movementWithin(signals.speed, trial.rate, onset, offset);
+  signals.movement = onset < offset ? movementWithin(signals.speed, trial.rate, onset, offset) : Movement{};
 }
 
 }  // namespace

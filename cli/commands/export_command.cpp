@@ -2,12 +2,14 @@
 #include <fmt/format.h>
 
 #include <filesystem>
+#include <map>
 #include <optional>
 
 #include "cli/terminal/at_option.h"
 #include "cli/commands/commands.h"
 #include "cli/output/readable_logs.h"
 #include "sim/record/export/exporters.h"
+#include "sim/record/export/tidy_csv.h"
 #include "sim/record/log/logs_folder.h"
 #include "sim/session/session_folder.h"
 
@@ -26,6 +28,15 @@ fs::path datasetOf(const std::string& log) {
   return folder.filename() == record::kLogsFolder ? folder.parent_path() : folder;
 }
 
+// Files are named by the labels in the logs: of two logs with the same labels one would be written over the other.
+void requireOwnNames(const std::vector<record::RunLog>& runs) {
+  std::map<std::string, std::string> paths;
+  for (const record::RunLog& run : runs)
+    if (const auto [known, fresh] = paths.emplace(record::runName(run.configuration()), run.path()); !fresh)
+      throw FaultError(Fault{"what", fmt::format("{} and {} are both recorded as {}", known->second, run.path(), known->first),
+                             "logs of different runs: a log keeps its labels when its file is renamed"});
+}
+
 void exportLogs(const ExportOptions& options) {
   const ReadableLogs logs = openReadableLogs(options.what, OpenLogs::LeaveOut);
   for (const std::string& path : logs.open) fmt::print(stderr, "{}: is being recorded into; left out\n", path);
@@ -33,6 +44,7 @@ void exportLogs(const ExportOptions& options) {
     if (run.goodBytes() < run.fileBytes())
       fmt::print(stderr, "{}: damaged after byte {} of {}: read up to there ({} trials)\n", run.path(), run.goodBytes(), run.fileBytes(),
                  run.trials().size());
+  requireOwnNames(logs.runs);
   const fs::path dataset = datasetOf(logs.runs.front().path());
   std::vector<std::string> written;
   atOption("--out", [&] {

@@ -29,8 +29,8 @@ struct ShowOptions {
 };
 
 int countOf(const record::RunLog& log, trial::Outcome outcome) {
-  return static_cast<int>(
-      std::count_if(log.trials().begin(), log.trials().end(), [&](const auto& trial) { return trial.result.outcome == outcome; }));
+  return static_cast<int>(std::count_if(log.trials().begin(), log.trials().end(),
+                                        [&](const auto& trial) { return trial.result.outcome == outcome && !trial.planned.catchTrial; }));
 }
 
 std::string stateOf(const record::RunLog& log) {
@@ -60,15 +60,17 @@ std::string alignedTable(const std::vector<std::vector<std::string>>& rows) {
 std::string rounded(double value, int digits) { return std::isfinite(value) ? fmt::format("{:.{}f}", value, digits) : std::string(); }
 
 std::string runsTable(const std::vector<record::RunLog>& logs) {
-  std::vector<std::vector<std::string>> rows{{"subject", "session", "run", "block", "condition", "phase", "trials", "success", "failure",
-                                              "aborted", "interrupted", "device", "started_utc", "log"}};
+  std::vector<std::vector<std::string>> rows{{"subject", "session", "run", "block", "condition", "phase", "trials", "catch", "success",
+                                              "failure", "aborted", "interrupted", "device", "started_utc", "log"}};
   for (const record::RunLog& log : logs) {
     const record::RunConfiguration& c = log.configuration();
-    rows.push_back({c.subject, c.session, std::to_string(c.run), std::to_string(c.block), record::conditionOf(c),
-                    c.practice ? "practice" : "recorded", std::to_string(log.trials().size()),
-                    std::to_string(countOf(log, trial::Outcome::Success)), std::to_string(countOf(log, trial::Outcome::Failure)),
-                    std::to_string(countOf(log, trial::Outcome::Aborted)), std::to_string(countOf(log, trial::Outcome::Interrupted)),
-                    c.device, c.startedUtc.substr(0, 19), stateOf(log)});
+    rows.push_back(
+        {c.subject, c.session, std::to_string(c.run), std::to_string(c.block), record::conditionOf(c), c.practice ? "practice" : "recorded",
+         std::to_string(log.trials().size()),
+         std::to_string(std::count_if(log.trials().begin(), log.trials().end(), [](const auto& t) { return t.planned.catchTrial; })),
+         std::to_string(countOf(log, trial::Outcome::Success)), std::to_string(countOf(log, trial::Outcome::Failure)),
+         std::to_string(countOf(log, trial::Outcome::Aborted)), std::to_string(countOf(log, trial::Outcome::Interrupted)), c.device,
+         c.startedUtc.substr(0, 19), stateOf(log)});
   }
   return alignedTable(rows);
 }
@@ -86,7 +88,7 @@ std::string trialsTable(const record::RunLog& log) {
   for (const Shown& shown : kShown) rows.front().emplace_back(shown.measure);
   for (const record::RecordedTrial& t : log.trials()) {
     const bool success = t.result.outcome == trial::Outcome::Success;
-    rows.push_back({std::to_string(t.trial), std::string(trial::nameOf(t.result.outcome)),
+    rows.push_back({std::to_string(t.trial), std::string(trial::nameOf(t.result.outcome)) + (t.planned.catchTrial ? " (catch)" : ""),
                     success ? "" : std::string(trial::nameOf(t.result.reason)), t.result.mass > 0 ? std::to_string(t.result.mass) : "",
                     t.result.by != 0 ? rounded(t.result.by, 4) : "", t.result.by != 0 ? record::unitOf(t.result.reason) : ""});
     if (const record::RunScene* scene = record::sceneOf(c, t.planned))
@@ -103,6 +105,7 @@ Json trialJson(const record::RunLog& log, const record::RecordedTrial& t) {
             {"condition", record::conditionOf(log.configuration(), t.planned)},
             {"kind", scene != nullptr ? Json(scene->kind) : Json()},
             {"target", scene != nullptr ? Json(scene->target) : Json()},
+            {"catch_trial", t.planned.catchTrial},
             {"outcome", trial::nameOf(t.result.outcome)},
             {"reason", trial::nameOf(t.result.reason)},
             {"by_unit", record::unitOf(t.result.reason)},

@@ -158,11 +158,17 @@ struct ReachSpan {
   double begin = 0, end = 0;  // [s] since the first row
 };
 
+// Of our own recordings: in a catch trial, and in a trial without a movement time, the hand stays at the start.
+bool isWithoutReach(const NamedTable& events, std::size_t row) {
+  return events.has("movement_time") && (events.cell(row, "trial_type") == "catch" || events.cell(row, "movement_time") == "n/a");
+}
+
 std::vector<ReachSpan> reachesIn(const std::string& file, const std::string& trialType) {
   const NamedTable events(file);
   std::vector<ReachSpan> spans;
   for (std::size_t row = 0; row < events.rows(); ++row) {
     if (!trialType.empty() && (!events.has("trial_type") || events.cell(row, "trial_type") != trialType)) continue;
+    if (trialType.empty() && isWithoutReach(events, row)) continue;
     const auto valueOf = [&](const std::string& column) {
       return cellNumber(events.cell(row, column), events.placeOf(row), column, "a number or n/a");
     };

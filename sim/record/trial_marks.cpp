@@ -24,6 +24,9 @@ TrialMark readMark(FaultList& faults, const JsonNode& node, std::size_t index) {
   ObjectReader reader(faults, node, fmt::format("trials[{}]", index));
   if (reader.required("trial", "the number of a trial") != nullptr) reader.integer("trial", 1, kMostTrials, mark.trial);
   reader.boolean("flagged", mark.flagged);
+  if (const JsonNode* excluded = reader.optional("excluded");
+      excluded != nullptr && excluded->kind == JsonNode::Kind::String && excluded->string.empty())
+    faults.add(*excluded, reader.keyPath("excluded"), "is empty", "the reason, or no such key");
   reader.text("excluded", mark.excluded);
   reader.text("note", mark.note);
   const auto time = [&](const char* key, std::optional<double>& value) {

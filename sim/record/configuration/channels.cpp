@@ -108,7 +108,8 @@ ChannelTable makeChannelTable(const experiment::Experiment& experiment, int para
   addVector(out, {"feedback_force", "feedback_{}_n", "MISC", "hand", "N", "force meant for the hand, before the safety limits"});
   addVector(out, {"device_force", "device_force_{}_n", "MISC", "hand", "N", "force commanded to the device"});
   addScalar(out, {"energy", "energy_j", "MISC", "n/a", "J", "kinetic, elastic and gravity energy of object and coupling"});
-  addScalar(out, {"trial", "trial", "MISC", "n/a", "n/a", "trial number within the run, from 1; 0 between trials"});
+  addScalar(out, {"trial", "trial", "MISC", "n/a", "n/a",
+                  "trial number within the block, from 1; it stays until the next trial begins (phase 4); 0 before the first trial"});
   addScalar(out, {"phase", "phase", "MISC", "n/a", "n/a", "0 idle, 1 waiting, 2 armed, 3 moving, 4 done"});
   addScalar(out, {"valid", "valid", "MISC", "n/a", "n/a", "1 while the device delivers samples"});
   for (int mass = 1; mass <= table.massCount; ++mass) addMass(out, mass, parameterCount);

@@ -84,6 +84,8 @@ C3dFile c3dOf(const RunLog& run, const RecordedTrial& trial) {
                 {"CONDITION", conditionOf(c, trial.planned)},
                 {"KIND", sceneOf(c, trial.planned) != nullptr ? sceneOf(c, trial.planned)->kind : ""},
                 {"TARGET", sceneOf(c, trial.planned) != nullptr ? sceneOf(c, trial.planned)->target : ""},
+                {"PHASE", c.practice ? "practice" : "recorded"},
+                {"CATCH_TRIAL", trial.planned.catchTrial ? "yes" : "no"},
                 {"OUTCOME", std::string(trial::nameOf(trial.result.outcome))},
                 {"REASON", std::string(trial::nameOf(trial.result.reason))},
                 {"SOFTWARE", c.softwareVersion}};
