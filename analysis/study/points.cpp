@@ -198,9 +198,9 @@ std::int64_t mostTrialsOfSubject(const Design& design) {
   return most > 0 ? most : design.trials;
 }
 
-std::int64_t trialsOfPairs(const Design& design, std::int64_t first, std::int64_t end) {
+std::int64_t trialsOfPairs(const Design& design, std::int64_t most, std::int64_t first, std::int64_t end) {
   const bool varied = std::any_of(design.axes.begin(), design.axes.end(), [](const VariedKey& axis) { return axis.path == "trials"; });
-  if (!varied) return (end - first) * mostTrialsOfSubject(design);
+  if (!varied) return (end - first) * most;
   std::int64_t trials = 0;
   while (first < end) {
     const std::int64_t point = first / design.subjects, next = std::min(end, (point + 1) * design.subjects);

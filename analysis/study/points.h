@@ -42,9 +42,9 @@ std::string unquoted(const std::string& json);
 std::string describe(const Point& point);
 /// The most that any point asks of a subject, without working the points out.
 std::int64_t mostTrialsOfSubject(const Design& design);
-/// The trials of pairs of point and subject (point * subjects + subject - 1), from the first to before the last. Of a plan the most that a
-/// point asks for.
-std::int64_t trialsOfPairs(const Design& design, std::int64_t first, std::int64_t end);
+/// The trials of pairs of point and subject (point * subjects + subject - 1), from the first to before the last. For a plan,
+/// each pair counts with `most`, the most trials that any point asks for.
+std::int64_t trialsOfPairs(const Design& design, std::int64_t most, std::int64_t first, std::int64_t end);
 
 /// Seed of a subject's session: Philox of the study's name and seed by point, subject and day. It has 53 bits, so that every reader of a
 /// table keeps it exact.

@@ -187,14 +187,12 @@ class Reader {
     return {static_cast<std::int64_t>(at(rows, column::Point, row)), static_cast<std::int64_t>(at(rows, column::Subject, row))};
   }
 
-  /// Number of a trial in its condition and day, for rows in their order. It goes on where a plan has several blocks of one condition.
+  /// Number of a trial in its condition and day, for rows in their order. A block of a plan may have several conditions, and a condition
+  /// several blocks.
   std::size_t numberOf(const ChunkRows& rows, std::int64_t row) {
-    const auto inBlock = static_cast<std::size_t>(at(rows, firstAxis_ - 2, row));
-    if (folder_.design.planText.empty()) return inBlock;
+    if (folder_.design.planText.empty()) return static_cast<std::size_t>(at(rows, firstAxis_ - 2, row));
     if (const auto person = personOf(rows, row); person != numbered_) numbered_ = person, numbers_.clear();
-    Numbers& numbers = numbers_[blockOf(rows, row)];
-    if (const double block = at(rows, column::Block, row); block != numbers.block) numbers.block = block, numbers.before = numbers.last;
-    return numbers.last = numbers.before + inBlock;
+    return ++numbers_[blockOf(rows, row)];
   }
 
   void takeScores(const ChunkRows& rows) {
@@ -238,12 +236,8 @@ class Reader {
   std::map<std::pair<std::size_t, double>, SuccessAt> success_;
   std::map<std::pair<std::string, std::size_t>, LearningAt> learning_;  // by block and stretch
   std::map<std::pair<std::string, std::string>, Population> populations_;
-  struct Numbers {
-    double block = 0;
-    std::size_t before = 0, last = 0;  // trials of the earlier blocks; the latest number
-  };
   std::optional<std::pair<std::int64_t, std::int64_t>> numbered_;  // whose trials are being numbered
-  std::map<std::string, Numbers> numbers_;
+  std::map<std::string, std::size_t> numbers_;                     // the latest of each condition and day
 };
 
 /// Draws studies of one design; counts by candidate, undecided last.

@@ -46,9 +46,9 @@ void computeChunks(const StudyFolder& folder, const PrepareSubjects& prepare, un
 
 void workThrough(const StudyFolder& folder, const Shard& shard, const TellProgress& tell, const ComputeAll& work) {
   const ChunksToDo todo = chunksToDo(folder, shard);
-  const auto trialsOf = [&](std::int64_t chunk) {
+  const auto trialsOf = [&, most = mostTrialsOfSubject(folder.design)](std::int64_t chunk) {
     const PairRange range = folder.chunks.at(chunk);
-    return trialsOfPairs(folder.design, range.first, range.end);
+    return trialsOfPairs(folder.design, most, range.first, range.end);
   };
   StudyProgress progress;
   for (std::int64_t chunk = 0; chunk < folder.chunks.count(); ++chunk)

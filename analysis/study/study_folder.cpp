@@ -138,14 +138,15 @@ bool mergeTables(const StudyFolder& folder) {
 StudyStatus statusOf(const StudyFolder& folder) {
   StudyStatus status;
   status.chunks = folder.chunks.count();
-  status.trials = trialsOfPairs(folder.design, 0, folder.chunks.pairs);
+  const std::int64_t most = mostTrialsOfSubject(folder.design);
+  status.trials = trialsOfPairs(folder.design, most, 0, folder.chunks.pairs);
   std::vector<std::pair<fs::file_time_type, std::int64_t>> done;  // when, trials
   for (std::int64_t chunk = 0; chunk < status.chunks; ++chunk) {
     std::error_code error;
     const auto when = fs::last_write_time(chunkPath(folder.path, chunk), error);
     if (error) continue;
     const PairRange range = folder.chunks.at(chunk);
-    done.emplace_back(when, trialsOfPairs(folder.design, range.first, range.end));
+    done.emplace_back(when, trialsOfPairs(folder.design, most, range.first, range.end));
     status.trialsDone += done.back().second;
   }
   status.chunksDone = static_cast<std::int64_t>(done.size());

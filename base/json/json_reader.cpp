@@ -79,7 +79,8 @@ void FaultList::addOfValue(const JsonNode& root, Fault fault) {
     return;
   }
   const Found found = findKey(root, fault.key);
-  if (found.missing && !fault.what.starts_with("is missing")) fault.what = "is missing, and by default " + fault.what;
+  if (found.missing && fault.what == "has 0 elements") fault.what = "is missing";  // a list has no default
+  else if (found.missing && !fault.what.starts_with("is missing")) fault.what = "is missing, and by default " + fault.what;
   FilePlace place{file_, found.node->line, found.node->column};
   if (fault.place && fault.place->file.empty()) place.column += fault.place->column;  // behind the string's opening quote
   fault.place = place;

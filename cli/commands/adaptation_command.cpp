@@ -59,10 +59,9 @@ void fitSeries(const AdaptationRequest& r) {
   const analysis::AdaptationFit fit = analysis::fitAdaptation(analysis::readAdaptationSeries(r.series), r.resamples, r.seed);
   constexpr double kNone = 1e-6;  // a learning rate that changes no response
   if (fit.one.states[0].learningRate < kNone)
-    fmt::print(
-        stderr,
-        "warning: nothing is learned: the responses do not follow the perturbation. A response that takes a perturbation of 1 away is 1, "
-        "not -1\n");
+    fmt::print(stderr,
+               "warning: the fitted learning rate is 0, because the responses do not follow the perturbation. Check their sign: a response "
+               "that cancels a perturbation of 1 is 1, not -1\n");
   if (r.json) {
     nlohmann::ordered_json object;
     object["two_state"] = jsonOf(fit.two, {"_f", "_s"});

@@ -117,7 +117,7 @@ void tellSbatch(const SbatchRequest& request) {
   const auto tasks = static_cast<int>(std::min<std::int64_t>(request.tasks, chunks));
   fmt::print(
       "#!/bin/bash\n"
-      "#SBATCH --job-name=\"{}\"\n"
+      "#SBATCH --job-name={}\n"
       "#SBATCH --array=1-{}\n"
       "#SBATCH --cpus-per-task={}\n"
       "#SBATCH --time={}\n"
@@ -126,7 +126,8 @@ void tellSbatch(const SbatchRequest& request) {
       "there\n"
       "# writes the tables.\n"
       "srun --ntasks=1 reach study {} --out {} --jobs \"$SLURM_CPUS_PER_TASK\" --resume\n",
-      design.name, tasks, request.cpus, request.time, chunks, (chunks + tasks - 1) / tasks, shellWord(request.study), shellWord(out));
+      shellWord(design.name), tasks, request.cpus, request.time, chunks, (chunks + tasks - 1) / tasks, shellWord(request.study),
+      shellWord(out));
 }
 
 void tellParameters() {

@@ -22,23 +22,6 @@ void checkPlace(const std::string& key, const std::vector<double>& place, const 
           {fmt::format("{}[{}]", key, k), fmt::format("is {}", place[k]), fmt::format("{} to {}", domain[k].lo, domain[k].hi)});
 }
 
-// "a_m is 0.5": an end of a parameter's range, with the others at their defaults, for which the domain has no two ends in order.
-std::string shapeWithoutDomain(const Definition& definition, std::size_t k) {
-  for (std::size_t i = 0; i < std::min<std::size_t>(definition.shape.size(), kMaxShapeParameters); ++i)
-    for (const double value : {definition.shape[i].min, definition.shape[i].max}) {
-      std::array<double, kMaxShapeParameters> shape = defaultsOf(definition);
-      shape[i] = value;
-      const std::string named = fmt::format("{} is {}", definition.shape[i].name, value);
-      try {
-        const Domain domain = domainOf(definition, shape)[k];
-        if (!(domain.lo < domain.hi)) return named;
-      } catch (const FaultError&) {
-        return named;
-      }
-    }
-  return {};
-}
-
 }  // namespace
 
 std::array<double, kMaxShapeParameters> defaultsOf(const Definition& definition) {
@@ -70,8 +53,6 @@ std::vector<Fault> problems(const Definition& definition) {
   for (std::size_t k = 0; k < dimensions; ++k) {
     const std::string key = dimensions == 1 ? "domain" : fmt::format("domain[{}]", k);
     if (!(domain[k].lo < domain[k].hi)) faults.push_back({key, fmt::format("runs from {} to {}", domain[k].lo, domain[k].hi), "lo < hi"});
-    else if (const std::string shape = shapeWithoutDomain(definition, k); !shape.empty())
-      faults.push_back({key, "has no two ends in order where " + shape, "lo < hi for every allowed shape"});
     if (domain[k].periodic && (definition.domain[k].lo.empty() || definition.domain[k].hi.empty()))
       faults.push_back(
           {dimensions == 1 ? "periodic" : fmt::format("periodic[{}]", k), "is true without a range", "a domain with two ends"});

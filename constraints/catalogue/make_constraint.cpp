@@ -138,6 +138,9 @@ Constraint makeConstraint(const Definition& definition, const std::map<std::stri
   Constraint c = assemble(compileFormula(formulaOf(definition), key), values, generatedFunctions(definition));
   c.name = definition.name;
   c.domain = domainOf(definition, values);
+  for (int k = 0; k < c.parameterCount(); ++k)
+    if (!(c.domain[k].lo < c.domain[k].hi))
+      throw FaultError(Fault{key, fmt::format("has a domain from {} to {} in this shape", c.domain[k].lo, c.domain[k].hi), "lo < hi"});
   requirePeriods(c, key);
   requireUsable(c, boundedDomain(c), false, key);
   return c;

@@ -23,11 +23,10 @@ class MouseDevice;
 
 namespace reachlab::gui::app {
 
-/// The session behind the window: the opened or edited programme, and the open run. Uses no widget. A change ends the open
-/// run, a trial under way is kept as interrupted, and the next trial opens a new run with the new settings, so that each log holds one
-/// configuration. A signal
-/// that asks the program to end (base/system/stop_signals.h) ends it within a second, even if the window is busy. A separate thread then
-/// keeps the trial as interrupted and closes the log.
+/// The session behind the window: the opened or edited programme, and the open run. Uses no widget. A change ends the open run, a trial
+/// under way is kept as interrupted, and the next trial opens a new run with the new settings, so that each log holds one configuration. A
+/// signal that asks the program to end (base/system/stop_signals.h) ends it within a second, even if the window is busy. A separate thread
+/// then keeps the trial as interrupted and closes the log.
 class SessionController : public QObject {
   Q_OBJECT
  public:

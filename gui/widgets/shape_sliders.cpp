@@ -40,6 +40,7 @@ void ShapeSliders::setParameters(const std::vector<constraints::ShapeParameter>&
   };
   if (isShown(parameters)) {
     for (std::size_t i = 0; i < rows_.size(); ++i) {
+      rows_[i].parameter = parameters[i];
       rows_[i].box->show(valueOf(parameters[i]));
       fit(rows_[i]);
     }

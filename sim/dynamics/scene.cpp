@@ -327,21 +327,25 @@ void compileOnSurface(Scene& scene, const ObjectModel& model, const std::array<d
   scene.plant = makeChartPlant(model, constraint, branches->smooth() ? nullptr : branches, request);
 }
 
-/// At an apex, a pinch point or the end of a cycloid nothing tells where a mass goes, and every trial would end at once.
+/// At an apex or a pinch point nothing tells where a mass goes, and every trial would end at once. At an end a pull beyond it ends the trial.
 void requireContinuation(Scene& scene, const std::vector<double>& start, double step) {
-  const auto stepWithPull = [&](double pull) {
+  const auto stepWithPull = [&](const Vec3& pull) {
     scene.plant->placeAtRest(start);
     HandSegment held;
-    held.position[0] = constraints::placeOn(*scene.constraint, start) + Vec3{pull, pull, pull};
+    held.position[0] = constraints::placeOn(*scene.constraint, start) + pull;
     return scene.plant->step(held, step);
   };
-  const StepStatus status = stepWithPull(0);
+  const StepStatus status = stepWithPull({});
   if (status == StepStatus::NoContinuation || status == StepStatus::NotFinite || status == StepStatus::Capped)
     throw RefusedError(
         fmt::format("no motion can begin at the start [{}]: {}; choose another start", fmt::join(start, ", "), scene.plant->stopReason()));
-  constexpr double kPull = 1e-4;  // [m] of the hand along each axis
-  for (const double pull : {-kPull, kPull})
-    if (const StepStatus pulled = stepWithPull(pull); pulled == StepStatus::AtEnd || pulled == StepStatus::Capped) {
+  bool onEnd = false;
+  for (int k = 0; k < scene.constraint->parameterCount(); ++k)
+    onEnd = onEnd || start[k] == scene.constraint->domain[k].lo || start[k] == scene.constraint->domain[k].hi;
+  constexpr double kPull = 1e-4;  // [m] of the hand
+  for (const Vec3& pull :
+       {Vec3{kPull, 0, 0}, Vec3{-kPull, 0, 0}, Vec3{0, kPull, 0}, Vec3{0, -kPull, 0}, Vec3{0, 0, kPull}, Vec3{0, 0, -kPull}})
+    if (onEnd && stepWithPull(pull) != StepStatus::Ok) {
       scene.choice.warnings.push_back("the start lies on an end of the constraint: a pull beyond it ends the trial");
       return;
     }

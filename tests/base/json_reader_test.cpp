@@ -225,6 +225,7 @@ TEST(FaultList, AFaultOfAValueStandsWhereItsKeyStands) {
   EXPECT_EQ(placedOf("object.masses[1].kg"), "f:2:24: object.masses[1].kg: is wrong; allowed: less");
   EXPECT_EQ(placedOf("object.masses[2]"), "f:2:13: object.masses[2]: is wrong; allowed: less") << "the list, that is too short";
   EXPECT_EQ(placedOf("object.lengths[2]"), "f:2:2: object.lengths[2]: is missing, and by default is wrong; allowed: less");
+  EXPECT_EQ(placedOf("object.lengths", "has 0 elements"), "f:2:2: object.lengths: is missing; allowed: less") << "no default";
   EXPECT_EQ(placedOf("object.curve.x"), "f:3:12: object.curve.x: is wrong; allowed: less") << "what has no members lacks none";
   EXPECT_EQ(placedOf(""), "f:1:1: is wrong; allowed: less");
   const std::vector<Fault> inText = atTheirPlaces({Fault{"object.curve", "ends", "", FilePlace{"", 1, 2}}}, kStudy, "f");

@@ -72,4 +72,12 @@ TEST(Predict, RefusesWithTheAgreedNumbers) {
   EXPECT_EQ(reach("predict nowhere --criterion min-hand-jerk").exitCode, 2);
   EXPECT_EQ(reach("predict chain-moderate --criterion min-hand-jerk --duration 0.02").exitCode, 4);
   EXPECT_EQ(reach("predict chain-moderate --criterion min-hand-jerk --sweep nothing=1:2:1").exitCode, 2);
+  EXPECT_TRUE(says(reach("predict torus --criterion min-crackle --sweep duration_s=1:2:1"), 4, "none of the 2 values of duration_s"));
+}
+
+TEST(Adaptation, WarnsOfResponsesOfTheOppositeSign) {
+  const TemporaryFolder folder;
+  std::string series = "perturbation,response\n";
+  for (int i = 0; i < 60; ++i) series += "1," + std::to_string(std::exp(-0.1 * i) - 1) + "\n";
+  EXPECT_TRUE(says(reach("adaptation " + folder.write("series.csv", series) + " --resamples 100"), 0, "Check their sign"));
 }

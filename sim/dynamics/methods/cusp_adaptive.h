@@ -42,7 +42,7 @@ class CuspAdaptive {
  private:
   static constexpr double kFar = 0.25;                // of the largest |r_phi|: mostly no hard place within a tick
   static constexpr std::uint64_t kSuspicious = 100;   // right-hand sides of a tick that was not regular after all
-  static constexpr int kMaxRhs = 4 * kMaxRhsPerTick;  // of a tick that passes cusps: five masses that pass one in a tick take 1,900
+  static constexpr int kMaxRhs = 3 * kMaxRhsPerTick;  // of a tick that passes cusps: five masses that pass one in a tick take 1,900
   static constexpr double kCusp = 1e-9;               // |r_phi| over c below which a minimum is a true cusp
   static constexpr double kOnCusp = 1e-13;            // |r_phi| over c of a mass that is on it
   static constexpr double kAtRest = 1e-14;            // [m/s] below it the side to which a mass leaves a cusp is undetermined

@@ -33,7 +33,7 @@ struct Hooks {
 
 inline constexpr double kTypicalPlace = 0.1;  // [m] the size of a usual position
 /// The largest number of right-hand sides in one tick. Beyond it the step is Capped and the force is zero.
-/// A tick that passes cusps has four times as many (cusp_adaptive.h).
+/// A tick on a curve with cusps may take more (cusp_adaptive.h).
 inline constexpr int kMaxRhsPerTick = 1000;
 
 /// The equations that a method integrates: a state of kStates numbers (0: known when compiled), and the entry of the hand.

@@ -285,11 +285,14 @@ TEST_F(MenuActions, UndoKeepsTheFileOfSaveAs) {
   ASSERT_TRUE(window.edits().isClean());
   window.edit(changed, "A change", "masses");
   QDir(folder_.path()).mkdir("copies");
-  triggerWithFile("Experiment/Save as…", written("copies/mine.json"));
-  ASSERT_TRUE(QFileInfo::exists(written("copies/mine.json")));
-  trigger("Edit/Undo*");
-  trigger("Experiment/Save");
-  EXPECT_EQ(readTextFile(request_.what), text);
+  for (const char* copy : {"copies/mine.json", "copies/other.json"}) {
+    triggerWithFile("Experiment/Save as…", written(copy));
+    ASSERT_TRUE(QFileInfo::exists(written(copy)));
+    trigger("Edit/Undo*");
+    trigger("Experiment/Save");
+    EXPECT_EQ(readTextFile(request_.what), text) << copy;
+    trigger("Edit/Redo*");
+  }
   EXPECT_NE(experiment::openExperiment(written("copies/mine.json").toStdString()).experiment().object.masses, std::vector<double>{2.5});
 }
 
