@@ -34,7 +34,7 @@ std::string whyExcluded(const AnalyzedTrial& trial, const TrialData& data, const
                ? "invalid timing"
                : std::string(nameOf(trial.result.outcome));
   const bool marked = std::isfinite(data.markedOnset) || std::isfinite(data.markedOffset);
-  if (!movement.found) return marked ? "no movement between its marks, which count from the arming of the trial" : "no movement found";
+  if (!movement.found) return marked ? "no movement between onset and end (marks count from the arming of the trial)" : "no movement found";
   return {};
 }
 

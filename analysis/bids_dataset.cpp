@@ -254,11 +254,11 @@ RunSource readRun(const fs::path& motion) {
 }
 
 /// Several datasets below one folder are often a dataset and its copy, whose trials would count twice.
-void requireOneDataset(const std::vector<std::string>& files) {
+void requireOneDataset(const std::vector<std::string>& files, const std::string& folder) {
   const std::string first = datasetOf(files.front());
   for (const std::string& file : files)
     if (const std::string other = datasetOf(file); other != first)
-      throw FaultError(Fault{{}, fmt::format("holds several datasets, {} and {}", first, other), "one of them"});
+      throw FaultError(Fault{{}, fmt::format("holds several datasets, {} and {}", first, other), "one of them", FilePlace{folder}});
 }
 
 }  // namespace
@@ -276,7 +276,7 @@ std::vector<std::string> findBidsRuns(const std::string& folder) {
     throw FaultError(
         Fault{{}, "neither logs (sourcedata/…_log.reach) nor motion files (…_tracksys-haptic_…_motion.tsv)", {}, FilePlace{folder}});
   std::sort(files.begin(), files.end(), record::runBefore);
-  requireOneDataset(files);
+  requireOneDataset(files, folder);
   return files;
 }
 

@@ -313,7 +313,7 @@ const std::vector<Table>& tables() {
         {"criterion", "Criterion that the movements follow by this analysis; empty where none is named"},
         {"reason", "Why none is named; empty where one is"},
         {"best", "Candidate that is closest; empty where nothing could be compared"},
-        {"p", "Two-sided p against its nearest rival"},
+        {"p", "Two-sided p of its least certain comparison with another candidate"},
         {"changed", "1: another criterion is named than in the analysis as asked, or none in place of one, or one in place of none"}}},
       {"recovery.csv",
        "",

@@ -45,7 +45,8 @@ void compareAll(Conclusion& out, std::size_t reference, Compare&& compare) {
   for (std::size_t c = 0; c < candidates; ++c) {
     if (c == best) continue;
     out.against[c] = compare(c, best);
-    if (!out.rival || out.against[c].p > out.p) out.p = out.against[c].p, out.rival = c;
+    const TTest& test = out.against[c];
+    if (!out.rival || test.p > out.p || (test.p == out.p && test.mean < out.against[*out.rival].mean)) out.p = test.p, out.rival = c;
   }
   out.referenceP = out.referenceFirst ? 1 : out.against[reference].p;
   std::vector<double> p, difference;

@@ -63,14 +63,14 @@ struct Conclusion {
   std::optional<std::size_t> best;     // least score; may be the reference
   Obstacle reason = Obstacle::TooFewTrials;
   double level = kTrialsLevel;
-  double p = 1;  // of the nearest rival: the largest of all comparisons with the best
-  std::optional<std::size_t> rival;
-  double referenceP = 1;  // best against the reference
+  double p = 1;                      // the largest of all comparisons with the best
+  std::optional<std::size_t> rival;  // the candidate of that comparison, which is the least certain
+  double referenceP = 1;             // best against the reference
   bool referenceFirst = false;
   std::size_t subjects = 0, trials = 0;
   std::vector<std::size_t> closest;  // people whose own least score each candidate has
   std::vector<double> posterior;     // protected exceedance probability of each candidate; empty for one person
-  std::optional<double> signFlipP;   // of the nearest rival, from six people on
+  std::optional<double> signFlipP;   // of the rival, from six people on
   std::vector<double> score;         // Y of each candidate: mean over conditions of the mean over trials, over people
   std::vector<TTest> against;        // of each candidate: score - best's score
   // pairs with p above the level after Holm's correction, or too small a difference

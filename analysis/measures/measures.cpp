@@ -108,6 +108,7 @@ Movement findWithinTrial(const TrialData& trial, const OnsetOptions& options, Tr
   const std::span<const double> inside(signals.speed.data(), std::min(signals.speed.size(), last + 1));
   Movement movement = findMovement(inside, trial.rate, options);
   movement.offset = std::min(movement.offset, taskEnd);
+  movement.peakTime = std::min(movement.peakTime, movement.offset);
   return movement;
 }
 
@@ -116,7 +117,8 @@ Movement findWithinTrial(const TrialData& trial, const OnsetOptions& options, Tr
 void useMarks(const TrialData& trial, TrialSignals& signals) {
   const Movement& found = signals.movement;
   const auto either = [&](double marked, double own) { return std::isfinite(marked) ? marked - trial.first : own; };
-  if (!found.found || !(std::isfinite(trial.markedOnset) || std::isfinite(trial.markedOffset))) return;
+  const int marks = std::isfinite(trial.markedOnset) + std::isfinite(trial.markedOffset);
+  if (marks == 0 || (marks == 1 && !found.found)) return;
   const double longest = static_cast<double>(signals.speed.size() - 1) / trial.rate;
   const double onset = std::clamp(either(trial.markedOnset, found.onset), 0.0, longest);
   const double offset = std::clamp(either(trial.markedOffset, found.offset), 0.0, longest);
@@ -163,7 +165,8 @@ TrialMeasures computeMeasures(const TrialData& trial, const TrialSignals& signal
   m.peakSpeed = move.peak;
   m.timeToPeak = move.peakTime - move.onset;
   m.timeToPeakPercent = 100 * m.timeToPeak / m.duration;
-  m.symmetryRatio = m.timeToPeak / (move.offset - move.peakTime);
+  const double slowing = move.offset - move.peakTime;  // [s]
+  m.symmetryRatio = slowing > 0.5 / trial.rate ? m.timeToPeak / slowing : kNotMeasured;
 
   const std::size_t first = sampleAt(trial, move.onset, signals.speed.size());
   const std::size_t last = sampleAt(trial, move.offset, signals.speed.size());

@@ -377,7 +377,8 @@ std::string makeReport(const ReportHeader& header, const Analysis& analysis, con
     html.paragraph(describeChoices(analysis, analysis.together, analysis.common[*analysis.overall.best]));
     addScores(html, analysis.overall, analysis.common);
     addFigure(html, figures, "posterior");
-  } else if (std::none_of(analysis.results.begin(), analysis.results.end(),
+  } else if (std::any_of(analysis.results.begin(), analysis.results.end(), [](const ConditionResult& r) { return r.onlyFailures; }) &&
+             std::none_of(analysis.results.begin(), analysis.results.end(),
                           [](const ConditionResult& r) { return r.used > 0 && !r.onlyFailures; })) {
     html.paragraph("No trial succeeded. What the failed ones were like is described below, condition by condition.", "warning");
   }

@@ -155,11 +155,11 @@ std::string describeConclusion(const Conclusion& c, const Names& names) {
 std::string describeEvidence(const Conclusion& c, const Names& names) {
   if (!c.best || !c.rival) return {};
   std::string text =
-      fmt::format("Closest: {} ({}, {}). Nearest rival: {}, {} ({}).", describeCandidate(names[*c.best]), plural(c.subjects, "subject"),
-                  plural(c.trials, "trial"), describeCandidate(names[*c.rival]), pText(c.p),
+      fmt::format("Closest: {} ({}, {}). Least certain comparison: with {}, {} ({}).", describeCandidate(names[*c.best]),
+                  plural(c.subjects, "subject"), plural(c.trials, "trial"), describeCandidate(names[*c.rival]), pText(c.p),
                   c.overSubjects ? "paired t over subjects" : "t over this person's trials, their serial correlation allowed for");
   if (const Bounds interval = intervalOf(c.against[*c.rival]); interval.finite())
-    text += fmt::format(" Its squared errors are {:.0f} % larger {}.", 100 * std::expm1(c.against[*c.rival].mean),
+    text += fmt::format(" The squared errors of that candidate are {:.0f} % larger {}.", 100 * std::expm1(c.against[*c.rival].mean),
                         intervalText({100 * std::expm1(interval.low), 100 * std::expm1(interval.high)}));
   if (!c.told(*c.rival)) text += fmt::format(" Bayes factor for a difference: {}.", shortNumber(computeBayesFactor(c.against[*c.rival])));
   if (c.overSubjects)
@@ -204,7 +204,8 @@ std::string describeChoices(const Analysis& analysis, const std::vector<std::siz
       const ShapeChoice& choice = person.fit.candidates[k].choice;
       ++laws[choice.law == TimeLaw::Anew ? "planned anew for each duration" : "one plan run faster or slower"];
       if (const auto& mass = person.fit.candidates[k].mass)
-        masses.push_back(fmt::format("{} kg {} ({}{})", shortNumber(mass->mass), intervalText(mass->interval), person.subject,
+        masses.push_back(fmt::format("{} kg {} ({}{}{})", shortNumber(mass->mass), intervalText(mass->interval), person.subject,
+                                     conditions.size() > 1 ? ", " + analysis.conditions[person.condition].name : "",
                                      mass->atEdge ? ", at the edge of the range" : ""));
     }
   }
@@ -382,6 +383,8 @@ std::string describeCounts(const ConditionResult& r) {
     rest.push_back(fmt::format("{} with invalid timing (more ticks missed than allowed), left out", r.counts.invalidTiming));
   if (r.counts.practice > 0) rest.push_back(plural(r.counts.practice, "practice trial"));
   if (r.counts.catchTrials > 0) rest.push_back(plural(r.counts.catchTrials, "catch trial"));
+  for (const auto& [reason, n] : r.exclusions)
+    if (reason.starts_with("excluded")) rest.push_back(fmt::format("{} {}", plural(n, "trial"), reason));  // by a person
   if (!rest.empty()) text += "; besides " + joined(rest);
   std::vector<std::string> why;
   for (const auto& [reason, n] : r.reasons) why.push_back(fmt::format("{} × {}", n, reason));

@@ -14,7 +14,7 @@ std::string describeCandidate(const std::vector<predict::Criterion>& criteria);
 
 /// The one plain sentence. It names the criterion with its certainty, or says that nothing may be concluded, with the reason.
 std::string describeConclusion(const Conclusion& conclusion, const std::vector<std::vector<predict::Criterion>>& candidates);
-/// The numbers beside every conclusion: trials, nearest rival, exceedance, R^2 and its ceiling.
+/// The numbers beside every conclusion: trials, the least certain comparison, exceedance, R^2 and its ceiling.
 std::string describeEvidence(const Conclusion& conclusion, const std::vector<std::vector<predict::Criterion>>& candidates);
 /// The conditions that the overall conclusion is over, and the conditions that are left out. Empty with one condition.
 std::string describeTogether(const Analysis& analysis);

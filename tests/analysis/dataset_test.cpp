@@ -161,6 +161,14 @@ TEST(Dataset, OfASessionsBidsFilesHasTheExperimentOfItsDataset) {
     EXPECT_TRUE(holds(openDataset(part).notes.at(0), "with the experiments in code/experiments/")) << part;
 }
 
+// A dataset and its copy would count twice.
+TEST(Dataset, OfBidsFilesOfSeveralDatasetsIsRefused) {
+  const TemporaryFolder folder;
+  for (const char* part : {"/data", "/second"})
+    removeLogs(folder.path() + part, recordRun(folder.path() + part, {.experiment = "chain-moderate", .trials = 1}));
+  EXPECT_TRUE(holds(refusalOf([&] { (void)openDataset(folder.path()); }), "holds several datasets"));
+}
+
 // The sidecar says how often rows come, or else their times do; a single row has none to tell it by.
 TEST(Dataset, OfBidsFilesThatDoNotSayHowOftenHasTheRateOfItsRows) {
   const TemporaryFolder folder;

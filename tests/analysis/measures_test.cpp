@@ -100,6 +100,16 @@ TEST(Signals, OfAClosedCurveAreAlongTheWayThatTheHandWent) {
   EXPECT_FALSE(computeSignals(trial, unfiltered()).otherWay);
 }
 
+// A hand that is fastest when its trial ends has its peak there, and no slowing-down to compare with.
+TEST(Signals, ThatArePeakingWhenTheTrialEndsHaveTheirPeakAtTheEnd) {
+  TrialData trial = reach();
+  trial.taskEnd = 0.8013;  // between two samples
+  const TrialSignals signals = computeSignals(trial, unfiltered());
+  const auto found = computeMeasures(trial, signals);
+  EXPECT_LE(found.timeToPeak, found.duration);
+  EXPECT_TRUE(std::isnan(found.symmetryRatio) || found.symmetryRatio > 0);
+}
+
 // Marks and the task's window are told since arming; the movement is counted from the first sample.
 TEST(Signals, EndWithTheTrialAndGiveWayToMarks) {
   TrialData trial = reach();
