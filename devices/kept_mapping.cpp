@@ -26,6 +26,17 @@ std::string fileOf(const std::string& hand, const std::string& data, const std::
   return mappingFile(data, subject, name);
 }
 
+// With its mapping as values behind the other options, however it was written.
+std::string withMappingOf(const std::string& hand, const Mapping& mapping) {
+  const std::size_t end = std::min(hand.find_first_of(":,"), hand.size());
+  DeviceOptions options(hand.substr(std::min(end + 1, hand.size())), "device " + hand.substr(0, end));
+  for (const char* key : {"mapping", "scale", "offset", "rotation", "mirror"}) (void)options.take(key);
+  std::string text = options.plain();
+  for (const std::string& part : {options.rest(), optionsOf(mapping)})
+    if (!part.empty()) text += (text.empty() ? "" : ",") + part;
+  return hand.substr(0, end) + (options.plain().empty() ? ',' : ':') + text;
+}
+
 }  // namespace
 
 std::string withKeptMappings(const std::string& device, const std::string& data, const std::string& subject,
@@ -37,10 +48,12 @@ std::string withKeptMappings(const std::string& device, const std::string& data,
     if (driver == nullptr || !driver->takesHandSettings) continue;
     const std::string file = fileOf(hand, data, subject);
     std::error_code error;
-    if (handSettingsOf(hand).mapped || !std::filesystem::exists(file, error)) continue;
-    const std::string options = optionsOf(readMapping(file));
-    taken.push_back(file);
-    hand += (hand.size() == kind.size() ? "," : hand.back() == ':' ? "" : ",") + options;
+    if (const HandSettings settings = handSettingsOf(hand); settings.mapped) {
+      hand = withMappingOf(hand, settings.mapping);
+    } else if (std::filesystem::exists(file, error)) {
+      hand = withMappingOf(hand, readMapping(file));
+      taken.push_back(file);
+    }
   }
   return joinHands(hands);
 }

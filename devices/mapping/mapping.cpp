@@ -70,7 +70,7 @@ std::string toJson(const Mapping& m) {
 
 std::string optionsOf(const Mapping& m) {
   const auto vector = [](const char* key, const Vec3& v, double unit) {
-    return v == Vec3{} ? std::string() : fmt::format(",{}={}/{}/{}", key, v.x / unit, v.y / unit, v.z / unit);
+    return v == Vec3{} ? std::string() : fmt::format(",{}={:.12g}/{:.12g}/{:.12g}", key, v.x / unit, v.y / unit, v.z / unit);
   };
   const std::string others = vector("offset", m.offset, 1) + vector("rotation", m.rotation, kDegree) + (m.mirrorX ? ",mirror=x" : "");
   return m.scale == 1 && !others.empty() ? others.substr(1) : fmt::format("scale={}", m.scale) + others;

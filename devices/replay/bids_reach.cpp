@@ -166,16 +166,20 @@ bool isWithoutReach(const NamedTable& events, std::size_t row) {
 std::vector<ReachSpan> reachesIn(const std::string& file, const std::string& trialType) {
   const NamedTable events(file);
   std::vector<ReachSpan> spans;
+  bool stayed = false;
   for (std::size_t row = 0; row < events.rows(); ++row) {
     if (!trialType.empty() && (!events.has("trial_type") || events.cell(row, "trial_type") != trialType)) continue;
-    if (trialType.empty() && isWithoutReach(events, row)) continue;
+    if (isWithoutReach(events, row)) {
+      stayed = true;
+      continue;
+    }
     const auto valueOf = [&](const std::string& column) {
       return cellNumber(events.cell(row, column), events.placeOf(row), column, "a number or n/a");
     };
     const auto onset = valueOf("onset"), lasts = valueOf("duration");
     if (onset && lasts && *lasts > 0) spans.push_back({*onset, *onset + *lasts});
   }
-  if (spans.empty())
+  if (spans.empty() && !stayed)
     refuse({file}, fmt::format("has no event{} that lasts", trialType.empty() ? "" : " of trial_type " + trialType),
            "at least one with onset and duration");
   return spans;

@@ -70,6 +70,8 @@ std::vector<RecordedReach> readReaches(const ReachSource& source) {
       reaches.push_back(isC3d(file) ? readC3dReach(file, source.columns) : readReach(file, source.columns));
     }
   }
+  if (reaches.empty())
+    throw FaultError(Fault{{}, "has no trial in which the hand was to move and did", "a recording with a reach", FilePlace{source.path}});
   return reaches;
 }
 

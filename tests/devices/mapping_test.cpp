@@ -281,13 +281,15 @@ TEST_F(KeptMappings, AreTakenUpWhereNoneIsAskedFor) {
   const std::string mapping = "scale=2";
   EXPECT_EQ(with("phantom"), "phantom," + mapping);
   EXPECT_EQ(files, std::vector<std::string>{file("phantom")});
-  EXPECT_EQ(with("phantom:"), "phantom:" + mapping);
+  EXPECT_EQ(with("phantom:"), "phantom," + mapping);
   for (const char* other : {"phantom:Right", "virtual:omni"}) EXPECT_EQ(with(other), other) << "another device";
   saveMapping({}, file("virtual-omni"));
   EXPECT_EQ(with("virtual:omni,noise=0"), "virtual:omni,noise=0,scale=1");
   EXPECT_EQ(with("virtual:premium15"), "virtual:premium15");
   EXPECT_EQ(with("phantom,wall=0.2"), "phantom,wall=0.2," + mapping);
   EXPECT_EQ(with("phantom,scale=3"), "phantom,scale=3") << "what is asked for goes first";
+  EXPECT_EQ(with("phantom:Left,mirror=x,scale=2,rotation=0/0/15,wall=0.2"), "phantom:Left,wall=0.2,scale=2,rotation=0/0/15,mirror=x")
+      << "one text for one device, as resuming compares them";
   EXPECT_TRUE(files.empty());
   saveMapping({}, file("replay"));
   EXPECT_EQ(with("replay:x"), "replay:x") << "a recording has no mapping";

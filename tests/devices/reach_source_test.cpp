@@ -102,8 +102,10 @@ TEST_F(OthersFiles, EachBidsEventThatLastsIsAReach) {
   const std::string file = writeBids(folder, bids);
   EXPECT_EQ(readFrom(file + ",point=hand").size(), 3u);
   Bids own = bids;  // our own recordings have a column more
-  own.events = "onset\tduration\ttrial_type\tmovement_time\n0.5\t1\tgo\t0.8\n2\t0.5\tcatch\t0.1\n3\t1.5\tgo\tn/a\n";
-  EXPECT_EQ(readFrom(writeBids(folder, own) + ",point=hand").size(), 1u) << "where the hand was to stay, or never moved, there is no reach";
+  own.events = "onset\tduration\ttrial_type\tmovement_time\n0.5\t1\treach\t0.8\n2\t0.5\tcatch\t0.1\n3\t1.5\treach\tn/a\n";
+  for (const char* type : {"", ",trial_type=reach"})
+    EXPECT_EQ(readFrom(writeBids(folder, own) + ",point=hand" + type).size(), 1u)
+        << "where the hand was to stay, or never moved, is no reach";
   writeBids(folder, bids);
   const std::vector<RecordedReach> reaches = readFrom(file + ",point=hand,trial_type=reach");
   ASSERT_EQ(reaches.size(), 2u);
