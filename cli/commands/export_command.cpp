@@ -33,8 +33,9 @@ void requireOwnNames(const std::vector<record::RunLog>& runs) {
   std::map<std::string, std::string> paths;
   for (const record::RunLog& run : runs)
     if (const auto [known, fresh] = paths.emplace(record::runName(run.configuration()), run.path()); !fresh)
-      throw FaultError(Fault{"what", fmt::format("{} and {} are both recorded as {}", known->second, run.path(), known->first),
-                             "logs of different runs: a log keeps its labels when its file is renamed"});
+      throw FaultError(Fault{{},
+                             fmt::format("{} and {} are both recorded as {}", known->second, run.path(), known->first),
+                             "logs of different runs. A log keeps its labels when its file is renamed. --out exports each by itself"});
 }
 
 void exportLogs(const ExportOptions& options) {

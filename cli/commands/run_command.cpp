@@ -129,7 +129,7 @@ int runSession(const session::SessionRequest& request, bool savesMapping) {
   };
   std::optional<session::BackupWorker> backup;
   if (!request.backup.empty()) backup.emplace(request.place.data, request.backup);
-  if (backup && session.blocksLeft() == 0) backup->request();  // of what an earlier run could not copy
+  if (backup && session.blocksLeft() == 0) backup->request();  // copies the runs that an earlier backup could not copy
   words.closed = [&] {
     stop.reset();
     if (backup) backup->request();

@@ -340,12 +340,15 @@ void requireContinuation(Scene& scene, const std::vector<double>& start, double 
     throw RefusedError(
         fmt::format("no motion can begin at the start [{}]: {}; choose another start", fmt::join(start, ", "), scene.plant->stopReason()));
   bool onEnd = false;
-  for (int k = 0; k < scene.constraint->parameterCount(); ++k)
-    onEnd = onEnd || start[k] == scene.constraint->domain[k].lo || start[k] == scene.constraint->domain[k].hi;
+  for (int k = 0; k < scene.constraint->parameterCount(); ++k) {
+    const constraints::Domain& domain = scene.constraint->domain[k];
+    onEnd = onEnd || (!domain.periodic && (start[k] == domain.lo || start[k] == domain.hi));
+  }
+  if (!onEnd) return;
   constexpr double kPull = 1e-4;  // [m] of the hand
   for (const Vec3& pull :
        {Vec3{kPull, 0, 0}, Vec3{-kPull, 0, 0}, Vec3{0, kPull, 0}, Vec3{0, -kPull, 0}, Vec3{0, 0, kPull}, Vec3{0, 0, -kPull}})
-    if (onEnd && stepWithPull(pull) != StepStatus::Ok) {
+    if (stepWithPull(pull) != StepStatus::Ok) {
       scene.choice.warnings.push_back("the start lies on an end of the constraint: a pull beyond it ends the trial");
       return;
     }

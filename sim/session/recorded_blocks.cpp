@@ -44,7 +44,8 @@ std::vector<RecordedBlock> readRecordedBlocks(const SessionPlace& place, std::ve
 }
 
 bool isBlockOf(const record::RunConfiguration& c, const std::string& planText, int day, int block) {
-  return c.planText == planText && c.day == day && c.block == block;
+  const bool ofDay = c.day == day || c.day == 0;  // a block of every day was recorded without its day before
+  return c.planText == planText && ofDay && c.block == block;
 }
 
 std::string otherDeviceBefore(const std::vector<RecordedBlock>& blocks, const std::string& device) {

@@ -85,6 +85,7 @@ void RecordedSession::trialEnded(Pacing::Time now, std::optional<double> ownPaus
 
 bool conduct(RecordedSession& session, const std::atomic<bool>& stop, const SessionWords& words) {
   while (session.nextBlock() != nullptr) {
+    if (stop) return false;  // while the tables of the block before were written
     if (session.pacing().rests()) {
       if (words.resting) words.resting(*session.nextBlock());
       waitUntil([&](Pacing::Time now) { return session.pacing().restLeft(now) == 0; }, stop);

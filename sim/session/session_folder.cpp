@@ -69,9 +69,9 @@ int chooseRun(const SessionPlace& place, std::optional<int> asked) {
                            fmt::format("is {}, which subject {}, session {} has already ({}), and nothing is overwritten", *asked,
                                        place.subject, place.session, taken->path),
                            fmt::format("{}, the next free one, or none", free)});
-  if (*asked < free)  // resuming takes their order for that in time
+  if (*asked < free)  // `--resume` takes the order of the run numbers for the order in time
     throw FaultError(
-        Fault{"run", fmt::format("is {}, and subject {}, session {} has run {} already", *asked, place.subject, place.session, free - 1),
+        Fault{"run", fmt::format("is {}, but subject {}, session {} already has run {}", *asked, place.subject, place.session, free - 1),
               fmt::format("{} or more, or none", free)});
   return *asked;
 }

@@ -1,6 +1,8 @@
 // `reach show`: what was recorded is told again as it was, and a trial's samples are those of the export.
 #include <gtest/gtest.h>
 
+#include <regex>
+
 #include <algorithm>
 #include <filesystem>
 
@@ -71,6 +73,30 @@ TEST(Show, AndExportNameALogThatCannotBeRead) {
     EXPECT_NE(ended.out, "") << command;
   }
   EXPECT_EQ(reach("show " + other).exitCode, 2) << "alone it is a bad file";
+}
+
+TEST(Show, CountsCatchTrialsApart) {
+  const TemporaryFolder folder;
+  const std::string plan = folder.write("plan.json", R"({ "schema_version": 1, "trials": 6, "foreperiod_s": [0.1, 0.2], "catch_share": 0.34,
+    "blocks": [{ "experiment": "chain-slow" }] })");
+  printed("run " + plan + " --device simulated:noise=0 --seed 1 --fast --data " + (folder / "data").string());
+  int caught = 0;
+  const Json runs = printedJson("show --json " + (folder / "data").string());
+  for (const Json& trial : runs[0]["trials"]) caught += trial["catch_trial"].get<bool>() ? 1 : 0;
+  ASSERT_EQ(caught, 2);
+  EXPECT_TRUE(std::regex_search(printed("show " + (folder / "data").string()), std::regex("recorded +6 +2 +4 ")));
+}
+
+TEST(Export, RefusesTwoLogsWithTheLabelsOfOneRun) {
+  const TemporaryFolder folder;
+  for (const char* seed : {"1", "2"})
+    printed(std::string("run chain-slow --device simulated --fast --seed ") + seed + " --data " + (folder / seed).string());
+  std::filesystem::create_directories(folder / "both/sourcedata");
+  for (const char* seed : {"1", "2"})
+    std::filesystem::copy_file(folder / (std::string(seed) + "/sourcedata/sub-01_ses-01_task-chainslow_run-01_log.reach"),
+                               folder / (std::string("both/sourcedata/sub-0") + seed + "_ses-01_task-chainslow_run-01_log.reach"));
+  EXPECT_TRUE(
+      says(reach("export " + (folder / "both").string() + " --format csv"), 2, "are both recorded as sub-01_ses-01_task-chainslow_run-01"));
 }
 
 TEST(Export, LeavesOutALogThatIsBeingRecordedInto) {

@@ -96,8 +96,13 @@ TEST_F(Conducted, AStopKeepsTheTrialAsInterruptedAndLeavesTheRestToBeResumed) {
     request_.resume = true;
     RecordedSession session(programme, request_, maker());
     EXPECT_EQ(session.blocksLeft(), 2u);
-    const std::atomic<bool> stop{true};
+    std::atomic<bool> stop{true};  // as after a signal while the tables of a block were written
     EXPECT_FALSE(conduct(session, stop, words()));
+    EXPECT_EQ(logs().size(), 1u) << "no run begins";
+    stop = false;
+    SessionWords said = words();
+    said.opened = [&](const RecordedRun&) { stop = true; };
+    EXPECT_FALSE(conduct(session, stop, said));
   }
   std::vector<record::RunLog> found = logs();
   ASSERT_EQ(found.size(), 2u);
