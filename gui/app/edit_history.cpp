@@ -55,9 +55,9 @@ QStringList EditHistory::tryEdit(const experiment::Experiment& changed, const QS
   }
 }
 
-void EditHistory::open(const session::Programme& programme, const QString& what, const Opened& opened) {
+void EditHistory::open(const session::Programme& programme, const QString& what, Opened opened) {
   session::Programme before = session_.programme();
-  Opened openedBefore = std::exchange(opened_, opened);
+  Opened openedBefore = std::exchange(opened_, std::move(opened));
   session_.setProgramme(programme);
   stack_.push(new Change(*this, std::move(before), what, std::move(openedBefore)));
 }

@@ -23,7 +23,7 @@ class EditHistory {
   /// Whether nothing but the look of the scene differs from the present experiment.
   bool isSameScene(experiment::Experiment changed) const;
   /// Takes over a programme that was opened. Undo takes its file back with it.
-  void open(const session::Programme& programme, const QString& what, const Opened& opened);
+  void open(const session::Programme& programme, const QString& what, Opened opened);
   const Opened& opened() const { return opened_; }
   /// After a save under another name. Undo of an edit keeps it.
   void setOpened(const Opened& opened) { opened_ = opened; }
