@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <map>
 #include <set>
 #include <utility>
 
+#include "analysis/hands.h"
 #include "analysis/measures/deviation_and_adaptation.h"
 #include "analysis/tables.h"
 #include "analysis/trials/equal_runs.h"
@@ -207,6 +209,7 @@ void readLogs(const std::vector<std::string>& logs, DatasetIndex& dataset, const
       dataset.runs.resize(runs);
       dataset.notes.resize(notes);
       equalRuns.forget(logs[i]);
+      std::erase_if(labels, [&](const auto& label) { return label.second == logs[i]; });
       dataset.notes.push_back(fmt::format("{}: left out: {}", logs[i], error.what()));
     };
     try {
@@ -245,7 +248,6 @@ void readLogs(const std::vector<std::string>& logs, DatasetIndex& dataset, const
 void readExported(const std::string& folder, DatasetIndex& dataset, const TrialSink& sink, const std::string& experimentFile,
                   const DatasetProgress& progress) {
   bool foreign = false;  // an experiment that may not be the recorded one
-  bool severalHands = false;
   const std::vector<std::string> runs = findBidsRuns(folder);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     if (progress) progress(i, runs.size(), runs[i]);
@@ -254,12 +256,10 @@ void readExported(const std::string& folder, DatasetIndex& dataset, const TrialS
     if (!recorded.own) foreign = true;
     addRun(run, recorded.scenes, dataset, sink);
     dataset.runs.back().file = runs[i];
-    if (std::any_of(recorded.scenes.begin(), recorded.scenes.end(), [](const auto& scene) { return scene.experiment().hands.size() > 1; }))
-      severalHands = true;
   }
   dataset.notes.push_back(std::string("no logs in sourcedata/: read from the BIDS files, with the experiments ") +
                           (foreign ? "as they are shipped or given now" : "in code/experiments/"));
-  if (severalHands) dataset.notes.emplace_back("hands.csv is written from logs alone");
+  if (hasSeveralHands(dataset)) dataset.notes.emplace_back("hands.csv is written from logs alone");
 }
 
 }  // namespace

@@ -143,12 +143,16 @@ TogetherMeasures measureTogether(const std::vector<HandSignals>& hands, double r
   return together;
 }
 
+bool hasSeveralHands(const DatasetIndex& dataset) {
+  return std::any_of(dataset.conditions.begin(), dataset.conditions.end(),
+                     [](const Condition& condition) { return condition.experiment().hands.size() > 1; });
+}
+
 std::string handsTable(const DatasetIndex& dataset) {
-  const bool several = std::any_of(dataset.conditions.begin(), dataset.conditions.end(),
-                                   [](const Condition& condition) { return condition.experiment().hands.size() > 1; });
   std::vector<record::RunLog> runs;
+  if (!hasSeveralHands(dataset)) return {};
   for (const AnalysedRun& run : dataset.runs) {
-    if (!several || !run.isLog) continue;
+    if (!run.isLog) continue;
     if (record::RunLog log = record::RunLog::open(run.file); log.configuration().table.hands > 1) runs.push_back(std::move(log));
   }
   return runs.empty() ? std::string() : sheetText("hands.csv", runs, addRuns);

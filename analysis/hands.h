@@ -35,6 +35,8 @@ struct HandSignals {
 /// `rate` [Hz]. All signals of one length.
 TogetherMeasures measureTogether(const std::vector<HandSignals>& hands, double rate);
 
+/// True if several hands hold the object in any condition.
+bool hasSeveralHands(const DatasetIndex& dataset);
 /// A row for each hand of each trial with a movement, in the analysed runs in which several hands hold the object. Empty without such a run.
 /// Only their logs are opened again. Throws ResourceError.
 std::string handsTable(const DatasetIndex& dataset);
