@@ -28,13 +28,13 @@ std::string fileOf(const std::string& hand, const std::string& data, const std::
 
 // With its mapping as values behind the other options, however it was written.
 std::string withMappingOf(const std::string& hand, const Mapping& mapping) {
-  const std::size_t end = std::min(hand.find_first_of(":,"), hand.size());
-  DeviceOptions options(hand.substr(std::min(end + 1, hand.size())), "device " + hand.substr(0, end));
+  const std::string kind = kindOf(hand);
+  DeviceOptions options(hand.size() > kind.size() ? hand.substr(kind.size() + 1) : "", "device " + kind);
   for (const char* key : {"mapping", "scale", "offset", "rotation", "mirror"}) (void)options.take(key);
   std::string text = options.plain();
   for (const std::string& part : {options.rest(), optionsOf(mapping)})
     if (!part.empty()) text += (text.empty() ? "" : ",") + part;
-  return hand.substr(0, end) + (options.plain().empty() ? ',' : ':') + text;
+  return kind + (options.plain().empty() ? ',' : ':') + text;
 }
 
 }  // namespace

@@ -173,7 +173,7 @@ void refuseOpenRuns(const SessionPlace& place) {
                                       record::writerOf(run.path), run.path));
 }
 
-std::vector<OrderedBlock> orderBlocks(const SessionRequest& request, const Programme& programme, const Plan& plan,
+std::vector<OrderedBlock> orderBlocks(const SessionRequest& request, const Programme& programme, const Plan& plan, int day,
                                       const std::vector<int>& order, const std::vector<RecordedBlock>& recorded) {
   std::vector<OrderedBlock> blocks;
   const RecordedBlock* first = nullptr;
@@ -182,7 +182,7 @@ std::vector<OrderedBlock> orderBlocks(const SessionRequest& request, const Progr
     const int number = static_cast<int>(blocks.size()) + 1;
     const experiment::CompiledExperiment& experiment = programme.experiments.at(k);
     trial::checkTask(experiment, programme.isPlan() ? plan.blocks[k].experiment : request.what);
-    const RecordedBlock* found = findRecordedBlock(recorded, plan, sessionDay(request, plan), number, experiment.experiment(), first);
+    const RecordedBlock* found = findRecordedBlock(recorded, plan, day, number, experiment.experiment(), first);
     if (first == nullptr) first = found;
     blocks.push_back({number, plan.blocks[k], experiment, programme.scenes.at(k), found});
   }
@@ -218,7 +218,7 @@ void chooseSeed(const SessionRequest& request, const RecordedBlock* resumed, Ses
 }
 
 // What is left of a block, without its run. `before`: the part that is resumed.
-BlockToRun makeBlock(const SessionRequest& request, const Plan& plan, const OrderedBlock& ordered, const RecordedBlock* before,
+BlockToRun makeBlock(const SessionRequest& request, const Plan& plan, int day, const OrderedBlock& ordered, const RecordedBlock* before,
                      std::uint64_t seed) {
   BlockToRun block{
       .experiment = ordered.experiment, .scenes = experimentsOf(ordered.scenes), .configuration = {}, .logPath = {}, .trials = {}};
@@ -228,7 +228,7 @@ BlockToRun makeBlock(const SessionRequest& request, const Plan& plan, const Orde
   if (before != nullptr) {
     c = before->configuration;
   } else {
-    c = freshConfiguration(request, plan, ordered.planned, sessionDay(request, plan), block.experiment.experiment(), ordered.scenes);
+    c = freshConfiguration(request, plan, ordered.planned, day, block.experiment.experiment(), ordered.scenes);
     c.block = ordered.number;
     c.sessionSeed = seed;
     c.seed = blockSeed(seed, c.block);
@@ -295,7 +295,7 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
   SessionToRun session;
   if (request.resume) refuseOpenRuns(request.place);
   const std::vector<RecordedBlock> recorded = readRecordedBlocks(request.place, session.notice.unreadable, request.resume);
-  const std::vector<OrderedBlock> blocks = orderBlocks(request, programme, plan, order, recorded);
+  const std::vector<OrderedBlock> blocks = orderBlocks(request, programme, plan, day, order, recorded);
   const RecordedBlock* resumed = request.resume ? findResumed(request, plan, blocks, recorded) : nullptr;
   chooseSeed(request, resumed, session);
   if (resumed != nullptr) session.notice.deviceBefore = otherDeviceBefore(recorded, request.device);
@@ -304,7 +304,7 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
   int run = chooseRun(request.place, request.run);
   for (const OrderedBlock& ordered : blocks) {
     const RecordedBlock* before = request.resume ? ordered.recorded : nullptr;
-    BlockToRun block = makeBlock(request, plan, ordered, before, session.seed);
+    BlockToRun block = makeBlock(request, plan, day, ordered, before, session.seed);
     if (block.trials.empty()) continue;
     if (!session.blocks.empty()) run = chooseRun(request.place, run + 1);
     block.configuration.run = run;

@@ -164,7 +164,7 @@ TEST(StudyReport, CountsNeitherPracticeNorCatchTrials) {
   EXPECT_EQ(report.success[0].successes, 1u);
 }
 
-// A, B, A: the second block of A goes on with A's trials.
+// A plan has the conditions A, B and A again: the trials of its third block follow those of the first.
 TEST(StudyReport, NumbersTheTrialsOfAConditionOverItsBlocks) {
   const TemporaryFolder folder;
   const std::string plan = folder.write("plan.json", R"({ "schema_version": 1, "trials": 10, "blocks": [

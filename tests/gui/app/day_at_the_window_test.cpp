@@ -34,6 +34,14 @@ class Day : public AtTheWindow {
     const QPoint at = window_->view().mapTo(window_.get(), QPoint(500, 300));
     QTest::mouseClick(window_->windowHandle(), Qt::LeftButton, {}, at);
   }
+  // By a simulated hand. The run stays open.
+  bool doARunOfOneTrial() {
+    request_.device = "simulated:noise=0";
+    request_.fast = true;
+    request_.trials = 1;
+    open().nextTrial();
+    return QTest::qWaitFor([&] { return window_->session().lastTrial() && !window_->session().underWay(); }, 20000);
+  }
 };
 
 TEST_F(Day, AClickIntoTheSceneLeavesTheFieldAndSpaceIsTheTrialsAgain) {
@@ -266,12 +274,8 @@ TEST_F(Day, AMessageStaysIfItIsAnErrorAndClosesItselfIfItIsNews) {
 }
 
 TEST_F(Day, TheEndOfARunShowsItsCountsAndLeadsToTheNextSubject) {
-  request_.device = "simulated:noise=0";
-  request_.fast = true;
-  request_.trials = 1;
-  MainWindow& window = open();
-  window.nextTrial();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial() && !window.session().underWay(); }, 20000));
+  ASSERT_TRUE(doARunOfOneTrial());
+  MainWindow& window = *window_;
   auto* title = find<QLabel>("cardTitle");
   ASSERT_TRUE(QTest::qWaitFor([&] { return title->isVisible(); }, 5000));
   EXPECT_EQ(title->text().toStdString(), "Run 1 is complete");
@@ -427,12 +431,8 @@ TEST_F(Day, AChangeInATrialEndsItSoThatNoTrialIsJudgedByAnotherScene) {
 }
 
 TEST_F(Day, ACompleteRunStaysCompleteWhenItsRepeatIsTakenBack) {
-  request_.device = "simulated:noise=0";
-  request_.fast = true;
-  request_.trials = 1;
-  MainWindow& window = open();
-  window.nextTrial();
-  ASSERT_TRUE(QTest::qWaitFor([&] { return window.session().lastTrial() && !window.session().underWay(); }, 20000));
+  ASSERT_TRUE(doARunOfOneTrial());
+  MainWindow& window = *window_;
   const std::string log = window.session().run()->logPath();
   key(Qt::Key_R, Qt::ControlModifier);
   find<QToolButton>("undoRepeat")->click();
