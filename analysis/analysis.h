@@ -84,7 +84,8 @@ struct ConditionCounts {
 struct EpsilonPlace {
   std::size_t criterion = 0;                 // index into ConditionResult::signals
   double epsilon = 0;                        // [m/s]
-  std::optional<Bounds> interval;            // of the mean of people's epsilons
+  double mean = 0;                           // [m/s] of people's own epsilons
+  std::optional<Bounds> interval;            // of that mean
   double difference = 0;                     // mean over people of epsilon - that of the first
   std::optional<Bounds> differenceInterval;  // Bonferroni-corrected for the number of criteria compared with the first
   bool apart = false;                        // that interval excludes 0

@@ -1,6 +1,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <set>
 #include <utility>
 
 #include "analysis/sheet.h"
@@ -36,18 +37,19 @@ void predictionsTable(const Analysis& analysis, Sheet& table) {
 void rankingTable(const Analysis& analysis, Sheet& table) {
   for (std::size_t c = 0; c < analysis.results.size(); ++c) {
     const ConditionResult& r = analysis.results[c];
-    std::size_t people = 0;
-    for (const PersonResult& p : analysis.people) people += p.condition == c && p.trials > 0 ? 1 : 0;
+    std::set<std::string> people;
+    for (const AnalyzedTrial& t : analysis.trials)
+      if (t.condition == c && t.used()) people.insert(t.key.subject);
     for (const bool object : {false, true}) {
       int place = 0;
       for (const EpsilonPlace& p : object ? r.objectEpsilon : r.handEpsilon) {
         ++place;
         table.row(analysis.conditions[c].name, object ? "object" : "hand", place, predict::nameOf(r.signals[p.criterion].criterion),
-                  p.epsilon, p.interval, p.difference, p.differenceInterval,
+                  p.epsilon, p.mean, p.interval, p.difference, p.differenceInterval,
                   place == 1 || !p.differenceInterval ? ""
                   : p.apart                           ? "yes"
                                                       : "no",
-                  r.used, people);
+                  r.used, people.size());
       }
     }
   }

@@ -27,7 +27,7 @@ EpsilonTable makeEpsilonTable(std::span<const AnalyzedTrial> trials, std::size_t
   std::vector<std::vector<double>> epsilon(criteria);  // [criterion][person]
   for (const auto& [subject, own] : people)
     for (std::size_t c = 0; c < criteria; ++c) epsilon[c].push_back(std::sqrt(own.first[c] / own.second));
-  for (std::size_t c = 0; c < criteria; ++c) table.push_back({c, std::sqrt(squares[c] / count), {}, 0, {}, false});
+  for (std::size_t c = 0; c < criteria; ++c) table.push_back({c, std::sqrt(squares[c] / count), averageOf(epsilon[c]), {}, 0, {}, false});
   std::stable_sort(table.begin(), table.end(), [](const EpsilonPlace& a, const EpsilonPlace& b) { return a.epsilon < b.epsilon; });
   for (EpsilonPlace& place : table) {
     if (people.size() < 2) {
@@ -36,6 +36,7 @@ EpsilonTable makeEpsilonTable(std::span<const AnalyzedTrial> trials, std::size_t
     }
     const std::vector<double> differences = subtract(epsilon[place.criterion], epsilon[table.front().criterion]);
     place.interval = computeMeanInterval(epsilon[place.criterion]);
+    place.interval->low = std::max(0.0, place.interval->low);  // no epsilon is negative
     place.difference = computeTTest(differences).mean;
     if (&place == &table.front()) continue;
     place.differenceInterval = computeMeanInterval(differences, 1 - 0.05 / std::max(1.0, static_cast<double>(criteria) - 1));

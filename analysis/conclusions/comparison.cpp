@@ -99,7 +99,8 @@ Bounds intervalOf(const TTest& test, double level) {
 }
 
 double computeBayesFactor(const TTest& test) {
-  if (!(test.error > 0) || !(test.freedom > 0)) return 1;
+  if (!(test.freedom > 0)) return 1;
+  if (!(test.error > 0)) return test.mean == 0 ? 1 : kInfinity;
   const double n = test.freedom + 1, square = test.t * test.t / test.freedom, power = -(test.freedom + 1) / 2;
   // Over the variance g of the effect, in equal steps of ln g. The prior of g falls like exp(-1 / 2g) below 1 and like g^(-3/2) above.
   constexpr double kFirst = -6, kLast = 40, kStep = 1.0 / 64, kScaleSquared = 0.5;

@@ -40,8 +40,8 @@ double computeTQuantile(double level, double freedom);
 Bounds intervalOf(const TTest& test, double level = 0.95);
 
 /// The evidence that the mean of a test is not 0 over the evidence that it is: the JZS Bayes factor of Rouder et al. 2009 (Psychon. Bull. Rev.
-/// 16:225) for freedom + 1 values, with the scale sqrt(1/2) of the effect. By quadrature, so that the same test gives the same bits. 1 if there is
-/// no scatter to judge by.
+/// 16:225) for freedom + 1 values, with the scale sqrt(1/2) of the effect. By quadrature, so that the same test gives the same bits. 1 of fewer
+/// than two values, and infinite where each is the same number other than 0.
 double computeBayesFactor(const TTest& test);
 
 /// mean -+ t * standard error at `level`. Infinite for fewer than two values.

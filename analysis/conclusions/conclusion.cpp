@@ -179,6 +179,7 @@ Conclusion concludePerson(const PersonScores& person, std::size_t candidates, st
                           const std::vector<HeavyLimit>& limits) {
   Conclusion out;
   out.subjects = 1;
+  out.subject = person.subject;
   out.trials = person.trials();
   if (person.conditions.empty()) return out;
   out.score = scoresOf(person, candidates);
@@ -210,12 +211,14 @@ Conclusion concludePeople(const std::vector<PersonScores>& everyone, std::size_t
   if (people.size() < 2) {
     Conclusion out = concludePerson(people.empty() ? PersonScores{} : people.front(), candidates, reference, limits);
     out.subjects = people.size();
+    out.leftOut = everyone.size() - people.size();
     return out;
   }
   Conclusion out;
   out.overSubjects = true;
   out.level = kSubjectsLevel;
   out.subjects = people.size();
+  out.leftOut = everyone.size() - people.size();
   std::vector<std::vector<double>> table, evidence;
   out.score.assign(candidates, 0.0);
   out.closest.assign(candidates, 0);

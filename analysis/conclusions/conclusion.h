@@ -68,6 +68,8 @@ struct Conclusion {
   double referenceP = 1;             // best against the reference
   bool referenceFirst = false;
   std::size_t subjects = 0, trials = 0;
+  std::string subject;               // the one person's label; empty over subjects
+  std::size_t leftOut = 0;           // people without conditions, for lack of trials
   std::vector<std::size_t> closest;  // people whose own least score each candidate has
   std::vector<double> posterior;     // protected exceedance probability of each candidate; empty for one person
   std::optional<double> signFlipP;   // of the rival, from six people on

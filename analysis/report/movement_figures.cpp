@@ -54,6 +54,23 @@ void addPrediction(Panel& panel, const ConditionResult& r, Criterion criterion, 
     if (signal.criterion == criterion) addPrediction(panel, signal, object, color, dash, width, zero);
 }
 
+bool hasPrediction(const ConditionResult& r, Criterion criterion) {
+  return std::any_of(r.signals.begin(), r.signals.end(), [&](const PredictedSignal& s) { return s.criterion == criterion; });
+}
+
+/// What the thick lines of the paper's figure are, of the predictions that the condition has.
+std::string describeThick(const ConditionResult& r, bool moved) {
+  std::string which;
+  if (hasPrediction(r, Criterion::MinHandJerk)) which = "criterion (1) solid";
+  if (hasPrediction(r, Criterion::MinCrackle)) which += which.empty() ? "criterion (3) dashed" : ", (3) dashed";
+  if (which.empty()) return "Neither criterion (1) nor (3) is shown.";
+  return fmt::format("Thick: {}, {}.", which,
+                     moved
+                         ? "for the T whose movement lasts as long; above aligned at the onset, below with their t = 0 on the trials' onset"
+                         : "for the task's T, neither cut nor stretched; above they begin before the onset by as much as the onset rule "
+                           "would leave out of them, below their t = 0 is put on the trials' onset");
+}
+
 std::vector<const AnalyzedTrial*> usedTrials(const Analysis& analysis, std::size_t condition) {
   std::vector<const AnalyzedTrial*> used;
   for (const AnalyzedTrial& t : analysis.trials)
@@ -113,20 +130,11 @@ NamedFigure paperFigure(const Analysis& analysis, std::size_t condition) {
     addVelocities(out, handAlone, "Hand" + from, zero == Zero::Start ? "Object" + from : "Object (last mass)", fill);
   }
   const std::string shownVelocity = handAlone ? "velocity of the hand" : "velocity of hand and object";
-  out.caption =
-      r.used > 0
-          ? fmt::format(
-                "{}, as in Figs. 5 and 6: {}. Thin: {} {}trial{}, time-scaled to their average of {:.3f} s. Thick: criterion (1) solid, "
-                "(3) dashed, for the task's T, neither cut nor stretched; above they begin before the onset by as much as the onset rule "
-                "would leave out of them, below their t = 0 is put on the trials' onset.",
-                analysis.conditions[condition].name, shownVelocity, r.used, r.onlyFailures ? "failed " : "", r.used == 1 ? "" : "s",
-                r.duration.mean)
-          : fmt::format("{}: no movement to show; predictions only.", analysis.conditions[condition].name);
-  if (r.used > 0 && analysis.options.predictFor == PredictionDuration::Moved)
-    out.caption = fmt::format(
-        "{}: {}. Thin: {} trials, time-scaled to their average of {:.3f} s. Thick: criterion (1) solid, (3) "
-        "dashed, for the T whose movement lasts as long; above aligned at the onset, below with their t = 0 on the trials' onset.",
-        analysis.conditions[condition].name, shownVelocity, r.used, r.duration.mean);
+  const bool moved = analysis.options.predictFor == PredictionDuration::Moved;
+  out.caption = r.used > 0
+                    ? fmt::format("{}{}: {}. Thin: {}, time-scaled to the average of {:.3f} s. {}", analysis.conditions[condition].name,
+                                  moved ? "" : ", as in Figs. 5 and 6", shownVelocity, label, r.duration.mean, describeThick(r, moved))
+                    : fmt::format("{}: no movement to show; predictions only.", analysis.conditions[condition].name);
   return out;
 }
 
@@ -155,12 +163,14 @@ NamedFigure lastFiveFigure(const Analysis& analysis, std::size_t condition) {
     }
     panel.series.push_back(std::move(mean));
   });
+  const char* const moved = "the T whose movement lasts as long as all subjects' trials do on average";
+  const std::string grey = analysis.options.predictFor == PredictionDuration::Moved ? moved : "the task's T";
   out.caption = fmt::format(
-      "{}, subject {}, as in Figs. 9 and 10: the last {} successful trials (thin), criterion (1) for {} (thick grey){} and the "
-      "average of all {} successful trials (thick black), time-scaled to their average.",
+      "{}, subject {}, as in Figs. 9 and 10: the last {} successful trials (thin),{}{} and the average of all {} successful trials (thick "
+      "black), time-scaled to their average.",
       analysis.conditions[condition].name, subject, last.size(),
-      analysis.options.predictFor == PredictionDuration::Moved ? "the T whose movement lasts as long as the trials did" : "the task's T",
-      r.moved ? " and for the T whose movement lasts as long as the trials did (dashed blue)" : "", used.size());
+      hasPrediction(r, Criterion::MinHandJerk) ? fmt::format(" criterion (1) for {} (thick grey)", grey) : "",
+      r.moved ? fmt::format(" and for {} (dashed blue)", moved) : "", used.size());
   return out;
 }
 

@@ -11,19 +11,36 @@ namespace {
 
 constexpr std::size_t kFewPeople = 2;  // with more, bars of each would cover one another
 
-/// The share of a typical person in each group of trials, where two or more made the same ones.
+/// The share of a typical person in each group of trials that two or more made. A person who missed an attempt has groups of other trials
+/// than the rest, so groups meet by session and place in it.
 figure::Series typicalCourse(const Analysis& analysis, std::size_t condition) {
-  std::map<std::pair<int, int>, std::vector<SuccessCell>> groups;
-  for (const LearningPoint& p : analysis.learning)
-    if (p.condition == condition) groups[{p.firstTrial, p.lastTrial}].push_back({p.subject, 0, condition, p.successes, p.trials, {}});
+  struct Group {
+    std::vector<SuccessCell> cells;
+    std::vector<double> middles;
+  };
+  std::map<std::pair<int, int>, Group> groups;
+  const LearningPoint* before = nullptr;
+  int session = 0, place = 0;
+  for (const LearningPoint& p : analysis.learning) {
+    if (p.condition != condition) continue;
+    const bool samePerson = before != nullptr && before->subject == p.subject, sameSession = samePerson && before->session == p.session;
+    session = samePerson ? session + (sameSession ? 0 : 1) : 0;
+    place = sameSession ? place + 1 : 0;
+    before = &p;
+    Group& group = groups[{session, place}];
+    group.cells.push_back({p.subject, 0, condition, p.successes, p.trials, {}});
+    group.middles.push_back(0.5 * (p.firstTrial + p.lastTrial));
+  }
   figure::Series s{.label = "a typical subject", .width = figure::kThick, .marker = figure::MarkerShape::Circle};
-  for (const auto& [trials, cells] : groups) {
-    const auto typical = typicalShare(cells, condition);
+  const auto add = [&](double x, double share, const Bounds& interval) {
+    s.x.push_back(x), s.y.push_back(100 * share);
+    s.errorLow.push_back(100 * interval.low), s.errorHigh.push_back(100 * interval.high);
+  };
+  for (const auto& [where, group] : groups) {
+    const auto typical = typicalShare(group.cells, condition);
     if (!typical) continue;
-    s.x.push_back(0.5 * (trials.first + trials.second));
-    s.y.push_back(100 * typical->mean);
-    s.errorLow.push_back(100 * typical->interval.low);
-    s.errorHigh.push_back(100 * typical->interval.high);
+    if (where.second == 0 && !s.x.empty()) add(kNotMeasured, kNotMeasured, {kNotMeasured, kNotMeasured});
+    add(averageOf(group.middles), typical->mean, typical->interval);
   }
   return s;
 }

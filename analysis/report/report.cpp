@@ -194,7 +194,7 @@ void addFits(Html& html, const Analysis& analysis, std::size_t condition) {
   const ConditionResult& r = analysis.results[condition];
   if (r.handEpsilon.empty()) return;
   html.table(
-      {"Criterion", "paper’s ε (m/s)", "95 % over subjects", "object’s ε (m/s)", "fitted ε (m/s)", "fitted T (s)", "R²", "hand mass (kg)"});
+      {"Criterion", "paper’s ε (m/s)", "mean over subjects", "object’s ε (m/s)", "fitted ε (m/s)", "fitted T (s)", "R²", "hand mass (kg)"});
   const auto row = [&](const std::string& name, const EpsilonPlace* hand, const EpsilonPlace* object, std::optional<std::size_t> k) {
     double epsilon = 0, duration = 0, r2 = 0, people = 0;
     std::vector<double> masses;
@@ -206,11 +206,12 @@ void addFits(Html& html, const Analysis& analysis, std::size_t condition) {
       if (fit.mass) masses.push_back(fit.mass->mass), atEdge += fit.mass->atEdge;
     }
     const auto mean = [&](double sum, int digits) { return people > 0 ? fmt::format("{:.{}f}", sum / people, digits) : "–"; };
-    html.row({escaped(name), hand ? fmt::format("{:.4f}", hand->epsilon) : "–",
-              hand && hand->interval ? real(fmt::format("{:.4f} … {:.4f}", hand->interval->low, hand->interval->high)) : "–",
-              object ? fmt::format("{:.4f}", object->epsilon) : "–", mean(epsilon, 4), mean(duration, 3), mean(r2, 4),
-              (masses.empty() ? "–" : shortNumber(computeMeanSd(masses).mean)) +
-                  (atEdge > 0 ? fmt::format(", {} at the edge of the range", plural(atEdge, "subject")) : "")});
+    html.row(
+        {escaped(name), hand ? fmt::format("{:.4f}", hand->epsilon) : "–",
+         hand && hand->interval ? real(fmt::format("{:.4f} [{:.4f}, {:.4f}]", hand->mean, hand->interval->low, hand->interval->high)) : "–",
+         object ? fmt::format("{:.4f}", object->epsilon) : "–", mean(epsilon, 4), mean(duration, 3), mean(r2, 4),
+         (masses.empty() ? "–" : shortNumber(computeMeanSd(masses).mean)) +
+             (atEdge > 0 ? fmt::format(", {} at the edge of the range", plural(atEdge, "subject")) : "")});
   };
   for (const EpsilonPlace& place : r.handEpsilon) {
     const predict::Criterion criterion = r.signals[place.criterion].criterion;
@@ -221,7 +222,8 @@ void addFits(Html& html, const Analysis& analysis, std::size_t condition) {
   if (const std::size_t n = r.candidates.candidates.size(); n > 0) row("reference", nullptr, nullptr, n - 1);
   html.endTable();
   html.paragraph(
-      "In the order of the paper's ε, which describes but decides nothing. Fitted values are means over subjects with enough trials; every "
+      "In the order of the paper's ε, over all samples of the used trials, which describes but decides nothing. Beside it: the mean of each "
+      "subject's own ε with its 95 % interval over subjects. Fitted values are means over subjects with enough trials; every "
       "subject's are in fits.csv.",
       "quiet");
 }

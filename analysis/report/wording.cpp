@@ -43,7 +43,7 @@ const std::string kTooNear = fmt::format("their squared errors differ by less th
 
 std::string whoMoved(const Conclusion& c) {
   return c.overSubjects ? fmt::format("The movements of these {} ({})", plural(c.subjects, "subject"), plural(c.trials, "trial"))
-                        : fmt::format("This person's movements in these {}", plural(c.trials, "trial"));
+                        : fmt::format("The movements of subject {} ({})", c.subject, plural(c.trials, "trial"));
 }
 
 }  // namespace
@@ -82,7 +82,7 @@ std::string fitText(const Conclusion& c, const Names& names) {
     text += fmt::format("{} % of what it leaves is the same in every trial or grows with the duration ({}). ",
                         shortNumber(100 * std::max(0.0, c.systematic.share)), pText(c.systematic.p()));
   constexpr double kMostShown = 2;  // farther beyond the other, the two hardly differ, and the share says nothing
-  if (c.mixedWith && std::abs(c.mixture.mean) <= kMostShown) {
+  if (c.mixedWith && c.mixture.mean > 0 && c.mixture.mean <= kMostShown) {
     const Bounds interval = intervalOf(c.mixture);
     const std::string within = intervalText({100 * interval.low, 100 * interval.high});
     text += fmt::format("The movements go {} %{}{} of the way towards {} ({}). ", shortNumber(100 * c.mixture.mean),
@@ -142,8 +142,11 @@ std::string describeOutcome(const Conclusion& c, const Names& names) {
 }  // namespace
 
 std::string describeConclusion(const Conclusion& c, const Names& names) {
-  const std::string outcome = describeOutcome(c, names);
+  std::string outcome = describeOutcome(c, names);
   if (!c.best) return outcome;
+  if (c.leftOut > 0)
+    outcome += fmt::format(" {} with fewer than {} successful trials {} left out.", plural(c.leftOut, "subject"), kFewestTrials,
+                           c.leftOut == 1 ? "is" : "are");
   std::vector<std::string> compared;
   for (const auto& criteria : names)
     if (criteria.empty()) compared.push_back(describeCandidate(criteria));
@@ -161,7 +164,8 @@ std::string describeEvidence(const Conclusion& c, const Names& names) {
   if (const Bounds interval = intervalOf(c.against[*c.rival]); interval.finite())
     text += fmt::format(" The squared errors of that candidate are {:.0f} % larger {}.", 100 * std::expm1(c.against[*c.rival].mean),
                         intervalText({100 * std::expm1(interval.low), 100 * std::expm1(interval.high)}));
-  if (!c.told(*c.rival)) text += fmt::format(" Bayes factor for a difference: {}.", shortNumber(computeBayesFactor(c.against[*c.rival])));
+  if (const double factor = computeBayesFactor(c.against[*c.rival]); !c.told(*c.rival) && std::isfinite(factor))
+    text += fmt::format(" Bayes factor for a difference: {}.", shortNumber(factor));
   if (c.overSubjects)
     text += fmt::format(" It is the closest for {} of {} ({}).", c.closest[*c.best], plural(c.subjects, "subject"),
                         shareText(c.closest[*c.best], c.subjects));
@@ -374,8 +378,8 @@ std::string describeCounts(const ConditionResult& r) {
   std::string text = fmt::format("{} of {} succeeded", r.counts.success, plural(attempts, "trial"));
   if (attempts > 0) text += fmt::format(" ({:.0f} %)", 100.0 * static_cast<double>(r.counts.success) / static_cast<double>(attempts));
   if (r.success)
-    text += fmt::format("; a typical one of the {} {:.0f} % {}", plural(r.success->people, "subject"), 100 * r.success->mean,
-                        intervalText({100 * r.success->interval.low, 100 * r.success->interval.high}));
+    text += fmt::format("; a typical one of the {} {:.0f} % {} (mean of their empirical logits)", plural(r.success->people, "subject"),
+                        100 * r.success->mean, intervalText({100 * r.success->interval.low, 100 * r.success->interval.high}));
   std::vector<std::string> rest;
   if (r.counts.aborted > 0) rest.push_back(fmt::format("{} aborted", r.counts.aborted));
   if (const std::size_t n = r.counts.interrupted - r.counts.invalidTiming; n > 0) rest.push_back(fmt::format("{} interrupted", n));

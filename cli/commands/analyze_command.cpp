@@ -79,6 +79,7 @@ Json jsonOf(const analysis::EpsilonTable& table, const analysis::ConditionResult
     const auto name = predict::nameOf(result.signals[p.criterion].criterion);
     places.push_back({{"criterion", name},
                       {"epsilon_m_per_s", p.epsilon},
+                      {"epsilon_mean_m_per_s", p.mean},
                       {"epsilon_interval_m_per_s", p.interval ? jsonOf(*p.interval) : Json(nullptr)},
                       {"difference_m_per_s", p.difference},
                       {"difference_interval_m_per_s", p.differenceInterval ? jsonOf(*p.differenceInterval) : Json(nullptr)},

@@ -200,6 +200,7 @@ TEST(BayesFactor, IsThatOfRouder) {
   EXPECT_NEAR(factor(4, 12), 21.5739584, 2e-5);
   EXPECT_NEAR(factor(1, 5), 0.576313649, 1e-6);
   EXPECT_EQ(computeBayesFactor(TTest{}), 1) << "nothing to judge by";
+  EXPECT_EQ(computeBayesFactor(computeTTest(std::vector{0.5, 0.5, 0.5})), INFINITY) << "as sure as p = 0 of the same values";
 }
 
 TEST(MeanInterval, OfATestIsThatOfItsValues) {

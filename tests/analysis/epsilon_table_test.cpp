@@ -43,7 +43,16 @@ TEST(EpsilonTable, SaysWhichAreApartFromTheFirst) {
   EXPECT_TRUE(table[2].apart);
   EXPECT_FALSE(table[1].apart);
   EXPECT_TRUE(table[0].interval);
+  EXPECT_DOUBLE_EQ(table[2].mean, 5.165);
+  EXPECT_GT(table[2].epsilon, table[2].mean) << "one counts squares over all, the other each person's own";
   EXPECT_FALSE(table[0].differenceInterval) << "not from itself";
+}
+
+TEST(EpsilonTable, HasAnIntervalAboutTheMeanOfPeopleAndNoneBelowZero) {
+  const EpsilonTable table = makeEpsilonTable(std::vector{trialOf("a", {1, 1}), trialOf("b", {3, 3})}, 1, false);
+  EXPECT_DOUBLE_EQ(table[0].mean, 2);
+  EXPECT_EQ(table[0].interval->low, 0);
+  EXPECT_NEAR(table[0].interval->high, 2 + 12.7062, 1e-3) << "t of one degree of freedom";
 }
 
 }  // namespace

@@ -88,5 +88,27 @@ TEST(Figures, AreThoseThatHaveSomethingToShow) {
   EXPECT_EQ(namesOf(analysis, {}).size(), 7u);
 }
 
+TEST(LearningFigure, TypicalSubjectGoesOnBehindAMissingAttempt) {
+  Analysis analysis = madeStudy();
+  analysis.subjects = {"A", "B", "C"};
+  analysis.learning = {{"A", "01", 0, 1, 10, 3, 10, {}}, {"A", "01", 0, 11, 19, 5, 9, {}},  {"A", "02", 0, 20, 29, 6, 10, {}},
+                       {"B", "01", 0, 1, 10, 4, 10, {}}, {"B", "01", 0, 11, 20, 6, 10, {}}, {"B", "02", 0, 21, 30, 8, 10, {}},
+                       {"C", "01", 0, 1, 10, 5, 10, {}}, {"C", "01", 0, 11, 20, 6, 10, {}}, {"C", "02", 0, 21, 30, 9, 10, {}}};
+  const figure::Series typical = learningFigure(analysis).figure.panels.at(0).series.back();
+  ASSERT_EQ(typical.x.size(), 4u);
+  EXPECT_DOUBLE_EQ(typical.x[1], (15 + 15.5 + 15.5) / 3);
+  EXPECT_TRUE(std::isnan(typical.x[2])) << "a gap parts the sessions";
+  EXPECT_DOUBLE_EQ(typical.x[3], (24.5 + 25.5 + 25.5) / 3);
+  EXPECT_GT(typical.y[3], 60);
+}
+
+TEST(PaperFigure, CaptionNamesOnlyWhatIsDrawn) {
+  Analysis analysis = madeStudy();
+  analysis.results[0].signals.resize(1);  // criterion (3) alone
+  const std::string caption = paperFigure(analysis, 0).caption;
+  EXPECT_NE(caption.find("Thick: criterion (3) dashed, for"), std::string::npos) << caption;
+  EXPECT_EQ(caption.find("(1)"), std::string::npos) << caption;
+}
+
 }  // namespace
 }  // namespace reachlab::analysis

@@ -67,8 +67,9 @@ inline Analysis madeStudy() {
   }
   r.signals.push_back(madeSignal(predict::Criterion::MinCrackle, 2, 0.5));
   r.signals.push_back(madeSignal(predict::Criterion::MinHandJerk, 2, 0.25));
-  r.handEpsilon = {{1, 0.021, Bounds{0.011, 0.031}, 0, {}, false}, {0, 0.041, Bounds{0.015, 0.055}, 0.02, Bounds{0.004, 0.036}, true}};
-  r.objectEpsilon = {{0, 0.07, {}, 0, {}, false}, {1, 0.09, Bounds{0.05, 0.13}, 0.02, Bounds{-0.01, 0.05}, false}};
+  r.handEpsilon = {{1, 0.021, 0.022, Bounds{0.011, 0.031}, 0, {}, false},
+                   {0, 0.041, 0.042, Bounds{0.015, 0.055}, 0.02, Bounds{0.004, 0.036}, true}};
+  r.objectEpsilon = {{0, 0.07, 0.07, {}, 0, {}, false}, {1, 0.09, 0.091, Bounds{0.05, 0.13}, 0.02, Bounds{-0.01, 0.05}, false}};
   const auto candidate = [](std::vector<predict::Criterion> criteria, std::vector<double> masses) {
     Candidate made;
     made.criteria = std::move(criteria), made.masses = std::move(masses);

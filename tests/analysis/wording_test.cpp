@@ -52,8 +52,11 @@ TEST(Wording, OfAConclusionSaysWhomItIsAbout) {
       "The movements of these 6 subjects (123 trials) follow (4) min-hand-force (the same prediction as (6) "
       "min-com-acceleration) most closely among the candidates: it is nearer than every other, and than a minimum jerk that ignores the object.");
   c.overSubjects = false;
+  c.subject = "07";
   c.trials = 1;
-  expectIn(told(c), {"This person's movements in these 1 trial follow", "; nothing follows about other people from one subject."});
+  c.leftOut = 2;
+  expectIn(told(c), {"The movements of subject 07 (1 trial) follow", "; nothing follows about other people from one subject.",
+                     "2 subjects with fewer than 10 successful trials are left out."});
 }
 
 TEST(Wording, OfNoConclusionSaysWhy) {
