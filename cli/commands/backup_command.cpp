@@ -16,6 +16,8 @@ struct BackupOptions {
 
 void backUp(const BackupOptions& o) {
   const session::BackupReport report = session::backUp(o.dataset, o.backup);
+  if (report.runs == 0 && report.pending == 0)
+    throw FaultError(fileFault(o.dataset, "has no recorded run", "the data folder of `reach run`"));
   fmt::print("{}: all {} finished runs are there; {} files, {} bytes copied now and read back equal{}\n", o.backup, report.runs,
              report.copiedFiles, report.copiedBytes, report.pending > 0 ? fmt::format("; {} still being recorded", report.pending) : "");
   if (!o.check) return;

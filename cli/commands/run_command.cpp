@@ -37,7 +37,7 @@ void printNotice(const session::SessionNotice& notice, const std::string& device
                "warning: this session has blocks of this plan already, and they are recorded again; --resume continues after them\n");
   if (notice.nothingToResume)
     fmt::print(stderr, "warning: nothing that this session asks for is recorded yet, so there is nothing to resume. It begins\n");
-  for (const std::string& sentence : notice.unreadable) fmt::print(stderr, "warning: {}\n", sentence);
+  for (const std::string& sentence : notice.leftOut) fmt::print(stderr, "warning: {}\n", sentence);
 }
 
 void printRun(const session::RecordedRun& run) {

@@ -133,7 +133,7 @@ void SessionController::planRuns(const session::SessionRequest& request) {
     onOpening_ << "This session has blocks of this plan already, and they are recorded again. Trial, Resume continues after them.";
   if (recorded_->notice().nothingToResume)
     onOpening_ << "Nothing that this session asks for is recorded yet, so there was nothing to resume. It begins.";
-  for (const std::string& sentence : recorded_->notice().unreadable) onOpening_ << QString::fromStdString(sentence);
+  for (const std::string& sentence : recorded_->notice().leftOut) onOpening_ << QString::fromStdString(sentence);
 }
 
 void SessionController::openRun(const session::SessionRequest& request) {

@@ -10,6 +10,7 @@
 #include "base/ticks.h"
 #include "constraints/constraint.h"
 #include "sim/experiment/experiment.h"
+#include "sim/record/export/bids.h"
 #include "sim/record/log/append_file.h"
 #include "sim/record/log/run_writer.h"
 #include "sim/session/recorded_blocks.h"
@@ -294,7 +295,7 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
 
   SessionToRun session;
   if (request.resume) refuseOpenRuns(request.place);
-  const std::vector<RecordedBlock> recorded = readRecordedBlocks(request.place, session.notice.unreadable, request.resume);
+  const std::vector<RecordedBlock> recorded = readRecordedBlocks(request.place, session.notice.leftOut, request.resume);
   const std::vector<OrderedBlock> blocks = orderBlocks(request, programme, plan, day, order, recorded);
   const RecordedBlock* resumed = request.resume ? findResumed(request, plan, blocks, recorded) : nullptr;
   chooseSeed(request, resumed, session);
@@ -322,6 +323,8 @@ SessionToRun planSession(const SessionRequest& request, const Programme& program
   session.notice.unfinished = !request.resume && anyRecorded(false);
   session.notice.again = !request.resume && programme.isPlan() && anyRecorded(true);
   session.notice.nothingToResume = request.resume && resumed == nullptr;
+  for (std::string& sentence : record::keptOfParticipant(request.place.data, request.place.subject, request.participant))
+    session.notice.leftOut.push_back(std::move(sentence));
   return session;
 }
 

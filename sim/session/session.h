@@ -32,12 +32,12 @@ struct SessionRequest {
 
 /// Warnings before a session begins. Each front end words them itself.
 struct SessionNotice {
-  bool seedDrawn = false;               // drawn because the request has no seed
-  std::string deviceBefore;             // of the session that this request resumes, where it asks for another device. Empty: the same
-  bool unfinished = false;              // an earlier run of this session broke off, and this request does not resume it
-  bool again = false;                   // blocks of this plan are recorded already, and this request does not resume it
-  bool nothingToResume = false;         // this request resumes a session of which nothing is recorded
-  std::vector<std::string> unreadable;  // logs that are left out, a sentence each
+  bool seedDrawn = false;            // drawn because the request has no seed
+  std::string deviceBefore;          // of the session that this request resumes, where it asks for another device. Empty: the same
+  bool unfinished = false;           // an earlier run of this session broke off, and this request does not resume it
+  bool again = false;                // blocks of this plan are recorded already, and this request does not resume it
+  bool nothingToResume = false;      // this request resumes a session of which nothing is recorded
+  std::vector<std::string> leftOut;  // logs that are not read, and values of the participant that the table has otherwise
 };
 
 /// One run to be recorded. Its configuration lacks only the values that the scene, the device and the clock add.

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "base/csv_table.h"
 #include "base/table_text.h"
 #include "sim/experiment/describe.h"
 #include "sim/experiment/experiment.h"
@@ -128,6 +129,9 @@ TEST_F(Tables, TheDatasetsTablesTellPeopleSessionsAndWhenTheyWereRecorded) {
   EXPECT_EQ(readWholeFile(out + "/sub-01/ses-01/sub-01_ses-01_scans.tsv"),
             "filename\tacq_time\nmotion/sub-01_ses-01_task-made_tracksys-haptic_run-01_motion.tsv\t2026-11-20T10:00:00.000\n"
             "motion/sub-01_ses-01_task-made_tracksys-haptic_run-02_motion.tsv\t2026-11-20T11:00:00.000\n");
+  c.table.hands = 2;
+  writeBidsTables({c}, out);
+  EXPECT_NE(readWholeFile(out + "/sub-07/ses-03/sub-07_ses-03_scans.tsv").find("tracksys-haptic2_run-01_motion.tsv"), std::string::npos);
   EXPECT_EQ(writeBidsTables({a}, out).size(), 3u) << "what describes the dataset is written once";
 }
 
@@ -261,6 +265,18 @@ TEST_F(Tables, EveryColumnIsExplainedBesideItsTable) {
   EXPECT_EQ(trials.at("peak_hand_speed_m_per_s").at("Units"), "m/s");
   EXPECT_FALSE(trials.at("outcome").contains("Units"));
   EXPECT_EQ(trials.at("subject").at("Format"), "string");
+}
+
+TEST_F(Tables, TrialsOfOtherRunsAreNotWrittenOver) {
+  const std::string out = folder_ / "csv";
+  configuration_.run = 2;
+  writeMadeRun(folder_ / "second_log.reach", 3, configuration_);
+  configuration_.run = 1;
+  const std::vector<RunLog> both{recorded(), RunLog::open(folder_ / "second_log.reach")};
+  writeTidyCsv(both, out);
+  EXPECT_TRUE(holds(refusalOf([&] { writeTidyCsv({both[0]}, out); }), "has trials of sub-01, ses-01, run 2, which is not exported now"));
+  writeTidyCsv(both, out);
+  EXPECT_EQ(readCsvTable(out + "/trials.csv").rows.size(), 6u);
 }
 
 TEST_F(Tables, ColumnNamesAndChannelsAgreeOnTheUnit) {

@@ -457,10 +457,20 @@ TEST_F(PlannedSession, LeavesALogThatCannotBeReadOutAndSaysSo) {
   write("data/sourcedata/sub-01_ses-01_task-chainslow_run-02_log.reach", "no log");
   r.resume = true;
   const SessionToRun session = planSession(r);
-  ASSERT_EQ(session.notice.unreadable.size(), 1u);
-  EXPECT_TRUE(holds(session.notice.unreadable[0], "run-02"));
+  ASSERT_EQ(session.notice.leftOut.size(), 1u);
+  EXPECT_TRUE(holds(session.notice.leftOut[0], "run-02"));
   EXPECT_EQ(session.blocks[0].configuration.run, 3);
   EXPECT_EQ(indicesOf(session.blocks[0]), (std::vector<int>{1, 2}));
+}
+
+TEST_F(PlannedSession, SaysWhichOfTheParticipantsValuesTheTableHasOtherwise) {
+  SessionRequest r = request("chain-slow");
+  r.participant = {31, "F", "R"};
+  EXPECT_TRUE(planSession(r).notice.leftOut.empty()) << "there is no table yet";
+  write("data/participants.tsv", "participant_id\tage\tsex\thandedness\nsub-01\t30\tF\tn/a\nsub-02\t50\tM\tL\n");
+  const std::vector<std::string> told = planSession(r).notice.leftOut;
+  ASSERT_EQ(told.size(), 1u) << "the sex is the same, and the handedness was unknown";
+  EXPECT_TRUE(holds(told[0], "has the age 30 for sub-01 and keeps it: 31 is"));
 }
 
 TEST_F(PlannedSession, TellsTheFaultsOfAPlansExperimentOnce) {

@@ -16,6 +16,9 @@ std::vector<std::string> writeBidsRun(const RunLog& run, const std::string& fold
 /// README that exists is kept, since a person may have edited it. So are rows and columns that exist.
 std::vector<std::string> writeBidsTables(const std::vector<RunConfiguration>& runs, const std::string& folder);
 
+/// A sentence for each value of participants.tsv that differs from the participant's, and that writeBidsTables keeps.
+std::vector<std::string> keptOfParticipant(const std::string& folder, const std::string& subject, const Participant& participant);
+
 /// Both, for these runs.
 std::vector<std::string> writeBids(const std::vector<RunLog>& runs, const std::string& folder);
 
@@ -38,6 +41,8 @@ std::string experimentNameIn(const std::string& description);
 void motionTsv(const RunLog& run, const TakePiece& take, int hand = 1);
 std::string motionJson(const RunLog& run, int hand = 1);
 std::string channelsTsv(const RunConfiguration& configuration, int hand = 1);
+/// A hand's motion files in the folder of their session, without what follows "run-01".
+std::string motionPath(const RunConfiguration& configuration, int hand);
 /// The columns of a hand's tracking system in the run's table.
 std::vector<std::size_t> columnsOf(const ChannelTable& table, int hand);
 std::string channelsJson();

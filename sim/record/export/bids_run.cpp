@@ -205,6 +205,10 @@ std::string eventsJson(const RunLog& run) {
   return j.dump(2) + "\n";
 }
 
+std::string motionPath(const RunConfiguration& configuration, int hand) {
+  return "motion/" + runName(configuration, fmt::format("tracksys-{}_", systemName(hand)));
+}
+
 std::vector<std::string> writeBidsRun(const RunLog& run, const std::string& folder) {
   const RunConfiguration& c = run.configuration();
   const std::string session = fmt::format("{}/sub-{}/ses-{}", folder, c.subject, c.session);
@@ -218,7 +222,7 @@ std::vector<std::string> writeBidsRun(const RunLog& run, const std::string& fold
   const auto write = [&](const std::string& path, const std::string& text) {
     writePieces(path, [&](const TakePiece& take) { take(text); });
   };
-  const auto baseOf = [&](int hand) { return session + "/motion/" + runName(c, fmt::format("tracksys-{}_", systemName(hand))); };
+  const auto baseOf = [&](int hand) { return session + "/" + motionPath(c, hand); };
   for (int hand = 1; hand <= c.table.hands; ++hand) {
     const std::string system = baseOf(hand);
     writePieces(system + "_motion.tsv", [&](const TakePiece& take) { motionTsv(run, take, hand); });

@@ -102,7 +102,27 @@ std::string acquisitionTime(const RunConfiguration& c) {
   return zone ? c.startedUtc.substr(0, c.startedUtc.size() - 1) : c.startedUtc;
 }
 
+std::map<std::string, std::string> cellsOf(const Participant& p) {
+  return {{"age", p.age ? fmt::format("{}", *p.age) : ""}, {"sex", p.sex}, {"handedness", p.handedness}};
+}
+
 }  // namespace
+
+std::vector<std::string> keptOfParticipant(const std::string& folder, const std::string& subject, const Participant& participant) {
+  const std::string path = folder + "/participants.tsv";
+  std::vector<std::string> kept;
+  std::error_code error;
+  if (!fs::exists(path, error)) return kept;
+  const TsvTable table = parseTsv(readWholeFile(path));
+  const std::map<std::string, std::string> now = cellsOf(participant);
+  for (const auto& row : table.rows)
+    for (std::size_t i = 1; i < table.columns.size() && row[0] == "sub-" + subject; ++i)
+      if (const auto cell = now.find(table.columns[i]);
+          cell != now.end() && !cell->second.empty() && row[i] != "n/a" && row[i] != cell->second)
+        kept.push_back(fmt::format("{} has the {} {} for sub-{} and keeps it: {} is recorded in the log alone", path, cell->first, row[i],
+                                   subject, cell->second));
+  return kept;
+}
 
 std::vector<std::string> writeBidsTables(const std::vector<RunConfiguration>& runs, const std::string& folder) {
   std::vector<std::string> written;
@@ -122,15 +142,14 @@ std::vector<std::string> writeBidsTables(const std::vector<RunConfiguration>& ru
   std::map<std::string, KeptTable> sessions, scans;
   for (const RunConfiguration& c : runs) {
     const std::string subject = "sub-" + c.subject, session = "ses-" + c.session;
-    participants.set(subject, {{"age", c.participant.age ? fmt::format("{}", *c.participant.age) : ""},
-                               {"sex", c.participant.sex},
-                               {"handedness", c.participant.handedness}});
+    participants.set(subject, cellsOf(c.participant));
     const std::string sessionsFile = fmt::format("{}/{}/{}_sessions.tsv", folder, subject, subject);
     sessions.try_emplace(sessionsFile, sessionsFile, std::vector<std::string>{"session_id", "acq_time"})
         .first->second.set(session, {{"acq_time", acquisitionTime(c)}});
     const std::string scansFile = fmt::format("{}/{}/{}/{}_{}_scans.tsv", folder, subject, session, subject, session);
-    scans.try_emplace(scansFile, scansFile, std::vector<std::string>{"filename", "acq_time"})
-        .first->second.set("motion/" + runName(c, "tracksys-haptic_") + "_motion.tsv", {{"acq_time", acquisitionTime(c)}});
+    KeptTable& ofSession = scans.try_emplace(scansFile, scansFile, std::vector<std::string>{"filename", "acq_time"}).first->second;
+    for (int hand = 1; hand <= c.table.hands; ++hand)
+      ofSession.set(motionPath(c, hand) + "_motion.tsv", {{"acq_time", acquisitionTime(c)}});
   }
   written.push_back(participants.write());
   for (auto& [path, table] : sessions) written.push_back(table.write());

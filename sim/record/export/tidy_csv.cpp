@@ -2,9 +2,12 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <limits>
 #include <numeric>
+#include <set>
 
+#include "base/csv_table.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/export/column_dictionary.h"
 #include "sim/record/export/run_tables.h"
@@ -70,7 +73,33 @@ void samplesCsv(const RunLog& run, const TakePiece& take) {
   writeRows(run, all, std::move(table), take);
 }
 
+namespace {
+
+/// trials.csv is one table of all exported runs, written anew. Rows of another run would be lost.
+void requireNoOtherRun(const std::vector<RunLog>& runs, const std::string& file) {
+  std::error_code error;
+  if (!std::filesystem::exists(file, error)) return;
+  const auto nameOf = [](const auto& subject, const auto& session, const auto& run) {
+    return fmt::format("sub-{}, ses-{}, run {}", subject, session, run);
+  };
+  std::set<std::string> exported;
+  for (const RunLog& run : runs) {
+    const RunConfiguration& c = run.configuration();
+    exported.insert(nameOf(c.subject, c.session, c.run));
+  }
+  const CsvTable old = readCsvTable(file);
+  const auto subject = old.find("subject"), session = old.find("session"), run = old.find("run");
+  if (!subject || !session || !run) return;
+  for (const CsvTable::Row& row : old.rows)
+    if (const std::string name = nameOf(row.cells[*subject], row.cells[*session], row.cells[*run]); !exported.contains(name))
+      throw FaultError(fileFault(file, fmt::format("has trials of {}, which is not exported now", name),
+                                 "an export of all runs together, or another folder. Delete the table to make it anew"));
+}
+
+}  // namespace
+
 std::vector<std::string> writeTidyCsv(const std::vector<RunLog>& runs, const std::string& folder) {
+  requireNoOtherRun(runs, folder + "/trials.csv");
   std::vector<std::string> written;
   // The table, and beside it its dictionary, which asks for the table's first line.
   const auto write = [&](const std::string& name, const auto& writer, const auto& dictionaryOf) {
