@@ -41,7 +41,7 @@ std::string experimentNameIn(const std::string& description);
 void motionTsv(const RunLog& run, const TakePiece& take, int hand = 1);
 std::string motionJson(const RunLog& run, int hand = 1);
 std::string channelsTsv(const RunConfiguration& configuration, int hand = 1);
-/// A hand's motion files in the folder of their session, without what follows "run-01".
+/// The path of a hand's motion files in the folder of their session, up to the run's number.
 std::string motionPath(const RunConfiguration& configuration, int hand);
 /// The columns of a hand's tracking system in the run's table.
 std::vector<std::size_t> columnsOf(const ChannelTable& table, int hand);
