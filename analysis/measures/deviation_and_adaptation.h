@@ -7,7 +7,7 @@
 
 namespace reachlab::analysis {
 
-/// The sum of an experiment's viscous fields [N s/m]. No value where it has none.
+/// The sum of an experiment's viscous fields [N s/m]. No value for an experiment without such a field.
 std::optional<experiment::SquareMatrix<3>> viscousFieldOf(const experiment::Experiment& experiment);
 /// The forces and the cursor of a trial's scene, as the measures need them. `trained`: the field that a channel trial is to measure. It is
 /// that of the block, or of the subject's last block that had a field.

@@ -37,12 +37,12 @@ DeviceDriver partnerDriver() {
             spec.stiffness = options.number("arm-stiffness", spec.stiffness, 0, 1e5);
             spec.damping = options.number("arm-damping", spec.damping, 0, 1e4);
             spec.mass = options.count("mass", 0, 0, experiment::kMaxMasses);
-            if (spec.role == subjects::PartnerRole::Leader)
-              return subjects::makePartnerHand(r.experiment, spec,
-                                               subjects::makeSimulatedHand(r.experiment, subjects::parseSubject(options.rest()), r.seed));
-            spec.reaction = options.number("reaction", spec.reaction, 0.001, 5);
+            const bool leads = spec.role == subjects::PartnerRole::Leader;
+            const subjects::SubjectSpec leader = leads ? subjects::takeSubject(options) : subjects::SubjectSpec{};
+            if (!leads) spec.reaction = options.number("reaction", spec.reaction, 0.001, 5);
             options.done();
-            return subjects::makePartnerHand(r.experiment, spec, nullptr);
+            return subjects::makePartnerHand(r.experiment, spec,
+                                             leads ? subjects::makeSimulatedHand(r.experiment, leader, r.seed) : nullptr);
           },
           true};
 }

@@ -25,37 +25,40 @@ std::size_t pointAsked(const C3dFile& c3d, const std::string& file, const std::s
          fmt::format("point= with one of {}", fmt::join(names, ", ")));
 }
 
-// The reach in a trial: from the event `onset` to the event `end`, as events.tsv of the same trial has it; the whole file where they are not told.
+// The reach in a trial: from the event `onset` to the event `end`, as events.tsv of the same trial has it; the whole file without an `end`.
+// Our own files always have an `end`, and without an `onset` the hand stayed at the start.
 struct Span {
   double begin = -std::numeric_limits<double>::infinity(), end = std::numeric_limits<double>::infinity();  // [s] since the first frame
 };
 
-Span reachIn(const C3dFile& c3d) {
+std::optional<Span> reachIn(const C3dFile& c3d) {
   const auto timeOf = [&](const char* label) -> std::optional<double> {
     const auto at = std::find_if(c3d.events.begin(), c3d.events.end(), [&](const C3dEvent& event) { return event.label == label; });
     if (at == c3d.events.end()) return std::nullopt;
     return at->time;
   };
   const auto onset = timeOf("onset"), end = timeOf("end");
-  if (!onset || !end || !(*end > *onset)) return {};
+  if (end && !onset) return std::nullopt;
+  if (!end || !(*end > *onset)) return Span{};
   const double rounding = 1e-4;  // [s] times are single precision
-  return {*onset - rounding, *end + rounding};
+  return Span{*onset - rounding, *end + rounding};
 }
 
 }  // namespace
 
-RecordedReach readC3dReach(const std::string& file, const ReachColumns& columns) {
+std::optional<RecordedReach> readC3dReach(const std::string& file, const ReachColumns& columns) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw ResourceError(file + ": cannot be opened");
   const C3dFile c3d = readC3d(readTextFile(file), file);
   const std::size_t point = pointAsked(c3d, file, columns.point);
   const double unit = metresOf(columns.unit.empty() ? c3d.pointUnit : columns.unit, {file});
-  const Span reach = reachIn(c3d);
+  const std::optional<Span> reach = reachIn(c3d);
+  if (!reach) return std::nullopt;
   SeenSamples samples(file);
   for (std::size_t frame = 0; frame < c3d.frames; ++frame) {
     const std::size_t at = frame * c3d.points.size() + point;
     const double time = static_cast<double>(frame) / c3d.rate;
-    if (time < reach.begin || time > reach.end || c3d.seen[at] == 0) continue;
+    if (time < reach->begin || time > reach->end || c3d.seen[at] == 0) continue;
     const auto metres = [&](std::size_t axis) { return unit * static_cast<double>(c3d.places[3 * at + axis]); };
     samples.add(time, {metres(0), metres(1), metres(2)});
   }

@@ -66,8 +66,10 @@ std::vector<RecordedReach> readReaches(const ReachSource& source) {
   for (const std::string& file : reachFiles(source.path)) {
     if (isBids(file)) {
       for (RecordedReach& reach : readBidsReaches(file, source.columns)) reaches.push_back(std::move(reach));
-    } else {
-      reaches.push_back(isC3d(file) ? readC3dReach(file, source.columns) : readReach(file, source.columns));
+    } else if (!isC3d(file)) {
+      reaches.push_back(readReach(file, source.columns));
+    } else if (std::optional<RecordedReach> reach = readC3dReach(file, source.columns)) {
+      reaches.push_back(*std::move(reach));
     }
   }
   if (reaches.empty())

@@ -33,7 +33,7 @@ RecordedReach readReach(const std::string& file, const ReachColumns& columns = {
 /// `…_events.tsv`, each event with a duration is a reach. Without events, the whole file is one reach. Throws as readReach does.
 std::vector<RecordedReach> readBidsReaches(const std::string& motionTsv, const ReachColumns& columns);
 
-/// Reads one point of a C3D file. Throws as readReach does.
-RecordedReach readC3dReach(const std::string& file, const ReachColumns& columns);
+/// Reads one point of a C3D file. Of our own trials in which the hand stayed (an event `end` and no `onset`) nullopt. Throws as readReach does.
+std::optional<RecordedReach> readC3dReach(const std::string& file, const ReachColumns& columns);
 
 }  // namespace reachlab::devices

@@ -104,17 +104,6 @@ std::string modelNames() {
 constexpr double kPractisedStiffness = 3000;  // [N/m]
 constexpr double kPractisedDamping = 80;      // [N s/m]
 
-// What is left is its hand's; an unknown word is told with all that is known here.
-subjects::SubjectSpec takeSubject(DeviceOptions& options) {
-  try {
-    return subjects::parseSubject(options.rest());
-  } catch (const FaultError& error) {
-    Fault fault = error.faults.front();
-    if (fault.what.ends_with("is not known")) fault.allowed = "arm-mass, arm-stiffness, arm-damping, delay-ms, quantised, " + fault.allowed;
-    throw FaultError(fault);
-  }
-}
-
 std::unique_ptr<haptics::HapticDevice> makeVirtual(const DeviceRequest& request) {
   DeviceOptions options(request.argument, request.words());
   const DeviceModel* model = findDeviceModel(options.plain());
@@ -128,8 +117,9 @@ std::unique_ptr<haptics::HapticDevice> makeVirtual(const DeviceRequest& request)
   chosen.hand.damping = options.number("arm-damping", kPractisedDamping, 0, 1e4);
   chosen.delayTicks = options.count("delay-ms", 0, 0, VirtualDevice::kMostDelay - 1);
   chosen.quantised = options.word("quantised", {"yes", "no"}) == "yes";
-  return std::make_unique<VirtualDevice>(*model, chosen,
-                                         subjects::makeSimulatedHand(request.experiment, takeSubject(options), request.seed));
+  const subjects::SubjectSpec subject = subjects::takeSubject(options);
+  options.done();
+  return std::make_unique<VirtualDevice>(*model, chosen, subjects::makeSimulatedHand(request.experiment, subject, request.seed));
 }
 
 std::vector<FoundDevice> findVirtual(const DeviceDriver& self) {

@@ -204,6 +204,7 @@ std::optional<haptics::ConductedTrial> RecordedRun::poll() {
 
 std::optional<haptics::ConductedTrial> RecordedRun::runTrial(const std::atomic<bool>& stop, const std::function<void()>& looked) {
   checkTiming(stop);
+  if (stop) return std::nullopt;  // else a trial that nobody saw would be recorded
   const std::optional<haptics::ConductedTrial> trial = conductor_->runTrial(stop, looked);
   if (trial) takeEnded(*trial);
   return trial;

@@ -36,7 +36,7 @@ bool conductRun(RecordedSession& session, const std::atomic<bool>& stop, const S
     if (run.trialsLeft() > 0) waitUntil([&](Pacing::Time now) { return session.pacing().takeNextTrial(now); }, stop);
     if (stop) return false;
   }
-  return true;
+  return !stop;
 }
 
 }  // namespace

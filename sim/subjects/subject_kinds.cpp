@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include "base/device_options.h"
 #include "base/fault.h"
 #include "sim/experiment/experiment.h"
 #include "sim/subjects/feedback_subject.h"
 #include "sim/subjects/hands_in_scenes.h"
 #include "sim/subjects/impedance_subject.h"
+#include "sim/subjects/subject_parameters.h"
 
 namespace reachlab::subjects {
 
@@ -34,11 +34,14 @@ MakeSubject prepareSubjects(const experiment::CompiledExperiment& experiment, co
   if (name != "simulated") throw FaultError(Fault{"subject", "is " + device, "a simulated subject"});
   requireStraightWay(experiment.experiment());
   const std::string options = name == device ? "" : device.substr(name.size() + 1);
-  const std::string kind = DeviceOptions(options, "device simulated").word("kind", {"plan", "impedance", "ofc"});
+  SubjectOptions given(options, {});
+  const std::string kind = given.word("kind", {"plan", "impedance", "ofc"});
   if (kind == "ofc") return prepareFeedbackSubjects(experiment, parseFeedbackSubject(options));
   if (kind == "impedance") return prepareImpedanceSubjects(experiment, parseImpedanceSubject(options));
   requireNothingPushes(experiment.experiment());
-  return prepareSubjects(experiment, parseSubject(options));
+  const SubjectSpec subject = takeSubject(given);
+  given.done();
+  return prepareSubjects(experiment, subject);
 }
 
 MakeSubject prepareSubjects(std::span<const experiment::CompiledExperiment> scenes, const std::string& device) {

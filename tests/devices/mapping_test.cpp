@@ -177,7 +177,8 @@ TEST(HandSettings, AreTakenBeforeTheDriversOwn) {
   EXPECT_EQ(plain.guards.compensation, Vec3{}) << "nothing is held up that nobody has weighed";
   EXPECT_EQ(plain.guards.wallRadius, haptics::DeviceInfo{}.guards.wallRadius);
   EXPECT_FALSE(plain.guards.passivityControl);
-  EXPECT_THROW(makeDevice("virtual:omni,colour=red,scale=2", experiment, 1), FaultError);
+  EXPECT_TRUE(holds(refusalOf([&] { makeDevice("virtual:omni,colour=red,scale=2", experiment, 1); }),
+                    "device virtual:omni,colour=red: colour is not known; allowed: arm-mass"));
 }
 
 std::string refusalOfSettings(const std::string& options) {

@@ -183,6 +183,8 @@ TEST_F(OthersFiles, AC3dReachIsCutByItsEvents) {
   const RecordedReach reach = readFrom(write("cut.c3d", c3dBytes(c3d))).front();
   EXPECT_EQ(reach.time.front(), 0.17);
   EXPECT_EQ(reach.time.back(), 0.43);
+  c3d.events = {{"go", 0.1}, {"end", 0.43}};
+  EXPECT_TRUE(holds(refusalToReplay(write("stayed.c3d", c3dBytes(c3d))), "has no trial in which the hand was to move and did"));
   c3d.events.pop_back();
   EXPECT_EQ(readFrom(write("whole.c3d", c3dBytes(c3d))).front().time.size(), 60u);
 }

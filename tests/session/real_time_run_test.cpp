@@ -169,10 +169,10 @@ TEST_F(InRealTime, WhoAbortsDoesNotWaitForTheCheckAndWhoStopsNeither) {
   while (!(ended = run.poll())) std::this_thread::sleep_for(std::chrono::milliseconds(1));
   EXPECT_EQ(ended->result.outcome, trial::Outcome::Aborted);
   const std::atomic<bool> stop{true};
-  EXPECT_EQ(run.runTrial(stop)->result.outcome, trial::Outcome::Interrupted);
+  EXPECT_FALSE(run.runTrial(stop)) << "nobody saw a trial";
   ASSERT_TRUE(run.putUpNext());
   run.finish();
-  EXPECT_EQ(logs().at(0).trials().size(), 2u) << "the third was never put up";
+  EXPECT_EQ(logs().at(0).trials().size(), 1u) << "the others were never put up";
 }
 
 }  // namespace

@@ -168,7 +168,7 @@ TEST(ImpedanceHand, CarriesItsPlanOutWhereItKnowsTheObject) {
   const experiment::CompiledExperiment experiment(experiment::readExperiment("chain-slow"));
   std::shared_ptr<void> learnt;
   const auto hand = prepareImpedanceSubjects(experiment, parseImpedanceSubject("kind=impedance,noise=0,reaction=0"))(1, 0, learnt);
-  const auto plan = prepareSubjects(experiment, parseSubject("noise=0,reaction=0.001"))(1, 0, learnt);
+  const auto plan = prepareSubjects(experiment, SubjectSpec{.noise = 0, .reaction = 0.001})(1, 0, learnt);
   haptics::TickEngine engine(experiment, haptics::engineOptions(*hand));
   hand->prepareTrial(0), plan->prepareTrial(0);
   double worst = 0;

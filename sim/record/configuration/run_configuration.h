@@ -91,7 +91,7 @@ RunConfiguration configurationFromJson(std::string_view text, const std::string&
 /// The experiment that was recorded, with the constraint as it was then: neither the catalogue nor the user's folder is asked.
 /// Throws FaultError when its text cannot be understood.
 experiment::CompiledExperiment recordedExperiment(const RunConfiguration& configuration);
-/// The same of every scene, in their order. A run of one scene has one.
+/// The same of every scene, in their order. A run of one scene has one value.
 std::vector<experiment::CompiledExperiment> recordedScenes(const RunConfiguration& configuration);
 /// The same for a reader that only describes the experiment: its constraint is not compiled. Throws FaultError when its text cannot be
 /// understood.

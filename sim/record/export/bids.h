@@ -16,7 +16,7 @@ std::vector<std::string> writeBidsRun(const RunLog& run, const std::string& fold
 /// README that exists is kept, since a person may have edited it. So are rows and columns that exist.
 std::vector<std::string> writeBidsTables(const std::vector<RunConfiguration>& runs, const std::string& folder);
 
-/// A sentence for each value of participants.tsv that differs from the participant's, and that writeBidsTables keeps.
+/// A sentence for each value of participants.tsv that this participant has otherwise, and that writeBidsTables keeps.
 std::vector<std::string> keptOfParticipant(const std::string& folder, const std::string& subject, const Participant& participant);
 
 /// Both, for these runs.

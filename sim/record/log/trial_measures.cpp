@@ -27,7 +27,7 @@ constexpr TickMeasure kMeasures[] = {
      [](const RecordedTrial& t) { return t.handPathLength; }},
     {"peak_force_n", "Largest coupling force over every tick of the movement", [](const RecordedTrial& t) { return t.peakForce; }},
     {"mean_force_n", "Mean coupling force over every tick of the movement", [](const RecordedTrial& t) { return t.meanForce; }},
-    {"clamped_ticks", "Ticks of 1 ms in which the force was held to the device's limit",
+    {"clamped_ticks", "Ticks of 1 ms in which the device's force was not the one asked for: limit, change of a tick, ramp, heat",
      [](const RecordedTrial& t) { return static_cast<double>(t.clampedTicks); }, true},
     {"missed_ticks", "Ticks of 1 ms that were skipped", [](const RecordedTrial& t) { return static_cast<double>(t.missedTicks); }, true,
      true},

@@ -1,12 +1,9 @@
 #include "sim/subjects/plans/simulated_hand.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "base/as_number.h"
 #include "base/fault.h"
 #include "base/math/elementary.h"
 #include "base/math/fused.h"
@@ -95,40 +92,20 @@ PlayedReach carryOut(const SampledPlan& plan, const SubjectSpec& subject, std::u
   return reach;
 }
 
-double readNumber(const std::string& key, const std::string& text, double most) {
-  const auto value = asNumber<double>(text);
-  if (!value || !(*value >= 0) || !(*value <= most))
-    throw FaultError(Fault{"device", fmt::format("simulated: {}={}", key, text), fmt::format("a number from 0 to {}", most)});
-  return *value;
-}
-
-predict::Criterion readCriterion(const std::string& text) {
-  if (const auto criterion = predict::criterionFromName(text)) return *criterion;
-  throw FaultError(Fault{"device", "simulated: criterion=" + text, "the name of a criterion"});
-}
-
 }  // namespace
 
-SubjectSpec parseSubject(const std::string& text) {
+SubjectSpec takeSubject(DeviceOptions& options) {
   SubjectSpec subject;
-  std::size_t at = 0;
-  while (at < text.size()) {
-    const std::size_t end = std::min(text.find(',', at), text.size());
-    const std::string item = text.substr(at, end - at);
-    at = end + 1;
-    const std::size_t equals = item.find('=');
-    const std::string key = item.substr(0, equals), value = equals == std::string::npos ? "" : item.substr(equals + 1);
-    if (key == "kind" && value == "plan") continue;
-    if (key == "noise") subject.noise = readNumber(key, value, 10);
-    else if (key == "time-sd") subject.timeSd = readNumber(key, value, 0.3);
-    else if (key == "speed-sd") subject.speedSd = readNumber(key, value, 1);
-    else if (key == "reaction") subject.reaction = readNumber(key, value, 5);
-    else if (key == "hand-mass") subject.handMass = readNumber(key, value, 1000);
-    else if (key == "criterion") subject.criterion = readCriterion(value);
-    else
-      throw FaultError(
-          Fault{"device", fmt::format("simulated: {} is not known", key), "noise, criterion, hand-mass, time-sd, speed-sd, reaction"});
+  subject.noise = options.number("noise", subject.noise, 0, 10);
+  if (const auto name = options.take("criterion")) {
+    subject.criterion = predict::criterionFromName(*name);
+    if (!subject.criterion) throw FaultError(Fault{"device", "criterion=" + *name, "the name of a criterion"});
   }
+  constexpr double kNotGiven = -1;
+  if (const double mass = options.number("hand-mass", kNotGiven, 0, 1000); mass != kNotGiven) subject.handMass = mass;
+  subject.timeSd = options.number("time-sd", subject.timeSd, 0, 0.3);
+  subject.speedSd = options.number("speed-sd", subject.speedSd, 0, 1);
+  subject.reaction = options.number("reaction", subject.reaction, 0, 5);
   return subject;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "base/device_options.h"
 #include "sim/haptics/device.h"
 #include "sim/predict/predict.h"
 
@@ -16,12 +17,13 @@ struct SubjectSpec {
   double timeSd = 0.07;   // movement time: the plan runs faster or slower by a factor 1 + timeSd z (paper: 0.09 of 1.35 s)
   double speedSd = 0.07;  // smooth noise proportional to speed, as a share of it, along the path and across
   double reaction = 0.2;  // [s] from go to the first movement, 15 % SD
-  std::optional<predict::Criterion> criterion;  // nullopt: minimum hand jerk; a criterion plans straight movements only
-  std::optional<double> handMass;               // [kg] for the criterion; nullopt: the experiment's hand mass
+  std::optional<predict::Criterion> criterion = {};  // nullopt: minimum hand jerk; a criterion plans straight movements only
+  std::optional<double> handMass = {};               // [kg] for the criterion; nullopt: the experiment's hand mass
 };
 
-/// Reads `noise=0,criterion=min-hand-force-change,hand-mass=1,time-sd=0.07,speed-sd=0.07,reaction=0.2` (all optional). Throws FaultError.
-SubjectSpec parseSubject(const std::string& text);
+/// Takes `noise=0,criterion=min-hand-force-change,hand-mass=1,time-sd=0.07,speed-sd=0.07,reaction=0.2` (all optional) out of a device's
+/// options. Throws FaultError.
+SubjectSpec takeSubject(DeviceOptions& options);
 
 /// One subject's hand for one block of a day. `learnt` is the memory that the subject keeps from block to block. It is null at first.
 using MakeSubject = std::function<std::unique_ptr<haptics::HapticDevice>(std::uint64_t seed, int day, std::shared_ptr<void>& learnt)>;
