@@ -38,6 +38,10 @@ void merge(const MergeOptions& o) {
   const std::vector<record::RunLog> run{record::RunLog::open(path)};
   for (const record::Exporter& exporter : record::exporters())
     if (exporter.withEachRun) record::writeInto(o.data, exporter, run);
+  if (report.cutOff > 0)
+    fmt::print(stderr,
+               "warning: the merged run ends where the log of a station ends, and {} trial{} of the conductor {} left out or interrupted\n",
+               report.cutOff, report.cutOff == 1 ? "" : "s", report.cutOff == 1 ? "is" : "are");
   fmt::print("{}: {} trials, {} rows\n", path, report.trials, report.rows);
 }
 

@@ -93,6 +93,7 @@ LinkMemory& mapMemory(const std::string& name) {
   if (descriptor < 0) throw DdsError(fmt::format("the station's memory {} cannot be opened: {}", name, std::strerror(errno)));
   void* at = ::mmap(nullptr, sizeof(LinkMemory), PROT_READ | PROT_WRITE, MAP_SHARED, descriptor, 0);
   ::close(descriptor);
+  ::shm_unlink(name.c_str());  // both have it now, and nothing of it is left when they are killed
   if (at == MAP_FAILED) throw DdsError(fmt::format("the station's memory cannot be mapped: {}", std::strerror(errno)));
   auto& memory = *static_cast<LinkMemory*>(at);
   if (memory.version != LinkMemory::kVersion) throw DdsError("the station is of another version than its endpoint");
@@ -128,7 +129,11 @@ dds_qos_t* makeQos(dds_reliability_kind_t reliability, dds_history_kind_t histor
 }
 // A reader holds one instance for all: what several stations send between two rounds must fit.
 dds_qos_t* stateQos() { return makeQos(DDS_RELIABILITY_BEST_EFFORT, DDS_HISTORY_KEEP_LAST, 32); }
-dds_qos_t* cardQos() { return makeQos(DDS_RELIABILITY_RELIABLE, DDS_HISTORY_KEEP_LAST, 16); }
+dds_qos_t* cardQos() {
+  dds_qos_t* qos = makeQos(DDS_RELIABILITY_RELIABLE, DDS_HISTORY_KEEP_LAST, 16);
+  dds_qset_ignorelocal(qos, DDS_IGNORELOCAL_PARTICIPANT);  // a card with the own number is then of another station
+  return qos;
+}
 dds_qos_t* eventQos() {
   dds_qos_t* qos = makeQos(DDS_RELIABILITY_RELIABLE, DDS_HISTORY_KEEP_ALL, 0);
   dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
@@ -237,7 +242,7 @@ class Endpoint {
   }
 
   void hear(const reach_Card& c) {
-    if (!isPeer(c.station)) return;
+    if (!isPeer(c.station) && c.station != own_.station) return;
     StationCard card;
     card.station = c.station, card.version = c.version, card.experiment = c.experiment, card.conductor = c.conductor != 0;
     copyText(c.name, card.name), copyText(c.software, card.software), copyText(c.device, card.device);

@@ -83,7 +83,12 @@ StationLink::StationLink(const StationOptions& options, std::uint64_t experiment
   std::string program = options.endpoint, name = memoryName_;
   std::array<char*, 3> arguments{program.data(), name.data(), nullptr};
   pid_t process = -1;
-  const int failed = ::posix_spawn(&process, options.endpoint.c_str(), nullptr, nullptr, arguments.data(), environ);
+  // In a process group of its own, so that Ctrl-C in a terminal does not end it before it has told the others.
+  posix_spawnattr_t apart;
+  ::posix_spawnattr_init(&apart);
+  ::posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP);
+  const int failed = ::posix_spawn(&process, options.endpoint.c_str(), nullptr, &apart, arguments.data(), environ);
+  ::posix_spawnattr_destroy(&apart);
   if (failed != 0) {
     ::shm_unlink(memoryName_.c_str());
     throw ResourceError(fmt::format("the endpoint {} cannot be started: {}", options.endpoint, std::strerror(failed)));
@@ -199,7 +204,9 @@ StationStatus StationLink::statusOf(int station) const {
   if (cardNs_[index] != 0)
     s.name = card.name.data(), s.software = card.software.data(), s.device = card.device.data(), s.conductor = card.conductor;
   if (cardNs_[index] == 0 || now - cardNs_[index] > kPresentNs) {
-    s.obstacles.push_back("is not there");
+    const bool twice = options_.station > 0 && cardNs_[static_cast<std::size_t>(options_.station - 1)] != 0;
+    s.obstacles.push_back(twice ? fmt::format("is not there, and another station has this one's number, {}", options_.station)
+                                : "is not there");
     return s;
   }
   const auto say = [&](const std::string& what) { s.obstacles.push_back(what); };

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <fstream>
 #include <map>
 #include <memory>
 #include <optional>
@@ -18,6 +19,7 @@
 #include "network/link/station_link.h"
 #include "network/link/station_replay.h"
 #include "sim/experiment/experiment.h"
+#include "sim/record/log/atomic_file.h"
 #include "sim/record/log/recorder.h"
 
 namespace reachlab::network {
@@ -152,16 +154,19 @@ std::vector<Station> readAll(const std::vector<std::string>& logs) {
   return stations;
 }
 
-// What came here is what the other's log says it sent: the same hand and the same work, to the bit.
+// What came here is what the other's log says it sent: the same hand and the same work, to the bit. A log that broke off has sent more.
 void requireSameSamples(const Station& here, const Station& there) {
-  constexpr std::uint32_t kTail = 1000;  // ticks that a log loses at most where its program was killed
+  std::uint32_t last = 0;
+  here.eachSampleOf(there, [&](const GivenSample& given) {
+    if (given.sample.sequence < last)
+      refuse(fmt::format("hold samples of station {} that begin anew: it was started again in this run", there.number),
+             "a run of which every station was there from the beginning to the end", here.log.path());
+    last = given.sample.sequence;
+  });
   here.eachSampleOf(there, [&](const GivenSample& given) {
     const std::uint32_t sequence = given.sample.sequence;
-    const bool beyond = sequence > there.hands.size();
-    if (beyond && sequence <= there.hands.size() + kTail) return;
-    const bool holds = !beyond && there.phases[sequence - 1] >= trial::Phase::Armed;
-    if (beyond ||
-        (holds && !(given.sample.hand == there.hands[sequence - 1].hip.position && given.sample.work == there.hands[sequence - 1].work)))
+    if (sequence > there.hands.size() || there.phases[sequence - 1] < trial::Phase::Armed) return;
+    if (!(given.sample.hand == there.hands[sequence - 1].hip.position && given.sample.work == there.hands[sequence - 1].work))
       refuse(fmt::format("of stations {} and {} are not of one run: sample {} came otherwise than it was sent", here.number, there.number,
                          sequence),
              "logs of one run", there.log.path());
@@ -253,7 +258,8 @@ MergedStation reportOf(const Station& s, const Station& conductor, const std::op
           rmsApart(s)};
 }
 
-// The conductor's ticks, each with every hand at the nearest tick of its own station. Returns the rows.
+// The conductor's ticks, each with every hand at the nearest tick of its own station, up to the end of the first log that ends. A trial that is
+// under way there is interrupted. Returns the rows.
 std::uint64_t writeMerged(const std::vector<Station>& stations, const Station& conductor,
                           const std::vector<std::optional<ClockOffset>>& offsets, const record::RunConfiguration& merged,
                           const std::string& path) {
@@ -263,17 +269,22 @@ std::uint64_t writeMerged(const std::vector<Station>& stations, const Station& c
   const std::vector<record::TrialSetup> setups = conductor.log.setups();
   std::size_t number = 0, setup = 0;
   std::uint64_t rows = 0;
+  bool ended = false;
+  constexpr std::int64_t kEndsApartNs = 100'000'000;  // stations hear of the end of a run so much later than another at most
   const auto state = std::make_unique<haptics::TickState>();
   (void)replayStation(conductor.log, [&](const haptics::TickState& own, const CoupledCopy&) {
+    if (ended) return;
     const record::RecordedTick& tick = conductor.ticks[number];
     haptics::copyState(own, *state);
     state->handCount = static_cast<std::int32_t>(stations.size());
     for (std::size_t i = 0; i < stations.size(); ++i) {
       const Station& s = stations[i];
-      ticks[i] =
-          s.conductor ? number : nearestTick(s.ticks, ticks[i], tick.measuredNs + std::llround(1e9 * offsets[i]->at(tick.measuredNs)));
+      const std::int64_t there = s.conductor ? tick.measuredNs : tick.measuredNs + std::llround(1e9 * offsets[i]->at(tick.measuredNs));
+      ticks[i] = s.conductor ? number : nearestTick(s.ticks, ticks[i], there);
+      ended = ended || there > s.ticks[ticks[i]].measuredNs + kEndsApartNs;
       state->hands[i] = s.hands[ticks[i]];
     }
+    if (ended) return;
     if (tick.command == trial::Command::NextTrial && setup < setups.size()) {
       recorder.announce(setups[setup].trial - merged.firstTrial + 1, setups[setup].planned);
       ++setup;
@@ -289,14 +300,17 @@ std::uint64_t writeMerged(const std::vector<Station>& stations, const Station& c
   return rows;
 }
 
-void keepLogs(const std::vector<Station>& stations, const std::string& path) {
+// Copies the stations' logs into the folder `stations` beside the merged one. `made` gets their paths.
+void keepLogs(const std::vector<Station>& stations, const std::string& path, std::vector<std::string>& made) {
   const fs::path kept = fs::path(path).parent_path() / "stations";
-  std::error_code error;
-  fs::create_directories(kept, error);
   for (const Station& s : stations) {
-    const fs::path to = kept / fmt::format("{}_station-{}.reach", fs::path(path).stem().string(), s.number);
-    if (!fs::copy_file(s.log.path(), to, error))
-      throw ResourceError(fmt::format("{}: cannot be written: {}", to.string(), error.message()));
+    made.push_back((kept / fmt::format("{}_station-{}.reach", fs::path(path).stem().string(), s.number)).string());
+    record::AtomicFile copy(made.back());
+    std::ifstream log(s.log.path(), std::ios::binary);
+    std::vector<char> piece(1 << 20);
+    while (log.read(piece.data(), static_cast<std::streamsize>(piece.size())) || log.gcount() > 0)
+      copy.append({piece.data(), static_cast<std::size_t>(log.gcount())});
+    copy.commit();
   }
 }
 
@@ -314,7 +328,12 @@ std::vector<std::string> logsOfMerged(const record::RunLog& log) {
   for (const fs::directory_entry& entry : fs::directory_iterator(path.parent_path() / "stations", error))
     if (entry.path().filename().string().starts_with(stem + "_station-")) found.push_back(entry.path().string());
   std::sort(found.begin(), found.end());
-  if (found.empty()) throw FaultError(Fault{{}, "the stations' logs are not beside it in the folder stations", {}, FilePlace{log.path()}});
+  const auto hands = static_cast<std::size_t>(log.configuration().table.hands);
+  if (found.size() != hands)
+    throw FaultError(Fault{{},
+                           fmt::format("{} of the {} stations' logs are beside it in the folder stations", found.size(), hands),
+                           "all of them",
+                           FilePlace{log.path()}});
   return found;
 }
 
@@ -323,14 +342,28 @@ MergeReport mergeStations(const std::vector<std::string>& logs, const record::Ru
   const std::vector<Station> stations = readAll(logs);
   const Station& conductor = *std::find_if(stations.begin(), stations.end(), [](const Station& s) { return s.conductor; });
   MergeReport report;
-  report.trials = static_cast<int>(conductor.log.trials().size());
   std::vector<std::optional<ClockOffset>> offsets;  // none for the conductor
   for (const Station& s : stations) {
     offsets.push_back(s.conductor ? std::nullopt : std::optional(clockOffset(conductor, s)));
     report.stations.push_back(reportOf(s, conductor, offsets.back()));
   }
-  report.rows = writeMerged(stations, conductor, offsets, mergedConfiguration(stations, conductor, configuration), path);
-  keepLogs(stations, path);
+  std::vector<std::string> made;
+  try {
+    keepLogs(stations, path, made);
+    made.push_back(path);
+    report.rows = writeMerged(stations, conductor, offsets, mergedConfiguration(stations, conductor, configuration), path);
+  } catch (...) {  // half a run would count as one
+    std::error_code error;
+    for (const std::string& file : made) fs::remove(file, error);
+    throw;
+  }
+  const auto whole = [](const record::RunLog& log) {
+    return std::count_if(log.trials().begin(), log.trials().end(),
+                         [](const record::RecordedTrial& t) { return t.result.outcome != trial::Outcome::Interrupted; });
+  };
+  const record::RunLog merged = record::RunLog::open(path, record::LogCheck::Trials);
+  report.trials = static_cast<int>(merged.trials().size());
+  report.cutOff = static_cast<int>(whole(conductor.log) - whole(merged));
   return report;
 }
 

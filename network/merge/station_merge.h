@@ -22,6 +22,7 @@ struct MergeReport {
   std::vector<MergedStation> stations;  // by number
   std::uint64_t rows = 0;               // of the merged recording
   int trials = 0;
+  int cutOff = 0;  // trials of the conductor that are missing or interrupted here, because the log of a station ends before
 };
 
 /// The station of a log, from 1. 0 for a log without a station.
@@ -32,9 +33,10 @@ bool isMerged(const record::RunLog& log);
 std::vector<std::string> logsOfMerged(const record::RunLog& log);
 
 /// Writes the merged log to the path `path` of `configuration.run`, with the channels of every station's links. Copies the logs into the
-/// folder `stations` beside it. `configuration` names subject, session and run. All other values are the conductor's. Throws FaultError
-/// when a station's log is missing or doubled, or when no station or two stations conducted. Also for different experiments, for
-/// contradicting clocks, and for a log whose copy differs when it is computed again.
+/// folder `stations` beside it. `configuration` names subject, session and run. All other values are the conductor's. Nothing is left of a
+/// merge that fails. Throws FaultError when a station's log is missing or doubled, when no station or two stations conducted, and when a
+/// station was started again. Also for different experiments, for contradicting clocks, and for a log whose copy differs when it is computed
+/// again.
 MergeReport mergeStations(const std::vector<std::string>& logs, const record::RunConfiguration& configuration, const std::string& path);
 
 }  // namespace reachlab::network

@@ -1,6 +1,7 @@
 #include "network/station/station_options.h"
 
 #include <fmt/format.h>
+#include <netdb.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -29,6 +30,14 @@ void requireCertificates(const std::string& folder) {
                          "a folder of which `reach peers list` says complete=yes and no fault"});
 }
 
+/// Cyclone DDS passes over an address that it does not know.
+void requireAddress(const std::string& host) {
+  addrinfo* found = nullptr;
+  const int failed = ::getaddrinfo(host.c_str(), nullptr, nullptr, &found);
+  if (failed != 0) throw FaultError(Fault{"peer", fmt::format("is {}: {}", host, ::gai_strerror(failed)), "the address of a computer"});
+  ::freeaddrinfo(found);
+}
+
 }  // namespace
 
 void addStationOptions(CLI::App& command, StationSetup& setup) {
@@ -54,6 +63,7 @@ void completeStationSetup(StationSetup& setup, const std::string& device, const 
   if (!setup.insecure && setup.link.secure.empty())
     throw FaultError(Fault{"peers", "are not told", "the folder of this station's certificates, or insecure in so many words"});
   if (!setup.insecure) requireCertificates(setup.link.secure);
+  for (const std::string& peer : setup.link.peers) requireAddress(peer);
   if (setup.link.name.empty()) setup.link.name = hostName();
   setup.link.device = device;
   setup.link.software = "reachlab " REACHLAB_VERSION;

@@ -86,7 +86,10 @@ TickEngine::Hand::Hand(const experiment::Experiment& experiment, const DeviceInf
 
 void TickEngine::begin(const experiment::Experiment& experiment, const EngineOptions& options) {
   now_ = &stages_.front();
-  if (now_->scene.shared != nullptr || options.hands.size() != 1) requireHands(experiment, options.hands.size());
+  // A station's scene is of its own hand alone, whatever the experiment has.
+  if (now_->scene.shared != nullptr || experiment.hands.empty()) requireHands(experiment, options.hands.size());
+  else if (options.hands.size() != 1)
+    throw FaultError(Fault{"device", fmt::format("is {} devices at a station", options.hands.size()), "one device: a station is one hand"});
   state_.massCount = now_->scene.plant->massCount();
   state_.handCount = static_cast<std::int32_t>(options.hands.size());
   bool allVirtual = true;

@@ -321,6 +321,37 @@ TEST_F(StationsOnClocks, TheirLogsBecomeOne) {
   EXPECT_NEAR(all.at(row, of(merged, "station1_of_2_round_trip")), 0.02, 1e-9);
 }
 
+TEST_F(StationsOnClocks, AMergedRunEndsWhereALogBrokeOff) {
+  run(good);
+  const std::string cut = folder_ / "cut.reach", path = folder_ / "merged/sub-01_ses-01_task-chaintwohands_run-03_log.reach";
+  std::filesystem::copy(logOf(1), cut);
+  std::filesystem::resize_file(cut, std::filesystem::file_size(cut) / 2);
+  const MergeReport report = mergeStations({logOf(0), cut}, record::madeConfiguration(), path);
+  EXPECT_EQ(report.cutOff, 1);
+  const record::RunLog merged = record::RunLog::open(path);
+  ASSERT_EQ(merged.trials().size(), 1u);
+  EXPECT_EQ(merged.trials()[0].result.outcome, trial::Outcome::Interrupted);
+  const record::SampleRows rows = merged.allRows();
+  EXPECT_LT(rows.ticks.back(), record::RunLog::open(logOf(0)).allRows().ticks.back());
+  EXPECT_LT(rows.ticks.back(), record::RunLog::open(cut).ticks().size() + 101) << "no hand stands still where it is not known";
+  std::filesystem::remove(logsOfMerged(merged).front());
+  EXPECT_TRUE(holds(refusalOf([&] { (void)logsOfMerged(merged); }), "1 of the 2 stations' logs"));
+}
+
+TEST_F(StationsOnClocks, AFailedMergeLeavesNothing) {
+  run(good);
+  std::filesystem::create_directories(folder_ / "merged/taken_log.reach");  // a folder in the log's place
+  EXPECT_NE(refusalOf([&] { mergeStations({logOf(0), logOf(1)}, record::madeConfiguration(), folder_ / "merged/taken_log.reach"); }), "");
+  EXPECT_TRUE(std::filesystem::is_empty(folder_ / "merged/stations"));
+}
+
+TEST(StationEngine, IsOfOneHand) {
+  const experiment::CompiledExperiment experiment{experiment::readExperiment("chain-two-hands")};
+  CoupledCopy* copy = nullptr;
+  const haptics::DeviceInfo hand{.maxForce = 12, .virtualHand = true};
+  EXPECT_TRUE(holds(refusalOf([&] { makeStationEngine(experiment, 0, {{hand, hand}}, copy); }), "is 2 devices at a station"));
+}
+
 TEST_F(StationsOnClocks, LogsThatAreOfNoOneRunAreRefused) {
   run(good);
   const auto sayOf = [&](const std::vector<std::string>& logs) -> std::string {
