@@ -29,7 +29,7 @@ DeviceOptions::DeviceOptions(const std::string& text, std::string device) : devi
 }
 
 std::optional<std::string> DeviceOptions::take(const std::string& key) {
-  known_.push_back(key);
+  if (std::find(known_.begin(), known_.end(), key) == known_.end()) known_.push_back(key);
   const auto at = std::find_if(items_.begin(), items_.end(), [&](const auto& item) { return item.first == key; });
   if (at == items_.end()) return std::nullopt;
   std::string value = at->second;

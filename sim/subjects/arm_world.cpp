@@ -35,6 +35,8 @@ ArmWorld makeArmWorld(const ArmSpec& arm, predict::LineObject object, const Mode
   world.a.row(1) = -world.contact / arm.mass;
   world.a(1, 1) -= arm.damping / arm.mass;
   world.a(1, 2) += 1 / arm.mass;
+  world.netForce = arm.mass * world.a.row(1);
+  for (int i = 0; i < world.masses; ++i) world.netForce += object.masses[static_cast<std::size_t>(i)] * world.a.row(world.speed(i));
   world.a(2, 2) = -1 / arm.muscle;
   world.a(2, 3) = 1 / arm.muscle;
   world.a(3, 3) = -1 / arm.muscle;

@@ -11,7 +11,8 @@ namespace reachlab::subjects {
 struct ArmWorld {
   Eigen::MatrixXd a;
   Eigen::VectorXd b;
-  Eigen::RowVectorXd contact;  // c
+  Eigen::RowVectorXd contact;   // c
+  Eigen::RowVectorXd netForce;  // mass times acceleration [N], summed over hand and object
   int masses = 0;
   int states() const { return 4 + 2 * masses; }
   int place(int mass) const { return 4 + mass; }

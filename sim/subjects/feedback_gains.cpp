@@ -51,7 +51,7 @@ RowVectorXd criterionRow(const ArmWorld& world, const ArmSpec& arm, double total
       row(3) = 1 / arm.muscle;
       row(2) = -1 / arm.muscle;
       return row;
-    case predict::Criterion::MinComAcceleration: return world.contact / totalMass;
+    case predict::Criterion::MinComAcceleration: return world.netForce / totalMass;
     case predict::Criterion::MinTorqueChange: throw RefusedError("min-torque-change: needs an arm of two links; this subject's is a mass");
     case predict::Criterion::MinCrackle:
     case predict::Criterion::MinHandCrackle: break;

@@ -48,7 +48,7 @@ struct FeedbackGains {
 FeedbackGains computeFeedbackGains(const ArmWorld& world, const ArmSpec& arm, const CostSpec& cost, const SenseSpec& senses,
                                    double motorNoise, double forceNoise);
 
-/// The row c of a criterion's integrand (c x)^2. Throws RefusedError.
+/// The row c of a criterion's integrand (c x)^2. `totalMass` is that of hand and object. Throws RefusedError.
 Eigen::RowVectorXd criterionRow(const ArmWorld& world, const ArmSpec& arm, double totalMass, predict::Criterion criterion);
 
 }  // namespace reachlab::subjects

@@ -42,14 +42,15 @@ std::shared_ptr<const FeedbackTask> makeFeedbackTask(const experiment::CompiledE
   predict::LineObject object = predict::makeLineObject(experiment, 0, 0);
   const bool bare = experiment.object.kind == experiment::ObjectKind::None;
   if (spec.criterion) {
-    static_cast<void>(criterionRow(makeArmWorld(spec.arm, object), spec.arm, object.totalMass(), *spec.criterion));
+    const double mass = spec.arm.mass + object.totalMass();
+    static_cast<void>(criterionRow(makeArmWorld(spec.arm, object), spec.arm, mass, *spec.criterion));
     // The least that this criterion can cost here, on a line of the same length: the scale of its weight.
     predict::PredictOptions options;
     options.handMass = spec.arm.mass;
     const LineExperiment line = onLine(experiment, way.length());
     cost.criterionWeight =
         spec.criterionWeight / (line.scale * line.scale * predict::predict(line.experiment, *spec.criterion, options)->cost);
-    if (*spec.criterion == predict::Criterion::MinComAcceleration) cost.criterionWeight /= object.totalMass() * object.totalMass();
+    if (*spec.criterion == predict::Criterion::MinComAcceleration) cost.criterionWeight /= mass * mass;
   }
   return std::make_shared<const FeedbackTask>(
       FeedbackTask{.way = std::move(way),

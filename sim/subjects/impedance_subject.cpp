@@ -193,7 +193,9 @@ ImpedanceSpec parseImpedanceSubject(const std::string& text) {
   spec.motorNoise = number("motor-noise");
   spec.forceNoise = number("force-noise");
   spec.model = {number("model-stiffness"), number("model-mass")};
-  if (text.find("hand-mass=") != std::string::npos) spec.handMass = number("hand-mass");
+  constexpr double kNotGiven = -1;
+  if (const double mass = options.number("hand-mass", kNotGiven); mass != kNotGiven) spec.handMass = mass;
+  else if (spec.criterion) spec.handMass = spec.arm.mass;
   spec.timeSd = number("time-sd");
   spec.reaction = number("reaction");
   spec.noise = number("noise");

@@ -114,8 +114,7 @@ TEST(Resume, IsRefusedWhileTheRunIsBeingRecordedAndNamesItsProcess) {
 
 TEST(Run, OfAHandThatIsNeverAtTheStartEnds) {
   const TemporaryFolder data;
-  const Ended ended =
-      reach("run chain-fast --device simulated:criterion=min-hand-force,hand-mass=0 --trials 3 --seed 1 --fast --data " + data.path());
+  const Ended ended = reach("run chain-fast --device virtual:omni,scale=0.5 --trials 3 --seed 1 --fast --data " + data.path());
   EXPECT_TRUE(ended.exitCode == 0 || ended.exitCode == 2 || ended.exitCode == 4) << ended.err;
   for (const auto& trial : trialLines(ended.out)) EXPECT_NE(trial.at("outcome"), "interrupted");
 }

@@ -43,5 +43,19 @@ TEST(ReachPlan, GoesOnBeyondTheEndsOfACurveAsOnALine) {
   EXPECT_GT(farthest, kRadius * kAngle + 1e-3) << "the case is met";
 }
 
+// A hand without mass jumps at both ends of these predictions. The person begins and ends at rest, where the task says.
+TEST(ReachPlan, BeginsAtTheStartAndEndsAtTheTargetUnderEveryCriterion) {
+  using predict::Criterion;
+  for (const auto& [name, criterion] : {std::pair{"chain-moderate", Criterion::MinHandForce},
+                                        {"dingwell", Criterion::MinComAcceleration},
+                                        {"dingwell", Criterion::MinHandForceChange}}) {
+    const experiment::CompiledExperiment experiment{experiment::readExperiment(name)};
+    const ReachPlan jerk = makeReachPlan(experiment, Criterion::MinHandJerk, 0.0), plan = makeReachPlan(experiment, criterion, 0.0);
+    EXPECT_LT(norm(plan.handAt(0) - jerk.handAt(0)), 1e-12) << name << ' ' << predict::nameOf(criterion);
+    EXPECT_LT(norm(plan.handAt((1 - 1e-15) * plan.duration) - jerk.handAt(jerk.duration)), 1e-9)
+        << name << ' ' << predict::nameOf(criterion);
+  }
+}
+
 }  // namespace
 }  // namespace reachlab::subjects

@@ -249,7 +249,10 @@ TEST(FeedbackGains, ACriterionsRowIsItsIntegrand) {
   EXPECT_NEAR(of(predict::Criterion::MinHandJerk), second(1), 1e-9);
   EXPECT_NEAR(of(predict::Criterion::MinHandForce), 1 - kArm.damping * 0.2, 1e-12);
   EXPECT_NEAR(of(predict::Criterion::MinHandForceChange), (2 - 1) / kArm.muscle, 1e-9);
-  EXPECT_NEAR(of(predict::Criterion::MinComAcceleration), (310 * (-0.1 + 0.12) + 2 * (0.2 - 0.1)) / 2.5, 1e-12);
+  const predict::LineObject object = objectOf(false);
+  double momentum = kArm.mass * rate(1);
+  for (int i = 0; i < world.masses; ++i) momentum += object.masses[static_cast<std::size_t>(i)] * rate(world.speed(i));
+  EXPECT_NEAR(of(predict::Criterion::MinComAcceleration), momentum / 2.5, 1e-12) << "of hand and object";
   for (const auto& [criterion, words] : {std::pair{predict::Criterion::MinTorqueChange, "needs an arm of two links"},
                                          {predict::Criterion::MinCrackle, "min-crackle: asks for a derivative"},
                                          {predict::Criterion::MinHandCrackle, "min-hand-crackle: asks for a derivative"}}) {
@@ -286,7 +289,7 @@ TEST(FeedbackTask, IsWhatTheTaskSays) {
     const auto by = makeFeedbackTask(experiment, spec);
     EXPECT_EQ(by->cost.effort, 0.002);
     EXPECT_EQ(by->cost.criterion, criterion);
-    const double least = predict::predict(line, criterion, options)->cost, mass = by->object.totalMass();
+    const double least = predict::predict(line, criterion, options)->cost, mass = spec.arm.mass + by->object.totalMass();
     EXPECT_NEAR(by->cost.criterionWeight * least / 0.3, criterion == predict::Criterion::MinComAcceleration ? 1 / (mass * mass) : 1, 1e-9);
   }
 }

@@ -70,6 +70,14 @@ bool areThere(const predict::Prediction& prediction, double t, double length, do
   return true;
 }
 
+/// The place on the way, from `from` to `to`, at `t`. The ends of a prediction are inner limits: a hand without mass that is weighed by its force
+/// jumps there, from rest and to rest. A stretched time may miss the duration by rounding.
+double placeAt(const predict::Prediction& prediction, double t, double duration, double length) {
+  constexpr double kRounding = 1e-9;
+  if (t <= 0) return 0;
+  return t >= (1 - kRounding) * duration ? length : prediction.handAt(t).position;
+}
+
 // What the criterion predicts for a way of this length, timed; `place` lays a distance from the start into the world.
 ReachPlan planByPrediction(const experiment::Experiment& experiment, double length, predict::Criterion criterion,
                            std::optional<double> handMass, std::function<Vec3(double)> place) {
@@ -81,7 +89,8 @@ ReachPlan planByPrediction(const experiment::Experiment& experiment, double leng
     const auto prediction = predictLasting(duration, line.experiment, lineConstraint, criterion, handMass);
     const auto hasLeft = [&](double t) { return scale * std::abs(prediction->handAt(t).position) > task.onset; };
     const auto isThere = [&](double t) { return areThere(*prediction, t, line.length, scale, task.tolerance); };
-    return TimedPlan{{duration, [=](double t) { return place(scale * prediction->handAt(t).position); }},
+    const double whole = line.length;
+    return TimedPlan{{duration, [=](double t) { return place(scale * placeAt(*prediction, t, duration, whole)); }},
                      computeArrival(duration, hasLeft, isThere)};
   });
 }
