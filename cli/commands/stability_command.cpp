@@ -81,7 +81,7 @@ void addStabilityCommand(CLI::App& app, int&) {
       ->check(CLI::Range(0, devices::VirtualDevice::kMostDelay - 1));
   command->add_option("--out", r->out, "Folder for the table and the figure [default: the table to stdout]");
   command->footer(
-      "Linear: Coulomb friction and encoder steps are left out. `passive` is Colgate's bound, 2 (b - |b_h|)/T.\n\n"
+      "Linear: Coulomb friction and encoder steps are left out. `passive` is Colgate's bound, 2 (b - |b_h|)/(T (1 + 2 d)) with d ms of delay.\n\n"
       "Examples:\n  reach stability premium15 --out stability\n  reach stability omni --hand-damping 1 --delay-ms 2");
   command->callback([r] { drawMap(*r); });
 }

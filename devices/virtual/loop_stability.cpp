@@ -40,7 +40,9 @@ double spectralRadius(const LoopSettings& s) {
   return eigenvalues(step).cwiseAbs().maxCoeff();
 }
 
-double passivityMargin(const LoopSettings& s) noexcept { return s.friction - (s.stiffness * s.period / 2 + std::abs(s.damping)); }
+double passivityMargin(const LoopSettings& s) noexcept {
+  return s.friction - (s.stiffness * s.period / 2 * (1 + 2 * s.delayTicks) + std::abs(s.damping));
+}
 
 double largestStableStiffness(LoopSettings settings, double most) {
   const auto stableAt = [&](double stiffness) {
@@ -68,7 +70,7 @@ std::vector<StabilityPoint> computeStabilityMap(const DeviceModel& model, const 
     const auto steps = static_cast<int>(settings.mostDamping / settings.dampingStep + 1e-9);
     for (int i = 0; i <= steps; ++i) {
       loop.damping = i * settings.dampingStep;
-      const double passive = 2 * (loop.friction - loop.damping) / kTickSeconds;
+      const double passive = 2 * (loop.friction - loop.damping) / (kTickSeconds * (1 + 2 * loop.delayTicks));
       map.push_back({handDamping, loop.damping, largestStableStiffness(loop), std::max(passive, 0.0)});
     }
   }

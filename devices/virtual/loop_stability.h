@@ -28,6 +28,7 @@ double spectralRadius(const LoopSettings& settings);
 inline bool isStable(const LoopSettings& settings) { return spectralRadius(settings) < 1; }
 
 /// Colgate and Schenkel 1997: a sampled wall of stiffness K and damping B is passive when the body's viscous friction exceeds K T/2 + |B|.
+/// With d ticks of delay the first term is (1 + 2 d) K T/2, since sin((d + 1/2) w T)/sin(w T/2) in their condition is at most 1 + 2 d.
 /// Returns the friction that is left over [N s/m]. A negative value means that the wall is not passive.
 double passivityMargin(const LoopSettings& settings) noexcept;
 
@@ -45,10 +46,11 @@ struct StabilityMapSettings {
 };
 
 struct StabilityPoint {
-  double handDamping = 0;     // [N s/m]
-  double damping = 0;         // [N s/m] b_h
-  double largestStable = 0;   // [N/m] k_h below which every motion dies out
-  double largestPassive = 0;  // [N/m] Colgate's 2 (b - |b_h|)/T, or 0 without a passive stiffness: passive with any passive object
+  double handDamping = 0;    // [N s/m]
+  double damping = 0;        // [N s/m] b_h
+  double largestStable = 0;  // [N/m] k_h below which every motion dies out
+  double largestPassive =
+      0;  // [N/m] Colgate's 2 (b - |b_h|)/(T (1 + 2 d)), or 0 without a passive stiffness: passive with any passive object
 };
 
 /// Ordered by hand damping, then by b_h. Settings out of range (a step that is not positive) give an empty map.

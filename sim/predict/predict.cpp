@@ -234,13 +234,14 @@ std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, co
   std::vector<std::string> warnings;
   std::optional<LineObject> object;
   std::optional<PointIs> point;
-  if (weighsForce(criterion) && !experiment.environment.empty())
+  if ((weighsForce(criterion) || criterion == Criterion::MinTorqueChange) && !experiment.environment.empty())
     warnings.push_back("environment acts on the hand, and its forces are no part of the prediction");
   if (experiment.cursor && experiment.cursor->gain != 1 && experiment.cursor->judge == experiment::CursorJudge::Cursor)
     warnings.push_back(fmt::format("distances are the cursor's; the hand moves by 1/{} of them", experiment.cursor->gain));
   const bool bare = experiment.object.kind == experiment::ObjectKind::None;
   const bool isPoint = bare || experiment.object.kind == experiment::ObjectKind::Point;
-  if (options.point && (!isPoint || bare)) throw FaultError(Fault{"point", "the object is none", "only with an object of kind point"});
+  if (options.point && (!isPoint || bare))
+    throw FaultError(Fault{"point", "is given, and the object is no point", "only with an object of kind point"});
   if (experiment.object.kind == experiment::ObjectKind::Body)
     throw FaultError(Fault{"object.kind", "is body", "point, chain, parallel: the criteria are not defined for a body that turns"});
   const auto makeObject = [&] {
@@ -259,6 +260,8 @@ std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, co
           "gravity along the line shifts the rest position alone: the movement is the one between equilibria, forces without the "
           "weight");
     const bool freeArm = constraint.kind == constraints::ConstraintKind::Free && criterion == Criterion::MinTorqueChange;
+    if (freeArm && (handMass > 0 || options.handDamping > 0))
+      warnings.push_back("hand mass and hand damping have no part in a free arm's torques");
     if (isPoint) point = freeArm ? PointIs::Hand : options.point.value_or(bare ? PointIs::Hand : PointIs::BehindSpring);
     if (point == PointIs::Hand && !freeArm) {
       prediction = makeStraightHandPrediction(*object, criterion, way.distance, duration);
@@ -266,6 +269,7 @@ std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, co
     } else {
       prediction = criterion == Criterion::MinTorqueChange ? makeArmPrediction(experiment, constraint, way, *object, duration, options)
                                                            : makeLinearPrediction(*object, criterion, way.distance, duration);
+      if (freeArm) object.reset();  // the hand carries nothing
     }
     prediction->distance = way.distance;
   } else {

@@ -115,6 +115,25 @@ TEST(Warnings, NameTravelTimeAndCondition) {
   EXPECT_FALSE(predict(parallelPair(), MinHandJerk)->travelTime.has_value());
 }
 
+TEST(Warnings, OfAFreeArmAreOfAHandThatCarriesNothing) {
+  experiment::Experiment free = experiment::readExperiment("free-point");
+  PredictOptions quick;
+  quick.duration = 0.07;
+  EXPECT_FALSE(predict(free, MinTorqueChange, quick)->travelTime.has_value());
+  const auto warningsWith = [&](const PredictOptions& how) {
+    std::string all;
+    for (const std::string& warning : predict(free, MinTorqueChange, how)->warnings) all += warning + '\n';
+    return all;
+  };
+  PredictOptions heavy, light;
+  heavy.handMass = 5;
+  light.handMass = 0;
+  EXPECT_TRUE(holds(warningsWith(heavy), "hand mass and hand damping have no part"));
+  EXPECT_FALSE(holds(warningsWith(light), "hand mass"));
+  free.environment.push_back({experiment::ViscousForce{}});
+  EXPECT_TRUE(holds(warningsWith(light), "its forces are no part of the prediction"));
+}
+
 TEST(Names, AreReadBack) {
   for (const Criterion criterion : kAllCriteria) EXPECT_EQ(criterionFromName(nameOf(criterion)), criterion);
   EXPECT_FALSE(criterionFromName("min-effort").has_value());
