@@ -79,6 +79,11 @@ MethodChoice chooseMethod(const std::string& asked, const ObjectModel& model, co
     if (model.count() > kMaxStiff)
       throw RefusedError(fmt::format("method stiff solves dense systems for up to {} masses, and here are {}; use auto, or fewer masses",
                                      kMaxStiff, model.count()));
+    if (facts.hardCurve)
+      choice.warnings.push_back(
+          fmt::format("method stiff cannot pass places where |r_phi| is small, and a trial that meets one ends with `computation`; method "
+                      "adaptive passes them with an object whose fastest mode times step is {} or less (here {:.3g})",
+                      kRefusedReach, reach));
     choice.predictedError = 1e-9;
   } else {
     if (choice.method != "abm" && choice.method != "adaptive")

@@ -58,6 +58,9 @@ TEST(ChooseMethod, TheReasonTellsTheNumbersAndWhatFollowsFromThem) {
   EXPECT_TRUE(holds(reason(200), "times step 200: beyond 100 only an L-stable method is affordable"));
   EXPECT_TRUE(holds(reason(4, {.linear = true}), "the matrix exponential is exact"));
   EXPECT_TRUE(holds(reason(4, {.linear = true}), "(fastest mode 8 1/s, times step 4)"));
+  EXPECT_TRUE(chosen("auto", oscillating(200)).warnings.empty());
+  EXPECT_TRUE(
+      holds(chosen("auto", oscillating(200), {.hardCurve = true}).warnings.at(0), "stiff cannot pass places where |r_phi| is small"));
   EXPECT_EQ(chosen("adaptive", oscillating(4)).reason, "asked for; fastest mode 8 1/s, times step 4");
 }
 
