@@ -27,11 +27,15 @@ using Sums = SumsOf<double>;
 
 using Cubic = std::array<double, 4>;  // c0 + d (c1 + d (c2 + d c3))
 
-/// The cubic between sample i and i + 1, slopes of fourth order.
-inline Cubic cubicOf(const double* f) {
-  const double m0 = (8 * (f[1] - f[-1]) - (f[2] - f[-2])) / 12, m1 = (8 * (f[2] - f[0]) - (f[3] - f[-1])) / 12;
-  return {f[0], m0, 3 * (f[1] - f[0]) - 2 * m0 - m1, 2 * (f[0] - f[1]) + m0 + m1};
+/// The cubic behind the sample f0, with slopes of fourth order: of one sample, or of several side by side.
+template <class Number>
+std::array<Number, 4> cubicOf(const Number& beforeLast, const Number& before, const Number& f0, const Number& f1, const Number& after,
+                              const Number& afterNext) {
+  const Number m0 = (8.0 * (f1 - before) - (after - beforeLast)) / 12.0, m1 = (8.0 * (after - f0) - (afterNext - before)) / 12.0;
+  return {f0, m0, 3.0 * (f1 - f0) - 2.0 * m0 - m1, 2.0 * (f0 - f1) + m0 + m1};
 }
+Cubic cubicOf(const double* f) { return cubicOf(f[-2], f[-1], f[0], f[1], f[2], f[3]); }
+
 template <class Number, class Coefficients>
 Number valueOf(const Coefficients& c, const Number& d) {
   return c[0] + d * (c[1] + d * (c[2] + d * c[3]));
@@ -45,17 +49,46 @@ constexpr std::ptrdiff_t kAside = 2;  // samples that a piece needs on either si
 constexpr int kSamplesAtOnce = 4;     // samples side by side
 using FourSamples = Lanes<kSamplesAtOnce>;
 
-/// Each coefficient of four cubics.
-std::array<FourSamples, 4> sideBySide(const Cubic& a, const Cubic& b, const Cubic& c, const Cubic& d) {
+using FourCells = std::array<std::ptrdiff_t, kSamplesAtOnce>;
+
+/// Four numbers from each of four places, the first of all side by side, then the second of all …
+std::array<FourSamples, 4> sideBySide(const double* a, const double* b, const double* c, const double* d) {
+#ifdef __AVX__
+  const FourSamples ra = loadLanes<FourSamples>(a), rb = loadLanes<FourSamples>(b), rc = loadLanes<FourSamples>(c),
+                    rd = loadLanes<FourSamples>(d);
+  const FourSamples even = __builtin_shufflevector(ra, rb, 0, 4, 2, 6), odd = __builtin_shufflevector(ra, rb, 1, 5, 3, 7),
+                    evenToo = __builtin_shufflevector(rc, rd, 0, 4, 2, 6), oddToo = __builtin_shufflevector(rc, rd, 1, 5, 3, 7);
+  return {__builtin_shufflevector(even, evenToo, 0, 1, 4, 5), __builtin_shufflevector(odd, oddToo, 0, 1, 4, 5),
+          __builtin_shufflevector(even, evenToo, 2, 3, 6, 7), __builtin_shufflevector(odd, oddToo, 2, 3, 6, 7)};
+#else
   return {FourSamples{a[0], b[0], c[0], d[0]}, FourSamples{a[1], b[1], c[1], d[1]}, FourSamples{a[2], b[2], c[2], d[2]},
           FourSamples{a[3], b[3], c[3], d[3]}};
+#endif
 }
 
-/// `pieceAt(i)`: the cubic between samples i and i + 1 of phi. `changeAt(i)`: that of d phi / d ln T, or nothing for a plan that is held.
-template <typename PieceAt, typename ChangeAt>
-Sums sumOver(const FitWindow& window, double first, double spacing, std::ptrdiff_t cells, double centre, double duration, PieceAt&& pieceAt,
-             ChangeAt&& changeAt) {
-  constexpr bool kChanges = !std::is_same_v<std::decay_t<ChangeAt>, std::nullptr_t>;
+/// The cubics between the samples i and i + 1 of a profile whose cubics are known.
+struct KnownPieces {
+  const ProfilePieces& pieces;
+  const double* place(std::ptrdiff_t i) const { return pieces.c[static_cast<std::size_t>(i - kAside)].data(); }
+  const Cubic& at(std::ptrdiff_t i) const { return pieces.c[static_cast<std::size_t>(i - kAside)]; }
+  std::array<FourSamples, 4> at(const FourCells& i) const { return sideBySide(place(i[0]), place(i[1]), place(i[2]), place(i[3])); }
+};
+/// The same of a profile that is used once.
+struct FreshPieces {
+  const double* f;
+  Cubic at(std::ptrdiff_t i) const { return cubicOf(f + i); }
+  std::array<FourSamples, 4> at(const FourCells& i) const {
+    const auto beside = [&](std::ptrdiff_t by) { return FourSamples{f[i[0] + by], f[i[1] + by], f[i[2] + by], f[i[3] + by]}; };
+    const auto [before, f0, f1, after] = sideBySide(f + i[0] - 1, f + i[1] - 1, f + i[2] - 1, f + i[3] - 1);
+    return cubicOf(beside(-2), before, f0, f1, after, beside(3));
+  }
+};
+
+/// `pieces`: the cubics of phi. `changes`: those of d phi / d ln T, or nothing for a plan that is held.
+template <typename Pieces, typename Changes>
+Sums sumOver(const FitWindow& window, double first, double spacing, std::ptrdiff_t cells, double centre, double duration,
+             const Pieces& pieces, const Changes& changes) {
+  constexpr bool kChanges = !std::is_same_v<Changes, std::nullptr_t>;
   Sums s;
   if (cells < 6) return s;
   const double perStep = 1 / spacing;
@@ -68,29 +101,28 @@ Sums sumOver(const FitWindow& window, double first, double spacing, std::ptrdiff
   const auto to = static_cast<std::ptrdiff_t>(std::clamp(std::floor((highest - x0) / dx) + 1, 0.0, n));
   const double* const weight = window.weight.data();
   const double* const velocity = window.velocity.data();
-  const auto placeOf = [&](std::ptrdiff_t k) { return x0 + static_cast<double>(k) * dx; };
   SumsOf<FourSamples> four;
   std::ptrdiff_t k = from;
   for (; k + kSamplesAtOnce <= to; k += kSamplesAtOnce) {
-    const double x[] = {placeOf(k), placeOf(k + 1), placeOf(k + 2), placeOf(k + 3)};
-    const std::ptrdiff_t i[] = {static_cast<std::ptrdiff_t>(x[0]), static_cast<std::ptrdiff_t>(x[1]), static_cast<std::ptrdiff_t>(x[2]),
-                                static_cast<std::ptrdiff_t>(x[3])};
-    const auto apart = [&](int lane) { return x[lane] - static_cast<double>(i[lane]); };
-    const FourSamples d{apart(0), apart(1), apart(2), apart(3)}, place{x[0], x[1], x[2], x[3]};
-    const std::array<FourSamples, 4> piece = sideBySide(pieceAt(i[0]), pieceAt(i[1]), pieceAt(i[2]), pieceAt(i[3]));
+    const FourSamples place = x0 + (static_cast<double>(k) + FourSamples{0.0, 1.0, 2.0, 3.0}) * dx;
+    const FourCells i{static_cast<std::ptrdiff_t>(place[0]), static_cast<std::ptrdiff_t>(place[1]), static_cast<std::ptrdiff_t>(place[2]),
+                      static_cast<std::ptrdiff_t>(place[3])};
+    const FourSamples d =
+        place - FourSamples{static_cast<double>(i[0]), static_cast<double>(i[1]), static_cast<double>(i[2]), static_cast<double>(i[3])};
+    const std::array<FourSamples, 4> piece = pieces.at(i);
     const FourSamples slope = perStep * slopeOf(piece, d), fromMiddle = first + place * spacing - 0.5;
     FourSamples b = -slope * fromMiddle;
-    if constexpr (kChanges) b += valueOf(sideBySide(changeAt(i[0]), changeAt(i[1]), changeAt(i[2]), changeAt(i[3])), d);
+    if constexpr (kChanges) b += valueOf(changes.at(i), d);
     four.add(slope, b, valueOf(piece, d), loadLanes<FourSamples>(weight + k), loadLanes<FourSamples>(velocity + k));
   }
   for (; k < to; ++k) {
-    const double x = placeOf(k);
+    const double x = x0 + static_cast<double>(k) * dx;
     const auto i = static_cast<std::ptrdiff_t>(x);
     const double d = x - static_cast<double>(i);
-    const Cubic& piece = pieceAt(i);
+    const Cubic piece = pieces.at(i);
     const double slope = perStep * slopeOf(piece, d), fromMiddle = first + x * spacing - 0.5;
     double b = -slope * fromMiddle;
-    if constexpr (kChanges) b += valueOf(changeAt(i), d);
+    if constexpr (kChanges) b += valueOf(changes.at(i), d);
     s.add(slope, b, valueOf(piece, d), weight[k], velocity[k]);
   }
   const auto join = [](double& sum, const FourSamples& lanes) { sum += (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]); };
@@ -211,9 +243,7 @@ ProfilePieces::ProfilePieces(const Profile& profile) : first(profile.first), ste
 MovementFit fitMovement(const FitWindow& window, const ProfilePieces& pieces, const MovementFit& start, FitEffort effort) {
   const auto cells = static_cast<std::ptrdiff_t>(pieces.c.size()) + 1 + 2 * kAside;
   return descend(window, start, effort, [&](double centre, double duration, Sums& sums) {
-    sums = sumOver(
-        window, pieces.first, pieces.step, cells, centre, duration,
-        [&](std::ptrdiff_t i) -> const Cubic& { return pieces.c[static_cast<std::size_t>(i - kAside)]; }, nullptr);
+    sums = sumOver(window, pieces.first, pieces.step, cells, centre, duration, KnownPieces{pieces}, nullptr);
     return true;
   });
 }
@@ -226,10 +256,8 @@ MovementFit fitMovement(const FitWindow& window, const ProfileFamily& family, co
                         FitEffort effort) {
   MovementFit fit = descend(window, start, effort, [&](double centre, double duration, Sums& sums) {
     if (!family.at(duration, scratch)) return false;
-    sums = sumOver(
-        window, scratch.first, scratch.step, static_cast<std::ptrdiff_t>(scratch.value.size()), centre, duration,
-        [&](std::ptrdiff_t i) { return cubicOf(scratch.value.data() + i); },
-        [&](std::ptrdiff_t i) { return cubicOf(scratch.change.data() + i); });
+    sums = sumOver(window, scratch.first, scratch.step, static_cast<std::ptrdiff_t>(scratch.value.size()), centre, duration,
+                   FreshPieces{scratch.value.data()}, FreshPieces{scratch.change.data()});
     return true;
   });
   if (fit.found) family.at(fit.duration, scratch);
