@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "analysis/adaptation/state_space.h"
+#include "analysis/conclusions/comparison.h"
 #include "cli/commands/commands.h"
 #include "cli/output/json_text.h"
 #include "sim/session/session.h"
@@ -55,8 +56,26 @@ void printStates(const analysis::LearningFit& fit, const std::vector<const char*
   }
 }
 
+/// Both states begin at 0: a response before the first perturbation is taken for learning that is not there.
+void warnOfBaseline(const analysis::AdaptationSeries& series) {
+  std::vector<double> baseline;
+  for (const analysis::AdaptationTrial& trial : series) {
+    if (trial.perturbation.value_or(0) != 0) break;
+    if (trial.response) baseline.push_back(*trial.response);
+  }
+  const analysis::TTest test = analysis::computeTTest(baseline);
+  if (baseline.size() > 2 && test.p < 0.001)
+    fmt::print(
+        stderr,
+        "warning: the responses before the first perturbation are {:.3g} on average, and the model begins at 0. Subtract that mean from "
+        "every response first\n",
+        test.mean);
+}
+
 void fitSeries(const AdaptationRequest& r) {
-  const analysis::AdaptationFit fit = analysis::fitAdaptation(analysis::readAdaptationSeries(r.series), r.resamples, r.seed);
+  const auto series = analysis::readAdaptationSeries(r.series);
+  warnOfBaseline(series);
+  const analysis::AdaptationFit fit = analysis::fitAdaptation(series, r.resamples, r.seed);
   constexpr double kNone = 1e-6;  // a learning rate that changes no response
   if (fit.one.states[0].learningRate < kNone)
     fmt::print(stderr,
@@ -91,7 +110,8 @@ void addAdaptationCommand(CLI::App& app, int&) {
   command->add_flag("--json", r->json, "an object");
   command->footer(
       "The model is Smith, Ghazizadeh & Shadmehr (2006): a fast and a slow state learn from each trial's error and forget. The response of a trial\n"
-      "is what the person compensates before that trial's error is learned. Perturbation and response need one common unit.\n\n"
+      "is what the person compensates before that trial's error is learned. Perturbation and response need one common unit. Both states begin at 0:\n"
+      "subtract the mean response of the baseline first.\n\n"
       "Examples:\n  reach adaptation series.csv\n  reach adaptation series.csv --json");
   command->callback([r] { fitSeries(*r); });
 }

@@ -81,3 +81,11 @@ TEST(Adaptation, WarnsOfResponsesOfTheOppositeSign) {
   for (int i = 0; i < 60; ++i) series += "1," + std::to_string(std::exp(-0.1 * i) - 1) + "\n";
   EXPECT_TRUE(says(reach("adaptation " + folder.write("series.csv", series) + " --resamples 100"), 0, "Check their sign"));
 }
+
+TEST(Adaptation, WarnsOfABaselineThatIsNotZero) {
+  const TemporaryFolder folder;
+  std::string series = "perturbation,response\n";
+  for (int i = 0; i < 80; ++i)
+    series += (i < 20 ? "0," : "1,") + std::to_string(0.3 + 0.01 * (i % 3) + (i < 20 ? 0 : 1 - std::exp(-0.1 * (i - 20)))) + "\n";
+  EXPECT_TRUE(says(reach("adaptation " + folder.write("series.csv", series) + " --resamples 100"), 0, "Subtract that mean"));
+}
