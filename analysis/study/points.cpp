@@ -62,6 +62,28 @@ const experiment::Patch* findOwn(const Point& point, const char* path) {
   return nullptr;
 }
 
+std::vector<int> daysOf(const session::Plan& plan) {
+  std::set<int> days;
+  for (const session::PlanBlock& block : plan.blocks)
+    if (block.day != 0) days.insert(block.day);
+  if (days.empty()) return {0};
+  return {days.begin(), days.end()};
+}
+
+session::Plan planOf(const Design& design, const Point& point) {
+  const std::vector<experiment::Patch> changes = patchesOf(point, "plan.");
+  return session::parsePlan(changes.empty() ? design.planText : experiment::patchedText(design.planText, design.plan, changes),
+                            design.plan);
+}
+
+std::int64_t trialsOf(const session::Plan& plan) {
+  std::int64_t trials = 0;
+  for (const int day : daysOf(plan))
+    for (const session::PlanBlock& block : plan.blocks)
+      if (day == 0 || block.day == 0 || block.day == day) trials += block.trials * (block.mix.wayBack ? 2 : 1);
+  return trials;
+}
+
 int trialsOf(const Design& design, const Point& point) {
   const experiment::Patch* patch = findOwn(point, "trials");
   if (patch == nullptr) return design.trials;
@@ -79,12 +101,8 @@ std::string constraintNameOf(const std::string& experimentText) {
   return name == nullptr ? "" : name->string;
 }
 
-std::vector<int> daysOf(const session::Plan& plan) {
-  std::set<int> days;
-  for (const session::PlanBlock& block : plan.blocks)
-    if (block.day != 0) days.insert(block.day);
-  if (days.empty()) return {0};
-  return {days.begin(), days.end()};
+bool varies(const Design& design, std::string_view prefix) {
+  return std::any_of(design.axes.begin(), design.axes.end(), [&](const VariedKey& axis) { return axis.path.starts_with(prefix); });
 }
 
 }  // namespace
@@ -143,9 +161,7 @@ PointTask taskOf(const Design& design, const Point& point) try {
     block.experiment = task.experiments.back().name;
     block.trials = trialsOf(design, point);
   } else {
-    const std::vector<experiment::Patch> ofPlan = patchesOf(point, "plan.");
-    task.plan =
-        session::parsePlan(ofPlan.empty() ? design.planText : experiment::patchedText(design.planText, design.plan, ofPlan), design.plan);
+    task.plan = planOf(design, point);
     for (const session::PlanBlock& block : task.plan.blocks) {
       if (!design.experimentTexts.contains(experimentNameOf(block)))
         throw FaultError(Fault{"plan.blocks", "names another experiment", "the plan's own experiments"});
@@ -184,12 +200,11 @@ std::string describe(const Point& point) {
 
 std::int64_t mostTrialsOfSubject(const Design& design) {
   if (!design.planText.empty()) {
-    const session::Plan plan = session::parsePlan(design.planText, design.plan);
-    std::int64_t trials = 0;
-    for (const int day : daysOf(plan))
-      for (const session::PlanBlock& block : plan.blocks)
-        if (day == 0 || block.day == 0 || block.day == day) trials += block.trials * (block.mix.wayBack ? 2 : 1);
-    return trials;
+    constexpr std::int64_t kLooked = 1000;
+    std::int64_t most = 0;
+    for (std::int64_t i = 0; i < (varies(design, "plan.") ? std::min(kLooked, pointCount(design)) : 1); ++i)
+      most = std::max(most, trialsOf(planOf(design, pointAt(design, i))));
+    return most;
   }
   std::int64_t most = 0;
   for (const VariedKey& axis : design.axes)
@@ -199,12 +214,13 @@ std::int64_t mostTrialsOfSubject(const Design& design) {
 }
 
 std::int64_t trialsOfPairs(const Design& design, std::int64_t most, std::int64_t first, std::int64_t end) {
-  const bool varied = std::any_of(design.axes.begin(), design.axes.end(), [](const VariedKey& axis) { return axis.path == "trials"; });
-  if (!varied) return (end - first) * most;
+  const bool ofPlan = !design.planText.empty();
+  if (!varies(design, ofPlan ? "plan." : "trials")) return (end - first) * most;
   std::int64_t trials = 0;
   while (first < end) {
     const std::int64_t point = first / design.subjects, next = std::min(end, (point + 1) * design.subjects);
-    trials += (next - first) * trialsOf(design, pointAt(design, point));
+    const Point at = pointAt(design, point);
+    trials += (next - first) * (ofPlan ? trialsOf(planOf(design, at)) : trialsOf(design, at));
     first = next;
   }
   return trials;

@@ -40,10 +40,10 @@ PointTask taskOf(const Design& design, const Point& point);
 std::string unquoted(const std::string& json);
 /// "coupling.stiffness_n_per_m=300, subject.noise=1". Empty if nothing is varied.
 std::string describe(const Point& point);
-/// The most that any point asks of a subject, without working the points out.
+/// The most that any point asks of a subject. Of a plan with varied keys, that of the first thousand points.
 std::int64_t mostTrialsOfSubject(const Design& design);
-/// The trials of pairs of point and subject (point * subjects + subject - 1), from the first to before the last. For a plan,
-/// each pair counts with `most`, the most trials that any point asks for.
+/// The trials of pairs of point and subject (point * subjects + subject - 1), from the first to before the last. `most`
+/// is that of mostTrialsOfSubject.
 std::int64_t trialsOfPairs(const Design& design, std::int64_t most, std::int64_t first, std::int64_t end);
 
 /// Seed of a subject's session: Philox of the study's name and seed by point, subject and day. It has 53 bits, so that every reader of a

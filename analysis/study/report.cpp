@@ -298,7 +298,7 @@ void judgeDesigns(std::vector<Population>& populations, const Named& named, cons
         confusion.named.studies = options.studies;
         confusion.named.candidates = named.candidates;
         confusion.named.counts.resize(named.candidates.size(), std::vector<std::size_t>(named.candidates.size() + 1, 0));
-        confusion.named.counts[*own] = counts;
+        for (std::size_t k = 0; k < counts.size(); ++k) confusion.named.counts[*own][k] += counts[k];  // truths may have the same hand
       }
     for (const double level : {0.8, 0.95}) {
       SmallestDesign least{population.truth, population.cell, level, 0, 0};

@@ -104,8 +104,12 @@ ChunksToDo chunksToDo(const StudyFolder& folder, const Shard& shard) {
 }
 
 bool areTablesThere(const StudyFolder& folder) {
-  std::error_code error;
-  return fs::exists(folder.path + "/trials.csv.gz", error) && fs::exists(folder.path + "/trials.h5", error);
+  const auto isThere = [&](const char* name) {
+    std::error_code error;
+    const std::uintmax_t bytes = fs::file_size(folder.path + name, error);
+    return !error && bytes > 0;
+  };
+  return isThere("/trials.csv.gz") && isThere("/trials.h5") && isThere("/trials.json");
 }
 
 bool mergeTables(const StudyFolder& folder) {
@@ -142,6 +146,7 @@ StudyStatus statusOf(const StudyFolder& folder) {
   status.trials = trialsOfPairs(folder.design, most, 0, folder.chunks.pairs);
   std::vector<std::pair<fs::file_time_type, std::int64_t>> done;  // when, trials
   for (std::int64_t chunk = 0; chunk < status.chunks; ++chunk) {
+    if (!isChunkThere(folder.path, chunk, folder.fingerprint)) continue;  // throws where it is damaged
     std::error_code error;
     const auto when = fs::last_write_time(chunkPath(folder.path, chunk), error);
     if (error) continue;

@@ -14,18 +14,28 @@ struct BackupOptions {
   bool check = false;
 };
 
-void backUp(const BackupOptions& o) {
-  const session::BackupReport report = session::backUp(o.dataset, o.backup);
+void tellCopied(const BackupOptions& o, const session::BackupReport& report) {
   if (report.runs == 0 && report.pending == 0)
     throw FaultError(fileFault(o.dataset, "has no recorded run", "the data folder of `reach run`"));
   fmt::print("{}: all {} finished runs are there; {} files, {} bytes copied now and read back equal{}\n", o.backup, report.runs,
              report.copiedFiles, report.copiedBytes, report.pending > 0 ? fmt::format("; {} still being recorded", report.pending) : "");
+}
+
+void backUp(const BackupOptions& o) {
+  std::string refused;
+  try {
+    tellCopied(o, session::backUp(o.dataset, o.backup));
+  } catch (const ResourceError& error) {
+    if (!o.check) throw;
+    refused = error.what();  // the files that are there are checked all the same
+  }
   if (!o.check) return;
   const std::vector<std::string> faults = session::faultsOfBackup(o.backup);
   for (const std::string& fault : faults) fmt::print(stderr, "{}", messageOf(fault));
   if (!faults.empty())
-    throw ResourceError(
-        fmt::format("{}: {} of {} files are not what was copied", o.backup, faults.size(), session::filesOfBackup(o.backup)));
+    refused += fmt::format("{}{}: {} of {} files are not what was copied", refused.empty() ? "" : "\n", o.backup, faults.size(),
+                           session::filesOfBackup(o.backup));
+  if (!refused.empty()) throw ResourceError(refused);
   fmt::print("{}: every byte of {} files is what was copied\n", o.backup, session::filesOfBackup(o.backup));
 }
 

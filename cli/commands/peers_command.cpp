@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "base/fault.h"
 #include "cli/commands/commands.h"
 #include "network/peers/peers.h"
 
@@ -28,7 +29,10 @@ void addPeersCommand(CLI::App& app, int& exitCode) {
   init->add_option("--name", r->name, "Name of this station: letters, digits and hyphens")->required();
   init->add_flag("--conductor", r->conductor, "Makes the two authorities too");
   days(init);
-  init->callback([r] {
+  init->callback([r, init] {
+    if (!r->conductor && init->count("--days") > 0)
+      throw FaultError(
+          Fault{"--days", "is given without --conductor", "the conductor's `reach peers add … --days`, which signs for this station"});
     if (r->conductor) {
       network::initConductor(r->folder, r->name, r->options);
       fmt::print("{}: authorities and the certificate of {}\n", r->folder, r->name);

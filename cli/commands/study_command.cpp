@@ -1,11 +1,15 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cstring>
 #include <thread>
 
 #include "analysis/study/points.h"
 #include "analysis/study/report.h"
 #include "analysis/study/run_study.h"
+#include "analysis/tables.h"
 #include "base/fault.h"
 #include "base/names.h"
 #include "cli/commands/commands.h"
@@ -24,6 +28,15 @@ struct StudyRequest {
   int jobs = 0;
   bool resume = false;
 };
+
+// One word of a shell, whatever the text holds.
+std::string shellWord(const std::string& text) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || std::strchr("_./:=,+-", c) != nullptr; };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
+}
 
 std::string outOf(const std::string& out, const std::string& study) { return out.empty() ? nameOfFile(study) + "-study" : out; }
 
@@ -81,7 +94,7 @@ void tellPoint(const PointRequest& request) {
   const study::PointExperiment& experiment = task.experiments.front();
   const std::string file = fmt::format("{}/point-{}-{}.json", folder, request.point, nameOfFile(experiment.name));
   atOption("--out", [&] { record::writeFileAtomically(file, experiment.text); });
-  fmt::print("reach run {} --device {} --trials {} --seed {} --fast\n", file, device, task.plan.blocks.front().trials,
+  fmt::print("reach run {} --device {} --trials {} --seed {} --fast\n", shellWord(file), shellWord(device), task.plan.blocks.front().trials,
              study::seedOf(design, request.point, request.subject, task.days.front()));
 }
 
@@ -102,13 +115,6 @@ struct SbatchRequest {
   int tasks = 10, cpus = 1;
 };
 
-// One word of a shell, whatever the text holds.
-std::string shellWord(const std::string& text) {
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
-
 // A task may be killed or put back at any moment: the chunks that are there are done.
 void tellSbatch(const SbatchRequest& request) {
   const study::Design design = study::readDesign(request.study);
@@ -126,7 +132,7 @@ void tellSbatch(const SbatchRequest& request) {
       "there\n"
       "# writes the tables.\n"
       "srun --ntasks=1 reach study {} --out {} --jobs \"$SLURM_CPUS_PER_TASK\" --resume\n",
-      shellWord(design.name), tasks, request.cpus, request.time, chunks, (chunks + tasks - 1) / tasks, shellWord(request.study),
+      analysis::fileNameOf(design.name), tasks, request.cpus, request.time, chunks, (chunks + tasks - 1) / tasks, shellWord(request.study),
       shellWord(out));
 }
 
@@ -204,7 +210,12 @@ void addStudyCommand(CLI::App& app, int&) {
   sbatch->add_option("--out", b->out, "Folder of the study, which every node reaches [default: the file's name with -study]");
   sbatch->add_option("--tasks", b->tasks, "Tasks of the array")->check(CLI::Range(1, 100000))->capture_default_str();
   sbatch->add_option("--cpus", b->cpus, "Processors of a task")->check(CLI::Range(1, 4096))->capture_default_str();
-  sbatch->add_option("--time", b->time, "Time limit of a task")->capture_default_str();
+  sbatch->add_option("--time", b->time, "Time limit of a task")
+      ->check([](const std::string& time) {
+        const bool fine = !time.empty() && time.find_first_not_of("0123456789:-") == std::string::npos;
+        return fine ? std::string() : std::string("is no time of Slurm; allowed: minutes, HH:MM:SS or D-HH:MM:SS");
+      })
+      ->capture_default_str();
   sbatch->callback([b] { tellSbatch(*b); });
 
   CLI::App* parameters =

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -106,11 +107,18 @@ std::string replaceLog(const std::string& path, const std::string& mended) {
 
 }  // namespace
 
-Recovery recoverLog(const std::string& path) {
+Recovery recoverLog(const std::string& given) {
+  std::error_code unknown;
+  const fs::path whole = fs::canonical(given, unknown);  // behind a link the log itself is repaired
+  const std::string path = unknown ? given : whole.string();
   if (isBeingWritten(path)) throw ResourceError(path + ": is being recorded into; end that run first");
   const std::string mended = path + ".mended";
-  std::error_code error;
-  fs::remove(mended, error);  // of a recovery that was itself cut short
+  const auto remove = [&mended] {
+    std::error_code error;
+    fs::remove(mended, error);
+  };
+  remove();                                                                 // of a recovery that was itself cut short
+  const std::shared_ptr<void> atTheEnd(nullptr, [&](void*) { remove(); });  // where the disk is full, half of it would stay
   if (const auto configuration = readableConfiguration(path)) {
     writeWithConfiguration(path, *configuration, mended);
     const RunLog log = RunLog::open(mended);  // nothing is replaced by what cannot be read either

@@ -91,6 +91,8 @@ TEST_F(RecoverLog, LeavesAHealthyLogAlone) {
 }
 
 TEST_F(RecoverLog, KeepsEverythingBeforeTheDamageAndEachOriginalUnderANameOfItsOwn) {
+  const std::string link = folder_ / "link_log.reach";  // the log behind it is repaired
+  std::filesystem::create_symlink(log_, link);
   for (const char* name : {".damaged", ".damaged-2", ".damaged-3"}) {
     SCOPED_TRACE(name);
     std::filesystem::remove(log_);
@@ -99,7 +101,7 @@ TEST_F(RecoverLog, KeepsEverythingBeforeTheDamageAndEachOriginalUnderANameOfItsO
     std::string bytes = readWholeFile(log_);
     bytes[whole.trials()[2].offset + 500] ^= 1;
     writeBytes(log_, bytes);
-    const Recovery recovery = recoverLog(log_);
+    const Recovery recovery = recoverLog(link);
     EXPECT_TRUE(recovery.mended);
     EXPECT_EQ(recovery.damagedOriginal, log_ + name);
     EXPECT_EQ(readWholeFile(log_ + name), bytes);
@@ -108,6 +110,7 @@ TEST_F(RecoverLog, KeepsEverythingBeforeTheDamageAndEachOriginalUnderANameOfItsO
     ASSERT_GE(mended.trials().size(), 2u);
     for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(bytesOf(mended.trials()[i]), bytesOf(whole.trials()[i]));
     EXPECT_FALSE(recoverLog(log_).mended) << "a mended log is healthy";
+    EXPECT_FALSE(std::filesystem::exists(log_ + ".mended"));
   }
 }
 

@@ -212,6 +212,14 @@ TEST(StudyPoints, OfAPlanHaveItsBlocksAndDays) {
   EXPECT_EQ(mostTrialsOfSubject(d), all);
 }
 
+TEST(StudyPoints, OfAPlanWithVariedTrialsCountTheirOwn) {
+  const Design plain = designOf("", R"("subjects": 2, "plan": "paper")");
+  const Design d = designOf(R"(, "vary": { "plan.blocks[0].trials": [2, 20] })", R"("subjects": 2, "plan": "paper")");
+  const std::int64_t others = mostTrialsOfSubject(plain) - taskOf(plain, pointAt(plain, 0)).plan.blocks[0].trials;
+  EXPECT_EQ(mostTrialsOfSubject(d), others + 20);
+  EXPECT_EQ(trialsOfPairs(d, mostTrialsOfSubject(d), 0, pairCount(d)), 2 * (others + 2) + 2 * (others + 20));
+}
+
 // 3 subjects of 12 points, 5 trials each.
 TEST(StudyChunks, HoldWholeSubjectsAndAsManyTrialsAsAskedFor) {
   const std::string vary = R"(, "vary": { "a": [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12] }, "trials": 5)";

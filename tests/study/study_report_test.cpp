@@ -246,8 +246,19 @@ TEST(StudyFolder, GivesEachShareItsChunks) {
   EXPECT_EQ(chunksToDo(study, second).there, 2);
   EXPECT_FALSE(mergeTables(study));
   EXPECT_FALSE(areTablesThere(study));
+  const auto writeAll = [&](const char* last) {
+    for (const char* name : {"trials.csv.gz", "trials.h5"}) folder.write(name, "x");
+    folder.write("trials.json", last);
+  };
+  writeAll("");
+  EXPECT_FALSE(areTablesThere(study)) << "one of them is empty";
+  writeAll("{}");
+  EXPECT_TRUE(areTablesThere(study));
+  std::filesystem::remove(folder / "trials.json");
   const StudyStatus status = statusOf(study);
   EXPECT_TRUE(status.chunks == 7 && status.chunksDone == 2 && status.trials == 7 && status.trialsDone == 2 && !status.tables);
+  std::filesystem::resize_file(chunkPath(folder.path(), 4), 10);
+  EXPECT_TRUE(holds(reachlab::refusalOf([&] { (void)statusOf(study); }), "is damaged; delete it"));
 }
 
 TEST(StudyFolder, CountsTheTrialsOfEachPoint) {
