@@ -40,8 +40,11 @@ Found findKey(const JsonNode& root, std::string_view key) {
       key.remove_prefix(end + 1);
     } else {
       if (key.front() == '.') key.remove_prefix(1);
-      const std::size_t end = std::min(key.find_first_of(".["), key.size());
-      const JsonNode* member = node->find(std::string(key.substr(0, end)));
+      // A change's key is one member, "task.duration_s": the longest name that is there counts.
+      std::size_t end = key.size();
+      const JsonNode* member = node->find(std::string(key));
+      while (member == nullptr && end > 0 && (end = key.find_last_of(".[", end - 1)) != std::string_view::npos)
+        member = node->find(std::string(key.substr(0, end)));
       if (member == nullptr) return {node, node->kind == JsonNode::Kind::Object};
       node = member;
       key.remove_prefix(end);

@@ -40,16 +40,33 @@ experiment::Coupling feltCoupling(const Experiment& experiment, std::size_t hand
 // The shortest T whose force keeps below `limit`, to 2 %: force falls about as 1/T^2, and each guess is computed again.
 std::optional<double> longerDuration(const CompiledExperiment& experiment, double limit, double ReachDemand::*force,
                                      const ReachDemand& now) {
-  constexpr int kTries = 6;
+  constexpr int kTries = 10;  // a force that falls as 1/T needs them
   constexpr double kMargin = 1.01;
   double duration = now.duration, felt = now.*force;
   for (int i = 0; i < kTries; ++i) {
     if (felt <= limit) return duration;
     duration *= kMargin * std::sqrt(felt / limit);
     if (duration > experiment::kMaxDuration) return std::nullopt;  // no task may last as long
-    felt = computeReachDemand(experiment, duration).*force;
+    const ReachDemand longer = computeReachDemand(experiment, duration);
+    if (longer.law != now.law) return std::nullopt;  // another law does not compare
+    felt = longer.*force;
   }
   return felt <= limit ? std::optional(duration) : std::nullopt;
+}
+
+/// A pulse, and a field about a place of its own, do not shrink with the reach.
+bool shrinksWithTheReach(const Experiment& experiment) {
+  return std::none_of(experiment.environment.begin(), experiment.environment.end(), [](const experiment::HandForce& force) {
+    const auto* elastic = std::get_if<experiment::ElasticForce>(&force.law);
+    return std::holds_alternative<experiment::PulseForce>(force.law) || (elastic != nullptr && elastic->centre);
+  });
+}
+
+/// What was computed without the forces on the hand is no promise.
+void doubtWithoutEnvironment(PreflightLine& line, const ReachDemand& demand) {
+  if (!demand.withoutEnvironment || line.verdict != Verdict::Fine) return;
+  line.verdict = Verdict::Unknown;
+  line.sentence += "; the forces of the environment are not counted in it";
 }
 
 std::string forceRemedy(const CompiledExperiment& experiment, double limit, double ReachDemand::*force, const ReachDemand& demand) {
@@ -57,7 +74,9 @@ std::string forceRemedy(const CompiledExperiment& experiment, double limit, doub
   const auto duration = longerDuration(experiment, limit, force, demand);
   const std::string slower = duration ? fmt::format("a longer reach (duration_s {:.3g} instead of {:.3g})", *duration, demand.duration)
                                       : std::string("a longer reach does not help (a force that rests on it stays)");
-  return fmt::format("{}, a reach or masses scaled by {:.2g}, or a device of {:.3g} N", slower, scale, demand.*force);
+  const std::string smaller = shrinksWithTheReach(experiment.experiment()) ? fmt::format("a reach or masses scaled by {:.2g}, ", scale)
+                                                                           : std::string("a weaker environment, ");
+  return fmt::format("{}, {}or a device of {:.3g} N", slower, smaller, demand.*force);
 }
 
 PreflightLine peakForce(const CompiledExperiment& experiment, const haptics::DeviceInfo& device, const ReachDemand& demand) {
@@ -65,6 +84,7 @@ PreflightLine peakForce(const CompiledExperiment& experiment, const haptics::Dev
   if (experiment.experiment().forceLimit) line.limit = std::min(device.maxForce, *experiment.experiment().forceLimit);
   line.sentence =
       fmt::format("the reach needs {:.3g} N at its peak ({}); {} gives {:.3g} N", demand.peakForce, demand.law, device.name, *line.limit);
+  doubtWithoutEnvironment(line, demand);
   if (demand.peakForce <= *line.limit) return line;
   line.verdict = Verdict::Warning;
   line.sentence += ": the force will be clamped";
@@ -83,7 +103,8 @@ PreflightLine continuousForce(const CompiledExperiment& experiment, const haptic
   line.sentence = fmt::format("the movement needs {:.3g} N (root mean square); {} can hold {:.3g} N continuously", demand.rmsForce,
                               device.name, *line.limit);
   line.verdict = demand.rmsForce <= *line.limit ? Verdict::Fine : Verdict::Warning;
-  if (line.verdict == Verdict::Fine) return line;
+  doubtWithoutEnvironment(line, demand);
+  if (line.verdict != Verdict::Warning) return line;
   const double share = *line.limit / demand.rmsForce;
   line.sentence += ": its motors warm up, and the peak will be taken back";
   line.remedy = fmt::format("pauses {:.2g} times as long as the movements, or {}", 1 / (share * share) - 1,

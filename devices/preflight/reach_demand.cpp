@@ -5,6 +5,7 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "sim/experiment/checked_experiment.h"
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/tick_engine.h"
 #include "sim/haptics/tick_order.h"
@@ -81,6 +82,7 @@ ReachDemand computeReachDemand(const experiment::CompiledExperiment& experiment,
   asked.forceLimit.reset();
   asked.forceLimitEndsTrial = false;
   if (asked.task && duration) asked.task->duration = *duration;
+  if (asked.task) asked.task->timeout = experiment::kMaxDuration;  // a slow reach leaves the start late
   haptics::EngineOptions options;
   options.hands[0].maxForce = kNoLimit;
   options.hands[0].virtualHand = true;
@@ -97,6 +99,7 @@ ReachDemand computeReachDemand(const experiment::CompiledExperiment& experiment,
     demand = simulatedDemand(compiled, engine, centre);
   } catch (const Error& error) {  // a task that nobody can plan is still felt
     demand = rigidBodyDemand(asked, engine.protocol(), centre, error.what());
+    demand.withoutEnvironment = !asked.environment.empty();
   }
   for (const Vec3& place : engine.protocol().via) demand.farthest = std::max(demand.farthest, norm(place - centre));
   demand.duration = asked.task->duration;

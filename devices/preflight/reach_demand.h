@@ -14,6 +14,7 @@ struct ReachDemand {
   double farthest = 0;   // [m] of the hand from the workspace's centre
   double duration = 0;   // [s] T that was asked for
   std::string law;       // the method of computation, as text
+  bool withoutEnvironment = false;  // the law knows nothing of the forces on the hand that the experiment has
 };
 
 /// The reach of a practised subject without noise: minimum hand jerk for this very object (reach_plan.h). It runs through the engine that

@@ -60,6 +60,7 @@ void put(Json& node, std::span<const Step> steps, const Json& value, const std::
   if (!node.is_array()) throw FaultError(Fault{path, "looks for an element of what is no array", "keys of the file"});
   if (step.at && *step.at >= node.size())
     throw FaultError(Fault{path, fmt::format("is beyond the {} elements that are there", node.size()), "an element that is there, from 0"});
+  if (node.empty()) throw FaultError(Fault{path, "changes nothing: the list is empty", "elements that are there"});
   for (std::size_t i = 0; i < node.size(); ++i)
     if (!step.at || *step.at == i) put(node[i], steps.subspan(1), value, path);
 }

@@ -109,8 +109,8 @@ std::string replaceLog(const std::string& path, const std::string& mended) {
 
 Recovery recoverLog(const std::string& given) {
   std::error_code unknown;
-  const fs::path whole = fs::canonical(given, unknown);  // behind a link the log itself is repaired
-  const std::string path = unknown ? given : whole.string();
+  const fs::path behind = fs::is_symlink(given, unknown) ? fs::canonical(given, unknown) : fs::path(given);  // the log itself is repaired
+  const std::string path = unknown ? given : behind.string();
   if (isBeingWritten(path)) throw ResourceError(path + ": is being recorded into; end that run first");
   const std::string mended = path + ".mended";
   const auto remove = [&mended] {

@@ -64,14 +64,11 @@ void checkDomain(const std::vector<double>& target, const constraints::Constrain
   }
 }
 
-bool changesTarget(const TrialKind& kind) {
-  return std::any_of(kind.changes.begin(), kind.changes.end(),
-                     [](const experiment::Patch& change) { return change.path.starts_with("task.target"); });
-}
-
-void checkKind(const TrialMix& mix, const TrialKind& kind, const CompiledExperiment& experiment, const CompiledExperiment& of) {
+void checkKind(const TrialMix& mix, const CompiledExperiment& experiment, const CompiledExperiment& of) {
   if (const auto fault = experiment::differenceInRecord(experiment.experiment(), of.experiment())) throw FaultError(*fault);
-  if (changesTarget(kind) && (mix.ring || !mix.targets.empty()))
+  const auto& task = experiment.experiment().task;
+  const auto& ofKind = of.experiment().task;
+  if ((mix.ring || !mix.targets.empty()) && task && ofKind && task->target != ofKind->target)
     throw FaultError(Fault{"task.target", "is changed by a kind of a block that has targets", "the key targets alone"});
 }
 
@@ -133,7 +130,7 @@ std::vector<BlockScene> scenesOf(const PlanBlock& block, const CompiledExperimen
         if (kind.name == name)
           underKey("kinds." + name, [&] {
             ofKind = changed(experiment, kind.changes);
-            checkKind(mix, kind, experiment, ofKind);
+            checkKind(mix, experiment, ofKind);
           });
       addTargets(name, ofKind);
     });

@@ -71,8 +71,7 @@ void readOrderSeed(ObjectReader& reader, Plan& plan) {
 void checkBlock(const std::string& key, const PlanBlock& block, std::vector<Fault>& faults) {
   if (block.experiment.empty()) faults.push_back({key + ".experiment", "is empty", "a file, or the name of a shipped experiment"});
   if (!block.changes.empty() && block.condition.empty())
-    faults.push_back(
-        {key + ".condition", "is not given where the experiment is changed", "a name that tells these trials from the others"});
+    faults.push_back({key + ".condition", "is missing where the experiment is changed", "a name that tells these trials from the others"});
   if (block.condition.size() > kMaxCondition)
     faults.push_back({key + ".condition", fmt::format("has {} bytes", block.condition.size()), fmt::format("up to {}", kMaxCondition)});
   checkNumber(key + ".trials", block.trials, wholeNumber(1, kMaxTrials), faults);
@@ -84,6 +83,9 @@ void checkBlock(const std::string& key, const PlanBlock& block, std::vector<Faul
   if (block.day != 0) checkNumber(key + ".day", block.day, wholeNumber(1, kMaxDay), faults);
   const std::vector<Fault> ofMix = problems(block.mix, block.trials, key);
   faults.insert(faults.end(), ofMix.begin(), ofMix.end());
+  if (block.catchShare > 0 && block.catchShare <= kMaxCatchShare && (block.trials < 2 || std::lround(block.catchShare * block.trials) == 0))
+    faults.push_back({key + ".catch_share", fmt::format("is {} of {} trials, which is no trial", block.catchShare, block.trials),
+                      "a share that is half a trial or more of two trials or more, or 0"});
   if (block.mix.wayBack && block.catchShare > 0)
     faults.push_back({key + ".return", "is reach, and a catch trial has no way back", "free, or a catch_share of 0"});
   if (!(block.foreperiodMin >= 0 && block.foreperiodMin <= block.foreperiodMax && block.foreperiodMax <= kMaxForeperiod))

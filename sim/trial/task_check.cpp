@@ -30,16 +30,27 @@ double wayOf(const constraints::Constraint& constraint, const experiment::Task& 
   return constraints::ArcLength(constraint, task.start[0], task.target[0]).length();
 }
 
-/// False if every point of the constraint is farther from the place than the radius. The search looks at a grid of points, and doubts
-/// in favour of the place between them.
-bool canBePassed(const constraints::Constraint& c, const Vec3& place, double radius) {
+/// The part of a domain in which a mass may pass on its way: all of it, or of one without an end four times the longest way of a parameter on
+/// either side.
+constraints::Domain nearTheWay(const constraints::Domain& domain, const experiment::Task& task, std::size_t parameter) {
+  double longest = 0;
+  for (std::size_t k = 0; k < task.start.size(); ++k) longest = std::max(longest, std::abs(task.target[k] - task.start[k]));
+  const auto [least, most] = std::minmax(task.start[parameter], task.target[parameter]);
+  constraints::Domain near = domain;
+  if (!std::isfinite(near.lo)) near.lo = least - 4 * longest;
+  if (!std::isfinite(near.hi)) near.hi = most + 4 * longest;
+  return near;
+}
+
+/// False if every point of the constraint near the way is farther from the place than the radius. The search looks at a grid of points, and
+/// doubts in favour of the place between them.
+bool canBePassed(const constraints::Constraint& c, const experiment::Task& task, const Vec3& place, double radius) {
   const auto isNear = [&](const Vec3& r, double spacing) { return !(norm(r - place) > radius + spacing); };
-  const auto [first, second] = c.domain;
   if (c.kind == constraints::ConstraintKind::Free) return true;
   const bool curve = c.kind == constraints::ConstraintKind::Curve;
+  const constraints::Domain first = nearTheWay(c.domain[0], task, 0), second = curve ? c.domain[1] : nearTheWay(c.domain[1], task, 1);
   const int cells = curve ? 4000 : 200;
   const double step = (first.hi - first.lo) / cells, across = (second.hi - second.lo) / cells;
-  if (!std::isfinite(step) || (!curve && !std::isfinite(across))) return true;
   for (int i = 0; i <= cells; ++i) {
     if (curve) {
       const constraints::CurvePoint p = evaluate(c.curve, first.lo + i * step);
@@ -52,6 +63,20 @@ bool canBePassed(const constraints::Constraint& c, const Vec3& place, double rad
     }
   }
   return false;
+}
+
+/// True if the straight way in the parameters of a surface is one place, as between two longitudes of a pole.
+bool isOnePlace(const constraints::Constraint& c, const experiment::Task& task) {
+  if (c.kind != constraints::ConstraintKind::Surface) return false;
+  constexpr int kLooks = 64;
+  constexpr double kSame = 1e-9;  // [m]
+  const Vec3 start = evaluate(c.surface, task.start[0], task.start[1]).r;
+  for (int i = 1; i <= kLooks; ++i) {
+    const double s = static_cast<double>(i) / kLooks;
+    const auto at = [&](std::size_t k) { return task.start[k] + s * (task.target[k] - task.start[k]); };
+    if (norm(evaluate(c.surface, at(0), at(1)).r - start) > kSame) return false;
+  }
+  return true;
 }
 
 /// Some surfaces are left by their parameters and not by their places, as a sphere is at v beyond its pole.
@@ -79,7 +104,9 @@ std::vector<Fault> taskProblems(const experiment::CompiledExperiment& compiled) 
     return error.faults;
   }
   const bool flat = constraint.kind == constraints::ConstraintKind::Free || constraint.straight;
-  if (experiment.task->start == experiment.task->target || (flat && place.start == place.target)) return {constraints::samePlaceFault()};
+  if (experiment.task->start == experiment.task->target || (flat && place.start == place.target) ||
+      isOnePlace(constraint, *experiment.task))
+    return {constraints::samePlaceFault()};
   std::vector<Fault> found;
   for (std::size_t k = 0; k < static_cast<std::size_t>(constraint.parameterCount()); ++k) {
     const constraints::Domain& domain = constraint.domain[k];
@@ -91,7 +118,7 @@ std::vector<Fault> taskProblems(const experiment::CompiledExperiment& compiled) 
          fmt::format("{} to {}", domain.lo, domain.hi)});
   }
   for (std::size_t i = 0; i < place.via.size(); ++i)
-    if (!canBePassed(constraint, place.via[i], place.viaRadius))
+    if (!canBePassed(constraint, *experiment.task, place.via[i], place.viaRadius))
       found.push_back({fmt::format("task.via_m[{}]", i), "is farther from the constraint than via_radius_m, so that no mass can pass it",
                        "a place on the constraint"});
   return found;
@@ -111,6 +138,21 @@ bool pushesAway(const experiment::SquareMatrix<3>& k) {
     for (std::size_t j = 0; j < 3; ++j) symmetric(static_cast<int>(i), static_cast<int>(j)) = 0.5 * (k[i][j] + k[j][i]);
   constexpr double kRounding = 1e-12;
   return symmetricEigenvalues(symmetric).minCoeff() < -kRounding * symmetric.norm();
+}
+
+/// A pulse that comes after the last moment of a trial, or farther from the start than any trial goes.
+void findLatePulses(const experiment::Environment& environment, const experiment::Task& task, double way, std::vector<Fault>& found) {
+  for (std::size_t i = 0; i < environment.size(); ++i) {
+    const auto* pulse = std::get_if<experiment::PulseForce>(&environment[i].law);
+    if (pulse == nullptr) continue;
+    const std::string key = fmt::format("environment[{}].at.", i);
+    if (const double last = task.duration + task.tolerance.time; pulse->at.onset && *pulse->at.onset >= last)
+      found.push_back(
+          {key + "onset_s", fmt::format("is {} s, and no movement lasts longer than {} s: the pulse never comes", *pulse->at.onset, last)});
+    if (pulse->at.distance && *pulse->at.distance > way + task.tolerance.position)
+      found.push_back({key + "distance_m", fmt::format("is {} m, and the way is {:.4g} m long: the pulse comes only to a hand that misses",
+                                                       *pulse->at.distance, way)});
+  }
 }
 
 void findFieldsWithoutBound(const experiment::Environment& environment, std::vector<Fault>& found) {
@@ -150,6 +192,7 @@ std::vector<Fault> implausibleNumbers(const experiment::CompiledExperiment& comp
           {fmt::format("task.target[{}]", i), fmt::format("is {:.3g} turns from the start; more than one turn is hardly meant", turns)});
   }
   const double way = wayOf(compiled.constraint(), task, makeProtocolSettings(experiment, compiled.constraint()));
+  findLatePulses(experiment.environment, task, way, found);
   if (task.tolerance.position > way)
     found.push_back({"task.tolerance.position_m",
                      fmt::format("is {} m, more than the way of {:.4g} m from start to target", task.tolerance.position, way)});

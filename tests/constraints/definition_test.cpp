@@ -205,10 +205,13 @@ TEST(UserDefinitions, AreFoundInTheFolderThatTheEnvironmentNames) {
   folder.write("read.me", "no definition");
   EXPECT_TRUE(faults.empty());
   folder.write("broken.json", "{");
+  folder.write("other-name.json", kArcDefinition);
   const std::vector<Definition> all = readDefinitionFolder(folder.path(), faults);
   ASSERT_EQ(all.size(), 2u) << "one broken file does not hide the others";
-  ASSERT_EQ(faults.size(), 1u);
+  ASSERT_EQ(faults.size(), 2u);
   EXPECT_TRUE(holds(toText(faults[0]), "broken.json"));
+  EXPECT_TRUE(holds(toText(faults[1]), "is \"own-arc\" in a file that is found as \"other-name\""));
+  EXPECT_THROW((void)findDefinition("other-name", "c"), FaultError);
   EXPECT_EQ(all[0].name + " " + all[1].name, "own-arc own-tube");
   EXPECT_EQ(findDefinition("own-tube", "c").name, "own-tube");
   EXPECT_EQ(findDefinition("circle", "c").name, "circle");

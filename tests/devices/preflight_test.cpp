@@ -366,5 +366,32 @@ TEST(Preflight, TheForceOfAFieldCountsAmongTheForcesOfAReach) {
   EXPECT_NEAR(peak.asked, b * 1.875 * 0.1 / 0.5, 0.1) << "b times the peak speed of a minimum-jerk reach";
 }
 
+// The subject may leave the start later than the task allows: the force is that of the field all the same.
+TEST(Preflight, AFieldCountsThoughTheOnsetComesLate) {
+  experiment::Experiment e = experiment::readExperiment("centre-out");
+  e.environment = {{experiment::ViscousForce{{{{0, 0, 130}, {0, 0, 0}, {-130, 0, 0}}}}}};
+  const double inTime = computeReachDemand(experiment::CompiledExperiment(e)).peakForce;
+  e.task->timeout = 0.25;
+  EXPECT_GT(inTime, 10);
+  EXPECT_EQ(computeReachDemand(experiment::CompiledExperiment(e)).peakForce, inTime);
+  const PreflightLine line = lineOf(check(e, infoOf("virtual:omni", e)), "peak_force");
+  EXPECT_TRUE(holds(line.remedy, "a longer reach (duration_s ")) << "half the speed, half the force";
+  EXPECT_TRUE(holds(line.remedy, "scaled by"));
+  e.environment = {{experiment::PulseForce{{300, 0, 0}, {.onset = 0.1, .distance = {}}}}};
+  const PreflightLine pulse = lineOf(check(e, infoOf("virtual:omni", e)), "peak_force");
+  EXPECT_TRUE(holds(pulse.remedy, "a longer reach does not help"));
+  EXPECT_FALSE(holds(pulse.remedy, "scaled by")) << "a pulse does not shrink with the reach";
+}
+
+TEST(Preflight, WhatIsComputedWithoutTheEnvironmentIsNoPromise) {
+  experiment::Experiment e = experiment::readExperiment("centre-out");
+  e.environment = {{experiment::ViscousForce{{{{0, 0, 130}, {0, 0, 0}, {-130, 0, 0}}}}}};
+  const haptics::DeviceInfo omni = infoOf("virtual:omni", e);
+  e.task->via = {{0, 0, -0.05}};
+  const PreflightLine line = lineOf(check(e, omni), "peak_force");
+  EXPECT_EQ(line.verdict, Verdict::Unknown);
+  EXPECT_TRUE(holds(line.sentence, "the forces of the environment are not counted"));
+}
+
 }  // namespace
 }  // namespace reachlab::devices

@@ -45,6 +45,10 @@ TEST(Patch, TellsWhyAPathLeadsNowhere) {
     return faults[0].what;
   };
   EXPECT_EQ(told("object.masses_kg[5]"), "is beyond the 5 elements that are there");
+  EXPECT_TRUE(holds(refusalOf([] {
+                      patched({{"environment", "[]"}, {"environment[*].when", "1"}});
+                    }),
+                    "changes nothing: the list is empty"));
   EXPECT_EQ(told("object.masses_kg[4]"), "changed") << "the last";
   EXPECT_EQ(told("object.masses_kg[0"), "has a [ without ]");
   for (const char* inside : {"x", "1x", "-1", ""})

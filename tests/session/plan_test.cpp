@@ -64,7 +64,7 @@ TEST(Plan, RefusesWhatIsNoPlan) {
 
 TEST(Plan, KnowsTheEdgesOfWhatItTakes) {
   const auto with = [](const std::string& settings) {
-    return "{ \"schema_version\": 1, \"trials\": 1, " + settings + ", \"blocks\": [ { \"experiment\": \"chain-slow\" } ] }";
+    return "{ \"schema_version\": 1, \"trials\": 2, " + settings + ", \"blocks\": [ { \"experiment\": \"chain-slow\" } ] }";
   };
   for (const char* fine : {"\"foreperiod_s\": [0, 60]", "\"foreperiod_s\": [2, 2]", "\"catch_share\": 0.5", "\"catch_share\": 0",
                            "\"order_seed\": 0", "\"pause_s\": 0", "\"counterbalance\": \"none\""})

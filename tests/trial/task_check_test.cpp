@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <functional>
+#include <numbers>
 
 #include "sim/experiment/experiment.h"
+#include "sim/trial/protocol.h"
 
 namespace reachlab::trial {
 namespace {
@@ -13,6 +15,49 @@ std::vector<Fault> implausibleWith(const std::string& name, const std::function<
   experiment::Experiment e = experiment::readExperiment(name);
   change(e);
   return implausibleNumbers(experiment::CompiledExperiment(e));
+}
+
+std::vector<Fault> problemsWith(const std::string& name, const std::function<void(experiment::Experiment&)>& change) {
+  experiment::Experiment e = experiment::readExperiment(name);
+  change(e);
+  return taskProblems(experiment::CompiledExperiment(e));
+}
+
+TEST(TaskCheck, RefusesViaPointsBesideAConstraintWithoutEnds) {
+  for (const char* name : {"chain-moderate", "helix", "paraboloid"})
+    for (const double beside : {0.0, 5.0}) {
+      const auto found = problemsWith(name, [&](auto& e) {
+        const experiment::CompiledExperiment there(e);
+        e.task->via = {makeProtocolSettings(e, there.constraint()).target + Vec3{0, beside, 0}};
+      });
+      EXPECT_EQ(found.size(), beside > 0 ? 1u : 0u) << name;
+    }
+}
+
+TEST(TaskCheck, RefusesAWayThatStaysAtThePole) {
+  const auto between = [](double first, double second) {
+    return problemsWith("sphere", [&](auto& e) {
+      e.task->start = {0, first};
+      e.task->target = {1, second};
+    });
+  };
+  constexpr double kPole = std::numbers::pi / 2;
+  ASSERT_EQ(between(kPole, kPole).size(), 1u);
+  EXPECT_EQ(between(kPole, kPole)[0].what, "start and target are the same position");
+  EXPECT_TRUE(between(kPole, 0).empty());
+}
+
+TEST(TaskCheck, TellsOfPulsesThatNeverCome) {
+  const auto pulseAt = [](experiment::PulseInstant at) {
+    return implausibleWith("centre-out", [&](auto& e) { e.environment = {{experiment::PulseForce{{3, 0, 0}, at}}}; });
+  };
+  EXPECT_TRUE(pulseAt({.onset = 0.1, .distance = {}}).empty());
+  EXPECT_TRUE(pulseAt({.onset = {}, .distance = 0.05}).empty());
+  for (const auto& [at, key] : {std::pair{experiment::PulseInstant{.onset = 10, .distance = {}}, "environment[0].at.onset_s"},
+                                {experiment::PulseInstant{.onset = {}, .distance = 0.5}, "environment[0].at.distance_m"}}) {
+    ASSERT_EQ(pulseAt(at).size(), 1u);
+    EXPECT_EQ(pulseAt(at)[0].key, key);
+  }
 }
 
 TEST(TaskCheck, TellsOfMassesAndTimesThatAreHardlyMeant) {
@@ -78,12 +123,6 @@ TEST(TaskCheck, TellsOfAnOnsetThatIsNoShorterThanTheWay) {
   const auto found = implausibleWith("chain-moderate", [](auto& e) { e.task->onset = 0.201; });
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].key, "task.onset_m");
-}
-
-std::vector<Fault> problemsWith(const std::string& name, const std::function<void(experiment::Experiment&)>& change) {
-  experiment::Experiment e = experiment::readExperiment(name);
-  change(e);
-  return taskProblems(experiment::CompiledExperiment(e));
 }
 
 // A cycloid has two ends.
