@@ -36,7 +36,7 @@ FORCES = {"viscous": {"matrix_n_s_per_m": [[0] * 3] * 3}, "elastic": {"matrix_n_
 FORCED = {kind: {**POINT, "environment": [{"kind": kind, **keys}]} for kind, keys in FORCES.items()}
 AT_ONCE = {**POINT, "environment": [{**FORCED["pulse"]["environment"][0], "at": {}}]}
 VIEWED = {**POINT, "look": {"cameras": [{"name": "above", "position_m": [0, 0.5, 0.1], "focus_m": [0, 0, 0]}]}}
-PLAN = {"schema_version": 1, "trials": 2, "blocks": [{"experiment": "chain-moderate"}]}
+PLAN = {"schema_version": 1, "trials": 20, "blocks": [{"experiment": "chain-moderate"}]}
 KINDS = {"kinds": {"plain": {}, "heavy": {"object.masses_kg[*]": 2}}, "mix": [{"kind": "plain", "count": 7}, {"kind": "heavy", "count": 1}],
          "targets": {"ring": {"count": 8}}}
 MIXED = {**PLAN, "trials": 8, **KINDS, "blocks": [{"experiment": "free-point", **KINDS}]}
