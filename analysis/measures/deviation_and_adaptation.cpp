@@ -31,10 +31,7 @@ Rows movementRows(const TrialData& trial) {
 
 void measureAdaptation(const TrialData& trial, const Vec3& along, const Vec3& right, std::size_t fastest, TrialMeasures& m) {
   if (!trial.scene.channel || !trial.scene.trained || trial.environment.size() != trial.hand.size()) return;
-  const experiment::SquareMatrix<3>& b = *trial.scene.trained;
-  const Vec3 column{b[0][0] * along.x + b[0][1] * along.y + b[0][2] * along.z, b[1][0] * along.x + b[1][1] * along.y + b[1][2] * along.z,
-                    b[2][0] * along.x + b[2][1] * along.y + b[2][2] * along.z};
-  const double coefficient = dot(column, right);
+  const double coefficient = dot(experiment::times(*trial.scene.trained, along), right);
   const auto reach = static_cast<std::size_t>(std::floor(kWindow * trial.rate + 1e-9));
   const std::size_t first = fastest - std::min(fastest, reach), end = std::min(fastest + reach + 1, trial.hand.size());
   double product = 0, ideal = 0, pressed = 0;

@@ -17,7 +17,7 @@ class BodyPlant : public SystemPlant<BodySystem> {
     const auto p = pose();
     const Vec3 stretch = hand.position - p.r - p.toWorld(system_.fpOffset);
     return 0.5 * model_.mass[0] * dot(p.v, p.v) - model_.mass[0] * dot(model_.gravity, p.r) +
-           0.5 * dot(p.turn, times(system_.inertia, p.turn)) + 0.5 * system_.springs.handStiffness[0] * dot(stretch, stretch);
+           0.5 * dot(p.turn, experiment::times(system_.inertia, p.turn)) + 0.5 * system_.springs.handStiffness[0] * dot(stretch, stretch);
   }
   void setAngularVelocity(const Vec3& velocity) noexcept override {
     const Vec3 turn = pose().toBody(velocity);
@@ -34,7 +34,7 @@ class BodyPlant : public SystemPlant<BodySystem> {
 
 BodySystem::BodySystem(const ObjectModel& model, const experiment::Object& object)
     : SpaceSystem(model), inertia(object.inertia), fpOffset(object.fpOffset) {
-  const Matrix3& m = inertia;
+  const experiment::SquareMatrix<3>& m = inertia;
   const auto minor = [&](int i, int j) {
     const int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
     return m[a][c] * m[b][d] - m[a][d] * m[b][c];

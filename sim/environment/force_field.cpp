@@ -9,11 +9,6 @@
 namespace reachlab::environment {
 namespace {
 
-Vec3 product(const experiment::SquareMatrix<3>& m, const Vec3& v) noexcept {
-  return {m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
-          m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
-}
-
 std::int64_t wholeTicks(double seconds) noexcept { return std::llround(seconds / kTickSeconds); }
 
 double share(std::int64_t age, std::int64_t ticks) noexcept { return std::min(1.0, static_cast<double>(age) / static_cast<double>(ticks)); }
@@ -77,9 +72,10 @@ Vec3 ForceField::exert(Running& running, const HandTick& hand) noexcept {
   ++running.age;
   if (const auto* law = std::get_if<experiment::ChannelForce>(&running.force.law)) return channel(*law, running, hand);
   const double grown = share(running.age, kRampTicks);
-  if (const auto* law = std::get_if<experiment::ViscousForce>(&running.force.law)) return grown * product(law->matrix, hand.velocity);
+  if (const auto* law = std::get_if<experiment::ViscousForce>(&running.force.law))
+    return grown * experiment::times(law->matrix, hand.velocity);
   if (const auto* law = std::get_if<experiment::ElasticForce>(&running.force.law))
-    return -grown * product(law->matrix, hand.position - law->centre.value_or(start_));
+    return -grown * experiment::times(law->matrix, hand.position - law->centre.value_or(start_));
   return grown * jointForce(*std::get_if<experiment::JointViscousForce>(&running.force.law), arm_, hand);
 }
 

@@ -12,6 +12,11 @@ namespace reachlab::experiment {
 template <std::size_t N>
 using SquareMatrix = std::array<std::array<double, N>, N>;
 
+inline Vec3 times(const SquareMatrix<3>& m, const Vec3& v) noexcept {
+  return {m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
+          m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
+}
+
 /// F = B v.
 struct ViscousForce {
   SquareMatrix<3> matrix{};  // [N s/m] B

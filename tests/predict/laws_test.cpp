@@ -122,7 +122,8 @@ TEST(Warnings, OfAFreeArmAreOfAHandThatCarriesNothing) {
   EXPECT_FALSE(predict(free, MinTorqueChange, quick)->travelTime.has_value());
   const auto warningsWith = [&](const PredictOptions& how) {
     std::string all;
-    for (const std::string& warning : predict(free, MinTorqueChange, how)->warnings) all += warning + '\n';
+    const auto prediction = predict(free, MinTorqueChange, how);
+    for (const std::string& warning : prediction->warnings) all += warning + '\n';
     return all;
   };
   PredictOptions heavy, light;

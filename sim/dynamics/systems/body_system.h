@@ -1,14 +1,9 @@
 #pragma once
 #include "sim/dynamics/systems/surface_rates.h"
 #include "sim/dynamics/systems/system.h"
+#include "sim/experiment/environment.h"
 
 namespace reachlab::dynamics {
-
-using Matrix3 = std::array<std::array<double, 3>, 3>;
-inline Vec3 times(const Matrix3& m, const Vec3& v) noexcept {
-  return {m[0][0] * v.x + m[0][1] * v.y + m[0][2] * v.z, m[1][0] * v.x + m[1][1] * v.y + m[1][2] * v.z,
-          m[2][0] * v.x + m[2][1] * v.y + m[2][2] * v.z};
-}
 
 /// A rigid body in free space. The force of the hand acts at the FP, at `fpOffset` from the centre of mass in body axes, and so also turns
 /// the body. c_i of Eq. 7 are force and moment. y = (r, v, quaternion w x y z, angular velocity in body axes).
@@ -19,7 +14,7 @@ struct BodySystem : SpaceSystem<Springs<1>> {
   static constexpr Hooks kHas{.settling = true};
   using State = Numbers<13>;
 
-  Matrix3 inertia{}, inverseInertia{};
+  experiment::SquareMatrix<3> inertia{}, inverseInertia{};
   Vec3 fpOffset;
 
   BodySystem(const ObjectModel& model, const experiment::Object& object);
@@ -59,8 +54,8 @@ struct BodySystem : SpaceSystem<Springs<1>> {
     const Vec3 force = held + springs.extraForce;
     const Vec3 a = springs.inverseMass[0] * (force - springs.viscosity * p.v) + springs.gravity;
     // The extra force acts on mass 1 at its centre. The force of the hand acts at the FP.
-    const Vec3 moment = cross(fpOffset, p.toBody(held)) - cross(p.turn, times(inertia, p.turn));
-    const Vec3 spin = times(inverseInertia, moment);
+    const Vec3 moment = cross(fpOffset, p.toBody(held)) - cross(p.turn, experiment::times(inertia, p.turn));
+    const Vec3 spin = experiment::times(inverseInertia, moment);
     const auto [w, x, y, z] = p.turning();
     ds.values = {p.v.x, p.v.y, p.v.z, a.x, a.y, a.z, w, x, y, z, spin.x, spin.y, spin.z};
   }

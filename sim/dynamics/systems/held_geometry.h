@@ -99,7 +99,7 @@ struct CurveMasses : Unturned {
 /// velocity in body axes.
 struct FreeBody {
   static constexpr bool kTurns = true;
-  Matrix3 inertia{}, inverseInertia{};
+  experiment::SquareMatrix<3> inertia{}, inverseInertia{};
   BodySystem::Pose pose{};  // of the latest `locate`
 
   static BodySystem::Pose poseOf(std::span<const double> s, std::span<const double> rates) noexcept {
@@ -122,7 +122,7 @@ struct FreeBody {
   void accelerate(const ObjectModel& model, std::span<const double>, const std::vector<Vec3>& force, const Vec3& moment,
                   std::span<double> dPlaces, std::span<double> dRates) noexcept {
     const Vec3& o = pose.turn;
-    const Vec3 spin = times(inverseInertia, pose.toBody(moment) - cross(o, times(inertia, o)));
+    const Vec3 spin = experiment::times(inverseInertia, pose.toBody(moment) - cross(o, experiment::times(inertia, o)));
     put3(dPlaces, 0, pose.v);
     std::ranges::copy(pose.turning(), dPlaces.begin() + 3);
     put3(dRates, 0, force[0] / model.mass[0]);
@@ -135,7 +135,7 @@ struct FreeBody {
   static Vec3 placeOf(std::span<const double> places, int) noexcept { return at3(places, 0); }
   double turningEnergy(std::span<const double> rates) const noexcept {
     const Vec3 turn = at3(rates, 1);
-    return 0.5 * dot(turn, times(inertia, turn));
+    return 0.5 * dot(turn, experiment::times(inertia, turn));
   }
   void setAngularVelocity(const Vec3& velocity, std::span<double> rates) const noexcept { put3(rates, 1, pose.toBody(velocity)); }
   static BodyState body(std::span<const double> s, std::span<const double> rates) noexcept { return poseOf(s, rates).state(); }

@@ -271,25 +271,23 @@ double SurfaceSystem::reachSeen(const State& y, const State& dy, double most) co
   return watch->reach(motion, most);
 }
 
-int SurfaceSystem::endingLine(const State& y) const noexcept {
+template <class Counts>
+int SurfaceSystem::lineBeside(const State& y, Counts&& counts) const noexcept {
   if (branches == nullptr) return -1;
   const std::array<double, 2> q = inBase(y);
   const auto lines = branches->at(q[0], q[1]);
   for (std::size_t k = 0; k < branches->lines.size(); ++k)
-    if (!branches->lines[k].passable && !(std::abs(lines[k].value) > kEnding * (std::abs(lines[k].u) + std::abs(lines[k].v))))
+    if (counts(branches->lines[k]) && !(std::abs(lines[k].value) > kEnding * (std::abs(lines[k].u) + std::abs(lines[k].v))))
       return static_cast<int>(k);
   return -1;
 }
 
+int SurfaceSystem::endingLine(const State& y) const noexcept {
+  return lineBeside(y, [](const constraints::SurfaceBranches::Line& line) { return !line.passable; });
+}
+
 bool SurfaceSystem::besideBlindLine(const State& y) const noexcept {
-  if (branches == nullptr) return false;
-  const std::array<double, 2> q = inBase(y);
-  const auto lines = branches->at(q[0], q[1]);
-  for (std::size_t k = 0; k < branches->lines.size(); ++k) {
-    const bool blind = !branches->lines[k].passable || branches->lines[k].kind == constraints::PlaceKind::Jump;
-    if (blind && !(std::abs(lines[k].value) > kEnding * (std::abs(lines[k].u) + std::abs(lines[k].v)))) return true;
-  }
-  return false;
+  return lineBeside(y, [](const auto& line) { return !line.passable || line.kind == constraints::PlaceKind::Jump; }) >= 0;
 }
 
 std::string SurfaceSystem::stopReason(StepStatus status, const State& y) const {

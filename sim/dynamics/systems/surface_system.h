@@ -204,6 +204,9 @@ struct SurfaceSystem : SpaceSystem<Springs<1>> {
   bool turned(const State& from, const State& to, double dt) const noexcept;
   /// Continues the mass behind the line that it crosses. False where it may not pass, or where it met an end of the domain.
   bool passEnds(const State& beyond, State& y, const Hand& hand, double dt) noexcept;
+  /// The first line that the mass is beside and that `counts`. Otherwise -1.
+  template <class Counts>
+  int lineBeside(const State& y, Counts&& counts) const noexcept;
   /// A line at which the formula ends, if the mass is beside it. Otherwise -1.
   int endingLine(const State& y) const noexcept;
   /// True beside a line at which the formula ends or jumps: bounds grow there without limit, and it has its own rules.
