@@ -1,6 +1,8 @@
 #include "base/names.h"
 
 #include <algorithm>
+#include <cctype>
+#include <cstring>
 #include <filesystem>
 #include <numeric>
 
@@ -25,6 +27,14 @@ std::string nearestName(std::string_view name, const std::vector<std::string>& k
     if (row.back() < bestDistance) bestDistance = row.back(), best = candidate;
   }
   return best;
+}
+
+std::string shellWord(const std::string& text) {
+  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || std::strchr("_./:=,+-", c) != nullptr; };
+  if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
+  std::string word = "'";
+  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
+  return word + "'";
 }
 
 std::string nameOfFile(const std::string& path) {

@@ -5,6 +5,9 @@
 
 namespace reachlab {
 
+/// The text as one word of a shell, in quotes where it needs them.
+std::string shellWord(const std::string& text);
+
 /// The known name closest to `name` by edit distance, or empty when no name is close.
 std::string nearestName(std::string_view name, const std::vector<std::string>& known);
 /// What a file of an experiment, a plan or a study is called: `chain.v2` of `lab/chain.v2.json` and of `chain.v2`.

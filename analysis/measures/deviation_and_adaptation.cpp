@@ -57,7 +57,7 @@ std::optional<experiment::SquareMatrix<3>> viscousFieldOf(const experiment::Expe
       for (std::size_t i = 0; i < 3; ++i)
         for (std::size_t j = 0; j < 3; ++j) (*sum)[i][j] += viscous->matrix[i][j];
     }
-  return sum;
+  return sum == experiment::SquareMatrix<3>{} ? std::nullopt : sum;
 }
 
 TrialScene sceneOf(const experiment::Experiment& experiment, const std::optional<experiment::SquareMatrix<3>>& trained) {

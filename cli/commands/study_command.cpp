@@ -1,9 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cctype>
-#include <cstring>
 #include <thread>
 
 #include "analysis/study/points.h"
@@ -28,15 +25,6 @@ struct StudyRequest {
   int jobs = 0;
   bool resume = false;
 };
-
-// One word of a shell, whatever the text holds.
-std::string shellWord(const std::string& text) {
-  const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || std::strchr("_./:=,+-", c) != nullptr; };
-  if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;
-  std::string word = "'";
-  for (const char c : text) word += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return word + "'";
-}
 
 std::string outOf(const std::string& out, const std::string& study) { return out.empty() ? nameOfFile(study) + "-study" : out; }
 

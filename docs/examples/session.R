@@ -23,7 +23,7 @@ for (condition in sort(unique(good$condition))) {
   cat(sprintf("%s %.4f %.4f\n", condition, mean(times), sd(times)))
 }
 
-# 4. The hand's velocity of every successful trial, from onset to end, at 101 instants, scaled to the mean movement time.
+# 4. The hand's velocity along the way of every successful trial, from onset to end, at 101 instants, scaled to the mean movement time.
 runs <- unique(good[c("subject", "session", "run")])
 profiles <- do.call(rbind, lapply(seq_len(nrow(runs)), function(i) {
   pattern <- sprintf("sub-%s_ses-%s_*_run-%02d_samples.csv", runs$subject[i], runs$session[i], runs$run[i])
@@ -32,7 +32,10 @@ profiles <- do.call(rbind, lapply(seq_len(nrow(runs)), function(i) {
   rows <- rows[order(rows$trial), ]
   t(sapply(seq_len(nrow(rows)), function(k) {
     time <- seq(rows$task_onset_s[k], rows$end_s[k], length.out = 101)
-    velocity <- approx(samples$time_s, samples$hand_vx_m_per_s, time, rule = 2)$y
+    at <- function(columns) sapply(sprintf(columns, c("x", "y", "z")), function(c) approx(samples$time_s, samples[[c]], time, rule = 2)$y)
+    places <- at("hand_%s_m")
+    way <- places[101, ] - places[1, ]
+    velocity <- drop(at("hand_v%s_m_per_s") %*% way) / sqrt(sum(way^2))
     velocity * rows$movement_time_s[k] / mean(good$movement_time_s)
   }))
 }))

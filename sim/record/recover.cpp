@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/error.h"
+#include "base/names.h"
 #include "sim/record/configuration/limits.h"
 #include "sim/record/log/append_file.h"
 #include "sim/record/log/records.h"
@@ -174,7 +175,7 @@ std::string lossOf(const RunLog& log) {
   std::sort(missing.begin(), missing.end());
   if (missing.size() == 1) words += fmt::format(" The planned trial {} is not in it.", missing.front());
   else if (!missing.empty()) words += fmt::format(" The planned trials {} are not in it.", inWords(missing));
-  return words + " Close it in order with: reach recover " + log.path();
+  return words + " Close it in order with: reach recover " + shellWord(log.path());
 }
 
 }  // namespace reachlab::record

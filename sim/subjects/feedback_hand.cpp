@@ -193,7 +193,7 @@ void FeedbackHand::step() noexcept {
     for (int k = 0; k < all; ++k) next[k] += filter[c * all + k] * error_[static_cast<std::size_t>(c)];
   const double speed = z[1];  // as it is believed to be now
   std::swap(estimate_, next_);
-  if (task_->pushed) {
+  if (isPushed()) {
     const double unexplained = task_->bare ? dot(felt_, along) - playing_.believed.along * body_[1] : 0;
     errors_.add(unexplained, dot(felt_, experiment::rightOf(along, task_->normal)) + against_, body_[1]);
     against_ = -playing_.believed.across * speed;
@@ -208,6 +208,9 @@ void FeedbackHand::step() noexcept {
   }
   ++steps_;
 }
+
+// A person who has learned a field still pushes against it where it is gone, and unlearns it there.
+bool FeedbackHand::isPushed() const noexcept { return task_->pushed || playing_.believed.along != 0 || playing_.believed.across != 0; }
 
 haptics::DeviceSample FeedbackHand::read() noexcept {
   const double start = -task_->cost.distance;
@@ -226,7 +229,7 @@ haptics::DeviceSample FeedbackHand::read() noexcept {
       // Across the way the arm is a spring, critically damped.
       const double mass = state_->person.arm.mass, stiffness = task_->onTheWayStiffness, damping = 2 * std::sqrt(stiffness * mass);
       Vec3 across = felt_ - dot(felt_, direction) * direction;
-      if (task_->pushed) across += against_ * experiment::rightOf(direction, task_->normal);
+      if (isPushed()) across += against_ * experiment::rightOf(direction, task_->normal);
       asideSpeed_ += kTickSeconds / mass * (across - stiffness * aside_ - damping * asideSpeed_);
       aside_ += kTickSeconds * asideSpeed_;
     }

@@ -62,6 +62,7 @@ class FeedbackHand final : public PreparedHand<FeedbackReach> {
  private:
   void placeAtStart() noexcept override;
   void step() noexcept;
+  bool isPushed() const noexcept;
   void learnFromTrace();
   Vec3 aimed(const Vec3& v) const noexcept;
 

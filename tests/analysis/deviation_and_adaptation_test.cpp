@@ -112,6 +112,9 @@ TEST(SceneOfATrial, TellsChannelAndField) {
   channel.environment = {{experiment::ChannelForce{}, experiment::ForceWhen::Trial}};
   EXPECT_EQ(viscousFieldOf(field), kCurl);
   EXPECT_FALSE(viscousFieldOf(channel));
+  experiment::Experiment none;
+  none.environment = {{experiment::ViscousForce{}}};
+  EXPECT_FALSE(viscousFieldOf(none)) << "a matrix of zeros is no field";
   EXPECT_TRUE(sceneOf(channel, kCurl).channel);
   EXPECT_FALSE(sceneOf(channel, kCurl).inField);
   EXPECT_EQ(sceneOf(channel, kCurl).trained, kCurl);

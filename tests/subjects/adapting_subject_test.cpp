@@ -111,6 +111,22 @@ TEST(AdaptingSubject, IsPushedAsideByACurlFieldAndLearnsToCancelIt) {
   EXPECT_LT(std::abs(person.reach(sensedReach()).deviation), 0.2 * after) << "and it is washed out";
 }
 
+TEST(AdaptingSubject, ShowsTheAfterEffectWithAnObjectInTheHandToo) {
+  const auto holding = [](Experiment e) {
+    e.object.kind = experiment::ObjectKind::Point;
+    e.object.masses = {0.6};
+    e.coupling = {600, 5};
+    return e;
+  };
+  Person person;
+  EXPECT_NEAR(person.reach(holding(sensedReach())).deviation, 0, 1e-6);
+  for (int i = 0; i < 40; ++i) person.reach(holding(inCurl()));
+  const double after = person.reach(holding(sensedReach())).deviation;
+  EXPECT_GT(after, 1e-3);
+  for (int i = 0; i < 60; ++i) person.reach(holding(sensedReach()));
+  EXPECT_LT(std::abs(person.reach(holding(sensedReach())).deviation), 0.3 * after);
+}
+
 TEST(AdaptingSubject, PressesAgainstAChannelWithWhatItHasLearned) {
   Person person;
   EXPECT_NEAR(person.reach(inChannel()).pressed, 0, 0.01);
