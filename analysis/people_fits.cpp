@@ -93,11 +93,13 @@ void concludeTogether(Analysis& analysis) {
   for (const std::string& subject : analysis.subjects) {
     PersonScores person;
     person.subject = subject;
+    bool tried = false;  // who did only other conditions is not left out for lack of trials
     for (const PersonResult& own : analysis.people) {
-      if (own.subject != subject || !own.fitted || std::find(judged.begin(), judged.end(), own.condition) == judged.end()) continue;
-      person.conditions.push_back(scoresOf(own, analysis.results[own.condition].candidates, analysis.common));
+      if (own.subject != subject || std::find(judged.begin(), judged.end(), own.condition) == judged.end()) continue;
+      tried = true;
+      if (own.fitted) person.conditions.push_back(scoresOf(own, analysis.results[own.condition].candidates, analysis.common));
     }
-    people.push_back(std::move(person));
+    if (tried) people.push_back(std::move(person));
   }
   analysis.overall = concludePeople(people, analysis.common.size(), analysis.common.size() - 1, heavyLimits(analysis.common));
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <utility>
 
 #include "analysis/report/figures.h"
 
@@ -18,16 +19,14 @@ figure::Series typicalCourse(const Analysis& analysis, std::size_t condition) {
     std::vector<SuccessCell> cells;
     std::vector<double> middles;
   };
-  std::map<std::pair<int, int>, Group> groups;
+  std::map<std::pair<std::string, int>, Group> groups;
   const LearningPoint* before = nullptr;
-  int session = 0, place = 0;
+  int place = 0;
   for (const LearningPoint& p : analysis.learning) {
     if (p.condition != condition) continue;
-    const bool samePerson = before != nullptr && before->subject == p.subject, sameSession = samePerson && before->session == p.session;
-    session = samePerson ? session + (sameSession ? 0 : 1) : 0;
-    place = sameSession ? place + 1 : 0;
+    place = before != nullptr && before->subject == p.subject && before->session == p.session ? place + 1 : 0;
     before = &p;
-    Group& group = groups[{session, place}];
+    Group& group = groups[{p.session, place}];
     group.cells.push_back({p.subject, 0, condition, p.successes, p.trials, {}});
     group.middles.push_back(0.5 * (p.firstTrial + p.lastTrial));
   }
@@ -36,10 +35,11 @@ figure::Series typicalCourse(const Analysis& analysis, std::size_t condition) {
     s.x.push_back(x), s.y.push_back(100 * share);
     s.errorLow.push_back(100 * interval.low), s.errorHigh.push_back(100 * interval.high);
   };
+  std::string session;
   for (const auto& [where, group] : groups) {
     const auto typical = typicalShare(group.cells, condition);
     if (!typical) continue;
-    if (where.second == 0 && !s.x.empty()) add(kNotMeasured, kNotMeasured, {kNotMeasured, kNotMeasured});
+    if (where.first != std::exchange(session, where.first) && !s.x.empty()) add(kNotMeasured, kNotMeasured, {kNotMeasured, kNotMeasured});
     add(averageOf(group.middles), typical->mean, typical->interval);
   }
   return s;

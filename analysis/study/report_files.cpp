@@ -189,9 +189,8 @@ std::string textOf(const StudyReport& report, const std::vector<std::string>& fi
   }
   for (const Confusion& confusion : report.confusion) {
     const auto& names = confusion.named.candidates;
-    text += fmt::format(
-        "\n## What is named{}\n\n{} studies of {} subjects with {} trials for each truth. Truths of one hand are counted together.\n\n| truth |",
-        confusion.cell.empty() ? "" : ": " + confusion.cell, confusion.named.studies, confusion.subjects, confusion.trials);
+    text += fmt::format("\n## What is named{}\n\n{} studies of {} subjects with {} trials for each truth.\n\n| truth |",
+                        confusion.cell.empty() ? "" : ": " + confusion.cell, confusion.named.studies, confusion.subjects, confusion.trials);
     for (const auto& name : names) text += " " + analysis::nameOfCandidate(name) + " |";
     text += " undecided |\n|---|";
     for (std::size_t k = 0; k <= names.size(); ++k) text += "---|";

@@ -146,7 +146,7 @@ StudyStatus statusOf(const StudyFolder& folder) {
   status.trials = trialsOfPairs(folder.design, most, 0, folder.chunks.pairs);
   std::vector<std::pair<fs::file_time_type, std::int64_t>> done;  // when, trials
   for (std::int64_t chunk = 0; chunk < status.chunks; ++chunk) {
-    if (!isChunkThere(folder.path, chunk, folder.fingerprint)) continue;  // throws where it is damaged
+    if (!isChunkThere(folder.path, chunk, folder.fingerprint)) continue;  // a damaged one throws, since it does not count as done
     std::error_code error;
     const auto when = fs::last_write_time(chunkPath(folder.path, chunk), error);
     if (error) continue;

@@ -28,6 +28,19 @@ struct Found {
   bool missing = false;            // a member that an object has not
 };
 
+/// By its name, or as a change of all elements names it: "masses_kg[*]" for "masses_kg[2]".
+const JsonNode* findMember(const JsonNode& node, std::string_view name) {
+  if (const JsonNode* member = node.find(std::string(name))) return member;
+  std::string ofAll;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    ofAll += name[i];
+    if (name[i] != '[') continue;
+    ofAll += '*';
+    while (i + 1 < name.size() && name[i + 1] != ']') ++i;
+  }
+  return node.find(ofAll);
+}
+
 Found findKey(const JsonNode& root, std::string_view key) {
   const JsonNode* node = &root;
   while (!key.empty()) {
@@ -42,9 +55,9 @@ Found findKey(const JsonNode& root, std::string_view key) {
       if (key.front() == '.') key.remove_prefix(1);
       // A change's key is one member, "task.duration_s": the longest name that is there counts.
       std::size_t end = key.size();
-      const JsonNode* member = node->find(std::string(key));
+      const JsonNode* member = findMember(*node, key);
       while (member == nullptr && end > 0 && (end = key.find_last_of(".[", end - 1)) != std::string_view::npos)
-        member = node->find(std::string(key.substr(0, end)));
+        member = findMember(*node, key.substr(0, end));
       if (member == nullptr) return {node, node->kind == JsonNode::Kind::Object};
       node = member;
       key.remove_prefix(end);

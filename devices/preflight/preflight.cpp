@@ -54,14 +54,6 @@ std::optional<double> longerDuration(const CompiledExperiment& experiment, doubl
   return felt <= limit ? std::optional(duration) : std::nullopt;
 }
 
-/// A pulse, and a field about a place of its own, do not shrink with the reach.
-bool shrinksWithTheReach(const Experiment& experiment) {
-  return std::none_of(experiment.environment.begin(), experiment.environment.end(), [](const experiment::HandForce& force) {
-    const auto* elastic = std::get_if<experiment::ElasticForce>(&force.law);
-    return std::holds_alternative<experiment::PulseForce>(force.law) || (elastic != nullptr && elastic->centre);
-  });
-}
-
 /// What was computed without the forces on the hand is no promise.
 void doubtWithoutEnvironment(PreflightLine& line, const ReachDemand& demand) {
   if (!demand.withoutEnvironment || line.verdict != Verdict::Fine) return;
@@ -74,9 +66,8 @@ std::string forceRemedy(const CompiledExperiment& experiment, double limit, doub
   const auto duration = longerDuration(experiment, limit, force, demand);
   const std::string slower = duration ? fmt::format("a longer reach (duration_s {:.3g} instead of {:.3g})", *duration, demand.duration)
                                       : std::string("a longer reach does not help (a force that rests on it stays)");
-  const std::string smaller = shrinksWithTheReach(experiment.experiment()) ? fmt::format("a reach or masses scaled by {:.2g}, ", scale)
-                                                                           : std::string("a weaker environment, ");
-  return fmt::format("{}, {}or a device of {:.3g} N", slower, smaller, demand.*force);
+  const char* const smaller = experiment.experiment().environment.empty() ? "a reach or masses" : "a reach, masses or environment";
+  return fmt::format("{}, {} scaled by {:.2g}, or a device of {:.3g} N", slower, smaller, scale, demand.*force);
 }
 
 PreflightLine peakForce(const CompiledExperiment& experiment, const haptics::DeviceInfo& device, const ReachDemand& demand) {

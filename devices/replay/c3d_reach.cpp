@@ -25,8 +25,8 @@ std::size_t pointAsked(const C3dFile& c3d, const std::string& file, const std::s
          fmt::format("point= with one of {}", fmt::join(names, ", ")));
 }
 
-// The reach in a trial: from the event `onset` to the event `end`, as events.tsv of the same trial has it; the whole file without an `end`.
-// Our own files always have an `end`, and without an `onset` the hand stayed at the start.
+// The reach in a trial: from the event `onset` to the event `end`, as events.tsv of the same trial has it. Without either it is the whole file.
+// A file with an `end` alone is a trial in which the hand stayed at the start: every trial of ours has an `end`.
 struct Span {
   double begin = -std::numeric_limits<double>::infinity(), end = std::numeric_limits<double>::infinity();  // [s] since the first frame
 };

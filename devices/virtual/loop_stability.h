@@ -49,8 +49,8 @@ struct StabilityPoint {
   double handDamping = 0;    // [N s/m]
   double damping = 0;        // [N s/m] b_h
   double largestStable = 0;  // [N/m] k_h below which every motion dies out
-  double largestPassive =
-      0;  // [N/m] Colgate's 2 (b - |b_h|)/(T (1 + 2 d)), or 0 without a passive stiffness: passive with any passive object
+  /// [N/m] Colgate's 2 (b - |b_h|)/(T (1 + 2 d)), or 0 without a passive stiffness: passive with any passive object.
+  double largestPassive = 0;
 };
 
 /// Ordered by hand damping, then by b_h. Settings out of range (a step that is not positive) give an empty map.

@@ -156,12 +156,13 @@ std::vector<Station> readAll(const std::vector<std::string>& logs) {
 
 // What came here is what the other's log says it sent: the same hand and the same work, to the bit. A log that broke off has sent more.
 void requireSameSamples(const Station& here, const Station& there) {
-  std::uint32_t last = 0;
+  CopySample last;
   here.eachSampleOf(there, [&](const GivenSample& given) {
-    if (given.sample.sequence < last)
+    // One that was overtaken on its way was also sent earlier.
+    if (given.sample.sequence < last.sequence && given.sample.time > last.time)
       refuse(fmt::format("hold samples of station {} that begin anew: it was started again in this run", there.number),
              "a run of which every station was there from the beginning to the end", here.log.path());
-    last = given.sample.sequence;
+    last = given.sample;
   });
   here.eachSampleOf(there, [&](const GivenSample& given) {
     const std::uint32_t sequence = given.sample.sequence;
@@ -270,7 +271,7 @@ std::uint64_t writeMerged(const std::vector<Station>& stations, const Station& c
   std::size_t number = 0, setup = 0;
   std::uint64_t rows = 0;
   bool ended = false;
-  constexpr std::int64_t kEndsApartNs = 100'000'000;  // stations hear of the end of a run so much later than another at most
+  constexpr std::int64_t kEndsApartNs = 100'000'000;  // stations hear of the end of a run up to so far apart
   const auto state = std::make_unique<haptics::TickState>();
   (void)replayStation(conductor.log, [&](const haptics::TickState& own, const CoupledCopy&) {
     if (ended) return;
@@ -281,7 +282,7 @@ std::uint64_t writeMerged(const std::vector<Station>& stations, const Station& c
       const Station& s = stations[i];
       const std::int64_t there = s.conductor ? tick.measuredNs : tick.measuredNs + std::llround(1e9 * offsets[i]->at(tick.measuredNs));
       ticks[i] = s.conductor ? number : nearestTick(s.ticks, ticks[i], there);
-      ended = ended || there > s.ticks[ticks[i]].measuredNs + kEndsApartNs;
+      ended = ended || (ticks[i] + 1 == s.ticks.size() && there > s.ticks[ticks[i]].measuredNs + kEndsApartNs);
       state->hands[i] = s.hands[ticks[i]];
     }
     if (ended) return;
@@ -357,13 +358,13 @@ MergeReport mergeStations(const std::vector<std::string>& logs, const record::Ru
     for (const std::string& file : made) fs::remove(file, error);
     throw;
   }
-  const auto whole = [](const record::RunLog& log) {
-    return std::count_if(log.trials().begin(), log.trials().end(),
-                         [](const record::RecordedTrial& t) { return t.result.outcome != trial::Outcome::Interrupted; });
-  };
   const record::RunLog merged = record::RunLog::open(path, record::LogCheck::Trials);
   report.trials = static_cast<int>(merged.trials().size());
-  report.cutOff = static_cast<int>(whole(conductor.log) - whole(merged));
+  const auto& conducted = conductor.log.trials();
+  for (std::size_t i = 0; i < conducted.size(); ++i)
+    if (i >= merged.trials().size() ||
+        (merged.trials()[i].result.outcome == trial::Outcome::Interrupted && conducted[i].result.outcome != trial::Outcome::Interrupted))
+      ++report.cutOff;
   return report;
 }
 

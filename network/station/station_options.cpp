@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 
 #include "base/fault.h"
 #include "base/system/helper_program.h"
@@ -33,7 +34,8 @@ void requireCertificates(const std::string& folder) {
 /// Cyclone DDS passes over an address that it does not know.
 void requireAddress(const std::string& host) {
   addrinfo* found = nullptr;
-  const int failed = ::getaddrinfo(host.c_str(), nullptr, nullptr, &found);
+  const bool hasPort = std::count(host.begin(), host.end(), ':') == 1;
+  const int failed = ::getaddrinfo(host.substr(0, hasPort ? host.find(':') : host.size()).c_str(), nullptr, nullptr, &found);
   if (failed != 0) throw FaultError(Fault{"peer", fmt::format("is {}: {}", host, ::gai_strerror(failed)), "the address of a computer"});
   ::freeaddrinfo(found);
 }

@@ -260,7 +260,7 @@ std::unique_ptr<Prediction> predict(const experiment::Experiment& experiment, co
           "gravity along the line shifts the rest position alone: the movement is the one between equilibria, forces without the "
           "weight");
     const bool freeArm = constraint.kind == constraints::ConstraintKind::Free && criterion == Criterion::MinTorqueChange;
-    if (freeArm && (handMass > 0 || options.handDamping > 0))
+    if (freeArm && (options.handMass.value_or(0) > 0 || options.handDamping > 0))
       warnings.push_back("hand mass and hand damping have no part in a free arm's torques");
     if (isPoint) point = freeArm ? PointIs::Hand : options.point.value_or(bare ? PointIs::Hand : PointIs::BehindSpring);
     if (point == PointIs::Hand && !freeArm) {

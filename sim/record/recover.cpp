@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -106,6 +105,16 @@ std::string replaceLog(const std::string& path, const std::string& mended) {
   return original;
 }
 
+// Where the disk is full, half of a file would stay.
+struct Leftover {
+  std::string path;
+  void remove() const {
+    std::error_code error;
+    fs::remove(path, error);
+  }
+  ~Leftover() { remove(); }
+};
+
 }  // namespace
 
 Recovery recoverLog(const std::string& given) {
@@ -114,12 +123,8 @@ Recovery recoverLog(const std::string& given) {
   const std::string path = unknown ? given : behind.string();
   if (isBeingWritten(path)) throw ResourceError(path + ": is being recorded into; end that run first");
   const std::string mended = path + ".mended";
-  const auto remove = [&mended] {
-    std::error_code error;
-    fs::remove(mended, error);
-  };
-  remove();                                                                 // of a recovery that was itself cut short
-  const std::shared_ptr<void> atTheEnd(nullptr, [&](void*) { remove(); });  // where the disk is full, half of it would stay
+  const Leftover leftover{mended};
+  leftover.remove();  // of a recovery that was itself cut short
   if (const auto configuration = readableConfiguration(path)) {
     writeWithConfiguration(path, *configuration, mended);
     const RunLog log = RunLog::open(mended);  // nothing is replaced by what cannot be read either

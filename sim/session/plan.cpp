@@ -84,8 +84,9 @@ void checkBlock(const std::string& key, const PlanBlock& block, std::vector<Faul
   const std::vector<Fault> ofMix = problems(block.mix, block.trials, key);
   faults.insert(faults.end(), ofMix.begin(), ofMix.end());
   if (block.catchShare > 0 && block.catchShare <= kMaxCatchShare && (block.trials < 2 || std::lround(block.catchShare * block.trials) == 0))
-    faults.push_back({key + ".catch_share", fmt::format("is {} of {} trials, which is no trial", block.catchShare, block.trials),
-                      "a share that is half a trial or more of two trials or more, or 0"});
+    faults.push_back(
+        {key + ".catch_share", fmt::format("is {} of the {} trials of a block, which is no trial", block.catchShare, block.trials),
+         block.trials < 2 ? "0 in a block of one trial" : fmt::format("0 in that block, or {:.3g} and more", 0.5 / block.trials)});
   if (block.mix.wayBack && block.catchShare > 0)
     faults.push_back({key + ".return", "is reach, and a catch trial has no way back", "free, or a catch_share of 0"});
   if (!(block.foreperiodMin >= 0 && block.foreperiodMin <= block.foreperiodMax && block.foreperiodMax <= kMaxForeperiod))

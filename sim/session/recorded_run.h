@@ -59,7 +59,8 @@ class RecordedRun {
   /// Starts the loop and waits until the timing is checked. Returns at once where there is nothing to check, and soon when `stop` becomes
   /// true.
   void checkTiming(const std::atomic<bool>& stop);
-  /// Prepares the next trial and waits for its end. Nullopt when no trial is left, and when `stop` is true before. When `stop` becomes true, the trial is interrupted.
+  /// Prepares the next trial and waits for its end. Nullopt when no trial is left, or when `stop` is true before it begins.
+  /// When `stop` becomes true, the trial is interrupted.
   /// `looked`, if any, is called some hundred times a second meanwhile, but not on the virtual clock.
   std::optional<haptics::ConductedTrial> runTrial(const std::atomic<bool>& stop, const std::function<void()>& looked = {});
   /// Queues a finished trial again at the end, under the same index.

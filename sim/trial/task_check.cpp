@@ -30,25 +30,29 @@ double wayOf(const constraints::Constraint& constraint, const experiment::Task& 
   return constraints::ArcLength(constraint, task.start[0], task.target[0]).length();
 }
 
-/// The part of a domain in which a mass may pass on its way: all of it, or of one without an end four times the longest way of a parameter on
+/// The part of a domain in which a mass may pass on its way: all of it, or of one without an end `ways` times the longest way of a parameter on
 /// either side.
-constraints::Domain nearTheWay(const constraints::Domain& domain, const experiment::Task& task, std::size_t parameter) {
+constraints::Domain nearTheWay(const constraints::Domain& domain, const experiment::Task& task, std::size_t parameter, double ways) {
   double longest = 0;
   for (std::size_t k = 0; k < task.start.size(); ++k) longest = std::max(longest, std::abs(task.target[k] - task.start[k]));
   const auto [least, most] = std::minmax(task.start[parameter], task.target[parameter]);
   constraints::Domain near = domain;
-  if (!std::isfinite(near.lo)) near.lo = least - 4 * longest;
-  if (!std::isfinite(near.hi)) near.hi = most + 4 * longest;
+  if (!std::isfinite(near.lo)) near.lo = least - ways * longest;
+  if (!std::isfinite(near.hi)) near.hi = most + ways * longest;
   return near;
 }
 
 /// False if every point of the constraint near the way is farther from the place than the radius. The search looks at a grid of points, and
 /// doubts in favour of the place between them.
-bool canBePassed(const constraints::Constraint& c, const experiment::Task& task, const Vec3& place, double radius) {
+bool canBePassed(const constraints::Constraint& c, const experiment::Task& task, const ProtocolSettings& settings, const Vec3& place) {
+  const double radius = settings.viaRadius, way = norm(settings.target - settings.start);
+  constexpr double kMostWays = 100;  // where start and target are nearly one place
+  const double ways = way > 0 ? std::min(kMostWays, 4 * (1 + norm(place - settings.start) / way)) : kMostWays;
   const auto isNear = [&](const Vec3& r, double spacing) { return !(norm(r - place) > radius + spacing); };
   if (c.kind == constraints::ConstraintKind::Free) return true;
   const bool curve = c.kind == constraints::ConstraintKind::Curve;
-  const constraints::Domain first = nearTheWay(c.domain[0], task, 0), second = curve ? c.domain[1] : nearTheWay(c.domain[1], task, 1);
+  const constraints::Domain first = nearTheWay(c.domain[0], task, 0, ways),
+                            second = curve ? c.domain[1] : nearTheWay(c.domain[1], task, 1, ways);
   const int cells = curve ? 4000 : 200;
   const double step = (first.hi - first.lo) / cells, across = (second.hi - second.lo) / cells;
   for (int i = 0; i <= cells; ++i) {
@@ -118,7 +122,7 @@ std::vector<Fault> taskProblems(const experiment::CompiledExperiment& compiled) 
          fmt::format("{} to {}", domain.lo, domain.hi)});
   }
   for (std::size_t i = 0; i < place.via.size(); ++i)
-    if (!canBePassed(constraint, *experiment.task, place.via[i], place.viaRadius))
+    if (!canBePassed(constraint, *experiment.task, place, place.via[i]))
       found.push_back({fmt::format("task.via_m[{}]", i), "is farther from the constraint than via_radius_m, so that no mass can pass it",
                        "a place on the constraint"});
   return found;
@@ -140,8 +144,9 @@ bool pushesAway(const experiment::SquareMatrix<3>& k) {
   return symmetricEigenvalues(symmetric).minCoeff() < -kRounding * symmetric.norm();
 }
 
-/// A pulse that comes after the last moment of a trial, or farther from the start than any trial goes.
-void findLatePulses(const experiment::Environment& environment, const experiment::Task& task, double way, std::vector<Fault>& found) {
+/// A pulse that comes after the last moment of a trial, or farther from the start than a hand goes: `farthest` [m], not known on a bent way.
+void findLatePulses(const experiment::Environment& environment, const experiment::Task& task, std::optional<double> farthest,
+                    std::vector<Fault>& found) {
   for (std::size_t i = 0; i < environment.size(); ++i) {
     const auto* pulse = std::get_if<experiment::PulseForce>(&environment[i].law);
     if (pulse == nullptr) continue;
@@ -149,9 +154,10 @@ void findLatePulses(const experiment::Environment& environment, const experiment
     if (const double last = task.duration + task.tolerance.time; pulse->at.onset && *pulse->at.onset >= last)
       found.push_back(
           {key + "onset_s", fmt::format("is {} s, and no movement lasts longer than {} s: the pulse never comes", *pulse->at.onset, last)});
-    if (pulse->at.distance && *pulse->at.distance > way + task.tolerance.position)
-      found.push_back({key + "distance_m", fmt::format("is {} m, and the way is {:.4g} m long: the pulse comes only to a hand that misses",
-                                                       *pulse->at.distance, way)});
+    if (pulse->at.distance && farthest && *pulse->at.distance > *farthest + task.tolerance.position)
+      found.push_back(
+          {key + "distance_m", fmt::format("is {} m, and the hand goes {:.4g} m away: the pulse comes only to a hand that misses",
+                                           *pulse->at.distance, *farthest)});
   }
 }
 
@@ -191,8 +197,14 @@ std::vector<Fault> implausibleNumbers(const experiment::CompiledExperiment& comp
       found.push_back(
           {fmt::format("task.target[{}]", i), fmt::format("is {:.3g} turns from the start; more than one turn is hardly meant", turns)});
   }
-  const double way = wayOf(compiled.constraint(), task, makeProtocolSettings(experiment, compiled.constraint()));
-  findLatePulses(experiment.environment, task, way, found);
+  const ProtocolSettings settings = makeProtocolSettings(experiment, compiled.constraint());
+  const double way = wayOf(compiled.constraint(), task, settings);
+  std::optional<double> farthest;
+  if (compiled.constraint().kind == constraints::ConstraintKind::Free || compiled.constraint().straight) {
+    farthest = norm(settings.target - settings.start);
+    for (const Vec3& via : settings.via) farthest = std::max(*farthest, norm(via - settings.start));
+  }
+  findLatePulses(experiment.environment, task, farthest, found);
   if (task.tolerance.position > way)
     found.push_back({"task.tolerance.position_m",
                      fmt::format("is {} m, more than the way of {:.4g} m from start to target", task.tolerance.position, way)});

@@ -251,5 +251,13 @@ TEST(FaultList, AFaultOfTheFileGoesBeforeThatOfItsValue) {
             "f:2:17: object.masses[1]: is 2; allowed: less\nf:2:17: object.masses[1]: is 2; allowed: more");
 }
 
+// A change is one member, whose name has dots and may stand for all elements of a list.
+TEST(AtTheirPlaces, OfAChangeIsItsMember) {
+  const std::string text = R"({ "kinds": { "a": { "task.duration_s": -1, "object.masses_kg[*]": -2 } } })";
+  const auto told = [&](const char* key) { return toText(atTheirPlaces({Fault{key, "is wrong"}}, text, "f")[0]); };
+  EXPECT_EQ(told("kinds.a.task.duration_s"), "f:1:40: kinds.a.task.duration_s: is wrong");
+  EXPECT_EQ(told("kinds.a.object.masses_kg[3]"), "f:1:67: kinds.a.object.masses_kg[3]: is wrong");
+}
+
 }  // namespace
 }  // namespace reachlab

@@ -206,7 +206,7 @@ TEST(TrialMix, RefusesWithKeyAndReasonWhatNoOrderCanDo) {
   refused(R"("trials": 8, "targets": { "rings": {} })", {"rings", "ring"});
   refused(R"("trials": 8, "return": "walk")", {"return", "reach"});
   refused(R"("trials": 8, "return": "reach", "catch_share": 0.25)", {"return", "catch"});
-  refused(R"("trials": 4, "catch_share": 0.1)", {"is 0.1 of 4 trials, which is no trial"});
+  refused(R"("trials": 4, "catch_share": 0.1)", {"is 0.1 of the 4 trials of a block, which is no trial", "0.125 and more"});
   refused(R"("trials": 1, "catch_share": 0.5)", {"which is no trial"});
   EXPECT_EQ(
       faultsOfBlock(kSevenToOne + R"(, "trials": 240, "targets": { "ring": { "count": 8, "radius_m": 0.1 } }, "order": "shuffled-cycles",
