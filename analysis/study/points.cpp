@@ -101,8 +101,10 @@ std::string constraintNameOf(const std::string& experimentText) {
   return name == nullptr ? "" : name->string;
 }
 
-bool varies(const Design& design, std::string_view prefix) {
-  return std::any_of(design.axes.begin(), design.axes.end(), [&](const VariedKey& axis) { return axis.path.starts_with(prefix); });
+/// Whether points differ in the trials that they ask of a subject, as far as the keys tell.
+bool variesTrials(const Design& design) {
+  const Point first = pointAt(design, 0);
+  return design.planText.empty() ? findOwn(first, "trials") != nullptr : !patchesOf(first, "plan.").empty();
 }
 
 }  // namespace
@@ -202,7 +204,7 @@ std::int64_t mostTrialsOfSubject(const Design& design) {
   if (!design.planText.empty()) {
     constexpr std::int64_t kLooked = 1000;
     std::int64_t most = 0;
-    for (std::int64_t i = 0; i < (varies(design, "plan.") ? std::min(kLooked, pointCount(design)) : 1); ++i)
+    for (std::int64_t i = 0; i < (variesTrials(design) ? std::min(kLooked, pointCount(design)) : 1); ++i)
       most = std::max(most, trialsOf(planOf(design, pointAt(design, i))));
     return most;
   }
@@ -214,13 +216,12 @@ std::int64_t mostTrialsOfSubject(const Design& design) {
 }
 
 std::int64_t trialsOfPairs(const Design& design, std::int64_t most, std::int64_t first, std::int64_t end) {
-  const bool ofPlan = !design.planText.empty();
-  if (!varies(design, ofPlan ? "plan." : "trials")) return (end - first) * most;
+  if (!variesTrials(design)) return (end - first) * most;
   std::int64_t trials = 0;
   while (first < end) {
     const std::int64_t point = first / design.subjects, next = std::min(end, (point + 1) * design.subjects);
     const Point at = pointAt(design, point);
-    trials += (next - first) * (ofPlan ? trialsOf(planOf(design, at)) : trialsOf(design, at));
+    trials += (next - first) * (design.planText.empty() ? trialsOf(design, at) : trialsOf(planOf(design, at)));
     first = next;
   }
   return trials;

@@ -54,11 +54,7 @@ Definition findDefinition(const std::string& name, const std::string& key) {
                              "one of the two: give the file and its `name` another name"});
     return *shipped;
   }
-  if (isOwn) {
-    Definition own = readDefinition(file);
-    requireNameOf(own, file);
-    return own;
-  }
+  if (isOwn) return readNamedDefinition(file);
   std::vector<std::string> known{"free"};
   for (const Definition& definition : catalogue()) known.push_back(definition.name);
   const std::string near = nearestName(name, known);

@@ -53,8 +53,8 @@ std::vector<Fault> problems(const Definition& definition);
 /// The definition as a file that reads back equal.
 std::string toJson(const Definition& definition);
 
-/// Throws FaultError unless the name in the definition is that of its file, by which it is found.
-void requireNameOf(const Definition& definition, const std::string& file);
+/// A definition that is found by the name of its file. Throws FaultError also when the name in it is another one.
+Definition readNamedDefinition(const std::string& file);
 
 /// All definitions (*.json) of a folder, ordered by name. Empty if the folder does not exist. Faulty files are left out, and their faults
 /// added to `faults`.

@@ -205,11 +205,13 @@ Definition parseDefinition(const std::string& text, const std::string& file) {
 
 Definition readDefinition(const std::string& file) { return parseDefinition(readTextFile(file), file); }
 
-void requireNameOf(const Definition& definition, const std::string& file) {
+Definition readNamedDefinition(const std::string& file) {
+  Definition definition = readDefinition(file);
   const std::string stem = std::filesystem::path(file).stem().string();
   if (definition.name != stem)
     throw FaultError(Fault{"name", fmt::format("is \"{}\" in a file that is found as \"{}\"", definition.name, stem), "one name for both",
                            FilePlace{file}});
+  return definition;
 }
 
 std::vector<Definition> readDefinitionFolder(const std::string& folder, std::vector<Fault>& faults) {
@@ -221,9 +223,7 @@ std::vector<Definition> readDefinitionFolder(const std::string& folder, std::vec
   std::vector<Definition> definitions;
   for (const std::string& file : files) {
     try {
-      Definition definition = readDefinition(file);
-      requireNameOf(definition, file);
-      definitions.push_back(std::move(definition));
+      definitions.push_back(readNamedDefinition(file));
     } catch (const FaultError& faulty) {
       faults.insert(faults.end(), faulty.faults.begin(), faulty.faults.end());
     }

@@ -136,7 +136,9 @@ PreflightLine passivity(const Experiment& experiment, const experiment::Coupling
                                  line.verdict == Verdict::Held ? ", as any hand that holds it does" : ", more than a light grasp does");
   }
   if (line.verdict == Verdict::Warning) {
-    const double softer = 2 * (lightestDamping(device) + device.viscosity - std::abs(coupling.damping)) / loop.period;
+    LoopSettings held = loop;
+    held.friction += lightestDamping(device);
+    const double softer = largestPassiveStiffness(held);
     line.remedy = softer > 0 ? fmt::format("a coupling of k_h <= {:.4g} N/m", softer)
                              : fmt::format("less coupling damping than b_h = {:.3g} N s/m", coupling.damping);
   }

@@ -44,6 +44,10 @@ double passivityMargin(const LoopSettings& s) noexcept {
   return s.friction - (s.stiffness * s.period / 2 * (1 + 2 * s.delayTicks) + std::abs(s.damping));
 }
 
+double largestPassiveStiffness(const LoopSettings& s) noexcept {
+  return std::max(0.0, 2 * (s.friction - std::abs(s.damping)) / (s.period * (1 + 2 * s.delayTicks)));
+}
+
 double largestStableStiffness(LoopSettings settings, double most) {
   const auto stableAt = [&](double stiffness) {
     settings.stiffness = stiffness;
@@ -70,8 +74,7 @@ std::vector<StabilityPoint> computeStabilityMap(const DeviceModel& model, const 
     const auto steps = static_cast<int>(settings.mostDamping / settings.dampingStep + 1e-9);
     for (int i = 0; i <= steps; ++i) {
       loop.damping = i * settings.dampingStep;
-      const double passive = 2 * (loop.friction - loop.damping) / (kTickSeconds * (1 + 2 * loop.delayTicks));
-      map.push_back({handDamping, loop.damping, largestStableStiffness(loop), std::max(passive, 0.0)});
+      map.push_back({handDamping, loop.damping, largestStableStiffness(loop), largestPassiveStiffness(loop)});
     }
   }
   return map;

@@ -31,6 +31,8 @@ inline bool isStable(const LoopSettings& settings) { return spectralRadius(setti
 /// With d ticks of delay the first term is (1 + 2 d) K T/2, since sin((d + 1/2) w T)/sin(w T/2) in their condition is at most 1 + 2 d.
 /// Returns the friction that is left over [N s/m]. A negative value means that the wall is not passive.
 double passivityMargin(const LoopSettings& settings) noexcept;
+/// The stiffness [N/m] at which nothing is left over: 2 (b - |B|)/(T (1 + 2 d)). 0 if the damping alone is not passive.
+double largestPassiveStiffness(const LoopSettings& settings) noexcept;
 
 /// The largest stable stiffness with all other values as given, by bisection within [0, most] to 0.1 %. Returns `most` if every stiffness
 /// is stable.
@@ -46,11 +48,10 @@ struct StabilityMapSettings {
 };
 
 struct StabilityPoint {
-  double handDamping = 0;    // [N s/m]
-  double damping = 0;        // [N s/m] b_h
-  double largestStable = 0;  // [N/m] k_h below which every motion dies out
-  /// [N/m] Colgate's 2 (b - |b_h|)/(T (1 + 2 d)), or 0 without a passive stiffness: passive with any passive object.
-  double largestPassive = 0;
+  double handDamping = 0;     // [N s/m]
+  double damping = 0;         // [N s/m] b_h
+  double largestStable = 0;   // [N/m] k_h below which every motion dies out
+  double largestPassive = 0;  // [N/m] largestPassiveStiffness: passive with any passive object
 };
 
 /// Ordered by hand damping, then by b_h. Settings out of range (a step that is not positive) give an empty map.

@@ -156,6 +156,7 @@ std::vector<Station> readAll(const std::vector<std::string>& logs) {
 
 // What came here is what the other's log says it sent: the same hand and the same work, to the bit. A log that broke off has sent more.
 void requireSameSamples(const Station& here, const Station& there) {
+  // Before the samples are compared: a station that was started again counts its samples anew, and none of them would be the same.
   CopySample last;
   here.eachSampleOf(there, [&](const GivenSample& given) {
     // One that was overtaken on its way was also sent earlier.
@@ -259,8 +260,8 @@ MergedStation reportOf(const Station& s, const Station& conductor, const std::op
           rmsApart(s)};
 }
 
-// The conductor's ticks, each with every hand at the nearest tick of its own station, up to the end of the first log that ends. A trial that is
-// under way there is interrupted. Returns the rows.
+// Writes each tick of the conductor with every hand at the nearest tick of its own station. The merged log ends where the first of the logs
+// ends, and a trial that is under way there is interrupted. Returns the number of rows.
 std::uint64_t writeMerged(const std::vector<Station>& stations, const Station& conductor,
                           const std::vector<std::optional<ClockOffset>>& offsets, const record::RunConfiguration& merged,
                           const std::string& path) {
@@ -271,7 +272,7 @@ std::uint64_t writeMerged(const std::vector<Station>& stations, const Station& c
   std::size_t number = 0, setup = 0;
   std::uint64_t rows = 0;
   bool ended = false;
-  constexpr std::int64_t kEndsApartNs = 100'000'000;  // stations hear of the end of a run up to so far apart
+  constexpr std::int64_t kEndsApartNs = 100'000'000;  // stations hear up to so late of the end of a run
   const auto state = std::make_unique<haptics::TickState>();
   (void)replayStation(conductor.log, [&](const haptics::TickState& own, const CoupledCopy&) {
     if (ended) return;

@@ -86,7 +86,7 @@ TickEngine::Hand::Hand(const experiment::Experiment& experiment, const DeviceInf
 
 void TickEngine::begin(const experiment::Experiment& experiment, const EngineOptions& options) {
   now_ = &stages_.front();
-  // A station's scene is of its own hand alone, whatever the experiment has.
+  // A station moves its own hand alone, so its scene takes one device even where the experiment has several hands.
   if (now_->scene.shared != nullptr || experiment.hands.empty()) requireHands(experiment, options.hands.size());
   else if (options.hands.size() != 1)
     throw FaultError(Fault{"device", fmt::format("is {} devices at a station", options.hands.size()), "one device: a station is one hand"});

@@ -75,7 +75,7 @@ void samplesCsv(const RunLog& run, const TakePiece& take) {
 
 namespace {
 
-/// trials.csv is one table of all exported runs, written anew. Rows of another run would be lost.
+/// Every export writes trials.csv anew, with the trials of its runs. An export without a run that is in the file would lose the rows of that run.
 void requireNoOtherRun(const std::vector<RunLog>& runs, const std::string& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) return;

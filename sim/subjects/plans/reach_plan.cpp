@@ -70,7 +70,7 @@ bool areThere(const predict::Prediction& prediction, double t, double length, do
   return true;
 }
 
-/// The place on the way, from `from` to `to`, at `t`. The ends of a prediction are inner limits: a hand without mass that is weighed by its force
+/// How far along a way of this length the hand is at `t`. The ends of a prediction are inner limits: a hand without mass that is weighed by its force
 /// jumps there, from rest and to rest. A stretched time may miss the duration by rounding.
 double placeAt(const predict::Prediction& prediction, double t, double duration, double length) {
   constexpr double kRounding = 1e-9;
