@@ -74,26 +74,12 @@ class SymmetricPrediction final : public Prediction {
   }
 
   PredictedHand handAt(double t) const override {
-    const double s = (t - halfTime_) / halfTime_, s2 = s * s;
     PredictedHand out{half_, 0, 0};
-    double odd = s, even = 1, before = 0;  // sigma^(2k+1), sigma^(2k), sigma^(2k-1)
-    for (int k = 0; k < kOddPowers; ++k) {
-      const double n = 2 * k + 1;
-      out.position += hand_(k) * odd;
-      out.velocity += hand_(k) * n * even / halfTime_;
-      out.acceleration += hand_(k) * n * (n - 1) * before / (halfTime_ * halfTime_);
-      before = odd, odd *= s2, even *= s2;
-    }
-    const Eigen::Index n = frequency_.size();
-    for (Eigen::Index j = 0; j < n; ++j) {
-      double sine, cosine;
-      const double w = frequency_(j);
-      constraints::sinCos(w * (t - halfTime_), sine, cosine);
-      const double a = hand_(kOddPowers + j), b = hand_(kOddPowers + n + j);
-      out.position += a * sine + b * s * cosine;
-      out.velocity += (a * w + b / halfTime_) * cosine - b * s * w * sine;
-      out.acceleration -= (a * w + 2 * b / halfTime_) * w * sine + b * s * w * w * cosine;
-    }
+    addColumns(t, [&](Eigen::Index column, double value, double rate, double rateOfRate) {
+      out.position += hand_(column) * value;
+      out.velocity += hand_(column) * rate;
+      out.acceleration += hand_(column) * rateOfRate;
+    });
     return out;
   }
 
@@ -110,52 +96,46 @@ class SymmetricPrediction final : public Prediction {
   }
 
   void massesAt(double t, std::span<double> position, std::span<double> velocity) const override {
-    const double s = (t - halfTime_) / halfTime_, s2 = s * s;
     for (int i = 0; i < massCount_; ++i) position[i] = half_, velocity[i] = 0;
-    const auto add = [&](Eigen::Index column, double value, double rate) {
+    addColumns(t, [&](Eigen::Index column, double value, double rate, double) {
       for (int i = 0; i < massCount_; ++i) {
         position[i] += masses_(source_[i], column) * value;
         velocity[i] += masses_(source_[i], column) * rate;
       }
-    };
-    double odd = s, even = 1;
+    });
+  }
+
+ private:
+  // Gives each function of the coefficients' columns, with its first and second derivative by time, to `add`.
+  template <class Add>
+  void addColumns(double t, Add&& add) const {
+    const double perHalf = 1 / halfTime_, s = (t - halfTime_) * perHalf, s2 = s * s;
+    double odd = s, even = 1, before = 0;  // sigma^(2k+1), sigma^(2k), sigma^(2k-1)
     for (int k = 0; k < kOddPowers; ++k) {
-      add(k, odd, (2 * k + 1) * even / halfTime_);
-      odd *= s2, even *= s2;
+      const double n = 2 * k + 1;
+      add(k, odd, n * even * perHalf, n * (n - 1) * before * perHalf * perHalf);
+      before = odd, odd *= s2, even *= s2;
     }
     const Eigen::Index n = frequency_.size();
     for (Eigen::Index j = 0; j < n; ++j) {
       double sine, cosine;
       const double w = frequency_(j);
       constraints::sinCos(w * (t - halfTime_), sine, cosine);
-      add(kOddPowers + j, sine, w * cosine);
-      add(kOddPowers + n + j, s * cosine, cosine / halfTime_ - s * w * sine);
+      add(kOddPowers + j, sine, w * cosine, -w * w * sine);
+      add(kOddPowers + n + j, s * cosine, perHalf * cosine - s * w * sine, -w * (2 * perHalf * sine + s * w * cosine));
     }
   }
 
- private:
   struct Velocities {
     double hand = 0, object = 0;  // of the last mass
   };
   Velocities velocitiesAt(double t) const {
-    const double s = (t - halfTime_) / halfTime_, s2 = s * s;
     const auto object = masses_.row(source_.back());
-    const Eigen::Index n = frequency_.size();
     Velocities v;
-    double even = 1 / halfTime_;
-    for (int k = 0; k < kOddPowers; ++k, even *= s2) {
-      const double slope = (2 * k + 1) * even;
-      v.hand += hand_(k) * slope;
-      v.object += object(k) * slope;
-    }
-    for (Eigen::Index j = 0; j < n; ++j) {
-      double sine, cosine;
-      const double w = frequency_(j);
-      constraints::sinCos(w * (t - halfTime_), sine, cosine);
-      const double a = w * cosine, b = cosine / halfTime_ - s * w * sine;
-      v.hand += hand_(kOddPowers + j) * a + hand_(kOddPowers + n + j) * b;
-      v.object += object(kOddPowers + j) * a + object(kOddPowers + n + j) * b;
-    }
+    addColumns(t, [&](Eigen::Index column, double, double rate, double) {
+      v.hand += hand_(column) * rate;
+      v.object += object(column) * rate;
+    });
     return v;
   }
 
