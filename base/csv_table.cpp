@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
+#include <string_view>
 
 #include "base/as_number.h"
 #include "base/fault.h"
@@ -14,22 +14,40 @@
 namespace reachlab {
 namespace {
 
-std::vector<std::string> cellsOf(std::string line, char separator) {
-  if (!line.empty() && line.back() == '\r') line.pop_back();
-  std::vector<std::string> cells;
-  std::istringstream in(line + separator);  // an empty last cell counts
-  for (std::string cell; std::getline(in, cell, separator);) {
-    const std::size_t begin = cell.find_first_not_of(' ');
-    std::string bare = begin == std::string::npos ? "" : cell.substr(begin, cell.find_last_not_of(' ') - begin + 1);
-    if (bare.size() >= 2 && bare.front() == '"' && bare.back() == '"') bare = bare.substr(1, bare.size() - 2);
-    cells.push_back(std::move(bare));
+/// Takes the next row off `rest`. In quotes a cell may have separators, line breaks and doubled quotes, as RFC 4180 says.
+std::vector<std::string> takeRow(std::string_view& rest, char separator, int& line) {
+  std::vector<std::string> cells(1);
+  bool quoted = false, closed = false;  // `closed`: spaces behind the quotes are left out
+  const auto endCell = [&] {
+    if (!closed) cells.back().erase(cells.back().find_last_not_of(" \r") + 1);
+    closed = false;
+  };
+  while (!rest.empty()) {
+    const char c = rest.front();
+    rest.remove_prefix(1);
+    if (c == '\n') ++line;
+    if (quoted) {
+      if (c != '"') cells.back() += c;
+      else if (rest.starts_with('"')) cells.back() += c, rest.remove_prefix(1);
+      else quoted = false, closed = true;
+    } else if (c == '\n') {
+      break;
+    } else if (c == separator) {
+      endCell();
+      cells.emplace_back();
+    } else if (cells.back().empty() && !closed && (c == '"' || c == ' ')) {
+      quoted = c == '"';
+    } else if (!closed) {
+      cells.back() += c;
+    }
   }
+  endCell();
   return cells;
 }
 
-char separatorOf(const std::string& header) {
-  if (header.find('\t') != std::string::npos) return '\t';
-  return header.find(',') == std::string::npos && header.find(';') != std::string::npos ? ';' : ',';
+char separatorOf(std::string_view header) {
+  if (header.find('\t') != header.npos) return '\t';
+  return header.find(',') == header.npos && header.find(';') != header.npos ? ';' : ',';
 }
 
 }  // namespace
@@ -43,20 +61,20 @@ std::optional<std::size_t> CsvTable::find(const std::string& column) const {
 CsvTable readCsvTable(const std::string& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) throw ResourceError(file + ": cannot be opened");
-  std::istringstream in(readTextFile(file));
-  std::string line;
-  std::getline(in, line);
-  if (line.starts_with("\xef\xbb\xbf")) line.erase(0, 3);
-  const char separator = separatorOf(line);
-  CsvTable table{file, cellsOf(line, separator), {}};
-  for (int number = 2; std::getline(in, line); ++number) {
-    if (line.find_first_not_of(" \r") == std::string::npos) continue;
-    CsvTable::Row row{number, cellsOf(line, separator)};
+  const std::string text = readTextFile(file);
+  std::string_view rest = text;
+  if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);
+  const char separator = separatorOf(rest.substr(0, rest.find('\n')));
+  int line = 1;
+  CsvTable table{file, takeRow(rest, separator, line), {}};
+  while (!rest.empty()) {
+    CsvTable::Row row{line, takeRow(rest, separator, line)};
+    if (row.cells == std::vector<std::string>{""}) continue;
     if (row.cells.size() != table.columns.size())
       throw FaultError(Fault{{},
                              fmt::format("has {} cells", row.cells.size()),
                              fmt::format("{}, as the header", table.columns.size()),
-                             FilePlace{file, number}});
+                             FilePlace{file, row.line}});
     table.rows.push_back(std::move(row));
   }
   return table;

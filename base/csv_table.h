@@ -6,11 +6,11 @@
 
 namespace reachlab {
 
-/// A table from a text file whose first line names the columns. That line also decides the separator: tab, comma, or semicolon. Quotes
-/// around a cell, spaces beside it, a byte order mark, and empty lines are left out.
+/// A table from a text file whose first line names the columns. That line also decides the separator: tab, comma, or semicolon. A cell in quotes
+/// may have separators, line breaks and doubled quotes (RFC 4180). Spaces beside a cell, a byte order mark, and empty lines are left out.
 struct CsvTable {
   struct Row {
-    int line = 0;  // in the file, from 1
+    int line = 0;  // where it begins in the file, from 1
     std::vector<std::string> cells;
   };
   std::string file;

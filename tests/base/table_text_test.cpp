@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
+
+#include "base/csv_table.h"
+#include "tests/temporary_folder.h"
 
 namespace reachlab {
 namespace {
@@ -30,6 +34,23 @@ TEST(TableText, GuardsInCsvWhatASpreadsheetWouldCarryOut) {
   EXPECT_EQ(csvOf("-1.5x"), "\"'-1.5x\"");
   EXPECT_EQ(csvOf("-"), "\"'-\"");
   EXPECT_EQ(csvOf("a=b"), "a=b");
+}
+
+TEST(TableText, ReadsInCsvWhatItWrote) {
+  const std::vector<std::string> words{"a,b", "say \"x\"", "two\nlines", " beside ", "\"", "plain"};
+  TableText table(',', "");
+  table.row({"1", "2", "3", "4", "5", "6"});
+  for (int i = 0; i < 2; ++i) table.row(words);
+  const TemporaryFolder folder;
+  std::ofstream(folder / "table.csv") << table.text() << "\r\n  a , \"b\" ,c,d,e,\r\n";
+  const CsvTable read = readCsvTable(folder / "table.csv");
+  ASSERT_EQ(read.rows.size(), 3u);
+  EXPECT_EQ(read.rows[0].cells[0], "a,b");
+  EXPECT_EQ(read.rows[1].cells[1], "say \"x\"");
+  EXPECT_EQ(read.rows[1].cells[2], "two\nlines");
+  EXPECT_EQ(read.rows[1].cells[4], "\"");
+  EXPECT_EQ(read.rows[1].line, 4) << "a cell of the row before has a line break";
+  EXPECT_EQ(read.rows[2].cells, (std::vector<std::string>{"a", "b", "c", "d", "e", ""}));
 }
 
 TEST(TableText, PutsItsCellsInRows) {

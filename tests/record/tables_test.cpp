@@ -269,6 +269,7 @@ TEST_F(Tables, EveryColumnIsExplainedBesideItsTable) {
 
 TEST_F(Tables, TrialsOfOtherRunsAreNotWrittenOver) {
   const std::string out = folder_ / "csv";
+  configuration_.notes = "tired, left early";
   configuration_.run = 2;
   writeMadeRun(folder_ / "second_log.reach", 3, configuration_);
   configuration_.run = 1;
