@@ -15,6 +15,7 @@
 #include "analysis/study/trial_row.h"
 #include "base/fault.h"
 #include "base/system/descriptor.h"
+#include "base/system/hold_alone.h"
 #include "base/text_file.h"
 #include "sim/record/log/atomic_file.h"
 #include "sim/record/log/folder_hold.h"
@@ -118,7 +119,7 @@ bool mergeTables(const StudyFolder& folder) {
     if (!isChunkThere(folder.path, chunk, folder.fingerprint)) return false;
   // One program merges at a time, where the file system has locks. Without, two would write the same bytes.
   const os::Descriptor hold(::open((folder.path + "/.merge").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666));
-  if (hold >= 0) ::flock(hold, LOCK_EX);
+  if (hold >= 0) os::lock(hold, LOCK_EX);
   if (areTablesThere(folder)) return true;
   const std::vector<Column> columns = columnsOf(folder.design);
   std::string header;

@@ -8,11 +8,14 @@
 
 namespace reachlab::os {
 
+bool lock(int descriptor, int how) {
+  while (::flock(descriptor, how) != 0)
+    if (errno != EINTR) return false;
+  return true;
+}
+
 void holdAlone(int descriptor, const std::string& path) {
-  int held = 0;
-  do held = ::flock(descriptor, LOCK_EX | LOCK_NB);
-  while (held != 0 && errno == EINTR);
-  if (held != 0 && errno == EWOULDBLOCK)
+  if (!lock(descriptor, LOCK_EX | LOCK_NB) && errno == EWOULDBLOCK)
     throw ResourceError(path + ": is already in use, by another hand or another program of Reachlab; end that one first");
 }
 

@@ -12,6 +12,7 @@
 #include <fstream>
 
 #include "base/error.h"
+#include "base/system/hold_alone.h"
 #include "base/system/os.h"
 #include "sim/record/log/disk_fault.h"
 #include "sim/record/log/folder_hold.h"
@@ -21,13 +22,10 @@ namespace {
 
 // The exclusive lock of a log, held as long as the descriptor is open.
 void lockExclusively(int descriptor, const std::string& path) {
-  while (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
-    if (errno == EINTR) continue;
-    if (errno == EWOULDBLOCK)
-      throw ResourceError(fmt::format("{}: is being written by another program{}; wait until its run has ended", path, writerOf(path)));
-    throw ResourceError(
-        fmt::format("{}: cannot be locked against a second program: {}; choose a folder on a disk with locks", path, std::strerror(errno)));
-  }
+  if (os::lock(descriptor, LOCK_EX | LOCK_NB)) return;
+  if (errno == EWOULDBLOCK)
+    throw ResourceError(fmt::format("{}: is being written by another program{}; wait until its run has ended", path, writerOf(path)));
+  refuseWithoutLocks(path);
 }
 
 }  // namespace
@@ -86,7 +84,7 @@ std::string writerOf(const std::string& path) {
 
 bool isBeingWritten(const std::string& path) {
   const os::Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
-  return file >= 0 && ::flock(file, LOCK_SH | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  return file >= 0 && !os::lock(file, LOCK_SH | LOCK_NB) && errno == EWOULDBLOCK;
 }
 
 }  // namespace reachlab::record

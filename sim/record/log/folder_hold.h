@@ -8,6 +8,9 @@ namespace reachlab::record {
 /// Makes a folder and the folders above it. Throws ResourceError.
 void makeFolders(const std::string& path);
 
+/// For a lock that the file system refused: throws ResourceError with the reason in errno.
+[[noreturn]] void refuseWithoutLocks(const std::string& path);
+
 /// Locks a folder against other programs as long as it lives, so that files that belong together come from one program. Waits for another
 /// holder. Makes the folder. One thread.
 class FolderHold {
