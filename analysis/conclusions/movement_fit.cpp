@@ -3,24 +3,38 @@
 #include <algorithm>
 #include <cmath>
 #include <type_traits>
+#include <utility>
 
 #include "base/math/lanes.h"
+#include "base/math/matrix.h"
 
 namespace reachlab::analysis {
 namespace {
 
 constexpr double kSmallStep = 1e-10;  // of the duration: the fit has arrived
 
-/// Sums over the window that both the cost and the normal equations are made of. a: d phi / d s, b: phi's change with ln T at a held
-/// centre, p: phi, v: the data. Of one sample after another, or of several side by side.
+/// What the fit needs of the profile at one sample, or at several side by side.
+template <class Number>
+struct ProfileAt {
+  Number value;       // phi
+  Number slope;       // d phi / d s
+  Number bend;        // d^2 phi / d s^2
+  Number fromMiddle;  // s - 1/2
+  Number change;      // of phi with ln T at a held centre
+};
+
+/// Sums over the window that the cost, its gradient and its second derivatives are made of. a: d phi / d s, b: phi's change with ln T at a held
+/// centre, p: phi, v: the data, and c, d, e: d^2 phi / d s^2 times 1, s - 1/2 and (s - 1/2)^2.
 template <class Number>
 struct SumsOf {
-  Number aa{}, ab{}, ap{}, av{}, bb{}, bp{}, bv{}, pp{}, pv{};
-  void add(const Number& slope, const Number& b, const Number& value, const Number& w, const Number& v) {
-    const Number wa = w * slope, wb = w * b, wp = w * value;
+  Number aa{}, ab{}, ap{}, av{}, bb{}, bp{}, bv{}, pp{}, pv{}, cp{}, cv{}, dp{}, dv{}, ep{}, ev{};
+  void add(const ProfileAt<Number>& at, const Number& w, const Number& v) {
+    const auto& [value, slope, bend, fromMiddle, b] = at;
+    const Number wa = w * slope, wb = w * b, wp = w * value, wc = w * bend, wd = wc * fromMiddle, we = wd * fromMiddle;
     aa += wa * slope, ab += wa * b, ap += wa * value, av += wa * v;
     bb += wb * b, bp += wb * value, bv += wb * v;
     pp += wp * value, pv += wp * v;
+    cp += wc * value, cv += wc * v, dp += wd * value, dv += wd * v, ep += we * value, ev += we * v;
   }
 };
 using Sums = SumsOf<double>;
@@ -45,11 +59,28 @@ Number slopeOf(const Coefficients& c, const Number& d) {
   return c[1] + d * (2.0 * c[2] + d * 3.0 * c[3]);
 }
 
+template <class Number, class Coefficients>
+Number bendOf(const Coefficients& c, const Number& d) {
+  return 2.0 * c[2] + d * 6.0 * c[3];
+}
+
 constexpr std::ptrdiff_t kAside = 2;  // samples that a piece needs on either side
 constexpr int kSamplesAtOnce = 4;     // samples side by side
 using FourSamples = Lanes<kSamplesAtOnce>;
 
-using FourCells = std::array<std::ptrdiff_t, kSamplesAtOnce>;
+using FourCells [[gnu::vector_size(kSamplesAtOnce * sizeof(int))]] = int;
+
+/// The cells that four places lie in, and how far behind the cells' samples the places are.
+std::pair<FourCells, FourSamples> splitPlaces(const FourSamples& place) {
+#ifdef __AVX__
+  const FourCells i = __builtin_convertvector(place, FourCells);
+  return {i, place - __builtin_convertvector(i, FourSamples)};
+#else
+  const FourCells i{static_cast<int>(place[0]), static_cast<int>(place[1]), static_cast<int>(place[2]), static_cast<int>(place[3])};
+  return {i,
+          place - FourSamples{static_cast<double>(i[0]), static_cast<double>(i[1]), static_cast<double>(i[2]), static_cast<double>(i[3])}};
+#endif
+}
 
 /// Four numbers from each of four places, the first of all side by side, then the second of all …
 std::array<FourSamples, 4> sideBySide(const double* a, const double* b, const double* c, const double* d) {
@@ -101,33 +132,31 @@ Sums sumOver(const FitWindow& window, double first, double spacing, std::ptrdiff
   const auto to = static_cast<std::ptrdiff_t>(std::clamp(std::floor((highest - x0) / dx) + 1, 0.0, n));
   const double* const weight = window.weight.data();
   const double* const velocity = window.velocity.data();
+  // `place` on the grid is `d` behind the sample of the cell or cells `i`.
+  const auto profileAt = [&]<class Number>(const Number& place, const Number& d, const auto& i) {
+    const auto piece = pieces.at(i);
+    ProfileAt<Number> at{
+        valueOf(piece, d), perStep * slopeOf(piece, d), perStep * perStep * bendOf(piece, d), first + place * spacing - 0.5, {}};
+    at.change = -at.slope * at.fromMiddle;
+    if constexpr (kChanges) at.change += valueOf(changes.at(i), d);
+    return at;
+  };
   SumsOf<FourSamples> four;
   std::ptrdiff_t k = from;
   for (; k + kSamplesAtOnce <= to; k += kSamplesAtOnce) {
     const FourSamples place = x0 + (static_cast<double>(k) + FourSamples{0.0, 1.0, 2.0, 3.0}) * dx;
-    const FourCells i{static_cast<std::ptrdiff_t>(place[0]), static_cast<std::ptrdiff_t>(place[1]), static_cast<std::ptrdiff_t>(place[2]),
-                      static_cast<std::ptrdiff_t>(place[3])};
-    const FourSamples d =
-        place - FourSamples{static_cast<double>(i[0]), static_cast<double>(i[1]), static_cast<double>(i[2]), static_cast<double>(i[3])};
-    const std::array<FourSamples, 4> piece = pieces.at(i);
-    const FourSamples slope = perStep * slopeOf(piece, d), fromMiddle = first + place * spacing - 0.5;
-    FourSamples b = -slope * fromMiddle;
-    if constexpr (kChanges) b += valueOf(changes.at(i), d);
-    four.add(slope, b, valueOf(piece, d), loadLanes<FourSamples>(weight + k), loadLanes<FourSamples>(velocity + k));
+    const auto [i, d] = splitPlaces(place);
+    four.add(profileAt(place, d, i), loadLanes<FourSamples>(weight + k), loadLanes<FourSamples>(velocity + k));
   }
   for (; k < to; ++k) {
-    const double x = x0 + static_cast<double>(k) * dx;
-    const auto i = static_cast<std::ptrdiff_t>(x);
-    const double d = x - static_cast<double>(i);
-    const Cubic piece = pieces.at(i);
-    const double slope = perStep * slopeOf(piece, d), fromMiddle = first + x * spacing - 0.5;
-    double b = -slope * fromMiddle;
-    if constexpr (kChanges) b += valueOf(changes.at(i), d);
-    s.add(slope, b, valueOf(piece, d), weight[k], velocity[k]);
+    const double place = x0 + static_cast<double>(k) * dx;
+    const auto i = static_cast<std::ptrdiff_t>(place);
+    s.add(profileAt(place, place - static_cast<double>(i), i), weight[k], velocity[k]);
   }
   const auto join = [](double& sum, const FourSamples& lanes) { sum += (lanes[0] + lanes[1]) + (lanes[2] + lanes[3]); };
   join(s.aa, four.aa), join(s.ab, four.ab), join(s.ap, four.ap), join(s.av, four.av);
   join(s.bb, four.bb), join(s.bp, four.bp), join(s.bv, four.bv), join(s.pp, four.pp), join(s.pv, four.pv);
+  join(s.cp, four.cp), join(s.cv, four.cv), join(s.dp, four.dp), join(s.dv, four.dv), join(s.ep, four.ep), join(s.ev, four.ev);
   return s;
 }
 
@@ -136,36 +165,29 @@ struct Step {
   bool solved = false;
 };
 
-/// Marquardt's damped step from the sums at (duration, amplitude).
+/// Newton's step from the sums at (duration, amplitude), damped as by Marquardt. Where the cost does not curve upwards, it is the step of Gauss and
+/// Newton. The second derivatives leave out how a profile that is planned anew changes with ln T.
 Step stepFrom(const Sums& s, double duration, double amplitude, double damping) {
-  const double ja = -amplitude / duration;  // columns: ja * a, amplitude * b, p
-  double h[3][3] = {{ja * ja * s.aa, ja * amplitude * s.ab, ja * s.ap},
-                    {ja * amplitude * s.ab, amplitude * amplitude * s.bb, amplitude * s.bp},
-                    {ja * s.ap, amplitude * s.bp, s.pp}};
-  double g[3] = {ja * (s.av - amplitude * s.ap), amplitude * (s.bv - amplitude * s.bp), s.pv - amplitude * s.pp};
-  for (int i = 0; i < 3; ++i) h[i][i] *= 1 + damping;
-  // Cholesky.
-  double l[3][3] = {};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j <= i; ++j) {
-      double sum = h[i][j];
-      for (int k = 0; k < j; ++k) sum -= l[i][k] * l[j][k];
-      if (i == j) {
-        if (!(sum > 0)) return {};
-        l[i][i] = std::sqrt(sum);
-      } else {
-        l[i][j] = sum / l[j][j];
-      }
-    }
-  for (int i = 0; i < 3; ++i) {
-    for (int k = 0; k < i; ++k) g[i] -= l[i][k] * g[k];
-    g[i] /= l[i][i];
+  const double A = amplitude, T = duration;
+  // Sums over the residuals v - A phi.
+  const double ar = s.av - A * s.ap, br = s.bv - A * s.bp, pr = s.pv - A * s.pp;
+  const double cr = s.cv - A * s.cp, dr = s.dv - A * s.dp, er = s.ev - A * s.ep;
+  const Eigen::Vector3d gradient(-A / T * ar, A * br, pr);  // by centre, ln T and amplitude
+  Eigen::Matrix3d slopes, bends;
+  slopes << A * A / (T * T) * s.aa, -A * A / T * s.ab, -A / T * s.ap,  //
+      -A * A / T * s.ab, A * A * s.bb, A * s.bp,                       //
+      -A / T * s.ap, A * s.bp, s.pp;
+  bends << A / (T * T) * cr, A / T * (dr + ar), -ar / T,  //
+      A / T * (dr + ar), A * (er - br), br,               //
+      -ar / T, br, 0;
+  for (Eigen::Matrix3d hessian : {Eigen::Matrix3d(slopes - bends), slopes}) {
+    hessian.diagonal() *= 1 + damping;
+    const Eigen::LLT<Eigen::Matrix3d> factors(hessian);
+    if (factors.info() != Eigen::Success) continue;
+    const Eigen::Vector3d step = factors.solve(gradient);
+    if (std::isfinite(step[0]) && std::isfinite(step[1])) return {step[0], step[1], true};
   }
-  for (int i = 2; i >= 0; --i) {
-    for (int k = i + 1; k < 3; ++k) g[i] -= l[k][i] * g[k];
-    g[i] /= l[i][i];
-  }
-  return {g[0], g[1], std::isfinite(g[0]) && std::isfinite(g[1])};
+  return {};
 }
 
 /// `evaluate(centre, duration, sums)` false: not possible there.

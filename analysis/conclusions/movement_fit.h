@@ -48,7 +48,7 @@ struct ProfilePieces {
   explicit ProfilePieces(const Profile& profile);
 };
 
-/// Least squares over onset, duration and amplitude by damped Gauss-Newton steps in (onset + duration / 2, ln duration, amplitude),
+/// Least squares over onset, duration and amplitude by damped Newton steps in (onset + duration / 2, ln duration, amplitude),
 /// from `start` (its onset and duration). The profile is held.
 MovementFit fitMovement(const FitWindow& window, const ProfilePieces& pieces, const MovementFit& start, FitEffort effort = {});
 MovementFit fitMovement(const FitWindow& window, const Profile& profile, const MovementFit& start, FitEffort effort = {});
