@@ -129,13 +129,17 @@ std::vector<Effect> effectsOf(const std::vector<SuccessCell>& cells, std::size_t
     const auto found = at.find({subject, condition, day});
     return found == at.end() ? nullptr : found->second;
   };
-  for (std::size_t c = 0; c < conditions; ++c)
-    for (auto day = days.begin(); day != days.end() && std::next(day) != days.end(); ++day) {
+  for (std::size_t c = 0; c < conditions; ++c) {
+    std::set<int> own;  // the days of this condition
+    for (const SuccessCell& cell : cells)
+      if (cell.condition == c) own.insert(cell.day);
+    for (auto day = own.begin(); day != own.end() && std::next(day) != own.end(); ++day) {
       const int from = *day, to = *std::next(day);
       Paired paired;
       for (const std::string& subject : subjects) paired.add(cellOf(subject, c, from), cellOf(subject, c, to));
       addEffect(out, {.ofDay = true, .condition = c, .from = from, .to = to}, paired);
     }
+  }
   for (std::size_t a = 0; a < conditions; ++a)
     for (std::size_t b = a + 1; b < conditions; ++b) {
       Paired paired;  // one number a person: the mean over the days on which both were done

@@ -78,6 +78,18 @@ TEST(Effects, OfDaysArePairedOverPeople) {
   EXPECT_EQ(effects[1].p, 1);
 }
 
+TEST(Effects, OfDaysAreBetweenTheDaysOfTheCondition) {
+  std::vector<Attempt> all;
+  for (const int day : {1, 2, 3}) attempts(all, "a", std::to_string(day), day, 0, 5, 10);
+  for (const int day : {1, 3}) attempts(all, "a", std::to_string(day), day, 1, 2 * day, 10);
+  const std::vector<Effect> effects = effectsOf(successTable(all), 2);
+  const auto of = std::find_if(effects.begin(), effects.end(), [](const Effect& e) { return e.ofDay && e.condition == 1; });
+  ASSERT_NE(of, effects.end()) << "nobody did it on day 2";
+  EXPECT_EQ(of->from, 1);
+  EXPECT_EQ(of->to, 3);
+  EXPECT_NEAR(of->points.mean, 40, 1e-9);
+}
+
 // A person's effect is the mean over the days on which both were done, and as sure as the mean of those.
 TEST(Effects, OfConditionsAreMeansOverCommonDays) {
   const Effect pace = effectsOf(cells(), 2)[2];
