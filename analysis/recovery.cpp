@@ -171,7 +171,7 @@ class SimulatedStudies {
     }
     Plan first = planOf(person, mover.kind, mover.first, draws);
     if (mover.kind == Kind::HandSnap || mover.kind == Kind::TwoSubmovements) {  // where and how long the reference moves
-      const double rate = analysis_.trials[person.firstTrial].windowRate;
+      const double rate = fittedTrials(analysis_, person).front()->windowRate;
       first.fit = &person.fit.candidates.back();
       first.family = std::make_shared<ProfileFamily>(samplerOf(mover.kind, draws), RecordingFilter(analysis_.options.measure.cutoff, rate),
                                                      first.family->grid());
