@@ -12,20 +12,21 @@ namespace {
 
 constexpr int kResamples = 200;  // of the intervals
 
-// A clamped cursor shows no error that the hand made. A trial that a person excluded was felt, and its response does not count.
-AdaptationTrial seen(const AnalyzedTrial& trial, bool rotated) {
-  const auto known = [&](double value) { return std::isfinite(value) && !trial.isExcluded() ? std::optional(value) : std::nullopt; };
-  if (rotated) return {trial.scene.clamp ? std::nullopt : std::optional(trial.scene.rotation), known(-trial.measures.handAngle)};
-  if (trial.scene.channel) return {std::nullopt, known(trial.measures.adaptation / 100)};
-  return {trial.scene.inField ? 1.0 : 0.0, std::nullopt};
+// A clamped cursor shows no error that the hand made. A trial that is left out was felt, and its response does not count.
+AdaptationTrial seen(const AnalyzedTrial& trial, const TaughtTrials& person) {
+  const auto known = [&](double value) { return std::isfinite(value) && !trial.isLeftOut() ? std::optional(value) : std::nullopt; };
+  if (person.rotated) return {trial.scene.clamp ? std::nullopt : std::optional(trial.scene.rotation), known(-trial.measures.handAngle)};
+  if (trial.scene.channel) return {std::nullopt, known(trial.measures.adaptation / 100 * person.unitOf(trial))};
+  return {person.strengthIn(trial), std::nullopt};
 }
 
-void row(Sheet& table, const std::string& subject, const std::string& session, const std::string& block,
-         const std::vector<const AnalyzedTrial*>& trials, bool rotated, const Learning& learning = {}) {
+void row(Sheet& table, const TaughtTrials& person, const std::string& session, const std::string& block,
+         const std::vector<const AnalyzedTrial*>& trials, const Learning& learning = {}) {
+  const bool rotated = person.rotated;
   AdaptationSeries series;
-  for (const AnalyzedTrial* trial : trials) series.push_back(seen(*trial, rotated));
+  for (const AnalyzedTrial* trial : trials) series.push_back(seen(*trial, person));
   const auto count = [&](auto&& is) { return std::count_if(series.begin(), series.end(), is); };
-  table.cells(subject, session, block, rotated ? "deg" : "field", series.size(),
+  table.cells(person.subject, session, block, rotated ? "deg" : "field", series.size(),
               count([](const AdaptationTrial& t) { return !t.perturbation; }),
               count([](const AdaptationTrial& t) { return t.response.has_value(); }));
   std::string remark;
@@ -51,8 +52,8 @@ void row(Sheet& table, const std::string& subject, const std::string& session, c
   table.row(remark);
 }
 
-void adaptationTable(const std::map<std::string, TaughtTrials>& people, Sheet& table) {
-  for (const auto& [subject, person] : people) {
+void adaptationTable(const std::vector<TaughtTrials>& people, Sheet& table) {
+  for (const TaughtTrials& person : people) {
     struct Block {
       TrialKey key;
       std::vector<const AnalyzedTrial*> trials;
@@ -63,8 +64,8 @@ void adaptationTable(const std::map<std::string, TaughtTrials>& people, Sheet& t
       if (blocks.empty() || blocks.back().key.session != key.session || blocks.back().key.block != key.block) blocks.push_back({key, {}});
       blocks.back().trials.push_back(trial);
     }
-    for (const Block& block : blocks) row(table, subject, block.key.session, std::to_string(block.key.block), block.trials, person.rotated);
-    row(table, subject, kAllTogether, kAllTogether, person.trials, person.rotated, learningOf(person));
+    for (const Block& block : blocks) row(table, person, block.key.session, std::to_string(block.key.block), block.trials);
+    row(table, person, kAllTogether, kAllTogether, person.trials, learningOf(person));
   }
 }
 

@@ -33,6 +33,7 @@ std::string whyExcluded(const AnalyzedTrial& trial, const TrialData& data, const
     return trial.result.outcome == trial::Outcome::Interrupted && trial.result.reason == trial::Reason::Timing
                ? "invalid timing"
                : std::string(nameOf(trial.result.outcome));
+  if (!data.notSeen.empty()) return data.notSeen;
   const bool marked = std::isfinite(data.markedOnset) || std::isfinite(data.markedOffset);
   if (!movement.found) return marked ? "no movement between onset and end (marks count from the arming of the trial)" : "no movement found";
   return {};
@@ -45,7 +46,7 @@ void useFailuresWhereNothingSucceeded(Analysis& analysis) {
     if (std::any_of(analysis.trials.begin(), analysis.trials.end(), [&](const AnalyzedTrial& t) { return ofCondition(t) && t.used(); }))
       continue;
     for (AnalyzedTrial& trial : analysis.trials) {
-      if (!ofCondition(trial) || !trial.counted || trial.profile.size == 0) continue;
+      if (!ofCondition(trial) || !trial.counted || trial.exclusion != nameOf(trial.result.outcome) || trial.profile.size == 0) continue;
       --analysis.results[c].exclusions[trial.exclusion];
       trial.exclusion.clear();
       analysis.results[c].onlyFailures = true;
@@ -151,7 +152,7 @@ void countTrial(const AnalyzedTrial& trial, ConditionResult& result) {
     return;
   }
   if (trial.practice) ++result.counts.practice;
-  if (trial.exclusion == "practice" || trial.isExcluded()) return;
+  if (trial.isLeftOut()) return;
   switch (trial.result.outcome) {
     case trial::Outcome::Success: ++result.counts.success; break;
     case trial::Outcome::Failure: ++result.counts.failure; break;

@@ -65,7 +65,8 @@ struct AnalyzedTrial : TrialFacts {
   double windowBegin = 0, windowRate = 0;  // [s], [Hz]
   std::vector<double> paperError;          // [m/s] of the hand, then of the object, one a criterion; empty if not used
   bool used() const { return exclusion.empty(); }
-  bool isExcluded() const { return exclusion.starts_with("excluded"); }  // by a person
+  bool isExcluded() const { return exclusion.starts_with("excluded"); }       // by a person
+  bool isLeftOut() const { return exclusion == "practice" || isExcluded(); }  // whatever came of it
 };
 
 /// Mean and SD over the used trials at each of the 101 points, time-scaled to the condition's mean duration. [m/s]

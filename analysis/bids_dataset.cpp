@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -127,14 +128,6 @@ record::SampleRows readMotion(const fs::path& path, const record::ChannelTable& 
   return rows;
 }
 
-/// The value of that name. None for any other text.
-template <class Named>
-Named fromName(std::string_view name, Named last) {
-  for (int i = 0; i <= static_cast<int>(last); ++i)
-    if (nameOf(static_cast<Named>(i)) == name) return static_cast<Named>(i);
-  return Named::None;
-}
-
 // Tables from before there were kinds have no such columns.
 int sceneIn(const TsvTable& events, const std::vector<std::string>& row, record::RunConfiguration& c) {
   const auto cell = [&](const char* name) {
@@ -174,14 +167,28 @@ struct EventRow {
   double number(const char* key) const { return numberOf(text(key), key, file.native(), line()); }
   int count(const char* key) const { return countOf(number(key)); }
   std::uint64_t tick(const char* key) const { return tickOf(number(key) + begin); }
+  /// The place of the word in `allowed`. n/a is the first.
+  std::size_t word(const char* key, const std::vector<std::string_view>& allowed) const {
+    const auto known = std::find(allowed.begin(), allowed.end(), text(key));
+    if (known != allowed.end()) return static_cast<std::size_t>(known - allowed.begin());
+    if (text(key) == "n/a") return 0;
+    throw FaultError(Fault{key, fmt::format("is '{}', which is unknown", text(key)), fmt::format("{}", fmt::join(allowed, ", ")),
+                           FilePlace{file.native(), line()}});
+  }
+  template <class Named>
+  Named named(const char* key, Named last) const {
+    std::vector<std::string_view> names;
+    for (int i = 0; i <= static_cast<int>(last); ++i) names.push_back(nameOf(static_cast<Named>(i)));
+    return static_cast<Named>(word(key, names));
+  }
 };
 
 record::RecordedTrial trialOf(const EventRow& row, const record::SampleRows& rows) {
   record::RecordedTrial trial;
   trial.trial = row.count("trial");
-  trial.planned.catchTrial = row.text("trial_type") == "catch";
-  trial.result.outcome = fromName(row.text("outcome"), trial::Outcome::Interrupted);
-  trial.result.reason = fromName(row.text("reason"), trial::kLastReason);
+  trial.planned.catchTrial = row.word("trial_type", {"reach", "catch"}) == 1;
+  trial.result.outcome = row.named("outcome", trial::Outcome::Interrupted);
+  trial.result.reason = row.named("reason", trial::kLastReason);
   trial.result.mass = row.count("mass");
   trial.result.by = row.number("by");
   const double movement = row.number("movement_time");
@@ -245,7 +252,7 @@ RunSource readRun(const fs::path& motion) {
     record::RecordedTrial& trial = run.trials.emplace_back(trialOf(row, *rows));
     c.day = row.count("day");
     c.block = row.count("block");
-    c.practice = row.text("phase") == "practice";
+    c.practice = row.word("phase", {"recorded", "practice"}) == 1;
     c.condition = row.text("condition");
     trial.planned.scene = sceneIn(events, events.rows[index], c);
   }

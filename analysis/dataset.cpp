@@ -72,8 +72,9 @@ std::size_t conditionIndex(DatasetIndex& dataset, const ConditionName& named, co
     first->pooled = true;
     return static_cast<std::size_t>(first - conditions.begin());
   }
-  const std::vector<std::string> different = differences(first->experiment(), experiment);
+  std::vector<std::string> different = differences(first->experiment(), experiment);
   if (different.empty()) return static_cast<std::size_t>(first - conditions.begin());
+  if (named.pooled) std::erase_if(different, [](const std::string& d) { return d.starts_with("start ") || d.starts_with("target "); });
   // One name over unlike experiments would mix what cannot be compared.
   const std::string base = nameApart(name, different);
   std::string own = base;
@@ -81,7 +82,8 @@ std::size_t conditionIndex(DatasetIndex& dataset, const ConditionName& named, co
     const auto known =
         std::find_if(conditions.begin(), conditions.end(), [&](const Condition& c) { return fileNameOf(c.name) == fileNameOf(own); });
     if (known == conditions.end()) break;
-    if (differences(known->experiment(), experiment).empty()) return static_cast<std::size_t>(known - conditions.begin());
+    if (differences(known->experiment(), experiment).empty() || (named.pooled && differInDirectionOnly(known->experiment(), experiment)))
+      return static_cast<std::size_t>(known - conditions.begin());
     own = fmt::format("{} {}", base, number);
   }
   dataset.notes.push_back(
@@ -105,11 +107,14 @@ void noteMixedDevices(DatasetIndex& dataset) {
   }
 }
 
-// That of one of the run's scenes, else that of a run before.
+// The strongest of the run's scenes, else that of a run before.
 std::optional<experiment::SquareMatrix<3>> trainedField(std::span<const experiment::CompiledExperiment> scenes, const std::string& subject,
                                                         DatasetIndex& index) {
+  std::optional<experiment::SquareMatrix<3>> strongest;
   for (const experiment::CompiledExperiment& scene : scenes)
-    if (const auto field = viscousFieldOf(scene.experiment())) index.trained[subject] = *field;
+    if (const auto field = viscousFieldOf(scene.experiment()); field && (!strongest || std::abs(strengthOf(*field, *strongest)) > 1))
+      strongest = field;
+  if (strongest) index.trained[subject] = *strongest;
   const auto known = index.trained.find(subject);
   return known == index.trained.end() ? std::nullopt : std::optional(known->second);
 }

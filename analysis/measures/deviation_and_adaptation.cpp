@@ -30,7 +30,7 @@ Rows movementRows(const TrialData& trial) {
 }
 
 void measureAdaptation(const TrialData& trial, const Vec3& along, const Vec3& right, std::size_t fastest, TrialMeasures& m) {
-  if (!trial.scene.channel || !trial.scene.trained || trial.environment.size() != trial.hand.size()) return;
+  if (!trial.scene.channel || trial.scene.otherForce || !trial.scene.trained || trial.environment.size() != trial.hand.size()) return;
   const double coefficient = dot(experiment::times(*trial.scene.trained, along), right);
   const auto reach = static_cast<std::size_t>(std::floor(kWindow * trial.rate + 1e-9));
   const std::size_t first = fastest - std::min(fastest, reach), end = std::min(fastest + reach + 1, trial.hand.size());
@@ -60,11 +60,25 @@ std::optional<experiment::SquareMatrix<3>> viscousFieldOf(const experiment::Expe
   return sum == experiment::SquareMatrix<3>{} ? std::nullopt : sum;
 }
 
+double strengthOf(const experiment::SquareMatrix<3>& field, const experiment::SquareMatrix<3>& trained) {
+  double product = 0, square = 0;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t j = 0; j < 3; ++j) product += field[i][j] * trained[i][j], square += trained[i][j] * trained[i][j];
+  return product / square;
+}
+
 TrialScene sceneOf(const experiment::Experiment& experiment, const std::optional<experiment::SquareMatrix<3>>& trained) {
   TrialScene scene;
   scene.normal = experiment::normalOf(experiment.task ? experiment.task->plane : experiment::TaskPlane::Horizontal);
-  scene.channel = experiment.environment.size() == 1 && std::holds_alternative<experiment::ChannelForce>(experiment.environment[0].law);
-  scene.inField = viscousFieldOf(experiment).has_value();
+  const auto acts = [&]<class Law>(const Law&) {
+    return std::any_of(experiment.environment.begin(), experiment.environment.end(),
+                       [](const experiment::HandForce& force) { return std::holds_alternative<Law>(force.law); });
+  };
+  const auto field = viscousFieldOf(experiment);
+  scene.channel = acts(experiment::ChannelForce{});
+  scene.otherForce = experiment.environment.size() > 1;
+  scene.inField = field || acts(experiment::JointViscousForce{});
+  if (scene.inField) scene.strength = field && trained ? strengthOf(*field, *trained) : 1;
   scene.cursor = experiment.cursor.has_value();
   if (experiment.cursor) {
     scene.clamp = experiment.cursor->clamp;

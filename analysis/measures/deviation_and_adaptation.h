@@ -9,8 +9,10 @@ namespace reachlab::analysis {
 
 /// The sum of an experiment's viscous fields [N s/m]. No value for an experiment without such a field.
 std::optional<experiment::SquareMatrix<3>> viscousFieldOf(const experiment::Experiment& experiment);
+/// The strength of a field relative to the trained field: <field, trained> / <trained, trained> over the matrices' elements.
+double strengthOf(const experiment::SquareMatrix<3>& field, const experiment::SquareMatrix<3>& trained);
 /// The forces and the cursor of a trial's scene, as the measures need them. `trained`: the field that a channel trial is to measure. It is
-/// that of the block, or of the subject's last block that had a field.
+/// the strongest of the block, or of the subject's last block that had a field.
 TrialScene sceneOf(const experiment::Experiment& experiment, const std::optional<experiment::SquareMatrix<3>>& trained);
 
 /// Measures across the straight way from start to target, from the rows as they were recorded, unfiltered, between the task's onset and

@@ -38,8 +38,8 @@ NamedFigure adaptationFigure(const Analysis& analysis) {
                         .y = {.label = course.axis},
                         .rules = {{0, false, ""}},
                         .legend = out.figure.panels.empty() ? figure::LegendPlace::Below : figure::LegendPlace::None};
-    for (const auto& [subject, person] : people) {
-      figure::Series series = subjectSeries(analysis, subject);
+    for (const TaughtTrials& person : people) {
+      figure::Series series = subjectSeries(analysis, person.subject);
       series.width = people.size() > 3 ? figure::kThin : figure::kNormal;
       series.marker = figure::MarkerShape::None;
       const TrialKey* last = nullptr;

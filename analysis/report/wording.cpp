@@ -236,7 +236,8 @@ std::string describeTraining(const TaughtTrials& person) {
   }
   const TrialScene& scene =
       (*std::find_if(person.trials.begin(), person.trials.end(), [](const auto* t) { return t->scene.inField; }))->scene;
-  const experiment::SquareMatrix<3>& b = *scene.trained;
+  if (!person.field) return "a viscous field of the joints";
+  const experiment::SquareMatrix<3>& b = *person.field;
   for (std::size_t i = 0; i < 3; ++i)
     for (std::size_t j = 0; j < 3; ++j)
       if (b[i][j] != -b[j][i]) return "a viscous field";
@@ -298,10 +299,12 @@ std::string describeGroup(const std::string& training, bool rotated, const std::
 
 std::string describeLearning(const Analysis& analysis) {
   std::map<std::string, std::pair<bool, std::vector<Learning>>> groups;
-  for (const auto& [subject, person] : taughtTrials(analysis)) {
+  for (const TaughtTrials& person : taughtTrials(analysis)) {
+    const Learning learning = learningOf(person);
+    if (!std::isfinite(learning.plateau) && !std::isfinite(learning.first)) continue;  // practice alone
     auto& [rotated, people] = groups[describeTraining(person)];
     rotated = person.rotated;
-    people.push_back(learningOf(person));
+    people.push_back(learning);
   }
   std::string text;
   for (const auto& [training, group] : groups) text += (text.empty() ? "" : " ") + describeGroup(training, group.first, group.second);

@@ -30,8 +30,10 @@ RunTrials::RunTrials(const record::ChannelTable& table, std::uint64_t every, con
               columnOf(table, "environment_force_x")};
 }
 
+constexpr double kLongestGap = 0.1;  // [s] that is interpolated, as of a reach that is replayed
+
 /// Rows may be missing (dropped, or a tick was late); between its neighbours a missing one is interpolated.
-void RunTrials::appendEvenly(TrialData& trial, const record::SampleRows& rows) const {
+void RunTrials::appendEvenly(TrialData& trial, const record::SampleRows& rows, std::uint64_t onset) const {
   const auto put = [&](std::size_t a, std::size_t b, double part) {
     const auto mix = [&](std::size_t column) { return (1 - part) * rows.vectorAt(a, column) + part * rows.vectorAt(b, column); };
     trial.hand.push_back(mix(columns_.hand));
@@ -43,11 +45,13 @@ void RunTrials::appendEvenly(TrialData& trial, const record::SampleRows& rows) c
     if (path_.bent())
       trial.along.push_back(path_.directionAt((1 - part) * rows.at(a, columns_.parameter) + part * rows.at(b, columns_.parameter)));
   };
+  const double longest = std::max(kLongestGap * kTicksPerSecond, 2.0 * static_cast<double>(every_));
   std::size_t a = 0;
   for (std::uint64_t tick = rows.ticks.front(); tick <= rows.ticks.back(); tick += every_) {
     while (a + 1 < rows.size() && rows.ticks[a + 1] <= tick) ++a;
     const std::size_t b = std::min(a + 1, rows.size() - 1);
     const double gap = static_cast<double>(rows.ticks[b] - rows.ticks[a]);
+    if (rows.ticks[b] > onset && gap > longest) trial.notSeen = fmt::format("hand not seen for more than {} s", kLongestGap);
     put(a, b, gap > 0 ? static_cast<double>(tick - rows.ticks[a]) / gap : 0);
   }
 }
@@ -67,7 +71,11 @@ TrialData RunTrials::read(const record::RecordedTrial& recorded, const RowsBetwe
   const record::SampleRows rows = rowsOf(recorded.armedTick, std::max(end, recorded.armedTick));
   const auto seconds = [&](std::uint64_t tick) { return tick == 0 ? kNotMeasured : secondsBetween(recorded.armedTick, tick); };
   if (rows.size() > 0) {
-    appendEvenly(trial, rows);
+    appendEvenly(trial, rows, recorded.result.onsetTick);
+    const auto isKnown = [](const Vec3& v) { return isFinite(v); };
+    if (!std::all_of(trial.object.begin(), trial.object.end(), isKnown) ||
+        !std::all_of(trial.objectVelocity.begin(), trial.objectVelocity.end(), isKnown))
+      trial.notSeen = "object not known in all samples";
     trial.first = seconds(rows.ticks.front());
     trial.goTime = seconds(recorded.goTick);
     trial.taskOnset = seconds(recorded.result.onsetTick);

@@ -27,7 +27,7 @@ class RunTrials {
     std::size_t parameter = 0;                      // of mass 1, on curves
     std::size_t handVelocity = 0, environment = 0;  // 0: the table has none
   };
-  void appendEvenly(TrialData& trial, const record::SampleRows& rows) const;
+  void appendEvenly(TrialData& trial, const record::SampleRows& rows, std::uint64_t onset) const;
 
   Columns columns_;
   std::uint64_t every_;

@@ -25,8 +25,10 @@ bool recordedBefore(const TrialKey& a, const TrialKey& b);
 /// The part of a trial's scene that measures across the way need (measures/deviation_and_adaptation.h).
 struct TrialScene {
   Vec3 normal{0, 1, 0};                                // of the task's plane
-  bool channel = false;                                // a channel is the only force on the hand
-  bool inField = false;                                // a viscous field acts
+  bool channel = false;                                // a channel holds the hand on the line
+  bool otherForce = false;                             // besides the channel
+  bool inField = false;                                // a viscous field acts, of the hand or of the joints
+  double strength = 0;                                 // of that field relative to the trained field; the opposite field has -1
   bool cursor = false;                                 // the hand is not seen where it is
   std::optional<double> clamp;                         // [degrees] of the line of the cursor, whatever the hand does
   double rotation = 0;                                 // [degrees] of the cursor
@@ -59,6 +61,7 @@ struct TrialData : TrialFacts {
   /// defined).
   std::vector<Vec3> along;
   bool closed = false;  // the path is a closed curve
+  std::string notSeen;  // what is missing in the samples of the movement; empty: nothing
   // The experimenter's marks beside the recording (record/trial_marks.h).
   std::string excluded;                                            // why the trial is not to count; empty: it counts
   double markedOnset = kNotMeasured, markedOffset = kNotMeasured;  // [s] of the movement, in place of the rule's

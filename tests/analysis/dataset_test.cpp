@@ -133,6 +133,8 @@ TEST(Dataset, OfBidsFilesThatAnotherProgramHasChangedIsRefusedWhereItsNumbersWou
   EXPECT_NE(refusalOf("_motion.tsv", std::regex("\\."), ",").find("_motion.tsv:1"), std::string::npos) << "in its first line";
   EXPECT_NE(refusalOf("_motion.tsv", std::regex("\\."), ",").find("is not a number"), std::string::npos);
   EXPECT_NE(refusalOf("_events.tsv", std::regex("\\."), ",").find("is not a number"), std::string::npos);
+  EXPECT_NE(refusalOf("_events.tsv", std::regex("failure"), "faliure").find("is 'faliure', which is unknown"), std::string::npos);
+  EXPECT_NE(refusalOf("_events.tsv", std::regex("\trecorded\t"), "\tPractice\t").find("is 'Practice'"), std::string::npos);
   EXPECT_NE(refusalOf("_events.tsv", std::regex("\n"), "\n9").find("and the recording at"), std::string::npos) << "90 s later";
 }
 
@@ -140,17 +142,23 @@ TEST(Dataset, OfBidsFilesWithARowThatWasNotSeenHasTheTrialWithoutIt) {
   const TemporaryFolder folder;
   removeLogs(folder.path(), recordRun(folder.path(), {.experiment = "chain-moderate", .device = kQuiet, .trials = 1}));
   const std::string motion = fileOf(folder.path(), "_motion.tsv");
-  const auto durationNow = [&] { return analyzeTrials(openDataset(folder.path()).input, fewCriteria()).trials.at(0).measures.duration; };
-  const double before = durationNow();
-  std::istringstream rows(record::readWholeFile(motion));
-  std::ofstream out(motion, std::ios::binary);
-  int number = 0;
-  for (std::string row; std::getline(rows, row); ++number) {
-    if (number % 40 == 7) row = std::regex_replace(row, std::regex("^([^\t]*)\t[^\t]*"), "$1\tn/a");
-    out << row << '\n';
-  }
-  out.close();
-  EXPECT_NEAR(durationNow(), before, 1e-3) << "its neighbours tell where the hand was";
+  const auto trialNow = [&] { return analyzeTrials(openDataset(folder.path()).input, fewCriteria()).trials.at(0); };
+  const double before = trialNow().measures.duration;
+  const std::string whole = record::readWholeFile(motion);
+  const record::ChannelTable table = readBidsRun(motion).configuration.table;
+  const auto without = [&](const char* channel, const auto& isRow) {
+    const std::regex cell("^((?:[^\t]*\t){" + std::to_string(table.indexOf(channel)) + "})[^\t]*");
+    std::istringstream rows(whole);
+    std::ofstream out(motion, std::ios::binary);
+    int number = 0;
+    for (std::string row; std::getline(rows, row); ++number) out << (isRow(number) ? std::regex_replace(row, cell, "$1n/a") : row) << '\n';
+  };
+  without("hand_pos_x", [](int number) { return number % 40 == 7; });
+  EXPECT_NEAR(trialNow().measures.duration, before, 1e-3) << "its neighbours tell where the hand was";
+  without("hand_pos_x", [](int number) { return number >= 150 && number < 161; });
+  EXPECT_EQ(trialNow().exclusion, "hand not seen for more than 0.1 s");
+  without("mass5_vel_x", [](int number) { return number == 150; });
+  EXPECT_EQ(trialNow().exclusion, "object not known in all samples");
 }
 
 // A session's folder is analysed with the experiments of its dataset, and not with those of their names that are shipped.

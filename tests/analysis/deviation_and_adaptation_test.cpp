@@ -121,6 +121,17 @@ TEST(SceneOfATrial, TellsChannelAndField) {
   EXPECT_TRUE(sceneOf(field, kCurl).inField);
   EXPECT_FALSE(sceneOf(field, kCurl).channel);
   EXPECT_FALSE(sceneOf({}, kCurl).inField) << "a null trial";
+  EXPECT_EQ(sceneOf({}, kCurl).strength, 0);
+  experiment::SquareMatrix<3> half = kCurl;
+  for (auto& row : half)
+    for (double& b : row) b *= -0.5;
+  field.environment = {{experiment::ViscousForce{half}}};
+  EXPECT_EQ(sceneOf(field, kCurl).strength, -0.5);
+  field.environment = {{experiment::JointViscousForce{}}};
+  EXPECT_TRUE(sceneOf(field, {}).inField);
+  channel.environment.push_back({experiment::PulseForce{}});
+  EXPECT_TRUE(sceneOf(channel, kCurl).channel);
+  EXPECT_TRUE(sceneOf(channel, kCurl).otherForce) << "what the channel returns is not known alone";
 }
 
 }  // namespace

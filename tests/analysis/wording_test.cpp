@@ -149,11 +149,13 @@ Analysis madeAdaptation(const std::vector<double>& plateaus, double push) {
     for (int n = 1; n <= 24; ++n) {
       AnalyzedTrial t;
       t.key.subject = std::string(1, static_cast<char>('A' + k));
+      t.key.session = "01";
       t.key.trial = n;
       t.scene.trained = experiment::SquareMatrix<3>{{{0, 0, 13}, {0, 0, 0}, {-13, 0, 0}}};
       const bool training = n > 6 && n <= 18;
       t.scene.channel = training && n % 4 == 1;
       t.scene.inField = training && !t.scene.channel;
+      t.scene.strength = t.scene.inField;
       t.measures.maxPerpendicular = t.scene.channel ? 0 : 0.001 + (training ? push * (n > 15 ? 0.25 : 1) : n > 18 ? -push / 2 : 0);
       if (t.scene.channel) t.measures.adaptation = n > 15 ? plateaus[k] : 0;
       analysis.trials.push_back(t);
@@ -179,6 +181,39 @@ TEST(Wording, OfLearningGivesPlateauAfterEffectAndItsSide) {
       {"1 subject deviated by 20 mm to the left at first and by 5 mm to the left in the last quarter of the training. No trial without it "
        "followed"});
   EXPECT_EQ(describeLearning(madeStudy()), "") << "nobody was perturbed";
+}
+
+TEST(Wording, OfLearningKeepsTrainingsApart) {
+  Analysis analysis = madeAdaptation({60}, -0.02);
+  const std::string alone = describeLearning(analysis);
+  const std::vector<AnalyzedTrial> trained = analysis.trials;
+  const auto again = [&](const auto& change) {
+    for (AnalyzedTrial t : trained) {
+      t.key.trial += 100;
+      t.key.session = "02";
+      change(t);
+      analysis.trials.push_back(t);
+    }
+  };
+  again([](AnalyzedTrial& t) {  // the opposite field, as savings are studied
+    if (t.key.trial > 118) t.scene.inField = true;
+    t.scene.strength = t.scene.inField ? 1 : 0;
+    for (auto& row : *t.scene.trained)
+      for (double& b : row) b = -b;
+  });
+  EXPECT_EQ(describeLearning(analysis), alone) << "one field is not the other's";
+  analysis.trials = trained;
+  again([](AnalyzedTrial& t) {
+    t.scene.channel = t.scene.inField = false;
+    t.scene.strength = 0;
+    t.scene.rotation = t.key.trial > 106 ? 30 : 0;
+    t.measures.handAngle = t.key.trial > 106 ? -15 : 0;
+  });
+  expectIn(describeLearning(analysis), {alone, "In a rotation of the cursor by 30° counterclockwise, 1 subject learned to cancel 50 %"});
+  analysis.trials = trained;
+  for (AnalyzedTrial& t : analysis.trials)
+    if (t.key.trial > 6 && t.key.trial <= 18) t.exclusion = "practice";
+  EXPECT_EQ(describeLearning(analysis), "");
 }
 
 TEST(Wording, OfMethodsHasEveryOptionThatChangesNumbers) {
