@@ -330,14 +330,15 @@ std::string commandOf(const AnalyzeOptions& o) {
 
 void refuseWithoutEffect(const CLI::App& command, const AnalyzeOptions& o) {
   const struct {
-    const char *option, *of;
+    const char *option, *when;
     bool counts;
-  } options[] = {{"--jobs", "--recovery", o.recovery > 0},
-                 {"--seed", "--recovery", o.recovery > 0},
-                 {"--onset-percent", "--onset percent", o.onset == "percent"},
-                 {"--onset-speed", "--onset absolute", o.onset == "absolute"}};
-  for (const auto& [option, of, counts] : options)
-    if (command.count(option) > 0 && !counts) throw FaultError(Fault{option, fmt::format("changes nothing without {}", of)});
+  } options[] = {{"--jobs", "without --recovery", o.recovery > 0},
+                 {"--seed", "without --recovery", o.recovery > 0},
+                 {"--hand-masses", "beside --hand-mass", o.handMass < 0},
+                 {"--onset-percent", "without --onset percent", o.onset == "percent"},
+                 {"--onset-speed", "without --onset absolute", o.onset == "absolute"}};
+  for (const auto& [option, when, counts] : options)
+    if (command.count(option) > 0 && !counts) throw FaultError(Fault{option, fmt::format("changes nothing {}", when)});
 }
 
 void run(CLI::App& command, const AnalyzeOptions& o) {
@@ -373,6 +374,8 @@ void run(CLI::App& command, const AnalyzeOptions& o) {
        [&] { all([](analysis::AnalysisBuilder& each) { each.beginRun(); }); },
        [&] { all([](analysis::AnalysisBuilder& each) { each.takeBackRun(); }); }},
       o.experiment, [&](std::size_t done, std::size_t of, const std::string&) { progress("reading run", done + 1, of); });
+  if (!o.experiment.empty() && dataset.runs.front().isLog)
+    throw FaultError(Fault{"--experiment", "changes nothing where the logs have their experiments", "no such option"});
   const auto fitting = [&](std::size_t done, std::size_t of) { progress("fitting trial", done, of); };
   analysis::Analysis analysis = builder.finish(dataset.conditions, fitting);
   std::vector<analysis::AlternativeConclusion> rows;

@@ -118,7 +118,7 @@ Json trialJson(const record::RunLog& log, const record::RecordedTrial& t) {
   for (const record::TickMeasure& measure : record::tickMeasures()) {
     const double value = measure.of(t);
     Json& out = json[std::string(measure.name)];
-    if (measure.count) out = static_cast<std::int64_t>(value);
+    if (measure.count && std::isfinite(value)) out = static_cast<std::int64_t>(value);
     else out = value;
   }
   return json;

@@ -6,8 +6,10 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <string_view>
 
+#include "base/as_number.h"
 #include "base/json/json_reader.h"
 #include "sim/record/log/whole_file.h"
 #include "sim/session/backup.h"
@@ -22,10 +24,11 @@ constexpr std::array<std::string_view, 14> kPlanned{
     "seed",          "experiment"};
 
 bool isDate(const std::string& text) {
-  if (text.size() != 10) return false;
-  for (std::size_t i = 0; i < text.size(); ++i)
-    if (i == 4 || i == 7 ? text[i] != '-' : text[i] < '0' || text[i] > '9') return false;
-  return true;
+  if (text.size() != 10 || text[4] != '-' || text[7] != '-') return false;
+  const auto year = asNumber<int>(text.substr(0, 4));
+  const auto month = asNumber<unsigned>(text.substr(5, 2)), day = asNumber<unsigned>(text.substr(8));
+  return year && month && day &&
+         std::chrono::year_month_day(std::chrono::year(*year), std::chrono::month(*month), std::chrono::day(*day)).ok();
 }
 
 std::string valueOf(const JsonNode& node) {

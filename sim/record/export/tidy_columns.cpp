@@ -87,7 +87,8 @@ const std::vector<TrialColumn>& trialColumns() {
       measured("missed_ticks"),
       measured("dropped_samples"),
       measured("elapsed_s"),
-      {"complete", "0: the log broke off in this trial", [](const Row& r) { return whole(r.trial.complete); }},
+      {"complete", "0: the log broke off in this trial, also where it was mended since",
+       [](const Row& r) { return whole(r.trial.complete && r.trial.result.reason != trial::Reason::Program); }},
       // As text, because a double cannot hold every seed.
       {"seed", "Seed of the session, as it is asked for; up to 64 bits, read it as text or as an integer, not as a floating-point number",
        [](const Row& r) { return fmt::format("{}", r.run.sessionSeed); }},

@@ -1,6 +1,7 @@
 #include "sim/record/log/trial_measures.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/fault.h"
 #include "base/ticks.h"
@@ -9,6 +10,11 @@ namespace reachlab::record {
 namespace {
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+// Nobody counted in a trial in which the log broke off, and its peaks are unknown too.
+double counted(const RecordedTrial& t, std::uint64_t number) {
+  return std::isnan(t.peakHandSpeed) ? kUnknown : static_cast<double>(number);
+}
 
 constexpr TickMeasure kMeasures[] = {
     {"mass", "Mass that missed the tolerance, from 1; 0: none", [](const RecordedTrial& t) { return static_cast<double>(t.result.mass); },
@@ -29,11 +35,10 @@ constexpr TickMeasure kMeasures[] = {
     {"mean_force_n", "Mean coupling force over every tick of the movement", [](const RecordedTrial& t) { return t.meanForce; }},
     {"clamped_ticks",
      "Ticks of 1 ms in which the device's force was not the one asked for, because of its limit, its largest change in a tick, a ramp or its motors' heat",
-     [](const RecordedTrial& t) { return static_cast<double>(t.clampedTicks); }, true},
-    {"missed_ticks", "Ticks of 1 ms that were skipped", [](const RecordedTrial& t) { return static_cast<double>(t.missedTicks); }, true,
-     true},
+     [](const RecordedTrial& t) { return counted(t, t.clampedTicks); }, true},
+    {"missed_ticks", "Ticks of 1 ms that were skipped", [](const RecordedTrial& t) { return counted(t, t.missedTicks); }, true, true},
     {"dropped_samples", "Ticks that were simulated but not recorded, because the disk was too slow",
-     [](const RecordedTrial& t) { return static_cast<double>(t.droppedTicks); }, true, true},
+     [](const RecordedTrial& t) { return counted(t, t.droppedTicks); }, true, true},
     {"elapsed_s", "From the go signal to the end by the computer's clock; longer than the ticks say when ticks were missed",
      [](const RecordedTrial& t) { return t.elapsed; }, false, true},
 };
