@@ -23,7 +23,7 @@ constexpr TickMeasure kMeasures[] = {
      [](const RecordedTrial& t) { return t.result.onsetTick > 0 ? t.result.movementTime : kUnknown; }},
     {"by", "Excess over the tolerance: m where reason is position, m/s where velocity, s where time_short",
      [](const RecordedTrial& t) { return t.result.by; }},
-    {"task_reaction_time_s", "From the go signal to the task's onset, where the hand has left the start by onset_m",
+    {"task_reaction_time_s", "From the go signal to the task's onset, where the hand has moved by onset_m from its position at arming",
      [](const RecordedTrial& t) {
        return t.result.onsetTick > 0 && t.goTick > 0 ? secondsBetween(t.goTick, t.result.onsetTick) : kUnknown;
      }},
