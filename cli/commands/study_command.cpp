@@ -127,9 +127,11 @@ void tellSbatch(const SbatchRequest& request) {
 void tellParameters() {
   const auto table = [](const char* kind, std::span<const subjects::SubjectParameter> parameters) {
     fmt::print("kind={}\n\n| key | unit | default | allowed | meaning | source |\n|---|---|---|---|---|---|\n", kind);
-    for (const subjects::SubjectParameter& p : parameters)
-      fmt::print("| `{}` | {} | {} | {} to {} | {} | {}: {} |\n", p.key, p.unit, p.usual, p.least, p.most, p.meaning,
-                 p.published ? "published" : "assumed", p.source);
+    for (const subjects::SubjectParameter& p : parameters) {
+      const std::string_view status = p.published ? "published: " : "assumed: ";
+      fmt::print("| `{}` | {} | {} | {} to {} | {} | {}{} |\n", p.key, p.unit, p.usual, p.least, p.most, p.meaning,
+                 p.source.starts_with("assumed") ? "" : status, p.source);
+    }
     fmt::print("\n");
   };
   table("plan", subjects::planParameters());
