@@ -61,9 +61,9 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
   app.add_option(
       "experiment", r.what,
       "Experiment or session plan: a file, or the name of a shipped one; or a recording: a dataset, a session, a log [default: chain-moderate]");
-  app.add_option(
-      "--device", r.device,
-      "mouse, simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER, phantom …; `reach list devices` tells all [default: mouse]");
+  app.add_option("--device", r.device,
+                 "mouse, simulated[:KEY=VALUE,…], replay:FILE or replay:FOLDER, phantom …; `reach list devices` tells all "
+                 "[default: that of the last start, at first mouse]");
   app.add_option("--instrument", r.instruments,
                  "Instrument: lsl, parallel:PATH, rts:PATH or byte:PATH. It is told go, onset and end. May be given several times")
       ->expected(1)
@@ -73,9 +73,9 @@ Arguments parse(CLI::App& app, int argc, char** argv) {
       ->check(CLI::Range(1, session::kMaxTrials));
   app.add_option("--run", r.run, "Run number. A number that is taken is refused [default: the next free number]")
       ->check(CLI::Range(1, record::kMaxRun));
-  app.add_option("--subject", r.place.subject, "Subject's label, letters and digits [default: 01]");
-  app.add_option("--session", r.place.session, "Session's label, letters and digits [default: 01]");
-  app.add_option("--data", r.place.data, "Folder of the dataset [default: ./data]");
+  app.add_option("--subject", r.place.subject, "Subject's label, letters and digits [default: that of the last start, at first 01]");
+  app.add_option("--session", r.place.session, "Session's label, letters and digits [default: that of the last start, at first 01]");
+  app.add_option("--data", r.place.data, "Folder of the dataset [default: that of the last start, at first ./data]");
   app.add_option("--day", r.day, "Day of the plan, when the session's label is no number")->check(CLI::Range(1, session::kMaxDay));
   app.add_option("--seed", r.seed, "Seed of noise and order [default: a seed is drawn and stored]")
       ->check(CLI::Validator(session::seedFault, "SEED"));
