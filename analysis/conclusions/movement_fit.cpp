@@ -276,14 +276,12 @@ MovementFit fitMovement(const FitWindow& window, const Profile& profile, const M
 
 MovementFit fitMovement(const FitWindow& window, const ProfileFamily& family, const MovementFit& start, Profile& scratch,
                         FitEffort effort) {
-  MovementFit fit = descend(window, start, effort, [&](double centre, double duration, Sums& sums) {
+  return descend(window, start, effort, [&](double centre, double duration, Sums& sums) {
     if (!family.at(duration, scratch)) return false;
     sums = sumOver(window, scratch.first, scratch.step, static_cast<std::ptrdiff_t>(scratch.value.size()), centre, duration,
                    FreshPieces{scratch.value.data()}, FreshPieces{scratch.change.data()});
     return true;
   });
-  if (fit.found) family.at(fit.duration, scratch);
-  return fit;
 }
 
 std::vector<double> residualsOf(const FitWindow& window, const Profile& profile, const MovementFit& fit) {

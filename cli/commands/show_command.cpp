@@ -13,6 +13,7 @@
 #include "cli/output/trial_profile.h"
 #include "cli/terminal/at_option.h"
 #include "sim/record/export/tidy_csv.h"
+#include "sim/record/log/append_file.h"
 #include "sim/record/log/atomic_file.h"
 #include "sim/record/log/run_log.h"
 #include "sim/record/log/trial_measures.h"
@@ -34,6 +35,7 @@ int countOf(const record::RunLog& log, trial::Outcome outcome) {
 }
 
 std::string stateOf(const record::RunLog& log) {
+  if (record::isBeingWritten(log.path())) return "being recorded";
   if (log.goodBytes() < log.fileBytes()) return "damaged";
   return log.closed() ? "whole" : "broken off";
 }
