@@ -69,6 +69,7 @@ SessionDock::SessionDock(QWidget* parent) : Dock("Session", "sessionDock", paren
     connect(field, &QLineEdit::textChanged, this, &SessionDock::check);
     connect(field, &QLineEdit::textChanged, this, &SessionDock::changed);
   }
+  connect(subject_, &QLineEdit::textChanged, this, &SessionDock::forgetPerson);
   connect(device_, &QComboBox::currentTextChanged, this, &SessionDock::changed);
   connect(trials_, QOverload<int>::of(&QSpinBox::valueChanged), this, &SessionDock::changed);
 }
@@ -177,8 +178,10 @@ std::optional<double> SessionDock::ownPause() const { return automatic_->isCheck
 
 void SessionDock::setOpen(bool open) { who_->setEnabled(!open); }
 
-void SessionDock::nextSubject() {
-  subject_->setText(labelAfter(subject_->text().trimmed()));
+void SessionDock::nextSubject() { subject_->setText(labelAfter(subject_->text().trimmed())); }
+
+// Age, sex and handedness are those of the subject before.
+void SessionDock::forgetPerson() {
   age_->clear();
   sex_->setCurrentIndex(0);
   hand_->setCurrentIndex(0);

@@ -13,7 +13,8 @@ class QSpinBox;
 
 namespace reachlab::gui::docks {
 
-/// Subject, session, day, person, device, number of trials, and folder of the dataset. It has its full height, and does not scroll.
+/// Subject, session, day, person, device, number of trials, and folder of the dataset. Another subject empties the fields of the person.
+/// It has its full height, and does not scroll.
 class SessionDock : public Dock {
   Q_OBJECT
  public:
@@ -32,7 +33,7 @@ class SessionDock : public Dock {
 
   /// While a run is open, the fields of subject and session are fixed.
   void setOpen(bool open);
-  /// Counts the subject's label up ("03" becomes "04") and empties the fields of the person.
+  /// Counts the subject's label up: "03" becomes "04".
   void nextSubject();
 
  Q_SIGNALS:
@@ -49,6 +50,7 @@ class SessionDock : public Dock {
  private:
   QHBoxLayout* makeDeviceRow();
   void check();
+  void forgetPerson();
   void offerPlugged();
 
   session::SessionRequest request_;

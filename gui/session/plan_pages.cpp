@@ -11,6 +11,7 @@ PlanPages::PlanPages(SessionController& session, docks::SessionDock& dock, scene
   connect(page_, &plan::StartPage::placeEdited, this, [this](const QString& subject, const QString& sessionLabel) {
     if (session_.run() != nullptr) return;  // a field that loses the focus because its page is hidden
     session::SessionRequest request = dock_.request();
+    if (subject.toStdString() != request.place.subject) request.participant = {};
     request.place.subject = subject.toStdString();
     request.place.session = sessionLabel.toStdString();
     dock_.setRequest(request);

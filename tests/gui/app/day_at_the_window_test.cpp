@@ -308,6 +308,14 @@ TEST(SessionDock, CountsALabelUp) {
   for (const auto& [label, next] : labels) EXPECT_EQ(docks::labelAfter(QLatin1String(label)).toStdString(), next);
 }
 
+TEST_F(Day, AnotherSubjectDoesNotHaveTheAgeSexAndHandednessOfTheSubjectBefore) {
+  request_.participant = {.age = 25, .sex = "F", .handedness = "L"};
+  open();
+  EXPECT_EQ(window_->sessionDock().request().participant, request_.participant);
+  type(find<QLineEdit>("subject"), "02");
+  EXPECT_EQ(window_->sessionDock().request().participant, record::Participant());
+}
+
 TEST_F(Day, SubjectDeviceFolderAndTrialsAreRememberedWhenTheyChange) {
   open();
   find<QLineEdit>("subject")->setText("17");

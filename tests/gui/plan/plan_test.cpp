@@ -176,9 +176,11 @@ TEST_F(PlannedSession, BeginsOnItsStartPageRestsAndResumes) {
   EXPECT_EQ(summary(), QStringLiteral("1 of 2 blocks done"));
   // Another subject has done nothing yet.
   auto* subject = find<QLineEdit>("startSubject");
+  find<QLineEdit>("age")->setText(QStringLiteral("31"));
   type(subject, "07");
   ASSERT_TRUE(QTest::qWaitFor([&] { return summary() == QStringLiteral("0 of 2 blocks done"); }, 3000));
   EXPECT_EQ(window->sessionDock().request().place.subject, "07");
+  EXPECT_EQ(window->sessionDock().request().participant, record::Participant()) << "it is another person";
 }
 
 TEST_F(PlannedSession, ABlockOfWhichNothingCountsIsNotSkippedBySpace) {
