@@ -476,6 +476,7 @@ void MainWindow::offerResume() {
                    session::SessionRequest request = docks_.session->request();  // with the instruments and the backup of this start
                    request.what = run.request.what;
                    request.place = run.request.place;
+                   request.participant = run.request.participant;
                    request.day = run.request.day;
                    request.device = run.request.device;
                    request.trials = run.request.trials;

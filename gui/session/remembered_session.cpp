@@ -55,6 +55,9 @@ void rememberOpenRun(const record::RunConfiguration& run, const session::Session
   keep("openRun/data", absolute(request.place.data));
   keep("openRun/subject", run.subject);
   keep("openRun/session", run.session);
+  keep("openRun/age", run.participant.age ? QString::number(*run.participant.age).toStdString() : std::string());
+  keep("openRun/sex", run.participant.sex);
+  keep("openRun/handedness", run.participant.handedness);
   keep("openRun/day", std::to_string(request.day.value_or(0)));
   keep("openRun/device", request.device);
   keep("openRun/seed", std::to_string(run.sessionSeed));
@@ -75,6 +78,9 @@ std::optional<InterruptedRun> findInterruptedRun() {
   for (const session::RunOnDisk& run : session::recordedRuns(r.place))
     if (record::isBeingWritten(run.path)) return std::nullopt;
   if (const int day = textOf(settings, "openRun/day").toInt(); day > 0) r.day = day;
+  if (const QString age = textOf(settings, "openRun/age"); !age.isEmpty()) r.participant.age = age.toDouble();
+  r.participant.sex = text("openRun/sex");
+  r.participant.handedness = text("openRun/handedness");
   r.device = text("openRun/device");
   found.seed = textOf(settings, "openRun/seed");
   r.resume = true;

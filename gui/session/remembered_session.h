@@ -21,7 +21,7 @@ void forgetOpenRun();
 /// A run that was open when the program was killed, with everything that resumes it.
 struct InterruptedRun {
   session::Programme programme;
-  session::SessionRequest request;  // resumes the session with the same device and number of trials
+  session::SessionRequest request;  // resumes the session with the same person, device and number of trials
   QString seed;
   int run = 0;
   int trial = 0, trials = 0;  // the next trial of the block, and the trials of the block

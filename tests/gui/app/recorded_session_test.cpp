@@ -161,6 +161,7 @@ TEST_F(RecordingWindow, DISABLED_DiesInTheSecondBlockOfThePapersPlan) {
   request_.what = "paper";
   request_.place.data = qgetenv("REACHLAB_TEST_DATA").toStdString();
   request_.place.subject = "03";
+  request_.participant = {.age = 31.5, .sex = "M", .handedness = "R"};
   open();
   for (int trial = 0; trial < 107; ++trial) doTrial();
   window_->nextTrial();  // and in the middle of the next
@@ -192,6 +193,8 @@ TEST_F(RecordingWindow, ThePapersPlanIsDoneBlockByBlockAndResumedAfterAKill) {
   find<QPushButton>("resumeYes")->click();
   EXPECT_EQ(session().run(), nullptr) << "the first trial waits for Space";
   EXPECT_EQ(window_->sessionDock().request().place.subject, "03");
+  EXPECT_EQ(window_->sessionDock().request().participant, before[1].configuration().participant);
+  EXPECT_EQ(before[1].configuration().participant.age, 31.5);
   request_.place.subject = "03";
   // Another device asks, and nothing begins when the answer is no.
   window_->sessionDock().setDevice("mouse");
