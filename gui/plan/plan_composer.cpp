@@ -31,6 +31,7 @@
 #include "gui/widgets/unit_spin_box.h"
 #include "sim/experiment/resources.h"
 #include "sim/record/log/atomic_file.h"
+#include "sim/session/programme.h"
 
 namespace reachlab::gui::plan {
 namespace {
@@ -54,6 +55,17 @@ std::string nameInPlan(const std::string& experiment, const QString& plan) {
   const QDir folder = QFileInfo(plan).absoluteDir();
   const QString beside = folder.relativeFilePath(asked.absoluteFilePath());
   return (beside.startsWith(QLatin1String("../")) ? asked.absoluteFilePath() : beside).toStdString();
+}
+
+// "block 2: …". A position in the plan's file is left out, because the file is not written yet.
+QString wordsOf(Fault fault) {
+  const std::string list = "blocks[";
+  const std::size_t close = fault.key.find("].");
+  if (!fault.key.starts_with(list) || close == std::string::npos)
+    return fault.place ? QString::fromStdString(toText(fault)) : widgets::inWords(fault);
+  const int block = std::stoi(fault.key.substr(list.size())) + 1;
+  fault.key.erase(0, close + 2);
+  return PlanComposer::tr("block %1: %2").arg(block).arg(widgets::inWords(fault));
 }
 
 }  // namespace
@@ -92,7 +104,7 @@ PlanComposer::PlanComposer(QWidget* parent) : QDialog(parent) {
   preview_->setTextFormat(Qt::RichText);
   preview_->setWordWrap(true);
   layout->addWidget(preview_);
-  faultLabel_ = new widgets::FaultLabel;
+  faultLabel_ = widgets::named<widgets::FaultLabel>("planFaults");
   layout->addWidget(faultLabel_);
   auto* buttons = new QDialogButtonBox;
   auto* saveButton = buttons->addButton(tr("Save as…"), QDialogButtonBox::ActionRole);
@@ -317,16 +329,8 @@ QStringList PlanComposer::faults() const {
   QStringList lines;
   if (plan_.name.empty()) lines << tr("The plan has no name. Enter a name.");
   for (const QString& fault : mix_->faults()) lines << tr("block %1: %2").arg(row() + 1).arg(fault);
-  for (const Fault& fault : session::problems(plan_)) {
-    const std::size_t open = fault.key.find('['), close = fault.key.find("].");
-    if (open == std::string::npos || close == std::string::npos) {
-      lines << (plan_.blocks.empty() ? tr("The plan has no block. Press Add.") : widgets::inWords(fault));
-      continue;
-    }
-    Fault own = fault;
-    own.key = fault.key.substr(close + 2);
-    lines << tr("block %1: %2").arg(std::stoi(fault.key.substr(open + 1, close - open - 1)) + 1).arg(widgets::inWords(own));
-  }
+  if (plan_.blocks.empty()) return lines << tr("The plan has no block. Press Add.");
+  for (const Fault& fault : session::problems(plan_)) lines << wordsOf(fault);
   return lines;
 }
 
@@ -340,7 +344,9 @@ void PlanComposer::changed() {
 void PlanComposer::saveTo(const QString& file) {
   session::Plan written = plan_;
   for (session::PlanBlock& block : written.blocks) block.experiment = nameInPlan(block.experiment, file);
-  record::writeFileAtomically(file.toStdString(), session::toJson(written));
+  const std::string text = session::toJson(written);
+  (void)session::parseProgramme(text, file.toStdString());  // a plan that would be refused replaces no good one
+  record::writeFileAtomically(file.toStdString(), text);
   file_ = file;
   saved_ = session::toJson(plan_);
 }
@@ -359,9 +365,16 @@ bool PlanComposer::save(bool askAlways) {
     if (file.isEmpty()) return false;
     if (QFileInfo(file).suffix().isEmpty()) file += QStringLiteral(".json");
   }
-  const QString fault = widgets::faultIn([&] { saveTo(file); });
-  if (!fault.isEmpty()) faultLabel_->setFaults({fault});
-  return fault.isEmpty();
+  QStringList refusals;
+  const QString fault = widgets::faultIn([&] {
+    try {
+      saveTo(file);
+    } catch (const FaultError& refused) {
+      for (const Fault& one : refused.faults) refusals << wordsOf(one);
+    }
+  });
+  faultLabel_->setFaults(refusals << fault);
+  return faultLabel_->text().isEmpty();
 }
 
 }  // namespace reachlab::gui::plan

@@ -31,7 +31,7 @@ class PlanComposer : public QDialog {
   const session::Plan& plan() const { return plan_; }
   /// The faults of the plan, one line each. Empty if the plan can be used.
   QStringList faults() const;
-  /// Writes it, and is then of that file. Throws ResourceError.
+  /// Writes it, and is then of that file. Throws FaultError for a plan that could not be run, and ResourceError. The file is then unchanged.
   void saveTo(const QString& file);
   /// Asks before changes would be lost.
   void reject() override;

@@ -57,7 +57,9 @@ void checkScenes(const std::vector<BlockScene>& scenes) {
   }
 }
 
-Programme programmeOfText(const std::string& text, const std::string& file) {
+}  // namespace
+
+Programme parseProgramme(const std::string& text, const std::string& file) {
   Programme programme{parsePlan(text, file), {}, {}};
   const JsonNode root = parseJson(text, file);
   std::vector<Fault> elsewhere, here;
@@ -91,13 +93,11 @@ Programme programmeOfText(const std::string& text, const std::string& file) {
   return programme;
 }
 
-}  // namespace
-
 Programme readProgramme(const std::string& fileOrName) {
   const std::optional<std::string> file = findPlan(fileOrName);
   const std::string text = file ? readTextFile(*file) : std::string();
   if (!file || !isPlan(text, *file)) return programmeOf(experiment::openExperiment(fileOrName));
-  return programmeOfText(text, *file);
+  return parseProgramme(text, *file);
 }
 
 }  // namespace reachlab::session

@@ -22,6 +22,8 @@ struct Programme {
 /// scenes can be carried out. Throws FaultError with every fault, each at its position, and RefusedError for a single experiment whose scene
 /// cannot be computed.
 Programme readProgramme(const std::string& fileOrName);
+/// The same of a plan's text, as it would be in this file.
+Programme parseProgramme(const std::string& text, const std::string& file);
 /// Warnings of a scene and of the method that it is computed by, under their keys: numbers that are hardly meant, a way that rounding
 /// decides, and errors of the method that a person would not expect.
 std::vector<Fault> warningsOf(const experiment::CompiledExperiment& scene, const dynamics::MethodChoice& choice);

@@ -9,6 +9,7 @@
 #include <QPlainTextEdit>
 #include <QPushButton>
 #include <QSpinBox>
+#include <QTableWidget>
 #include <QTemporaryDir>
 #include <QTest>
 #include <QToolButton>
@@ -103,6 +104,36 @@ TEST(PlanComposer, NamesFilesSoThatThePlanFindsThemFromEveryFolder) {
   EXPECT_TRUE(holds(text, "9007199254740992")) << text;
   EXPECT_TRUE(holds(text, "\"rest_s\": 86400")) << text;
   session::readProgramme(file.toStdString());
+}
+
+TEST(PlanComposer, RefusesAPlanThatCouldNotBeRunAndLeavesItsFileAsItWas) {
+  const QTemporaryDir folder;
+  const std::string file = folder.filePath(QStringLiteral("p.json")).toStdString();
+  std::ofstream(file) << R"({"schema_version": 1, "blocks": [{"experiment": "centre-out", "condition": "a", "trials": 2}]})";
+  const std::string before = readTextFile(file);
+  PlanComposer dialog;
+  dialog.setPlan(session::readPlan(file), QString::fromStdString(file));
+  dialog.show();
+  auto* use = child<QPushButton>(dialog, "planUse");
+  const auto* faults = child<QLabel>(dialog, "planFaults");
+  auto* experiment = child<QComboBox>(dialog, "planExperiment");
+  experiment->setEditText(QStringLiteral("centre-oot"));
+  use->click();
+  EXPECT_TRUE(faults->text().startsWith(QStringLiteral("block 1: experiment: "))) << faults->text().toStdString();
+  EXPECT_TRUE(faults->text().contains(QStringLiteral("centre-oot"))) << faults->text().toStdString();
+  experiment->setEditText(QStringLiteral("centre-out"));
+  EXPECT_EQ(faults->text(), QString());
+  child<QPushButton>(dialog, "planAddKind")->click();
+  auto* changes = child<QTableWidget>(dialog, "planKinds")->item(0, 4);
+  changes->setText(QStringLiteral(R"("environment": [{ "kind": "viscos" }])"));
+  use->click();
+  EXPECT_TRUE(faults->text().contains(QStringLiteral("viscos"))) << faults->text().toStdString();
+  EXPECT_TRUE(dialog.isVisible());
+  EXPECT_EQ(readTextFile(file), before);
+  changes->setText(QStringLiteral(R"("environment": [])"));
+  use->click();
+  EXPECT_FALSE(dialog.isVisible()) << faults->text().toStdString();
+  EXPECT_NE(readTextFile(file), before);
 }
 
 TEST(PlanComposer, ShowsTheOrdersThatSubjectsWillHave) {
