@@ -447,8 +447,7 @@ void MainWindow::endRun() {
   if (session_.run() == nullptr) return;
   const int run = session_.run()->configuration().run;
   if (!mayEndRun(tr("End run")) || session_.run() == nullptr) return;  // a fault may end it behind the question
-  session_.endRun();
-  tell(tr("Run %1 is saved in %2.").arg(run).arg(dataFolder()));
+  if (session_.endRun()) tell(tr("Run %1 is saved in %2.").arg(run).arg(dataFolder()));
 }
 
 void MainWindow::nextSubject() {

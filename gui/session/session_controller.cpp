@@ -280,14 +280,15 @@ void SessionController::note(const QString& text) {
   }));
 }
 
-void SessionController::endRun() {
-  if (run() == nullptr) return;
+bool SessionController::endRun() {
+  if (run() == nullptr) return true;
   recorded_->pacing() = {};
   mouse_ = nullptr;
   std::unique_lock lock(changing_);
   const bool unfinished = run()->trialsLeft() > 0;
-  tellFault(putInOrder());
-  tellFault(widgets::faultIn([this] {
+  const QString log = QString::fromStdString(run()->logPath());
+  QStringList faults{putInOrder()};
+  faults << widgets::faultIn([this] {
     const std::string dataset = asked_.place.data;
     recorded_->closeRun();
     station_.reset();
@@ -299,11 +300,18 @@ void SessionController::endRun() {
       }
       backup_->request();
     }
-  }));
+  });
+  faults.removeAll({});
+  if (!faults.isEmpty())
+    Q_EMIT failed(faults.join(QLatin1Char('\n')) +
+                  tr("\nThe finished trials are safe in %1. The tables of the dataset are not complete. Remove the cause, then run: "
+                     "reach export %2 --format bids")
+                      .arg(log, QString::fromStdString(asked_.place.data)));
   stop_.reset();
   if (unfinished) recorded_.reset();  // the next run is planned from what counts on the disk
   lock.unlock();
   Q_EMIT runClosed();
+  return faults.isEmpty();
 }
 
 void SessionController::pointTo(const Vec3& place, qint64 eventMs) {

@@ -81,7 +81,8 @@ class SessionController : public QObject {
   /// Of the open block or, after its end, of the next block. Empty if there is no instruction.
   QString instructions();
   void note(const QString& text);
-  void endRun();
+  /// Returns false if the log or the dataset could not be completed. `failed` tells then where the finished trials are.
+  bool endRun();
   void pointTo(const Vec3& place, qint64 eventMs);
   /// Looks at the newest state. From the frame timer.
   void poll();

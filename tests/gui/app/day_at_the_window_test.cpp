@@ -2,6 +2,7 @@
 #include <QAction>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDir>
 #include <QDockWidget>
 #include <QLabel>
 #include <QLineEdit>
@@ -301,6 +302,18 @@ TEST_F(Day, ARunThatIsEndedEarlyAsksAndSaysWhereItIsSaved) {
   window.endRun();
   EXPECT_EQ(window.session().run(), nullptr);
   EXPECT_EQ(window.message(), QStringLiteral("Run 1 is saved in %1.").arg(QString::fromStdString(request_.place.data)));
+}
+
+TEST_F(Day, ARunWhoseDatasetCannotBeWrittenIsNotCalledSaved) {
+  MainWindow& window = open();
+  window.nextTrial();
+  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  const QString log = QString::fromStdString(window.session().run()->logPath());
+  ASSERT_TRUE(QDir().mkpath(QString::fromStdString(request_.place.data) + "/participants.tsv"));  // no file can have this name now
+  const AnswerBox box("End the run");
+  window.endRun();
+  EXPECT_TRUE(window.message().contains(QStringLiteral("The finished trials are safe in %1.").arg(log))) << window.message().toStdString();
+  EXPECT_TRUE(window.message().contains("participants.tsv")) << window.message().toStdString();
 }
 
 TEST(SessionDock, CountsALabelUp) {
