@@ -2,6 +2,8 @@
 
 #include <QCheckBox>
 #include <QComboBox>
+#include <QDir>
+#include <QFileDialog>
 #include <QFormLayout>
 #include <QHBoxLayout>
 #include <QLabel>
@@ -49,7 +51,13 @@ SessionDock::SessionDock(QWidget* parent) : Dock("Session", "sessionDock", paren
   form->addRow("subject", rowOf({subject_, new QLabel("session"), session_, new QLabel("day"), day_}));
   form->addRow("person", rowOf({age_, sex_, hand_}));
   form->addRow("device", makeDeviceRow());
-  form->addRow("data in", data_);
+  auto* browse = tipped(named<QPushButton>("dataBrowse", "…"), "chooses the folder of the dataset");
+  browse->setMaximumWidth(48);
+  connect(browse, &QPushButton::clicked, this, [this] {
+    const QString folder = QFileDialog::getExistingDirectory(this, "Folder of the dataset", QString::fromStdString(request().place.data));
+    if (!folder.isEmpty()) data_->setText(folder);
+  });
+  form->addRow("data in", rowOf({data_, browse}));
 
   automatic_ = tipped(new QCheckBox("start the next trial after"),
                       "The next trial begins without a key after this pause. A plan has its own pauses.");
@@ -159,7 +167,9 @@ session::SessionRequest SessionDock::request() const {
   session::SessionRequest r = request_;
   r.place.subject = subject_->text().trimmed().toStdString();
   r.place.session = session_->text().trimmed().toStdString();
-  r.place.data = data_->text().trimmed().toStdString();
+  QString folder = data_->text().trimmed();
+  if (folder == "~" || folder.startsWith("~/")) folder.replace(0, 1, QDir::homePath());  // as in a shell
+  r.place.data = folder.toStdString();
   r.day = day_->value() > 0 ? std::optional(day_->value()) : std::nullopt;
   if (request_.trials) r.trials = trials_->value();
   r.device = device();

@@ -25,7 +25,7 @@ std::string absolute(const std::string& path) { return QFileInfo(QString::fromSt
 void rememberRequest(const session::SessionRequest& request) {
   keep("session/subject", request.place.subject);
   keep("session/session", request.place.session);
-  keep("session/data", request.place.data);
+  keep("session/data", absolute(request.place.data));
   keep("session/device", request.device);
   if (request.trials) keep("session/trials", std::to_string(*request.trials));
 }

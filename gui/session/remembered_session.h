@@ -8,7 +8,8 @@
 /// The session that the window remembers in QSettings. Each value is written when it changes, so that a kill loses nothing.
 namespace reachlab::gui::app {
 
-/// Remembers subject, session, folder, device and, except for a plan, the number of trials.
+/// Remembers subject, session, folder, device and, except for a plan, the number of trials. The folder stays the same wherever the program
+/// is started.
 void rememberRequest(const session::SessionRequest& request);
 /// The values of the last start. `request` gives the values that were never remembered.
 session::SessionRequest rememberedRequest(session::SessionRequest request);

@@ -341,6 +341,13 @@ TEST_F(Day, SubjectDeviceFolderAndTrialsAreRememberedWhenTheyChange) {
   EXPECT_EQ(again.device, "virtual:omni");
   EXPECT_EQ(again.place.data, folder_.filePath("other").toStdString());
   EXPECT_EQ(rememberedTrials(), 7);
+  const std::pair<QString, QString> folders[] = {{"there", QDir::current().filePath("there")},
+                                                 {"~/mydata", QDir::home().filePath("mydata")}};
+  for (const auto& [typed, meant] : folders) {
+    find<QLineEdit>("data")->setText(typed);
+    EXPECT_EQ(rememberedRequest({}).place.data, meant.toStdString()) << "wherever the next start is";
+  }
+  EXPECT_EQ(window_->sessionDock().request().place.data, QDir::home().filePath("mydata").toStdString());
 }
 
 TEST_F(Day, FitsASmallScreen) {
