@@ -411,6 +411,7 @@ void MainWindow::beginNext() {
     return warn(tr("The plan rests %1 s more before its next block. Ctrl+E ends the run of this block and the rest.")
                     .arg(std::ceil(session_.restLeft())));
   if (session_.run() == nullptr && !docks_.session->fault().isEmpty()) return say(docks_.session->fault());
+  if (session_.run() == nullptr && !mayKeepValues("Start")) return;
   const QString fault = widgets::faultIn([this] {
     messages_->clear();
     if (session_.run() == nullptr && !mayUseDevice()) return;

@@ -120,6 +120,8 @@ class MainWindow : public QMainWindow {
   void showStage();
   void showEnd();
   bool mayUseDevice();
+  /// True when no field of the experiment is wrong, or the user takes the values before.
+  bool mayKeepValues(const QString& doing);
   void movePlace(scene::TaskPlace place, const std::vector<double>& q);
   QString dataFolder() const;  // where the session records
   void drawPredictions();

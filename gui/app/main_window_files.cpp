@@ -65,11 +65,13 @@ void MainWindow::beginNew(const Template& from) {
 bool MainWindow::saveExperiment() {
   takeEntry();
   const QString file = edits_.opened().file;
-  return file.isEmpty() ? saveExperimentAs() : saveTo(file, session_.experiment());
+  if (file.isEmpty()) return saveExperimentAs();
+  return mayKeepValues("Save") && saveTo(file, session_.experiment());
 }
 
 bool MainWindow::saveExperimentAs() {
   takeEntry();
+  if (!mayKeepValues("Save")) return false;
   const QString opened = edits_.opened().file,
                 proposed = opened.isEmpty() ? QString::fromStdString(session_.experiment().name + ".json") : opened;
   QString file = QFileDialog::getSaveFileName(this, "Save experiment", proposed, "Experiments (*.json)");
@@ -133,6 +135,18 @@ bool MainWindow::mayEndRun(const QString& doing) {
                  .arg(run->trialCount())
                  .arg(doing, dataFolder()),
              "End the run", "Continue it");
+}
+
+bool MainWindow::mayKeepValues(const QString& doing) {
+  QStringList faults;
+  for (const docks::Dock* dock : docks_.all)
+    if (dock != docks_.session) faults << dock->fault();
+  faults.removeAll({});
+  if (faults.isEmpty()) return true;
+  faults << "The experiment has the last correct values of these fields.";
+  if (!ask(*this, "askAboutFaults", "A field is wrong", faults.join(QLatin1Char('\n')), doing, "Cancel")) return false;
+  for (docks::Dock* dock : docks_.all) dock->showExperiment(session_.compiled(), !session_.isPlan());
+  return true;
 }
 
 // A session that is resumed with another device asks, because its trials would not be comparable.

@@ -20,6 +20,8 @@ class Dock : public QDockWidget {
   void showExperiment(const experiment::CompiledExperiment& experiment, bool editable);
   /// Shows why the last edit was refused, one line per fault. An empty list means that the edit holds.
   virtual void showFaults(const QStringList& faults);
+  /// The faults of the fields, one line each, as shown under them. Empty if there is no fault.
+  QString fault() const { return faults_->text(); }
 
  Q_SIGNALS:
   /// Emitted after a change by the user, with the whole changed experiment, which may be faulty. `what` names the change: "task".

@@ -143,8 +143,6 @@ void SessionDock::check() {
   this->faults()->setFaults(faults);
 }
 
-QString SessionDock::fault() const { return faults()->text(); }
-
 void SessionDock::setRequest(const session::SessionRequest& request) {
   request_ = request;
   subject_->setText(QString::fromStdString(request.place.subject));

@@ -23,8 +23,6 @@ class SessionDock : public Dock {
   void setRequest(const session::SessionRequest& request);
   /// The typed values. `what`, `fast` and similar members are unchanged.
   session::SessionRequest request() const;
-  /// The faults of the fields, one line each, as shown under them. Empty if there is no fault.
-  QString fault() const;
   std::string device() const;
   void setDevice(const QString& name);
   void setTrials(int trials);

@@ -295,6 +295,27 @@ TEST_F(Window, ADecimalCommaInABoxIsToldAndNeverDropped) {
   EXPECT_EQ(window.session().experiment().coupling->stiffness, 500);
 }
 
+TEST_F(Window, AWrongFieldIsAskedAboutBeforeARunBeginsOrAFileIsSaved) {
+  MainWindow& window = open();
+  type(find<QLineEdit>("masses"), "5 x 0,8", false);
+  {
+    const AnswerBox box("Cancel");
+    window.nextTrial();
+    EXPECT_TRUE(box.text().startsWith("masses: ")) << box.text().toStdString();
+  }
+  EXPECT_EQ(window.session().run(), nullptr);
+  {
+    const AnswerBox box("Cancel");
+    EXPECT_FALSE(window.saveExperiment());
+  }
+  {
+    const AnswerBox box("Start");
+    window.nextTrial();
+  }
+  ASSERT_NE(window.session().run(), nullptr) << window.message().toStdString();
+  EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
+}
+
 TEST_F(Window, ItGoesWithAnEntryUnderWay) {
   open();
   type(find<QLineEdit>("stiffness"), "850", false);
