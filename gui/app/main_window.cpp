@@ -195,6 +195,8 @@ void MainWindow::wireSession() {
     connect(&session_, words, this, show);
     connect(&session_, words, this, &MainWindow::showStage);  // where nothing was armed it may be asked again
   }
+  connect(&edits_.stack(), &QUndoStack::canUndoChanged, this, &MainWindow::showStage);
+  connect(&edits_.stack(), &QUndoStack::canRedoChanged, this, &MainWindow::showStage);
   connect(&edits_.stack(), &QUndoStack::cleanChanged, this, [this](bool clean) { setWindowModified(!clean); });
   timer_ = new QTimer(this);
   timer_->setTimerType(Qt::PreciseTimer);
@@ -255,6 +257,8 @@ void MainWindow::showStage() {
     action->setEnabled(stage != Stage::UnderWay && stage != Stage::Closed && !inspecting());
   if (stage == Stage::Following) actions_.repeat->setEnabled(false);
   actions_.nextSubject->setEnabled(stage == Stage::Closed && !inspecting());
+  actions_.undo->setEnabled(edits_.stack().canUndo() && !inspecting());  // the experiment is not seen there
+  actions_.redo->setEnabled(edits_.stack().canRedo() && !inspecting());
   view_->setPlacesMovable(stage == Stage::Closed && !session_.isPlan());
 }
 

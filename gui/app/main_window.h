@@ -113,6 +113,7 @@ class MainWindow : public QMainWindow {
   void takeEntry();
   void beginNext();
   void showPage();
+  void showReach();
   void wireDocks();
   void wireSession();
   void showExperiment();
@@ -154,7 +155,7 @@ class MainWindow : public QMainWindow {
   int score_ = 0;                // successes of the run
   bool gone_ = false;            // the go signal of the trial has been given, and heard
   docks::Docks docks_;
-  TrialActions actions_;
+  WindowActions actions_;
   QByteArray firstLayout_;                                                         // of the docks
   WindowLayout layout_ = WindowLayout::SetUp, reachLayout_ = WindowLayout::SetUp;  // what holds, and the one on the first page
   std::unique_ptr<StatusLine> status_;

@@ -30,6 +30,7 @@ void MainWindow::openExperiment(const QString& what) {
     edits_.stack().setClean();
     if (!file.isEmpty()) rememberFile(file);
     messages_->clear();
+    showReach();
   });
   messages_->say(widgets::Grade::Error, fault);
 }
@@ -51,6 +52,10 @@ void MainWindow::inspect(const QString& path) {
   if (!inspecting()) switchLayout(WindowLayout::Inspect);
 }
 
+void MainWindow::showReach() {
+  if (inspecting()) switchLayout(reachLayout_);
+}
+
 void MainWindow::openFile() {
   const QString chosen = QFileDialog::getOpenFileName(this, tr("Open experiment, plan or recording"), {},
                                                       tr("Experiments and plans (*.json);;Recordings (*.reach)"));
@@ -60,6 +65,7 @@ void MainWindow::openFile() {
 void MainWindow::beginNew(const Template& from) {
   if (!mayEndRun("A new experiment") || !mayBeLeft()) return;
   edits_.open(session::programmeOf(newExperiment(from)), "new experiment", {});
+  showReach();
 }
 
 bool MainWindow::saveExperiment() {

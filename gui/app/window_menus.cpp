@@ -88,23 +88,23 @@ void addExperimentMenu(MainWindow& window) {
   addEntry(window, menu, "&Quit", &QWidget::close, QKeySequence::Quit);
 }
 
-void addEditMenu(MainWindow& window) {
+void addEditMenu(MainWindow& window, WindowActions& actions) {
   QMenu& menu = *window.menuBar()->addMenu("E&dit");
-  QAction* undo = window.edits().createUndoAction(&window, "&Undo");
-  undo->setShortcut(QKeySequence::Undo);
-  undo->setObjectName("undo");
-  QAction* redo = window.edits().createRedoAction(&window, "&Redo");
-  redo->setShortcut(QKeySequence::Redo);
-  for (const auto& [action, does] : {std::pair{undo, &MainWindow::undo}, std::pair{redo, &MainWindow::redo}}) {
+  actions.undo = window.edits().createUndoAction(&window, "&Undo");
+  actions.undo->setShortcut(QKeySequence::Undo);
+  actions.undo->setObjectName("undo");
+  actions.redo = window.edits().createRedoAction(&window, "&Redo");
+  actions.redo->setShortcut(QKeySequence::Redo);
+  for (const auto& [action, does] : {std::pair{actions.undo, &MainWindow::undo}, std::pair{actions.redo, &MainWindow::redo}}) {
     action->disconnect(&window.edits());  // the stack would not ask
     QObject::connect(action, &QAction::triggered, &window, does);
   }
-  menu.addActions({undo, redo});
+  menu.addActions({actions.undo, actions.redo});
   menu.addSeparator();
   addEntry(window, menu, "Choose or type a &constraint…", &MainWindow::chooseConstraint, QKeySequence("Ctrl+K"));
 }
 
-void addTrialMenu(MainWindow& window, TrialActions& actions) {
+void addTrialMenu(MainWindow& window, WindowActions& actions) {
   QMenu& menu = *window.menuBar()->addMenu("&Trial");
   actions.next = addEntry(window, menu, "&Start", &MainWindow::nextTrial, Qt::Key_Space);
   actions.next->setToolTip("Starts the run, then the next trial. Space works in the scene and on this button.");
@@ -135,7 +135,7 @@ void addDocksMenu(MainWindow& window, QMenu& menu) {
   addEntry(window, menu, "In their &places", &MainWindow::resetLayout)->setObjectName("resetLayout");
 }
 
-void addViewMenu(MainWindow& window, TrialActions& actions) {
+void addViewMenu(MainWindow& window, WindowActions& actions) {
   QMenu& menu = *window.menuBar()->addMenu("&View");
   scene::SceneView& view = window.view();
   Screens& screens = window.screens();
@@ -178,10 +178,10 @@ void addHelpMenu(MainWindow& window) {
 
 }  // namespace
 
-TrialActions addMenus(MainWindow& window) {
-  TrialActions actions;
+WindowActions addMenus(MainWindow& window) {
+  WindowActions actions;
   addExperimentMenu(window);
-  addEditMenu(window);
+  addEditMenu(window, actions);
   addTrialMenu(window, actions);
   addViewMenu(window, actions);
   addHelpMenu(window);

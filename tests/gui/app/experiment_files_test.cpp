@@ -1,5 +1,6 @@
 #include "gui/app/experiment_files.h"
 
+#include <QAction>
 #include <QDir>
 #include <QDockWidget>
 #include <QDropEvent>
@@ -158,6 +159,22 @@ TEST_F(Files, ARecordingIsInspectedAndWhatIsWrongWithItIsSaid) {
   EXPECT_TRUE(window.inspecting());
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.message().contains("sub-01_log.reach"); }, 5000));
   EXPECT_EQ(window.session().experiment().name, "ellipse");
+}
+
+TEST_F(Files, OnThePageInspectNothingIsUndoneAndAnOpenedExperimentShowsItsPage) {
+  MainWindow& window = open();
+  changeMasses("2.5");
+  auto* undo = find<QAction>("undo");
+  EXPECT_TRUE(undo->isEnabled());
+  QTest::keyClick(&window, Qt::Key_3, Qt::AltModifier);
+  ASSERT_TRUE(window.inspecting());
+  EXPECT_FALSE(undo->isEnabled());
+  QTest::keyClick(&window, Qt::Key_Z, Qt::ControlModifier);
+  EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{2.5}));
+  window.edits().setClean();
+  window.openExperiment("torus");
+  EXPECT_FALSE(window.inspecting());
+  EXPECT_TRUE(undo->isEnabled());
 }
 
 TEST_F(Files, ALayoutIsFoundAgainAsItWasLeft) {
