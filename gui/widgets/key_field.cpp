@@ -5,6 +5,7 @@
 #include <QGridLayout>
 #include <QHBoxLayout>
 #include <QSignalBlocker>
+#include <algorithm>
 
 #include "gui/widgets/named.h"
 
@@ -57,12 +58,11 @@ void KeyField::show(const std::vector<double>& value) {
     enableNumbers();
   }
   std::size_t next = 0;
-  const auto take = [&] { return next < value.size() ? value[next++] : 0.0; };
   if (choice_ != nullptr) {
     const QSignalBlocker quiet(choice_);
-    choice_->setCurrentIndex(static_cast<int>(take()));
+    choice_->setCurrentIndex(value.empty() ? 0 : static_cast<int>(value[next++]));
   }
-  for (UnitSpinBox* box : numbers_) box->show(take());
+  for (UnitSpinBox* box : numbers_) box->show(next < value.size() ? value[next++] : std::clamp(0.0, box->minimum(), box->maximum()));
 }
 
 std::vector<double> KeyField::value() const {

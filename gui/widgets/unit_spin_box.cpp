@@ -3,13 +3,14 @@
 #include <QLineEdit>
 #include <QLocale>
 #include <QSignalBlocker>
+#include <algorithm>
 #include <utility>
 
 #include "gui/widgets/theme.h"
 
 namespace reachlab::gui::widgets {
 
-UnitSpinBox::UnitSpinBox(double low, double high, const QString& unit, QWidget* parent) : QDoubleSpinBox(parent) {
+UnitSpinBox::UnitSpinBox(double low, double high, const QString& unit, QWidget* parent) : QDoubleSpinBox(parent), low_(low), high_(high) {
   setDecimals(9);
   setRange(low, high);
   if (!unit.isEmpty()) setSuffix(QLatin1Char(' ') + unit);
@@ -33,6 +34,7 @@ void UnitSpinBox::show(double value) {
   wrong_ = false;
   fault_.clear();
   setStyleSheet({});
+  setRange(std::min(low_, value), std::max(high_, value));
   setValue(value);
 }
 

@@ -13,7 +13,7 @@ class UnitSpinBox : public QDoubleSpinBox {
   UnitSpinBox(double low, double high, const QString& unit, QWidget* parent = nullptr);
   /// The name of the number in messages.
   void setName(const QString& name) { setAccessibleName(name); }
-  /// Displays the value and emits nothing.
+  /// Displays the value and emits nothing. A value out of range, which a file may have, widens the range while it is shown.
   void show(double value);
   QString textFromValue(double value) const override;
   /// Qt's own would drop a comma and read 06 out of 0,6, while it is typed and once more at the end.
@@ -34,6 +34,7 @@ class UnitSpinBox : public QDoubleSpinBox {
   std::optional<double> read(const QString& text) const;
   void check();
 
+  double low_, high_;
   QString fault_;
   bool wrong_ = false;  // what is in the field now
 };

@@ -316,6 +316,20 @@ TEST_F(Window, AWrongFieldIsAskedAboutBeforeARunBeginsOrAFileIsSaved) {
   EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
 }
 
+TEST_F(Window, AFilesNumberBeyondTheRangeOfItsFieldIsShownAsItIs) {
+  experiment::Experiment slow = experiment::readExperiment(request_.what);
+  slow.task->duration = 90;
+  request_.what = write("slow.json", experiment::toJson(slow));
+  open();
+  auto* duration = find<QDoubleSpinBox>("taskDuration");
+  EXPECT_EQ(duration->value(), 90);
+  type(duration, "80");
+  EXPECT_EQ(window_->session().experiment().task->duration, 80);
+  window_->edits().setClean();
+  window_->openExperiment("ellipse");
+  EXPECT_EQ(duration->maximum(), 60) << "the range of the field is back";
+}
+
 TEST_F(Window, ItGoesWithAnEntryUnderWay) {
   open();
   type(find<QLineEdit>("stiffness"), "850", false);
