@@ -77,8 +77,10 @@ MixEditor::MixEditor(QWidget* parent) : QGroupBox(tr("Kinds of trials and target
   connect(kinds_, &QTableWidget::itemSelectionChanged, this, [this] { remove_->setEnabled(kinds_->currentRow() >= 0); });
   for (QComboBox* box : {targets_, order_}) connect(box, qOverload<int>(&QComboBox::currentIndexChanged), this, &MixEditor::take);
   connect(count_, qOverload<int>(&QSpinBox::valueChanged), this, &MixEditor::take);
-  for (widgets::UnitSpinBox* box : {radius_, first_})
+  for (widgets::UnitSpinBox* box : {radius_, first_}) {
     connect(box, qOverload<double>(&QDoubleSpinBox::valueChanged), this, &MixEditor::take);
+    connect(box, &widgets::UnitSpinBox::checked, this, &MixEditor::changed);
+  }
   connect(list_, &QLineEdit::editingFinished, this, &MixEditor::take);
   connect(wayBack_, &QCheckBox::toggled, this, &MixEditor::take);
   show({});
@@ -135,6 +137,8 @@ QWidget* MixEditor::makeTargets() {
   count_->setRange(1, 360);
   radius_ = widgets::named<widgets::UnitSpinBox>("planRingRadius", 0.001, 10, QStringLiteral("m"));
   first_ = widgets::named<widgets::UnitSpinBox>("planRingFirst", -360, 360, QStringLiteral("°"));
+  radius_->setName(tr("radius of the ring"));
+  first_->setName(tr("direction of target 1"));
   first_->setToolTip(tr("direction of target 1, counterclockwise from the right"));
   list_ = widgets::named<QLineEdit>("planTargetList");
   list_->setPlaceholderText(QStringLiteral("[0.1, 0, 0], [0, 0, -0.1]"));
@@ -154,6 +158,14 @@ void MixEditor::show(const session::TrialMix& mix) {
   faults_.clear();
   showKinds();
   showTargets();
+}
+
+QStringList MixEditor::faults() const {
+  QStringList all = faults_;
+  for (const widgets::UnitSpinBox* box : {radius_, first_})
+    if (box->isEnabled()) all << box->fault();
+  all.removeAll({});
+  return all;
 }
 
 void MixEditor::showKinds() {

@@ -26,8 +26,8 @@ class MixEditor : public QGroupBox {
   void show(const session::TrialMix& mix);
   /// The mix as it is entered. A text that cannot be read leaves its part as it was shown.
   const session::TrialMix& mix() const { return mix_; }
-  /// Texts that cannot be read, one line each.
-  const QStringList& faults() const { return faults_; }
+  /// Texts and numbers that cannot be read, one line each.
+  QStringList faults() const;
 
  Q_SIGNALS:
   void changed();
@@ -45,7 +45,7 @@ class MixEditor : public QGroupBox {
   void takeTargets();
 
   session::TrialMix mix_;
-  QStringList faults_;
+  QStringList faults_;  // of the texts
   bool showing_ = false;
   QTableWidget* kinds_;
   QPushButton* remove_;

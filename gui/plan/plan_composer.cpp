@@ -108,7 +108,7 @@ PlanComposer::PlanComposer(QWidget* parent) : QDialog(parent) {
   layout->addWidget(faultLabel_);
   auto* buttons = new QDialogButtonBox;
   auto* saveButton = buttons->addButton(tr("Save as…"), QDialogButtonBox::ActionRole);
-  use_ = buttons->addButton(tr("Save and use"), QDialogButtonBox::AcceptRole);
+  use_ = buttons->addButton(tr("Save and use"), QDialogButtonBox::ActionRole);  // the role Accept would give it the Enter key
   use_->setObjectName(QStringLiteral("planUse"));
   use_->setProperty("role", "go");
   buttons->addButton(QDialogButtonBox::Close);
@@ -121,6 +121,7 @@ PlanComposer::PlanComposer(QWidget* parent) : QDialog(parent) {
   });
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   wire();
+  for (QPushButton* button : findChildren<QPushButton*>()) button->setAutoDefault(false);  // Enter ends an entry
   resize(1120, 900);
   setPlan({}, {});
 }
@@ -199,8 +200,11 @@ QWidget* PlanComposer::makeBlock() {
     bind(made, qOverload<int>(&QSpinBox::valueChanged), part, &QSpinBox::value, &QSpinBox::setValue);
     return made;
   };
-  const auto number = [&](const char* name, double high, double Block::*part, const QString& unit = "s") {
+  const auto number = [&](const char* name, const QString& words, double high, double Block::*part, const QString& unit = "s") {
     auto* made = widgets::named<widgets::UnitSpinBox>(name, 0, high, unit);
+    made->setName(words);
+    numbers_.push_back(made);
+    connect(made, &widgets::UnitSpinBox::checked, this, &PlanComposer::changed);
     bind(made, qOverload<double>(&QDoubleSpinBox::valueChanged), part, &QDoubleSpinBox::value,
          [](widgets::UnitSpinBox* box, double value) { box->show(value); });
     return made;
@@ -227,12 +231,14 @@ QWidget* PlanComposer::makeBlock() {
   QSpinBox* day = whole("planDay", 0, session::kMaxDay, &Block::day);
   day->setSpecialValueText(tr("every day"));
   form->addRow(tr("day"), day);
-  form->addRow(tr("rest before it"), number("planRest", session::kMaxPause, &Block::restSeconds));
-  form->addRow(tr("pause between trials"), number("planPause", session::kMaxPause, &Block::pauseSeconds));
+  form->addRow(tr("rest before it"), number("planRest", tr("rest before it"), session::kMaxPause, &Block::restSeconds));
+  form->addRow(tr("pause between trials"), number("planPause", tr("pause between trials"), session::kMaxPause, &Block::pauseSeconds));
   form->addRow(tr("go signal after"),
-               widgets::rowOf({number("planForeperiodMin", session::kMaxForeperiod, &Block::foreperiodMin), new QLabel(tr("to")),
-                               number("planForeperiodMax", session::kMaxForeperiod, &Block::foreperiodMax)}));
-  form->addRow(tr("share without go signal"), number("planCatch", session::kMaxCatchShare, &Block::catchShare, {}));
+               widgets::rowOf({number("planForeperiodMin", tr("earliest go signal"), session::kMaxForeperiod, &Block::foreperiodMin),
+                               new QLabel(tr("to")),
+                               number("planForeperiodMax", tr("latest go signal"), session::kMaxForeperiod, &Block::foreperiodMax)}));
+  form->addRow(tr("share without go signal"),
+               number("planCatch", tr("share without go signal"), session::kMaxCatchShare, &Block::catchShare, {}));
   addBox(widgets::named<QCheckBox>("planPractice", tr("practice: recorded, but not used in statistics")), &Block::practice);
   addBox(new QCheckBox(tr("repeat aborted trials at the end")), &Block::repeatAborted);
   auto* instructions = widgets::named<QPlainTextEdit>("planInstructions");
@@ -249,7 +255,9 @@ QWidget* PlanComposer::makeBlock() {
 
 void PlanComposer::wire() {
   connect(list_, &QTableWidget::itemSelectionChanged, this, [this] {
-    if (!showing_) showBlock();
+    if (showing_) return;
+    showBlock();
+    changed();
   });
   connect(mix_, &MixEditor::changed, this, &PlanComposer::take);
   connect(name_, &QLineEdit::textEdited, this, &PlanComposer::takeWhole);
@@ -328,7 +336,10 @@ void PlanComposer::takeWhole() {
 QStringList PlanComposer::faults() const {
   QStringList lines;
   if (plan_.name.empty()) lines << tr("The plan has no name. Enter a name.");
-  for (const QString& fault : mix_->faults()) lines << tr("block %1: %2").arg(row() + 1).arg(fault);
+  QStringList ofBlock = mix_->faults();
+  for (const widgets::UnitSpinBox* number : numbers_) ofBlock << number->fault();
+  ofBlock.removeAll({});
+  for (const QString& fault : ofBlock) lines << tr("block %1: %2").arg(row() + 1).arg(fault);
   if (plan_.blocks.empty()) return lines << tr("The plan has no block. Press Add.");
   for (const Fault& fault : session::problems(plan_)) lines << wordsOf(fault);
   return lines;

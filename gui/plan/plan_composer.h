@@ -14,7 +14,8 @@ class QTableWidget;
 
 namespace reachlab::gui::widgets {
 class FaultLabel;
-}
+class UnitSpinBox;
+}  // namespace reachlab::gui::widgets
 
 namespace reachlab::gui::plan {
 
@@ -68,7 +69,8 @@ class PlanComposer : public QDialog {
     std::function<void(const session::PlanBlock&)> show;
     std::function<void(session::PlanBlock&)> take;
   };
-  std::vector<Field> fields_;  // of the block
+  std::vector<Field> fields_;                   // of the block
+  std::vector<widgets::UnitSpinBox*> numbers_;  // of the block
   QLineEdit* name_;
   QDoubleSpinBox* orderSeed_;  // a whole number beyond the range of QSpinBox
   QCheckBox* permute_;

@@ -64,6 +64,39 @@ TEST(PlanComposer, ComposesAPlanThatReadsBackEqual) {
   EXPECT_FALSE(dialog.isVisible()) << "it is saved, and nothing is asked";
 }
 
+TEST(PlanComposer, EnterEndsAnEntryAndAWrongNumberIsTold) {
+  PlanComposer dialog;
+  session::Plan plan;
+  plan.name = "p";
+  plan.blocks.emplace_back().experiment = "chain-slow";
+  plan.blocks.back().trials = 24;
+  dialog.setPlan(plan, QStringLiteral("/dev/null/p.json"));
+  dialog.show();
+  const auto* faults = child<QLabel>(dialog, "planFaults");
+  QTest::keyClick(child<QLineEdit>(dialog, "planCondition"), Qt::Key_Return);
+  EXPECT_EQ(faults->text(), QString()) << "it is not saved";
+  for (const auto& [name, words] : {std::pair{"planRest", "rest before it"}, {"planRingRadius", "radius of the ring"}}) {
+    child<QComboBox>(dialog, "planTargets")->setCurrentIndex(1);
+    auto* number = child<QDoubleSpinBox>(dialog, name);
+    number->selectAll();
+    QTest::keyClicks(number, QStringLiteral("1,5"));
+    const QString told = QStringLiteral("block 1: %1: \"1,5").arg(QLatin1String(words));
+    EXPECT_TRUE(faults->text().startsWith(told)) << faults->text().toStdString();
+    EXPECT_FALSE(child<QPushButton>(dialog, "planUse")->isEnabled());
+    QTest::keyClick(number, Qt::Key_Return);
+    EXPECT_TRUE(faults->text().startsWith(told)) << faults->text().toStdString();
+    number->selectAll();
+    QTest::keyClicks(number, QStringLiteral("1.5"));
+    QTest::keyClick(number, Qt::Key_Return);
+    EXPECT_EQ(faults->text(), QString());
+    EXPECT_EQ(number->value(), 1.5);
+  }
+  EXPECT_EQ(dialog.plan().blocks[0].restSeconds, 1.5);
+  EXPECT_TRUE(dialog.isVisible());
+  const AnswerBox box(QStringLiteral("Discard"));
+  dialog.close();
+}
+
 TEST(PlanComposer, ClosesAChangedPlanOnlyWhenItIsDiscarded) {
   PlanComposer dialog;
   dialog.show();
