@@ -10,6 +10,8 @@
 
 #include "devices/kept_mapping.h"
 #include "gui/app/main_window.h"
+#include "gui/model/model_reader.h"
+#include "gui/plan/plan_composer.h"
 #include "gui/widgets/ask.h"
 #include "gui/widgets/fault_in.h"
 #include "sim/experiment/experiment.h"
@@ -85,16 +87,19 @@ bool MainWindow::saveExperimentAs() {
   if (QFileInfo(file).suffix().isEmpty()) file += ".json";
   experiment::Experiment named = session_.experiment();
   named.name = QFileInfo(file).completeBaseName().toStdString();  // or two experiments would be recorded under one name
-  return (named.name == session_.experiment().name || mayEndRun("Another name")) && saveTo(file, named);
+  experiment::SceneLook look = experiment::lookOf(named);
+  const std::string scene = plan::nameInFile(model::findSceneFile(look.sceneFile, QFileInfo(opened).path()), file);
+  if (std::exchange(look.sceneFile, scene) != scene) named = experiment::withLook(named, look);
+  return (named == session_.experiment() || mayEndRun("Another file")) && saveTo(file, named);
 }
 
 bool MainWindow::saveTo(const QString& file, const experiment::Experiment& experiment) {
   if (session_.isPlan()) return say("Use Session plan… (Ctrl+P) to compose and save a plan."), false;
   const QString fault = widgets::faultIn([&] {
     writeExperiment(experiment, file);
-    const bool renamed = experiment.name != session_.experiment().name;
-    edits_.setOpened({renamed ? file : edits_.opened().what, file});  // first: undo of the name keeps the file, too
-    if (renamed)
+    const bool changed = experiment != session_.experiment();
+    edits_.setOpened({changed ? file : edits_.opened().what, file});  // first: undo of the name keeps the file, too
+    if (changed)
       edits_.open(session::readProgramme(file.toStdString()), QStringLiteral("save as %1").arg(QFileInfo(file).fileName()),
                   edits_.opened());
     rememberFile(file);

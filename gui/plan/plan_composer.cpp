@@ -48,15 +48,6 @@ QString kindOf(const session::PlanBlock& block) {
   return kinds.join(QStringLiteral(", "));
 }
 
-// A file in the plan's folder moves with the plan. Another file is found from every folder. What is no file is a shipped name.
-std::string nameInPlan(const std::string& experiment, const QString& plan) {
-  const QFileInfo asked(QString::fromStdString(experiment));
-  if (!asked.isFile()) return experiment;
-  const QDir folder = QFileInfo(plan).absoluteDir();
-  const QString beside = folder.relativeFilePath(asked.absoluteFilePath());
-  return (beside.startsWith(QLatin1String("../")) ? asked.absoluteFilePath() : beside).toStdString();
-}
-
 // "block 2: …". A position in the plan's file is left out, because the file is not written yet.
 QString wordsOf(Fault fault) {
   const std::string list = "blocks[";
@@ -69,6 +60,13 @@ QString wordsOf(Fault fault) {
 }
 
 }  // namespace
+
+std::string nameInFile(const std::string& named, const QString& file) {
+  const QFileInfo asked(QString::fromStdString(named));
+  if (!asked.isFile()) return named;
+  const QString beside = QFileInfo(file).absoluteDir().relativeFilePath(asked.absoluteFilePath());
+  return (beside.startsWith(QLatin1String("../")) ? asked.absoluteFilePath() : beside).toStdString();
+}
 
 QString orderPreview(const session::Plan& plan, int subjects) {
   std::set<int> days;
@@ -354,7 +352,7 @@ void PlanComposer::changed() {
 
 void PlanComposer::saveTo(const QString& file) {
   session::Plan written = plan_;
-  for (session::PlanBlock& block : written.blocks) block.experiment = nameInPlan(block.experiment, file);
+  for (session::PlanBlock& block : written.blocks) block.experiment = nameInFile(block.experiment, file);
   const std::string text = session::toJson(written);
   (void)session::parseProgramme(text, file.toStdString());  // a plan that would be refused replaces no good one
   record::writeFileAtomically(file.toStdString(), text);

@@ -20,6 +20,7 @@
 #include "gui/plan/plan_composer.h"
 #include "gui/subject/subject_window.h"
 #include "sim/experiment/experiment.h"
+#include "sim/experiment/scene_look.h"
 #include "test_paths.h"
 #include "tests/gui/answer_box.h"
 #include "tests/gui/at_the_window.h"
@@ -294,6 +295,19 @@ TEST_F(MenuActions, UndoKeepsTheFileOfSaveAs) {
     trigger("Edit/Redo*");
   }
   EXPECT_NE(experiment::openExperiment(written("copies/mine.json").toStdString()).experiment().object.masses, std::vector<double>{2.5});
+}
+
+TEST_F(MenuActions, SaveAsInAnotherFolderStillFindsTheSceneFromAFile) {
+  const std::string scene = write("ball.wrl", "#VRML V2.0 utf8\nDEF mass1 Shape { geometry Sphere { radius 0.02 } }\n");
+  experiment::SceneLook look;
+  look.sceneFile = "ball.wrl";
+  request_.what = write("ball.json", experiment::withLook(experiment::openExperiment("ellipse").experiment(), look).text);
+  MainWindow& window = open();
+  QDir(folder_.path()).mkdir("copies");
+  triggerWithFile("Experiment/Save as…", written("copies/ball.json"));
+  const experiment::Experiment saved = experiment::openExperiment(written("copies/ball.json").toStdString()).experiment();
+  EXPECT_EQ(experiment::lookOf(saved).sceneFile, scene);
+  EXPECT_EQ(window.look().sceneFile, scene);
 }
 
 TEST_F(MenuActions, OfTheLookReachTheExperiment) {
