@@ -16,6 +16,9 @@ bool hasNothingToUndo(const QLineEdit& field, const QKeyEvent& key) {
   return (key.matches(QKeySequence::Undo) && !field.isUndoAvailable()) || (key.matches(QKeySequence::Redo) && !field.isRedoAvailable());
 }
 
+// On Linux a field takes Ctrl+E as the end of the line.
+bool endsTheRun(const QKeyEvent& key) { return key.key() == Qt::Key_E && key.modifiers() == Qt::ControlModifier; }
+
 // A wrong entry is mended where it stands.
 bool isToBeMended(const QLineEdit& field) {
   const auto* list = qobject_cast<const widgets::NumberListEdit*>(&field);
@@ -35,7 +38,7 @@ bool KeyFocus::eventFilter(QObject* watched, QEvent* event) {
   if (field == nullptr) return false;
   const auto* key = static_cast<QKeyEvent*>(event);
   if (event->type() == QEvent::ShortcutOverride) {
-    if (!hasNothingToUndo(*field, *key)) return false;
+    if (!hasNothingToUndo(*field, *key) && !endsTheRun(*key)) return false;
     event->ignore();
     return true;
   }

@@ -304,6 +304,16 @@ TEST_F(Day, ARunThatIsEndedEarlyAsksAndSaysWhereItIsSaved) {
   EXPECT_EQ(window.message(), QStringLiteral("Run 1 is saved in %1.").arg(QString::fromStdString(request_.place.data)));
 }
 
+TEST_F(Day, CtrlEEndsTheRunFromAFieldToo) {
+  MainWindow& window = open();
+  window.nextTrial();
+  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  find<QLineEdit>("note")->setFocus();
+  const AnswerBox box("End the run");
+  key(Qt::Key_E, Qt::ControlModifier);
+  EXPECT_EQ(window.session().run(), nullptr);
+}
+
 TEST_F(Day, ARunWhoseDatasetCannotBeWrittenIsNotCalledSaved) {
   MainWindow& window = open();
   window.nextTrial();
