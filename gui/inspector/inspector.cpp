@@ -381,7 +381,10 @@ bool InspectorPage::attempt(const std::function<void()>& work) {
 void InspectorPage::exportTo(const QString& file) {
   if (!inspection_ || inspection_->input.trials.empty()) throw FaultError(Fault{"trials", "none is chosen", "rows of the table"});
   const std::string name = file.toStdString();
-  const bool lines = QFileInfo(file).suffix().toLower() == QLatin1String("csv");
+  const QString ending = QFileInfo(file).suffix().toLower();
+  if (!QStringList{"svg", "pdf", "png", "csv"}.contains(ending))
+    throw FaultError(Fault{name, "unknown kind of figure", ".svg, .pdf, .png, .csv"});
+  const bool lines = ending == QLatin1String("csv");
   record::writeFileAtomically(name, lines ? linesCsv(*inspection_, timeAxis())
                                           : figure::renderFor(name, figureOf(*inspection_, condition(), timeAxis(), shownPredictions())));
 }
@@ -394,10 +397,10 @@ void InspectorPage::exportTable(const QString& file) {
 
 void InspectorPage::save(const QString& title, const QString& proposed, const QString& kinds,
                          const std::function<void(const QString&)>& write) {
-  QString file = QFileDialog::getSaveFileName(this, title, proposed, kinds);
+  QString kind = kinds.section(";;", 0, 0);
+  QString file = QFileDialog::getSaveFileName(this, title, proposed, kinds, &kind);
   if (file.isEmpty()) return;
-  const bool oneKind = !kinds.contains(";;");
-  if (oneKind && QFileInfo(file).suffix().isEmpty()) file += QLatin1Char('.') + QFileInfo(proposed).suffix();
+  if (QFileInfo(file).suffix().isEmpty()) file += kind.section(QLatin1Char('*'), 1).chopped(1);  // of "CSV (*.csv)"
   attempt([&] {
     write(file);
     Q_EMIT told(tr("Written: %1").arg(file));

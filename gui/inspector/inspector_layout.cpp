@@ -116,7 +116,7 @@ void InspectorPage::addTop(QVBoxLayout& layout) {
     if (!path_.isEmpty()) open(path_);
   });
   title_ = new widgets::ElidedLabel;
-  title_->setText(tr("No recording is open. Use File, Inspect to open a dataset or a session."));
+  title_->setText(tr("No recording is open. Use Experiment, Inspect a dataset… to open a dataset or a session."));
   title_->setStyleSheet("font-weight: 600;");
   words_ = widgets::named<QLineEdit>("inspectorFilter");
   words_->setPlaceholderText(tr("filter: words of a row, e.g. sub-03 fast success"));

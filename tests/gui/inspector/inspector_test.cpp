@@ -1,8 +1,10 @@
 // A recording looked at: by the mouse and the keys, as somebody does who has never seen it.
 #include "gui/inspector/inspector.h"
 
+#include <QAction>
 #include <QCheckBox>
 #include <QComboBox>
+#include <QFileDialog>
 #include <QFileInfo>
 #include <QHeaderView>
 #include <QLabel>
@@ -26,7 +28,9 @@
 #include "test_paths.h"
 #include "tests/analysis/recorded.h"
 #include "tests/analysis/whole_dataset.h"
+#include "tests/gui/answer_box.h"
 #include "tests/gui/at_the_window.h"
+#include "tests/refusal.h"
 
 namespace reachlab::gui::inspector {
 namespace {
@@ -280,6 +284,24 @@ TEST_F(Inspecting, FiguresAndTablesAreWritten) {
   const std::string table = record::readWholeFile((base + "-table.csv").toStdString());
   EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 27);
   EXPECT_THROW(page_.exportTo(base + ".doc"), Error);
+}
+
+TEST_F(Inspecting, AFileWithoutAnEndingIsOfTheKindThatIsChosen) {
+  QCoreApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
+  choose(0, 3);
+  const QString base = QString::fromStdString(folder_->path()) + "/bare";
+  const Answer answer([&](QWidget* box) {
+    auto* dialog = qobject_cast<QFileDialog*>(box);
+    if (dialog == nullptr) return false;
+    dialog->selectNameFilter("Figure as PDF (*.pdf)");
+    dialog->findChild<QLineEdit*>("fileNameEdit")->setText(base);
+    static_cast<QDialog*>(dialog)->accept();
+    return true;
+  });
+  for (QAction* action : page_.findChildren<QAction*>())
+    if (action->text().startsWith("Figure or lines")) action->trigger();
+  EXPECT_TRUE(QFileInfo::exists(base + ".pdf")) << said_.toStdString();
+  EXPECT_NE(refusalOf([&] { page_.exportTo(base + ".doc"); }).find(".csv"), std::string::npos);
 }
 
 TEST_F(Inspecting, WhatIsExportedIsWhatIsDrawn) {
