@@ -52,6 +52,10 @@ Stage stageOf(SessionController& session) {
                                     : Stage::Finished;
 }
 
+std::string programmeName(const SessionController& session) {
+  return session.isPlan() ? session.programme().plan.name : session.experiment().name;
+}
+
 void showTitle(MainWindow& window, const QString& name) {
   const network::StationSetup* station = window.session().station();
   const QString what = station == nullptr            ? name
@@ -236,7 +240,7 @@ void MainWindow::showExperiment() {
   plans_->refresh();
   forecast_.setExperiment(compiled);
   showStage();  // a plan's places are not moved
-  showTitle(*this, QString::fromStdString(compiled.experiment().name));
+  showTitle(*this, QString::fromStdString(programmeName(session_)));
 }
 
 void MainWindow::showOverlay() {
@@ -518,7 +522,7 @@ void MainWindow::showPage() {
       inspector().open(folder);
   if (inspecting()) inspector().view().setFocus();  // for the keys of the replay
   else view_->setFocus();
-  const QString name = inspecting() ? QFileInfo(inspector().path()).fileName() : QString::fromStdString(session_.experiment().name);
+  const QString name = inspecting() ? QFileInfo(inspector().path()).fileName() : QString::fromStdString(programmeName(session_));
   showTitle(*this, name.isEmpty() ? tr("recordings") : name);
   showStage();
 }

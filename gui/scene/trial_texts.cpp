@@ -56,8 +56,9 @@ QString reasonText(trial::Reason reason) {
 OverlayState overlayOf(const haptics::TickState& state, const experiment::Task& task, int trialsPlanned, bool mouse) {
   OverlayState o;
   o.semaphore = state.semaphore;
-  o.counter = state.trial > 0 ? QStringLiteral("Trial %1 of %2").arg(state.trial).arg(trialsPlanned)
-                              : QStringLiteral("%1 trials").arg(trialsPlanned);
+  o.counter = state.trial > 0      ? QStringLiteral("Trial %1 of %2").arg(state.trial).arg(trialsPlanned)
+              : trialsPlanned == 1 ? QStringLiteral("1 trial")
+                                   : QStringLiteral("%1 trials").arg(trialsPlanned);
   const double latest = task.duration + task.tolerance.time;
   o.detail = task.duration > task.tolerance.time
                  ? QStringLiteral("reach in %1 ± %2 s").arg(number(task.duration, 2), number(task.tolerance.time, 2))

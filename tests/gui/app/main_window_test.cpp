@@ -135,6 +135,7 @@ TEST(TaskText, SaysWhatIsJudgedAndALatestTimeAloneWhereThereIsNoEarliest) {
       "Bring the mass to the small yellow sphere (within 5 mm) and to rest there (below 20 mm/s), at most 10 s after your hand starts to "
       "move.");
   EXPECT_EQ(scene::overlayOf({}, *e.task, 1, true).detail.toStdString(), "reach in at most 10.00 s");
+  EXPECT_EQ(scene::overlayOf({}, *e.task, 1, true).counter.toStdString(), "1 trial");
 }
 
 TEST(Overlay, IsGreyWhereATrialDoesNotCount) {

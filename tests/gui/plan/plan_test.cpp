@@ -204,6 +204,7 @@ class PlannedSession : public AtTheWindow {
 
 TEST_F(PlannedSession, BeginsOnItsStartPageRestsAndResumes) {
   app::MainWindow* window = window_.get();
+  EXPECT_EQ(window->windowTitle(), QStringLiteral("two[*] – Reachlab"));
   EXPECT_EQ(summary(), QStringLiteral("0 of 2 blocks done"));
   EXPECT_TRUE(next().contains(QStringLiteral("block 1, first, with 2 trials"))) << next().toStdString();
   EXPECT_TRUE(next().contains(QStringLiteral("Reach calmly.")));
