@@ -17,7 +17,9 @@
 #include "gui/scene_plan/definition_reach.h"
 #include "gui/widgets/ask.h"
 #include "gui/widgets/fault_in.h"
+#include "gui/widgets/fault_words.h"
 #include "gui/widgets/named.h"
+#include "gui/widgets/on_screen.h"
 #include "sim/record/log/atomic_file.h"
 
 namespace reachlab::gui::docks {
@@ -50,7 +52,7 @@ bool coincide(const constraints::Constraint& constraint, const ConstraintChoice&
 ConstraintChooser::ConstraintChooser(QWidget* parent) : QDialog(parent), probe_(scene::reachOn({})) {
   setWindowTitle("Constraint");
   setObjectName("constraintChooser");
-  resize(1240, 780);
+  widgets::resizeOnScreen(*this, {1240, 780});
   auto* columns = new QHBoxLayout(this);
   columns->addLayout(makeList());
   columns->addLayout(makePicture(), 1);
@@ -68,7 +70,7 @@ QVBoxLayout* ConstraintChooser::makeList() {
   list_ = widgets::named<QListWidget>("definitions");
   list_->setIconSize({104, 72});
   list_->setUniformItemSizes(true);
-  list_->setMinimumWidth(320);
+  list_->setMinimumWidth(280);
   left->addWidget(search_);
   left->addWidget(list_, 1);
   return left;

@@ -15,6 +15,7 @@
 #include <QLineEdit>
 #include <QPlainTextEdit>
 #include <QPushButton>
+#include <QScrollArea>
 #include <QSpinBox>
 #include <QTableWidget>
 #include <QVBoxLayout>
@@ -27,6 +28,7 @@
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/fault_words.h"
 #include "gui/widgets/named.h"
+#include "gui/widgets/on_screen.h"
 #include "gui/widgets/text_table.h"
 #include "gui/widgets/unit_spin_box.h"
 #include "sim/experiment/resources.h"
@@ -91,17 +93,25 @@ PlanComposer::PlanComposer(QWidget* parent) : QDialog(parent) {
   setWindowTitle(tr("Session plan"));
   setObjectName(QStringLiteral("planComposer"));
   auto* layout = new QVBoxLayout(this);
-  layout->addWidget(makeWhole());
+  auto* scroll = new QScrollArea;  // for small screens
+  auto* content = new QWidget;
+  auto* column = widgets::filling<QVBoxLayout>(content);
+  column->addWidget(makeWhole());
   auto* middle = new QHBoxLayout;
   middle->addWidget(makeList(), 3);
   middle->addWidget(makeBlock(), 2);
-  layout->addLayout(middle, 1);
+  column->addLayout(middle, 1);
   mix_ = new MixEditor;
-  layout->addWidget(mix_);
+  column->addWidget(mix_);
   preview_ = widgets::named<QLabel>("planPreview");
   preview_->setTextFormat(Qt::RichText);
   preview_->setWordWrap(true);
-  layout->addWidget(preview_);
+  column->addWidget(preview_);
+  scroll->setWidget(content);
+  scroll->setWidgetResizable(true);
+  scroll->setFrameShape(QFrame::NoFrame);
+  scroll->setFocusPolicy(Qt::NoFocus);
+  layout->addWidget(scroll, 1);
   faultLabel_ = widgets::named<widgets::FaultLabel>("planFaults");
   layout->addWidget(faultLabel_);
   auto* buttons = new QDialogButtonBox;
@@ -120,7 +130,7 @@ PlanComposer::PlanComposer(QWidget* parent) : QDialog(parent) {
   connect(buttons, &QDialogButtonBox::rejected, this, &QDialog::reject);
   wire();
   for (QPushButton* button : findChildren<QPushButton*>()) button->setAutoDefault(false);  // Enter ends an entry
-  resize(1120, 900);
+  widgets::resizeOnScreen(*this, {1120, 900});
   setPlan({}, {});
 }
 

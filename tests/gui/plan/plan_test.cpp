@@ -20,6 +20,7 @@
 #include "gui/docks/session_dock.h"
 #include "gui/plan/plan_composer.h"
 #include "gui/plan/start_page.h"
+#include "gui/widgets/on_screen.h"
 #include "sim/experiment/resources.h"
 #include "sim/record/trial_marks.h"
 #include "sim/session/programme.h"
@@ -62,6 +63,17 @@ TEST(PlanComposer, ComposesAPlanThatReadsBackEqual) {
   EXPECT_EQ(session::toJson(read), session::toJson(dialog.plan()));
   dialog.close();
   EXPECT_FALSE(dialog.isVisible()) << "it is saved, and nothing is asked";
+}
+
+TEST(PlanComposer, FitsOnASmallScreenAndIsNeverLargerThanTheScreen) {
+  PlanComposer dialog;
+  dialog.show();
+  EXPECT_LE(dialog.minimumSizeHint().width(), 1024);
+  EXPECT_LE(dialog.minimumSizeHint().height(), 700);
+  widgets::resizeOnScreen(dialog, {100'000, 100'000});
+  const QSize screen = dialog.screen()->availableGeometry().size();
+  EXPECT_LE(dialog.width(), screen.width());
+  EXPECT_LT(dialog.height(), screen.height()) << "there is room for the title bar";
 }
 
 TEST(PlanComposer, EnterEndsAnEntryAndAWrongNumberIsTold) {
