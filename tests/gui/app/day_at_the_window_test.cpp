@@ -305,13 +305,10 @@ TEST_F(Day, ARunThatIsEndedEarlyAsksAndSaysWhereItIsSaved) {
 }
 
 TEST_F(Day, CtrlEEndsTheRunFromAFieldToo) {
-  MainWindow& window = open();
-  window.nextTrial();
-  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  ASSERT_TRUE(doARunOfOneTrial());
   find<QLineEdit>("note")->setFocus();
-  const AnswerBox box("End the run");
   key(Qt::Key_E, Qt::ControlModifier);
-  EXPECT_EQ(window.session().run(), nullptr);
+  EXPECT_EQ(window_->session().run(), nullptr);
 }
 
 TEST_F(Day, ARunWhoseDatasetCannotBeWrittenIsNotCalledSaved) {
