@@ -72,9 +72,9 @@ std::size_t conditionIndex(DatasetIndex& dataset, const ConditionName& named, co
     first->pooled = true;
     return static_cast<std::size_t>(first - conditions.begin());
   }
-  std::vector<std::string> different = differences(first->experiment(), experiment);
+  const std::vector<std::string> different =
+      named.pooled ? differencesBesideDirection(first->experiment(), experiment) : differences(first->experiment(), experiment);
   if (different.empty()) return static_cast<std::size_t>(first - conditions.begin());
-  if (named.pooled) std::erase_if(different, [](const std::string& d) { return d.starts_with("start ") || d.starts_with("target "); });
   // One name over unlike experiments would mix what cannot be compared.
   const std::string base = nameApart(name, different);
   std::string own = base;

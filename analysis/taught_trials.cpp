@@ -1,10 +1,10 @@
 #include "analysis/taught_trials.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "analysis/measures/deviation_and_adaptation.h"
@@ -16,27 +16,34 @@ double TaughtTrials::unitOf(const AnalyzedTrial& trial) const {
 }
 
 std::vector<TaughtTrials> taughtTrials(const Analysis& analysis) {
-  std::map<std::pair<std::string, std::string>, std::array<bool, 2>> taught;  // by subject and session: by a field, by a rotation
-  const auto taughtIn = [&](const AnalyzedTrial& t) -> std::array<bool, 2>& { return taught[{t.key.subject, t.key.session}]; };
-  std::map<std::pair<std::string, bool>, TaughtTrials> people;
+  using Session = std::pair<std::string, std::string>;
+  std::map<std::string, TaughtTrials> people[2];  // by subject: taught by a field, by a rotation
+  std::set<Session> sessions[2];                  // in which they were taught by it
   const auto canTeach = [](const AnalyzedTrial& t) { return !t.catchTrial && std::isfinite(t.measures.maxPerpendicular); };
-  for (const AnalyzedTrial& t : analysis.trials) {
-    if (!canTeach(t)) continue;
-    const bool by[2] = {t.scene.inField, t.scene.rotation != 0};
+  for (const AnalyzedTrial& t : analysis.trials)
     for (const bool rotated : {false, true})
-      if (by[rotated]) taughtIn(t)[rotated] = true, people[{t.key.subject, rotated}] = {t.key.subject, rotated, {}, {}};
-  }
-  for (auto& [name, person] : people) {
-    for (const AnalyzedTrial& t : analysis.trials)
-      if (t.key.subject == person.subject && canTeach(t) && (taughtIn(t)[person.rotated] || !taughtIn(t)[!person.rotated]))
-        person.trials.push_back(&t);
-    std::stable_sort(person.trials.begin(), person.trials.end(),
-                     [](const AnalyzedTrial* a, const AnalyzedTrial* b) { return recordedBefore(a->key, b->key); });
-    const auto first = std::find_if(person.trials.begin(), person.trials.end(), [](const AnalyzedTrial* t) { return t->scene.inField; });
-    if (!person.rotated && first != person.trials.end()) person.field = (*first)->scene.trained;
-  }
+      if (canTeach(t) && (rotated ? t.scene.rotation != 0 : t.scene.inField)) {
+        people[rotated][t.key.subject].rotated = rotated;
+        sessions[rotated].emplace(t.key.subject, t.key.session);
+      }
+  for (const AnalyzedTrial& t : analysis.trials)
+    for (const bool rotated : {false, true}) {
+      const auto person = people[rotated].find(t.key.subject);
+      const Session session{t.key.subject, t.key.session};
+      if (person != people[rotated].end() && canTeach(t) && (sessions[rotated].contains(session) || !sessions[!rotated].contains(session)))
+        person->second.trials.push_back(&t);
+    }
   std::vector<TaughtTrials> out;
-  for (auto& [name, person] : people) out.push_back(std::move(person));
+  for (auto& taught : people)
+    for (auto& [subject, person] : taught) {
+      person.subject = subject;
+      std::stable_sort(person.trials.begin(), person.trials.end(),
+                       [](const AnalyzedTrial* a, const AnalyzedTrial* b) { return recordedBefore(a->key, b->key); });
+      const auto first = std::find_if(person.trials.begin(), person.trials.end(), [](const AnalyzedTrial* t) { return t->scene.inField; });
+      if (!person.rotated) person.field = (*first)->scene.trained;
+      out.push_back(std::move(person));
+    }
+  std::stable_sort(out.begin(), out.end(), [](const TaughtTrials& a, const TaughtTrials& b) { return a.subject < b.subject; });
   return out;
 }
 

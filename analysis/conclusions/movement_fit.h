@@ -52,8 +52,8 @@ struct ProfilePieces {
 /// from `start` (its onset and duration). The profile is held.
 MovementFit fitMovement(const FitWindow& window, const ProfilePieces& pieces, const MovementFit& start, FitEffort effort = {});
 MovementFit fitMovement(const FitWindow& window, const Profile& profile, const MovementFit& start, FitEffort effort = {});
-/// Fits a profile that is planned anew for every duration. `found` is false if no profile can be predicted at the start. Overwrites
-/// `scratch`, which spares its memory to many fits.
+/// Fits a profile that is planned anew for every duration. `found` is false if no profile can be predicted at the start. `scratch`
+/// is memory for the profiles, which many fits share.
 MovementFit fitMovement(const FitWindow& window, const ProfileFamily& family, const MovementFit& start, Profile& scratch,
                         FitEffort effort = {});
 

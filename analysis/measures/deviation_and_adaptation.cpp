@@ -20,6 +20,12 @@ struct Rows {
   explicit operator bool() const { return first < end; }
 };
 
+template <class Law>
+bool acts(const experiment::Experiment& experiment) {
+  return std::any_of(experiment.environment.begin(), experiment.environment.end(),
+                     [](const experiment::HandForce& force) { return std::holds_alternative<Law>(force.law); });
+}
+
 Rows movementRows(const TrialData& trial) {
   if (!std::isfinite(trial.taskOnset) || !std::isfinite(trial.taskEnd)) return {};
   constexpr double kRounding = 1e-9;
@@ -70,14 +76,10 @@ double strengthOf(const experiment::SquareMatrix<3>& field, const experiment::Sq
 TrialScene sceneOf(const experiment::Experiment& experiment, const std::optional<experiment::SquareMatrix<3>>& trained) {
   TrialScene scene;
   scene.normal = experiment::normalOf(experiment.task ? experiment.task->plane : experiment::TaskPlane::Horizontal);
-  const auto acts = [&]<class Law>(const Law&) {
-    return std::any_of(experiment.environment.begin(), experiment.environment.end(),
-                       [](const experiment::HandForce& force) { return std::holds_alternative<Law>(force.law); });
-  };
   const auto field = viscousFieldOf(experiment);
-  scene.channel = acts(experiment::ChannelForce{});
+  scene.channel = acts<experiment::ChannelForce>(experiment);
   scene.otherForce = experiment.environment.size() > 1;
-  scene.inField = field || acts(experiment::JointViscousForce{});
+  scene.inField = field || acts<experiment::JointViscousForce>(experiment);
   if (scene.inField) scene.strength = field && trained ? strengthOf(*field, *trained) : 1;
   scene.cursor = experiment.cursor.has_value();
   if (experiment.cursor) {

@@ -74,6 +74,13 @@ std::vector<std::string> differences(const experiment::Experiment& first, const 
   return found;
 }
 
+std::vector<std::string> differencesBesideDirection(const experiment::Experiment& first, const experiment::Experiment& other) {
+  experiment::Experiment turned = other;
+  turned.task->start = first.task->start;
+  turned.task->target = first.task->target;
+  return differences(first, turned);
+}
+
 bool differInDirectionOnly(const experiment::Experiment& first, const experiment::Experiment& other) {
   constexpr double kRounding = 1e-9;  // [m] a ring's targets are rounded to 1e-12
   const auto isFree = [](const experiment::Experiment& e) {
@@ -84,10 +91,7 @@ bool differInDirectionOnly(const experiment::Experiment& first, const experiment
     return std::hypot(task.target[0] - task.start[0], task.target[1] - task.start[1], task.target[2] - task.start[2]);
   };
   if (std::abs(distance(*first.task) - distance(*other.task)) > kRounding) return false;
-  experiment::Experiment turned = other;
-  turned.task->start = first.task->start;
-  turned.task->target = first.task->target;
-  return differences(first, turned).empty();
+  return differencesBesideDirection(first, other).empty();
 }
 
 }  // namespace reachlab::analysis

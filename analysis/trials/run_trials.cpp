@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/longest_gap.h"
 #include "base/ticks.h"
 #include "constraints/constraint.h"
 
@@ -30,8 +31,6 @@ RunTrials::RunTrials(const record::ChannelTable& table, std::uint64_t every, con
               columnOf(table, "environment_force_x")};
 }
 
-constexpr double kLongestGap = 0.1;  // [s] that is interpolated, as of a reach that is replayed
-
 /// Rows may be missing (dropped, or a tick was late); between its neighbours a missing one is interpolated.
 void RunTrials::appendEvenly(TrialData& trial, const record::SampleRows& rows, std::uint64_t onset) const {
   const auto put = [&](std::size_t a, std::size_t b, double part) {
@@ -45,13 +44,14 @@ void RunTrials::appendEvenly(TrialData& trial, const record::SampleRows& rows, s
     if (path_.bent())
       trial.along.push_back(path_.directionAt((1 - part) * rows.at(a, columns_.parameter) + part * rows.at(b, columns_.parameter)));
   };
-  const double longest = std::max(kLongestGap * kTicksPerSecond, 2.0 * static_cast<double>(every_));
+  const double longest = longestGap(secondsOf(every_));
   std::size_t a = 0;
   for (std::uint64_t tick = rows.ticks.front(); tick <= rows.ticks.back(); tick += every_) {
     while (a + 1 < rows.size() && rows.ticks[a + 1] <= tick) ++a;
     const std::size_t b = std::min(a + 1, rows.size() - 1);
     const double gap = static_cast<double>(rows.ticks[b] - rows.ticks[a]);
-    if (rows.ticks[b] > onset && gap > longest) trial.notSeen = fmt::format("hand not seen for more than {} s", kLongestGap);
+    if (rows.ticks[b] > onset && gap / kTicksPerSecond > longest)
+      trial.notSeen = fmt::format("hand not seen for more than {:g} s", longest);
     put(a, b, gap > 0 ? static_cast<double>(tick - rows.ticks[a]) / gap : 0);
   }
 }

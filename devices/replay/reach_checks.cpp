@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/longest_gap.h"
+
 namespace reachlab::devices {
 namespace {
 
@@ -16,11 +18,11 @@ std::vector<double> gapsOf(const std::vector<double>& time) {
   return gaps;
 }
 
-double longestGap(std::vector<double> gaps) {
-  if (gaps.empty()) return 0.1;
+double medianOf(std::vector<double> gaps) {
+  if (gaps.empty()) return 0;
   const auto median = gaps.begin() + static_cast<std::ptrdiff_t>((gaps.size() - 1) / 2);
   std::nth_element(gaps.begin(), median, gaps.end());
-  return std::max(0.1, 2 * *median);
+  return *median;
 }
 
 }  // namespace
@@ -52,7 +54,7 @@ void SeenSamples::add(double time, const Vec3& position) {
 RecordedReach SeenSamples::take() {
   if (reach_.time.empty()) refuse({reach_.file}, "the point is never seen", "at least two samples");
   const std::vector<double> gaps = gapsOf(reach_.time);
-  const double most = longestGap(gaps);
+  const double most = longestGap(medianOf(gaps));
   for (std::size_t i = 0; i < gaps.size(); ++i)
     if (gaps[i] > most + kRounding)
       refuse({reach_.file}, fmt::format("the point is not seen for {:.3f} s from {:.3f} s", gaps[i], reach_.time[i]),

@@ -9,8 +9,8 @@ namespace reachlab::devices {
 double metresOf(const std::string& unit, const FilePlace& place, const std::string& key = {});
 double secondsOfUnit(const std::string& unit, const FilePlace& place, const std::string& key = {});
 
-/// The samples of a reach that were seen, in order of time. A gap of up to 0.1 s between two of them is left to the spline, and so is one
-/// of up to two sampling intervals (their median). Throws FaultError for a longer gap, for a time that does not increase, or without any
+/// The samples of a reach that were seen, in order of time. The spline bridges a gap of up to longestGap of the
+/// median interval. Throws FaultError for a longer gap, for a time that does not increase, or without any
 /// sample.
 class SeenSamples {
  public:

@@ -11,9 +11,9 @@
 #include "devices/kept_mapping.h"
 #include "gui/app/main_window.h"
 #include "gui/model/model_reader.h"
-#include "gui/plan/plan_composer.h"
 #include "gui/widgets/ask.h"
 #include "gui/widgets/fault_in.h"
+#include "gui/model/name_in_file.h"
 #include "sim/experiment/experiment.h"
 #include "sim/session/recorded_blocks.h"
 
@@ -88,7 +88,7 @@ bool MainWindow::saveExperimentAs() {
   experiment::Experiment named = session_.experiment();
   named.name = QFileInfo(file).completeBaseName().toStdString();  // or two experiments would be recorded under one name
   experiment::SceneLook look = experiment::lookOf(named);
-  const std::string scene = plan::nameInFile(model::findSceneFile(look.sceneFile, QFileInfo(opened).path()), file);
+  const std::string scene = model::nameInFile(model::findSceneFile(look.sceneFile, QFileInfo(opened).path()), file);
   if (std::exchange(look.sceneFile, scene) != scene) named = experiment::withLook(named, look);
   return (named == session_.experiment() || mayEndRun("Another file")) && saveTo(file, named);
 }

@@ -27,6 +27,7 @@
 #include "gui/widgets/fault_in.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/fault_words.h"
+#include "gui/model/name_in_file.h"
 #include "gui/widgets/named.h"
 #include "gui/widgets/on_screen.h"
 #include "gui/widgets/text_table.h"
@@ -62,13 +63,6 @@ QString wordsOf(Fault fault) {
 }
 
 }  // namespace
-
-std::string nameInFile(const std::string& named, const QString& file) {
-  const QFileInfo asked(QString::fromStdString(named));
-  if (!asked.isFile()) return named;
-  const QString beside = QFileInfo(file).absoluteDir().relativeFilePath(asked.absoluteFilePath());
-  return (beside.startsWith(QLatin1String("../")) ? asked.absoluteFilePath() : beside).toStdString();
-}
 
 QString orderPreview(const session::Plan& plan, int subjects) {
   std::set<int> days;
@@ -362,7 +356,7 @@ void PlanComposer::changed() {
 
 void PlanComposer::saveTo(const QString& file) {
   session::Plan written = plan_;
-  for (session::PlanBlock& block : written.blocks) block.experiment = nameInFile(block.experiment, file);
+  for (session::PlanBlock& block : written.blocks) block.experiment = model::nameInFile(block.experiment, file);
   const std::string text = session::toJson(written);
   (void)session::parseProgramme(text, file.toStdString());  // a plan that would be refused replaces no good one
   record::writeFileAtomically(file.toStdString(), text);
@@ -392,8 +386,9 @@ bool PlanComposer::save(bool askAlways) {
       for (const Fault& one : refused.faults) refusals << wordsOf(one);
     }
   });
-  faultLabel_->setFaults(refusals << fault);
-  return faultLabel_->text().isEmpty();
+  if (!fault.isEmpty()) refusals << fault;
+  faultLabel_->setFaults(refusals);
+  return refusals.isEmpty();
 }
 
 }  // namespace reachlab::gui::plan

@@ -79,10 +79,6 @@ class PlanComposer : public QDialog {
   widgets::FaultLabel* faultLabel_;
 };
 
-/// The name by which a plan or an experiment that is written as `file` finds the file `named`. A file in its folder keeps a relative name
-/// and moves with it. Another file is found from every folder. A name without a file, such as a shipped name, stays.
-std::string nameInFile(const std::string& named, const QString& file);
-
 /// "subject 01: slow, moderate, fast" for the first subjects, day by day.
 QString orderPreview(const session::Plan& plan, int subjects);
 

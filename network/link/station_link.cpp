@@ -83,7 +83,8 @@ StationLink::StationLink(const StationOptions& options, std::uint64_t experiment
   std::string program = options.endpoint, name = memoryName_;
   std::array<char*, 3> arguments{program.data(), name.data(), nullptr};
   pid_t process = -1;
-  // The endpoint gets a process group of its own. Otherwise Ctrl-C in a terminal would end it before it has told the other stations.
+  // The endpoint gets a process group of its own. Otherwise Ctrl-C in a terminal would end it before it has told the
+  // other stations that this one ends.
   posix_spawnattr_t apart;
   ::posix_spawnattr_init(&apart);
   ::posix_spawnattr_setflags(&apart, POSIX_SPAWN_SETPGROUP);

@@ -156,7 +156,7 @@ std::vector<Station> readAll(const std::vector<std::string>& logs) {
 
 // What came here is what the other's log says it sent: the same hand and the same work, to the bit. A log that broke off has sent more.
 void requireSameSamples(const Station& here, const Station& there) {
-  // Before the samples are compared: a station that was started again counts its samples anew, and none of them would be the same.
+  // This comes before the comparison of samples. A station that was started again counts its samples anew, so that none would be the same.
   CopySample last;
   here.eachSampleOf(there, [&](const GivenSample& given) {
     // One that was overtaken on its way was also sent earlier.
@@ -260,8 +260,8 @@ MergedStation reportOf(const Station& s, const Station& conductor, const std::op
           rmsApart(s)};
 }
 
-// Writes each tick of the conductor with every hand at the nearest tick of its own station. The merged log ends where the first of the logs
-// ends, and a trial that is under way there is interrupted. Returns the number of rows.
+// Writes the hands of all stations at each tick of the conductor. A hand has the place of its own station's nearest tick. The merged log ends where the
+// first of the logs ends, and a trial that is under way there is interrupted. Returns the number of rows.
 std::uint64_t writeMerged(const std::vector<Station>& stations, const Station& conductor,
                           const std::vector<std::optional<ClockOffset>>& offsets, const record::RunConfiguration& merged,
                           const std::string& path) {

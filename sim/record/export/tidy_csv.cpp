@@ -75,7 +75,7 @@ void samplesCsv(const RunLog& run, const TakePiece& take) {
 
 namespace {
 
-/// Every export writes trials.csv anew, with the trials of its runs. An export without a run that is in the file would lose the rows of that run.
+/// An export replaces trials.csv by the trials of the exported runs. Rows of any other run would be lost, so they are refused.
 void requireNoOtherRun(const std::vector<RunLog>& runs, const std::string& file) {
   std::error_code error;
   if (!std::filesystem::exists(file, error)) return;
