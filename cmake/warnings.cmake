@@ -69,9 +69,12 @@ function(reachlab_unity target)
   endif()
 endfunction()
 
-# reachlab_compile_quickly(<target>): nobody waits for what it computes, so a dev build spends two thirds of the time on it. A release is unchanged.
+# What computes little is compiled so. It takes three quarters of the compile time of -O1, and -O0 takes no less.
+set(REACHLAB_QUICK -Og)
+
+# reachlab_compile_quickly(<target>): nobody waits for what it computes, so a dev build spends half the time on it. A release is unchanged.
 function(reachlab_compile_quickly target)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)
+  target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:${REACHLAB_QUICK}>)
 endfunction()
 
 # reachlab_compute(<sources…>): the speed of these sources counts even in a library that is compiled quickly.
@@ -107,7 +110,7 @@ function(reachlab_test folder)
   reachlab_unity(test_${folder})
   target_link_libraries(test_${folder} PRIVATE ${ARGN} GTest::gtest GTest::gtest_main reachlab_warnings)
   target_include_directories(test_${folder} PRIVATE ${PROJECT_SOURCE_DIR} ${PROJECT_BINARY_DIR}/tests)
-  target_compile_options(test_${folder} PRIVATE -O1)  # what a test itself computes is short; it compiles in two thirds of the time
+  target_compile_options(test_${folder} PRIVATE ${REACHLAB_QUICK})  # what a test itself computes is short
   reachlab_precompile(test_${folder} <gtest/gtest.h> <algorithm> <cmath> <filesystem> <fstream> <functional> <map> <optional> <random> <string>
     <vector>)
   gtest_discover_tests(test_${folder} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
