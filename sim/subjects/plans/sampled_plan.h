@@ -22,8 +22,8 @@ class SampledPlan {
   Vec3 interpolate(double time) const noexcept;
 
   ReachPlan plan_;
-  double step_ = 0;           // [s]
-  std::vector<Vec3> places_;  // empty: the plan is not smooth enough
+  double step_ = 0;             // [s]
+  std::vector<double> places_;  // [m] x, y, z and nothing of each; empty: the plan is not smooth enough
 };
 
 }  // namespace reachlab::subjects

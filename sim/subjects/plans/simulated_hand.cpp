@@ -6,7 +6,7 @@
 
 #include "base/fault.h"
 #include "base/math/elementary.h"
-#include "base/math/fused.h"
+#include "base/math/lanes.h"
 #include "base/ticks.h"
 #include "sim/subjects/plans/played_hand.h"
 #include "sim/subjects/plans/sampled_plan.h"
@@ -19,31 +19,29 @@ namespace {
 class SmoothNoise {
  public:
   explicit SmoothNoise(SubjectDraws& random) {
-    for (Wave& w : waves_) {
+    for (int i = 0; i < kWaves; ++i) {
       const double omega = 2 * std::numbers::pi * (kLowest + (kHighest - kLowest) * random.uniform());
       const double phase = 2 * std::numbers::pi * random.uniform();
-      w = {elementary::sin(phase), elementary::cos(phase), elementary::sin(omega * kTickSeconds), elementary::cos(omega * kTickSeconds)};
+      sine_[i] = elementary::sin(phase);
+      cosine_[i] = elementary::cos(phase);
+      turnSine_[i] = elementary::sin(omega * kTickSeconds);
+      turnCosine_[i] = elementary::cos(omega * kTickSeconds);
     }
   }
   /// At the next tick; the first is one tick after time 0.
   double next() {
-    double sum = 0;
-    for (Wave& w : waves_) {
-      const double sine = mulAdd(w.sine, w.turnCosine, w.cosine * w.turnSine);
-      w.cosine = mulAdd(w.cosine, w.turnCosine, -(w.sine * w.turnSine));
-      w.sine = sine;
-      sum += sine;
-    }
-    return sum * kScale;
+    const Waves sine = mulAdd(sine_, turnCosine_, cosine_ * turnSine_);
+    cosine_ = mulAdd(cosine_, turnCosine_, -(sine_ * turnSine_));
+    sine_ = sine;
+    return (sine[0] + sine[1] + sine[2] + sine[3]) * kScale;
   }
 
  private:
-  static constexpr double kLowest = 0.5, kHighest = 4;       // [Hz]
+  static constexpr double kLowest = 0.5, kHighest = 4;  // [Hz]
+  static constexpr int kWaves = 4;
   static constexpr double kScale = std::numbers::sqrt2 / 2;  // of four waves
-  struct Wave {
-    double sine = 0, cosine = 0, turnSine = 0, turnCosine = 0;
-  };
-  std::array<Wave, 4> waves_{};
+  using Waves = Lanes<kWaves>;
+  Waves sine_{}, cosine_{}, turnSine_{}, turnCosine_{};
 };
 
 struct Frame {
