@@ -130,7 +130,7 @@ TEST(TrialTracker, NothingOfATrialIsInTheNext) {
     run.next();
     run.facts.couplingForce.y += 2;
   }
-  const RecordedTrial& t = run.tracker.trial();
+  const RecordedTrial t = run.tracker.brokenOff();
   EXPECT_EQ(t.trial, 2);
   EXPECT_EQ(t.startTick, 26u);
   EXPECT_EQ(t.result.onsetTick, 26u) << "of its own movement";

@@ -47,7 +47,6 @@ void TrialTracker::measure(const TickFacts& facts) {
   trial_.peakForce = std::max(trial_.peakForce, force);
   forceSum_ += force;
   ++moving_;
-  trial_.meanForce = forceSum_ / static_cast<double>(moving_);
   lastPosition_ = facts.hip.position;
 }
 
@@ -126,6 +125,7 @@ TrialTracker::Step TrialTracker::add(const TickStamp& tick, const TickFacts& fac
   if (facts.phase == trial::Phase::Done) {
     if (trial_.result.onsetTick > 0 && facts.result.onsetTick > 0) measure(facts);
     trial_.result = facts.result;
+    trial_.meanForce = meanForce();
     if (trial_.goTick > 0) trial_.elapsed = static_cast<double>(tick.measuredNs - goNs_) * 1e-9;
     tell(EventKind::TrialEnd, static_cast<double>(facts.result.outcome));
     underWay_ = false;
@@ -136,6 +136,7 @@ TrialTracker::Step TrialTracker::add(const TickStamp& tick, const TickFacts& fac
 
 RecordedTrial TrialTracker::brokenOff() const {
   RecordedTrial trial = trial_;
+  trial.meanForce = meanForce();
   const std::uint64_t onset = trial.result.onsetTick;
   trial.result = {};
   trial.result.outcome = trial::Outcome::Interrupted;

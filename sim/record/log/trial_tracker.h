@@ -48,6 +48,7 @@ class TrialTracker {
  private:
   void begin(const TickStamp& tick, std::int32_t number);
   void measure(const TickFacts& facts);
+  double meanForce() const noexcept { return moving_ > 0 ? forceSum_ / static_cast<double>(moving_) : 0; }
   void tellGuards(const TickStamp& tick, std::int32_t number, const TickFacts& facts, std::vector<RecordedEvent>& events);
 
   int firstTrial_;
