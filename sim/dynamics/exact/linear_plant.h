@@ -148,8 +148,9 @@ class LinearPlant final : public PlantBase, public EndMasses {
 
   void put(int a, double x, double v, MassState& mass) const noexcept {
     if constexpr (Axes == 1) {
-      mass.q = {x / length_, 0};
-      mass.qRate = {v / length_, 0};
+      const bool unit = length_ == 1;  // the usual line needs no quotients
+      mass.q = {unit ? x : x / length_, 0};
+      mass.qRate = {unit ? v : v / length_, 0};
       mass.r = space_.origin + x * axis_;
       mass.v = v * axis_;
     } else {
