@@ -35,7 +35,7 @@ bool isTablet(int file) {
 
 InputAxis axisOf(int file, std::size_t axis) {
   input_absinfo info{};
-  return ::ioctl(file, EVIOCGABS(axis), &info) >= 0 ? InputAxis{info.minimum, info.maximum} : InputAxis{};
+  return ::ioctl(file, EVIOCGABS(axis), &info) >= 0 ? InputAxis{info.minimum, info.maximum, info.resolution} : InputAxis{};
 }
 
 std::string refusal(const std::string& path, int error) {
@@ -49,9 +49,9 @@ int numberOf(const std::string& path) {
 
 }  // namespace
 
-double InputAxis::share(std::int32_t value) const noexcept {
-  const double middle = (static_cast<double>(least) + most) / 2, half = (static_cast<double>(most) - least) / 2;
-  return there() ? std::clamp((value - middle) / half, -1.0, 1.0) : 0;
+double InputAxis::fromMiddle(std::int32_t value) const noexcept {
+  const double middle = (static_cast<double>(least) + most) / 2;
+  return there() ? std::clamp(value - middle, -half(), half()) : 0;
 }
 
 std::vector<TabletNode> findTablets(const std::string& folder) {
@@ -87,8 +87,10 @@ bool PenState::take(const input_event& event) noexcept {
 }
 
 std::optional<Vec3> PenState::position() const noexcept {
-  if (!near_ || !x_ || !y_) return std::nullopt;
-  return Vec3{rangeX_.share(*x_), -rangeY_.share(*y_), 0};
+  if (!near_ || !x_ || !y_ || !rangeX_.there()) return std::nullopt;
+  const bool told = rangeX_.perMm > 0 && rangeY_.perMm > 0;
+  const double aspect = told ? static_cast<double>(rangeX_.perMm) / rangeY_.perMm : 1;
+  return 1 / rangeX_.half() * Vec3{rangeX_.fromMiddle(*x_), -aspect * rangeY_.fromMiddle(*y_), 0};
 }
 
 InputPort::InputPort(const std::string& path) : file_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {

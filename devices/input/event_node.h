@@ -16,9 +16,11 @@ namespace reachlab::devices {
 /// The range of one axis.
 struct InputAxis {
   std::int32_t least = 0, most = 0;
+  std::int32_t perMm = 0;  // units per millimetre; 0: the kernel does not tell
   bool there() const noexcept { return most > least; }
-  /// -1 … 1 about its middle.
-  double share(std::int32_t value) const noexcept;
+  double half() const noexcept { return (static_cast<double>(most) - least) / 2; }
+  /// [units] from its middle, within its range.
+  double fromMiddle(std::int32_t value) const noexcept;
 };
 
 struct TabletNode {
@@ -38,7 +40,8 @@ class PenState {
   explicit PenState(const TabletNode& node) : rangeX_(node.x), rangeY_(node.y) {}
   /// True at the end of a report (SYN_REPORT).
   bool take(const input_event& event) noexcept;
-  /// The position on the tablet, measured from its middle as a share of its size, x to the right, y up. Nothing while the pen is away.
+  /// The position on the tablet from its middle, in halves of its width, x to the right, y up. The same way of the pen counts as much on
+  /// either axis: a millimetre where the kernel tells both resolutions, otherwise a unit. Nothing while the pen is away.
   std::optional<Vec3> position() const noexcept;
   /// Bit 0: the pen touches the tablet.
   std::uint32_t buttons() const noexcept { return touching_ ? 1 : 0; }

@@ -63,13 +63,15 @@ TEST_F(EventNodes, AreInTheOrderOfTheirNumbers) {
 }
 
 TEST_F(EventNodes, TellTheRangesOfTheirAxes) {
-  const std::string path = put("event7", {.name = "pen", .keys = {BTN_TOOL_PEN}, .axes = {ABS_X, ABS_Y}, .ranges = {{ABS_X, {-5, 250}}}});
+  const std::string path =
+      put("event7", {.name = "pen", .keys = {BTN_TOOL_PEN}, .axes = {ABS_X, ABS_Y}, .ranges = {{ABS_X, {-5, 250, 20}}}});
   const auto found = findTablets(folder.path());
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].path, path);
   EXPECT_EQ(found[0].whyNot, "");
   EXPECT_EQ(found[0].x.least, -5);
   EXPECT_EQ(found[0].x.most, 250);
+  EXPECT_EQ(found[0].x.perMm, 20);
   EXPECT_FALSE(found[0].y.there());
 }
 
@@ -81,27 +83,24 @@ TEST_F(EventNodes, OneThatCannotBeOpenedIsListedWithTheSystemsWords) {
   EXPECT_TRUE(findTablets((folder / "none").string()).empty());
 }
 
-TEST(InputAxis, SharesAreAboutItsMiddle) {
+TEST(InputAxis, ValuesAreAboutItsMiddleAndWithinItsRange) {
   const InputAxis axis{-10, 30};
   EXPECT_TRUE(axis.there());
-  EXPECT_EQ(axis.share(10), 0);
-  EXPECT_EQ(axis.share(15), 0.25);
-  EXPECT_EQ(axis.share(-10), -1);
-  EXPECT_EQ(axis.share(30), 1);
-  EXPECT_EQ(axis.share(31), 1);
-  EXPECT_EQ(axis.share(-99), -1);
-  EXPECT_EQ((InputAxis{INT32_MIN, INT32_MAX}.share(INT32_MAX)), 1) << "beyond what an int holds";
+  for (const auto& [value, from] : {std::pair{10, 0}, {15, 5}, {-10, -20}, {30, 20}, {31, 20}, {-99, -20}})
+    EXPECT_EQ(axis.fromMiddle(value), from) << value;
+  const InputAxis all{INT32_MIN, INT32_MAX};
+  EXPECT_EQ(all.fromMiddle(INT32_MAX), all.half()) << "beyond what an int holds";
   for (const InputAxis& none : {InputAxis{}, InputAxis{5, 5}, InputAxis{5, 4}}) {
     EXPECT_FALSE(none.there());
-    EXPECT_EQ(none.share(7), 0);
+    EXPECT_EQ(none.fromMiddle(7), 0);
   }
 }
 
 using Told = std::vector<std::array<int, 3>>;
 
-PenState told(const Told& events) {
+PenState told(const Told& events, int perMmX = 0, int perMmY = 0) {
   TabletNode node;
-  node.x = {0, 100}, node.y = {0, 200};
+  node.x = {0, 100, perMmX}, node.y = {0, 200, perMmY};
   PenState state(node);
   for (const auto& [type, code, value] : events) {
     input_event e{};
@@ -121,7 +120,9 @@ TEST(PenState, APenIsAtItsPlaceWhileItIsNear) {
   EXPECT_FALSE(told({{EV_KEY, BTN_TOOL_PEN, 1}, {EV_ABS, ABS_X, 75}, {EV_SYN, SYN_REPORT, 0}}).position()) << "y is not told";
   EXPECT_FALSE(told({{EV_KEY, BTN_TOOL_PEN, 1}, {EV_ABS, ABS_Y, 75}}).position());
   const Told near{{EV_KEY, BTN_TOOL_PEN, 1}, {EV_ABS, ABS_X, 75}, {EV_ABS, ABS_Y, 50}};
-  EXPECT_EQ(told(near).position(), (Vec3{0.5, 0.5, 0})) << "up is up";
+  EXPECT_EQ(told(near).position(), (Vec3{0.5, 1, 0})) << "up is up, and a unit is a unit";
+  EXPECT_EQ(told(near, 4, 8).position(), (Vec3{0.5, 0.5, 0})) << "6.25 mm along either axis of a tablet of 25 mm by 25 mm";
+  EXPECT_EQ(told(near, 4, 0).position(), (Vec3{0.5, 1, 0}));
   Told away = near;
   away.push_back({EV_KEY, BTN_TOOL_PEN, 0});
   EXPECT_FALSE(told(away).position());

@@ -42,7 +42,7 @@ int answer(const FakeInput& node, unsigned long request, void* argument) {
   const auto range = number >= 0x40 ? node.ranges.find(static_cast<int>(number - 0x40)) : node.ranges.end();
   if (range == node.ranges.end()) return errno = EINVAL, -1;
   auto* info = static_cast<input_absinfo*>(argument);
-  info->minimum = range->second.first, info->maximum = range->second.second;
+  info->minimum = range->second.least, info->maximum = range->second.most, info->resolution = range->second.perMm;
   return 0;
 }
 

@@ -14,7 +14,7 @@ namespace reachlab::test {
 struct FakeInput {
   std::string name = {};
   std::vector<int> keys = {}, axes = {};
-  std::map<int, std::pair<int, int>> ranges = {};  // of axes; others are not told
+  std::map<int, devices::InputAxis> ranges = {};  // of axes; others are not told
 };
 struct FakeInputs {
   std::mutex mutex;
