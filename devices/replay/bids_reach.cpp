@@ -115,6 +115,7 @@ struct Sample {
 };
 
 std::vector<Sample> samplesOf(const std::string& motion, const Layout& layout, const ReachColumns& asked) {
+  if (layout.latency && asked.rate) refuse({motion}, "has a LATENCY channel beside rate=", "one of them");
   std::istringstream in(readTextFile(motion));
   const double rate = layout.latency ? 0 : rateOf(beside(motion, "_motion.json"), asked.rate);
   std::vector<Sample> samples;

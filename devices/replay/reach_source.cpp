@@ -5,6 +5,7 @@
 
 #include "base/device_options.h"
 #include "base/fault.h"
+#include "base/names.h"
 #include "sim/experiment/resources.h"
 
 namespace reachlab::devices {
@@ -25,6 +26,26 @@ std::size_t endOfPath(const std::string& argument) {
   for (std::size_t end = argument.size(); end != std::string::npos && end > 0; end = argument.rfind(',', end - 1))
     if (isThere(argument.substr(0, end))) return end;
   return std::min(argument.find(','), argument.size());
+}
+
+// Each kind of file has its own keys. One that no file uses is a mistake of the experimenter.
+void requireUsed(const ReachColumns& asked, const std::vector<std::string>& files) {
+  const bool bids = std::any_of(files.begin(), files.end(), isBids), c3d = std::any_of(files.begin(), files.end(), isC3d);
+  const bool table = !std::all_of(files.begin(), files.end(), [](const fs::path& file) { return isBids(file) || isC3d(file); });
+  struct Key {
+    const char* name;
+    bool asked, used;
+  };
+  std::vector<std::string> known;
+  std::string unused;
+  for (const Key& key : {Key{"time", !asked.time.empty(), table}, Key{"x", !asked.x.empty(), table}, Key{"y", !asked.y.empty(), table},
+                         Key{"z", !asked.z.empty(), table}, Key{"time_unit", !asked.timeUnit.empty(), table},
+                         Key{"unit", !asked.unit.empty(), table || c3d}, Key{"rate", asked.rate.has_value(), table || bids},
+                         Key{"point", !asked.point.empty(), bids || c3d}, Key{"trial_type", !asked.trialType.empty(), bids}}) {
+    if (key.used) known.push_back(key.name);
+    else if (key.asked) unused = key.name;
+  }
+  if (!unused.empty()) throw FaultError(Fault{"device", "replay: " + unused + " is not known for " + files.front(), listOf(known)});
 }
 
 }  // namespace
@@ -63,7 +84,9 @@ std::vector<std::string> reachFiles(const std::string& path) {
 
 std::vector<RecordedReach> readReaches(const ReachSource& source) {
   std::vector<RecordedReach> reaches;
-  for (const std::string& file : reachFiles(source.path)) {
+  const std::vector<std::string> files = reachFiles(source.path);
+  requireUsed(source.columns, files);
+  for (const std::string& file : files) {
     if (isBids(file)) {
       for (RecordedReach& reach : readBidsReaches(file, source.columns)) reaches.push_back(std::move(reach));
     } else if (!isC3d(file)) {

@@ -37,6 +37,10 @@ class Header {
     return {*at, name, time ? secondsOfUnit(told, header, name) : metresOf(told, header, name)};
   }
 
+  template <std::size_t Count>
+  bool calls(const std::string& quantity, const std::array<const char*, Count>& units) const {
+    return std::any_of(units.begin(), units.end(), [&](const char* unit) { return table_.find(quantity + "_" + unit).has_value(); });
+  }
   // One that is called by the quantity and its unit.
   template <std::size_t Count>
   Place called(const std::string& quantity, const std::array<const char*, Count>& units, bool time) const {
@@ -56,16 +60,17 @@ struct Places {
   std::array<std::optional<Place>, 3> axes;
 };
 
-Places placesOf(const Header& header, const ReachColumns& columns) {
+Places placesOf(const Header& header, const ReachColumns& columns, const std::string& file) {
   Places places;
   if (!columns.time.empty()) places.time = header.named(columns.time, columns.timeUnit, true);
-  else if (!columns.rate) places.time = header.called("time", kTimeUnits, true);
+  else if (!columns.rate || header.calls("time", kTimeUnits)) places.time = header.called("time", kTimeUnits, true);
   const std::array<std::string, 3> named{columns.x, columns.y, columns.z};
   const bool plane = !named[0].empty() && !named[1].empty();
   for (std::size_t k = 0; k < 3; ++k) {
     if (!named[k].empty()) places.axes[k] = header.named(named[k], columns.unit, false);
     else if (k < 2 || !plane) places.axes[k] = header.called(std::string(1, "xyz"[k]), kLengthUnits, false);
   }
+  if (columns.rate && places.time) refuse({file, 1}, "is there beside rate=", "one of them", places.time->name);
   return places;
 }
 
@@ -76,7 +81,7 @@ bool isMissingCell(const std::string& cell) { return cell.empty() || cell == "Na
 
 RecordedReach readReach(const std::string& file, const ReachColumns& columns) {
   const CsvTable table = readCsvTable(file);
-  const Places places = placesOf(Header(table), columns);
+  const Places places = placesOf(Header(table), columns, file);
 
   if (table.rows.empty()) refuse({file}, "has no samples", "at least one row");
   SeenSamples reach(file);

@@ -88,6 +88,23 @@ std::string writeBids(const TemporaryFolder& folder, const Bids& bids) {
   return (folder / (base + "_motion.tsv")).string();
 }
 
+// A key that no file uses, and a rate beside times, would otherwise change nothing or throw the times away.
+TEST_F(OthersFiles, KeysThatDoNotFitTheFileAreRefused) {
+  const std::string table = write("t.csv", "time_s,x_m,y_m,z_m\n0,1,2,3\n0.5,4,5,6\n");
+  EXPECT_TRUE(holds(refusalToReplay(table + ",rate=50"), "t.csv:1: time_s: is there beside rate="));
+  EXPECT_TRUE(holds(refusalToReplay(table + ",point=hand"),
+                    "point is not known for " + table + "; allowed: time, x, y, z, time_unit, unit or rate"));
+  EXPECT_TRUE(holds(refusalToReplay(table + ",trial_type=go"), "trial_type is not known for"));
+  Bids bids;
+  bids.channels += "t\tn/a\tLATENCY\tn/a\ts\n";
+  bids.motion = "1\t2\t3\t1\t2\t3\t0\n4\t5\t6\t4\t5\t6\t0.5\n";
+  const std::string latency = writeBids(folder, bids);
+  EXPECT_EQ(refusalToReplay(latency + ",point=hand"), "");
+  EXPECT_TRUE(holds(refusalToReplay(latency + ",point=hand,rate=4"), "has a LATENCY channel beside rate="));
+  EXPECT_TRUE(holds(refusalToReplay(latency + ",point=hand,x=X"), "x is not known for"));
+  EXPECT_EQ(refusalToReplay(folder.path() + ",point=hand"), "") << "the folder has a file that uses it";
+}
+
 TEST_F(OthersFiles, ABidsPointIsReadWithItsUnits) {
   expectTwoRows(readFrom(writeBids(folder, {}) + ",point=hand").front());
   expectTwoRows(readFrom(writeBids(folder, {}) + ",point=elbow").front());
