@@ -1,5 +1,7 @@
 #include "devices/kept_mapping.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -15,15 +17,38 @@ namespace {
 
 std::string kindOf(const std::string& hand) { return hand.substr(0, hand.find_first_of(":,")); }
 
-// "phantom", and "phantom-Left" of a device that is asked for by a name of its own: another one lies elsewhere.
-std::string fileOf(const std::string& hand, const std::string& data, const std::string& subject) {
-  std::string name = kindOf(hand);
-  if (hand.size() > name.size() && hand[name.size()] == ':') {
-    std::string own = DeviceOptions(hand.substr(name.size() + 1), "device " + name).plain();
-    std::erase_if(own, [](unsigned char c) { return std::isalnum(c) == 0; });
-    if (!own.empty()) name += "-" + own;
-  }
-  return mappingFile(data, subject, name);
+// "phantom", or "phantom:Left" of a device that is asked for by a name of its own: another one lies elsewhere.
+std::string nameOf(const std::string& hand) {
+  const std::string kind = kindOf(hand);
+  const std::string own =
+      hand.size() > kind.size() && hand[kind.size()] == ':' ? DeviceOptions(hand.substr(kind.size() + 1), kind).plain() : "";
+  return own.empty() ? kind : kind + ":" + own;
+}
+
+// "phantom-Left". Other characters are written by their numbers, so that no two devices share a file.
+std::string fileOf(const std::string& name, const std::string& data, const std::string& subject) {
+  std::string file = kindOf(name);
+  if (name.size() > file.size()) file += '-';
+  for (const char c : std::string_view(name).substr(std::min(file.size(), name.size())))
+    file += std::isalnum(static_cast<unsigned char>(c)) != 0 ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return mappingFile(data, subject, file);
+}
+
+bool exists(const std::string& file) {
+  std::error_code error;
+  return std::filesystem::exists(file, error);
+}
+
+// The file of the hand's mapping, empty without one. The only device of its kind is the same by its kind and by its own name.
+std::string keptFile(const DeviceDriver& driver, const std::string& hand, const std::string& data, const std::string& subject) {
+  const std::string name = nameOf(hand);
+  if (const std::string file = fileOf(name, data, subject); exists(file)) return file;
+  if (driver.isMade) return {};
+  std::vector<FoundDevice> found = driver.find(driver);
+  std::erase_if(found, [](const FoundDevice& device) { return !device.present; });
+  if (found.size() != 1 || (name != driver.name && name != found[0].name)) return {};
+  const std::string file = fileOf(name == driver.name ? found[0].name : driver.name, data, subject);
+  return exists(file) ? file : "";
 }
 
 // With its mapping as values behind the other options, however it was written.
@@ -46,11 +71,9 @@ std::string withKeptMappings(const std::string& device, const std::string& data,
     const std::string kind = kindOf(hand);
     const DeviceDriver* driver = findDriver(kind);
     if (driver == nullptr || !driver->takesHandSettings) continue;
-    const std::string file = fileOf(hand, data, subject);
-    std::error_code error;
     if (const HandSettings settings = handSettingsOf(hand); settings.mapped) {
       hand = withMappingOf(hand, settings.mapping);
-    } else if (std::filesystem::exists(file, error)) {
+    } else if (const std::string file = keptFile(*driver, hand, data, subject); !file.empty()) {
       hand = withMappingOf(hand, readMapping(file));
       taken.push_back(file);
     }
@@ -64,7 +87,7 @@ std::vector<std::string> keepMappings(const std::string& device, const std::stri
   for (const std::string& hand : hands) {
     const HandSettings options = handSettingsOf(hand);
     if (!options.mapped) continue;
-    kept.push_back(fileOf(hand, data, subject));
+    kept.push_back(fileOf(nameOf(hand), data, subject));
     saveMapping(options.mapping, kept.back());
   }
   return kept;
