@@ -53,7 +53,6 @@ std::unique_ptr<haptics::HapticDevice> makeBy(const DeviceDriver& driver, const 
   if (!driver.takesHandSettings) return makeInScenes(driver, asked, block);
   DeviceOptions options(asked.argument, asked.words());
   const HandSettings hand = takeHandSettings(options);
-  if (!hand.any()) return makeInScenes(driver, asked, block);
   const std::string rest = options.rest(), argument = options.plain() + (options.plain().empty() || rest.empty() ? "" : ",") + rest;
   return guardDevice(makeInScenes(driver, {asked.name, argument}, block), hand);
 }

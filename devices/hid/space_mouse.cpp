@@ -93,8 +93,9 @@ std::unique_ptr<haptics::HapticDevice> makeSpaceMouse(const DeviceRequest& reque
   info.name = mouse.title.empty() ? "SpaceMouse" : mouse.title;
   info.version = "HID";
   info.rate = 125;
-  return std::make_unique<RateHand>(info, chosen, trial::startOf(request.experiment),
-                                    std::make_shared<SpaceMouseSource>(mouse.key(), request.words()));
+  info.steered = true;
+  info.workspaceCentre = trial::startOf(request.experiment);
+  return std::make_unique<RateHand>(info, chosen, info.workspaceCentre, std::make_shared<SpaceMouseSource>(mouse.key(), request.words()));
 }
 
 std::vector<FoundDevice> findSpaceMouseDevices(const DeviceDriver& self) {

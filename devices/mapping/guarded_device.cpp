@@ -20,13 +20,15 @@ constexpr double kGravity = 9.80665;  // [m/s^2]
 class GuardedDevice final : public haptics::HapticDevice {
  public:
   GuardedDevice(std::unique_ptr<haptics::HapticDevice> device, const HandSettings& options)
-      : device_(std::move(device)), options_(options), rows_(directions(options.mapping)) {}
+      : device_(std::move(device)), options_(options), rows_(directions(options.mapping)) {
+    if (const haptics::DeviceInfo info = device_->info(); info.steered) fixed_ = info.workspaceCentre;
+  }
 
   haptics::DeviceInfo info() const override {
     haptics::DeviceInfo info = device_->info();
     const Mapping& m = options_.mapping;
     info.workspaceRadius *= m.scale;
-    info.workspaceCentre = m.offset + m.scale * turned(info.workspaceCentre);
+    info.workspaceCentre = placed(info.workspaceCentre);
     info.resolution *= m.scale;
     // Forces are not scaled: in the world the device moves m.scale times as fast under the same force.
     info.scale = m.scale;
@@ -50,7 +52,7 @@ class GuardedDevice final : public haptics::HapticDevice {
   haptics::DeviceSample read() noexcept override {
     haptics::DeviceSample sample = device_->read();
     const Mapping& m = options_.mapping;
-    sample.position = m.offset + m.scale * turned(sample.position);
+    sample.position = placed(sample.position);
     sample.velocity = m.scale * turned(sample.velocity);
     if (options_.deadManButton > 0 && (sample.buttons >> (options_.deadManButton - 1) & 1u) == 0) sample.released = true;
     return sample;
@@ -71,11 +73,15 @@ class GuardedDevice final : public haptics::HapticDevice {
   void stopClock() noexcept override { device_->stopClock(); }
 
  private:
+  Vec3 placed(const Vec3& place) const noexcept {
+    return fixed_ + options_.mapping.offset + options_.mapping.scale * turned(place - fixed_);
+  }
   Vec3 turned(const Vec3& v) const noexcept { return {dot(rows_[0], v), dot(rows_[1], v), dot(rows_[2], v)}; }
 
   std::unique_ptr<haptics::HapticDevice> device_;
   HandSettings options_;
   std::array<Vec3, 3> rows_;
+  Vec3 fixed_;  // [m] what scale, turn and mirror leave where it is
 };
 
 // "0.1/0/-0.05"
@@ -127,9 +133,13 @@ std::unique_ptr<haptics::HapticDevice> guardDevice(std::unique_ptr<haptics::Hapt
   if (!options.any()) return device;
   if (options.wall && *options.wall == 0 && !(device->info().workspaceRadius > 0))
     throw FaultError(Fault{"device", fmt::format("wall=yes: the workspace of {} is not known", device->info().name), "wall=RADIUS_M"});
-  if (options.deadManButton > 0 && !device->info().rendersForce)
-    throw FaultError(Fault{"device", fmt::format("dead-man-button: {} renders no force that it could take away", device->info().name),
-                           "a force device"});
+  for (const auto& [key, asked] : {std::pair{"wall", options.wall.has_value()},
+                                   {"speed-limit", options.speedLimit.has_value()},
+                                   {"stylus-mass", options.stylusMass.has_value()},
+                                   {"passivity", options.passivityControl},
+                                   {"dead-man-button", options.deadManButton > 0}})
+    if (asked && !device->info().rendersForce)
+      throw FaultError(Fault{"device", fmt::format("{}: {} renders no force", key, device->info().name), "a force device"});
   if (options.deadManButton > 0 && device->info().virtualHand)
     throw FaultError(Fault{"device", fmt::format("dead-man-button: no hand presses a button of {}", device->info().name),
                            "a force device that a person holds"});

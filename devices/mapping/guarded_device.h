@@ -11,11 +11,11 @@ namespace reachlab::devices {
 
 /// The options of every device besides its driver's options.
 struct HandSettings {
-  Mapping mapping;
+  Mapping mapping = {};
   bool mapped = false;
-  std::optional<double> wall;        // [m] radius in the world; 0: the device's own workspace
-  std::optional<double> speedLimit;  // [m/s] of the hand in the world
-  std::optional<double> stylusMass;  // [kg] held against its weight
+  std::optional<double> wall = {};        // [m] radius in the world; 0: the device's own workspace
+  std::optional<double> speedLimit = {};  // [m/s] of the hand in the world
+  std::optional<double> stylusMass = {};  // [kg] held against its weight
   bool passivityControl = false;
   int deadManButton = 0;  // counted from 1: force only while this button is held; 0: no such button
   bool any() const { return mapped || wall || speedLimit || stylusMass || passivityControl || deadManButton > 0; }

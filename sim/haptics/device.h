@@ -44,6 +44,7 @@ struct DeviceInfo {
   double resolution = 0;       // [m]
   double stylusMass = 0;       // [kg] that hangs on it and is held by `guards.compensation`
   Vec3 workspaceCentre = {};   // [m]
+  bool steered = false;        // a push moves the hand from `workspaceCentre`, where it is put before each trial
   GuardSettings guards = {};
   std::string mapping = {};     // device to world, as JSON (devices/mapping/mapping.h); empty: as it is
   std::string secondPath = {};  // the action of `stopForce`, for messages. Empty: only the device's watchdog protects

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <random>
 
@@ -14,6 +15,7 @@
 #include "devices/mapping/guarded_device.h"
 #include "sim/experiment/experiment.h"
 #include "tests/devices/fakes/diary_device.h"
+#include "tests/devices/fakes/fake_input.h"
 #include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 
@@ -243,9 +245,26 @@ TEST(HandSettings, SayWhatWasAskedFor) {
   EXPECT_FALSE(taken("mapping=" + mirrored + ",mirror=no").mapping.mirrorX) << "said last";
 }
 
+// It has no place of its own: it is put at the start, which no mapping moves.
+TEST(HandSettings, AHandThatIsSteeredKeepsItsStart) {
+  HandSettings options;
+  options.mapping.scale = 2, options.mapping.mirrorX = true, options.mapped = true;
+  auto owned = std::make_unique<test::DiaryDevice>();
+  test::DiaryDevice& inner = *owned;
+  inner.shown.steered = true;
+  inner.sample.position = inner.shown.workspaceCentre = {-0.1, 0.2, 0.3};
+  const auto device = guardDevice(std::move(owned), options);
+  EXPECT_EQ(device->read().position, (Vec3{-0.1, 0.2, 0.3}));
+  inner.sample.position += Vec3{0.01, 0.01, 0};
+  EXPECT_LT(norm(device->read().position - Vec3{-0.12, 0.22, 0.3}), 1e-15);
+}
+
 TEST(HandSettings, AWallNeedsAWorkspaceOrARadius) {
-  const auto refusal = [](const HandSettings& options) {
-    return refusalOf([&] { (void)guardDevice(std::make_unique<test::DiaryDevice>("unknown"), options); }, "made");
+  bool rendersForce = true;
+  const auto refusal = [&](const HandSettings& options) {
+    auto device = std::make_unique<test::DiaryDevice>("unknown");
+    device->shown.rendersForce = rendersForce;
+    return refusalOf([&] { (void)guardDevice(std::move(device), options); }, "made");
   };
   HandSettings options;
   options.wall = 0;
@@ -254,8 +273,13 @@ TEST(HandSettings, AWallNeedsAWorkspaceOrARadius) {
   EXPECT_EQ(refusal(options), "made");
   options = {};
   EXPECT_EQ(refusal(options), "made");
-  options.deadManButton = 1;
-  EXPECT_TRUE(holds(refusal(options), "dead-man-button: unknown renders no force"));
+  rendersForce = false;
+  for (const auto& [key, asked] : {std::pair{"wall", HandSettings{.wall = 0.1}},
+                                   {"speed-limit", {.speedLimit = 1.0}},
+                                   {"stylus-mass", {.stylusMass = 0.1}},
+                                   {"passivity", {.passivityControl = true}},
+                                   {"dead-man-button", {.deadManButton = 1}}})
+    EXPECT_TRUE(holds(refusal(asked), std::string(key) + ": unknown renders no force")) << "it would change nothing";
   auto own = std::make_unique<test::DiaryDevice>();
   const haptics::HapticDevice* const inner = own.get();
   EXPECT_EQ(guardDevice(std::move(own), {}).get(), inner) << "nothing asked for: itself";
@@ -296,11 +320,30 @@ TEST_F(KeptMappings, AreTakenUpWhereNoneIsAskedFor) {
   EXPECT_EQ(with("replay:x"), "replay:x") << "a recording has no mapping";
 }
 
+// `reach list devices` and the window name it "tablet:/dev/input/event1".
+TEST_F(KeptMappings, TheOnlyDeviceOfItsKindIsTheSameByItsKindAndByItsName) {
+  const TabletNode pen{.path = "/dev/input/event1", .name = "Pen", .x = {}, .y = {}, .whyNot = {}};
+  test::fakeInputs().listed = {pen};
+  (void)keepMappings("tablet,scale=2", data, "07");
+  EXPECT_EQ(with("tablet:/dev/input/event1"), "tablet:/dev/input/event1,scale=2");
+  EXPECT_EQ(with("tablet:/dev/input/event2"), "tablet:/dev/input/event2") << "it is not here";
+  TabletNode other = pen;
+  other.path = "/dev/input/event2";
+  test::fakeInputs().listed = {pen, other};
+  EXPECT_EQ(with("tablet:/dev/input/event2"), "tablet:/dev/input/event2") << "it may be the one or the other";
+  (void)keepMappings("tablet:/dev/input/event2,scale=3", data, "07");
+  std::filesystem::remove(file("tablet"));
+  EXPECT_EQ(with("tablet"), "tablet");
+  test::fakeInputs().listed = {other};
+  EXPECT_EQ(with("tablet"), "tablet,scale=3");
+  test::fakeInputs().listed.reset();
+}
+
 TEST_F(KeptMappings, OfSeveralHandsEachHasItsOwn) {
   const auto kept = keepMappings("phantom:Le-ft!,scale=2 + phantom:Right,mirror=x + hid,scale=3", data, "07");
-  EXPECT_EQ(kept, (std::vector<std::string>{file("phantom-Left"), file("phantom-Right"), file("hid")}));
+  EXPECT_EQ(kept, (std::vector<std::string>{file("phantom-Le%2Dft%21"), file("phantom-Right"), file("hid")}));
   EXPECT_TRUE(readMapping(kept[1]).mirrorX);
-  EXPECT_EQ(with("phantom:Right + hid + phantom:Middle"), "phantom:Right,mirror=x + hid,scale=3 + phantom:Middle");
+  EXPECT_EQ(with("phantom:Right + hid + phantom:Left"), "phantom:Right,mirror=x + hid,scale=3 + phantom:Left");
   EXPECT_EQ(files.size(), 2u);
 }
 

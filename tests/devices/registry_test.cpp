@@ -149,6 +149,7 @@ TEST_F(MakeDevice, HandSettingsAreOfTheDeviceWithOrWithoutAName) {
   EXPECT_FALSE(handSettingsOf("hid").any());
   EXPECT_FALSE(handSettingsOf("replay:a,scale=2.csv").any()) << "what a file is called is its own business";
   EXPECT_EQ(make("simulated,scale=2,noise=0")->info().name, "simulated") << "the rest is the driver's own";
+  EXPECT_EQ(make("simulated,wall=no,passivity=observe")->info().name, "simulated") << "as if they were not told";
   EXPECT_THROW(make("simulated,scale=2,colour=1"), FaultError);
 }
 
