@@ -9,6 +9,12 @@
 #include "base/fault.h"
 
 namespace reachlab {
+namespace {
+
+// "instrument" of "instrument byte".
+std::string kindOf(const std::string& device) { return device.substr(0, device.find(' ')); }
+
+}  // namespace
 
 DeviceOptions::DeviceOptions(const std::string& text, std::string device) : device_(std::move(device)) {
   for (std::size_t at = 0; at < text.size();) {
@@ -23,7 +29,7 @@ DeviceOptions::DeviceOptions(const std::string& text, std::string device) : devi
     }
     const std::string key = item.substr(0, equals);
     const bool twice = std::any_of(items_.begin(), items_.end(), [&](const auto& other) { return other.first == key; });
-    if (twice) throw FaultError(Fault{"device", fmt::format("{}: {} is given twice", device_, key), {}});
+    if (twice) throw FaultError(Fault{kindOf(device_), fmt::format("{}: {} is given twice", device_, key), {}});
     items_.emplace_back(key, equals == std::string::npos ? "" : item.substr(equals + 1));
   }
 }
@@ -43,7 +49,8 @@ Number DeviceOptions::within(const std::string& key, Number otherwise, Number le
   if (!text) return otherwise;
   const auto value = asNumber<Number>(*text);
   if (!value || !(*value >= least) || !(*value <= most))
-    throw FaultError(Fault{"device", fmt::format("{}: {}={}", device_, key, *text), fmt::format("{} from {} to {}", kind, least, most)});
+    throw FaultError(
+        Fault{kindOf(device_), fmt::format("{}: {}={}", device_, key, *text), fmt::format("{} from {} to {}", kind, least, most)});
   return *value;
 }
 
@@ -58,8 +65,11 @@ int DeviceOptions::count(const std::string& key, int otherwise, int least, int m
 std::string DeviceOptions::word(const std::string& key, const std::vector<std::string>& allowed) {
   const auto text = take(key);
   if (!text) return allowed.front();
-  if (std::find(allowed.begin(), allowed.end(), *text) == allowed.end())
-    throw FaultError(Fault{"device", fmt::format("{}: {}={}", device_, key, *text), fmt::format("{}", fmt::join(allowed, ", "))});
+  if (std::find(allowed.begin(), allowed.end(), *text) == allowed.end()) {
+    std::vector<std::string> named = allowed;
+    std::erase(named, "");  // nothing told
+    throw FaultError(Fault{kindOf(device_), fmt::format("{}: {}={}", device_, key, *text), fmt::format("{}", fmt::join(named, ", "))});
+  }
   return *text;
 }
 
@@ -72,7 +82,7 @@ std::string DeviceOptions::rest() {
 
 void DeviceOptions::done() const {
   if (items_.empty()) return;
-  throw FaultError(Fault{"device", fmt::format("{}: {} is not known", device_, items_.front().first),
+  throw FaultError(Fault{kindOf(device_), fmt::format("{}: {} is not known", device_, items_.front().first),
                          known_.empty() ? std::string("nothing behind the name") : fmt::format("{}", fmt::join(known_, ", "))});
 }
 

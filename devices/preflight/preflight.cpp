@@ -63,11 +63,12 @@ void doubtWithoutEnvironment(PreflightLine& line, const ReachDemand& demand) {
 
 std::string forceRemedy(const CompiledExperiment& experiment, double limit, double ReachDemand::*force, const ReachDemand& demand) {
   const double scale = limit / (demand.*force);
+  const double digit = std::pow(10, std::floor(std::log10(scale)) - 1), down = std::floor(scale / digit + 1e-9) * digit;  // it must help
   const auto duration = longerDuration(experiment, limit, force, demand);
   const std::string slower = duration ? fmt::format("a longer reach (duration_s {:.3g} instead of {:.3g})", *duration, demand.duration)
                                       : std::string("a longer reach does not help (a force that rests on it stays)");
   const char* const smaller = experiment.experiment().environment.empty() ? "a reach or masses" : "a reach, masses or environment";
-  return fmt::format("{}, {} scaled by {:.2g}, or a device of {:.3g} N", slower, smaller, scale, demand.*force);
+  return fmt::format("{}, {} scaled by {:.2g}, or a device of {:.3g} N", slower, smaller, down, demand.*force);
 }
 
 PreflightLine peakForce(const CompiledExperiment& experiment, const haptics::DeviceInfo& device, const ReachDemand& demand) {
