@@ -131,21 +131,14 @@ std::shared_ptr<const CompiledFormula> compileFormula(const FormulaText& text, c
   }
 
   const std::array<int, 3>& r = parsed.roots;
+  try {
+    formula->roots = withDerivatives(graph, r, text.kind);
+  } catch (const FaultError&) {
+    if (text.kind != ConstraintKind::Curve) throw;
+    throw FaultError(Fault{key, "the formula with its derivatives is too large", "a shorter formula"});
+  }
   if (text.kind == ConstraintKind::Curve) {
-    std::vector<int> order(r.begin(), r.end());
-    formula->roots = order;
-    formula->derivatives.push_back(r);
-    for (int k = 1; k <= kMaxDerivative; ++k) {
-      try {
-        order = graph.differentiate(order, 0);
-      } catch (const FaultError&) {
-        if (k <= 2) throw FaultError(Fault{key, "the formula with its derivatives is too large", "a shorter formula"});
-        break;  // the third and fourth are extras of small formulas
-      }
-      formula->derivatives.push_back({order[0], order[1], order[2]});
-      if (k <= 2) append(formula->roots, order);
-    }
-    const auto& second = formula->derivatives[2];
+    const std::span second = std::span(formula->roots).subspan(6);
     // A derivative of 0 says nothing of kinks and jumps: {phi/10, abs(phi), 0} is none, nor is atan2(sin(phi), cos(phi)).
     const std::vector<bool> needed = graph.reachableFrom(r), moving = findMoving(graph);
     bool broken = false;
@@ -156,8 +149,6 @@ std::shared_ptr<const CompiledFormula> compileFormula(const FormulaText& text, c
       broken = broken || (needed[id] && moving[id] && !polynomial);
     }
     formula->straight = !broken && std::all_of(second.begin(), second.end(), [&](int id) { return graph.isConstant(id, 0); });
-  } else {
-    formula->roots = withDerivatives(graph, r, text.kind);
   }
   formula->program =
       compileProgram(graph, formula->roots, static_cast<int>(text.parameters.size()), static_cast<int>(variablesOf(text.kind).size()));

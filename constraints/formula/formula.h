@@ -20,9 +20,6 @@ struct FormulaText {
   std::vector<std::string> parameters;  // in the order of the shape array; at most kMaxShapeParameters
 };
 
-/// Highest derivative of a curve that is at hand outside the haptic loop.
-inline constexpr int kMaxDerivative = 4;
-
 /// A formula after the whole pipeline: text, shared graph, exact derivatives, program. Immutable. Any thread.
 struct CompiledFormula {
   FormulaText text;
@@ -30,8 +27,6 @@ struct CompiledFormula {
   /// Nodes in the order of CurvePoint's or SurfacePoint's members: 9 or 18.
   std::vector<int> roots;
   std::span<const int> place() const { return std::span(roots).first(3); }  // nodes of r
-  /// Curves: nodes of r, r', … as far as they could be formed (three each, up to kMaxDerivative). Derivatives beyond order two are slow.
-  std::vector<std::array<int, 3>> derivatives;
   Program program;
   bool straight = false;  // a curve with constant r_phi
 };

@@ -6,7 +6,6 @@
 
 #include "base/error.h"
 #include "constraints/constraint.h"
-#include "constraints/formula/formula.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -30,10 +29,6 @@ double bisectSlope(const Constraint& c, double lo, double hi) {
   return speedAt(c, lo) < speedAt(c, hi) ? lo : hi;
 }
 
-void requireCurve(const Constraint& c) {
-  if (c.kind != ConstraintKind::Curve) throw RefusedError(c.name + " is no curve");
-}
-
 }  // namespace
 
 std::array<Domain, 2> boundedDomain(const Constraint& c) {
@@ -48,22 +43,8 @@ std::array<Domain, 2> boundedDomain(const Constraint& c) {
   return domain;
 }
 
-std::vector<Vec3> computeDerivatives(const Constraint& c, double phi, int order) {
-  requireCurve(c);
-  const CompiledFormula* formula = c.formula.get();
-  if (order < 0 || order >= static_cast<int>(formula->derivatives.size()))
-    throw RefusedError("derivative " + std::to_string(order) + " of " + c.name + " can't be formed; allowed: orders up to " +
-                       std::to_string(formula->derivatives.size() - 1));
-  std::vector<int> roots;
-  for (int k = 0; k <= order; ++k) roots.insert(roots.end(), formula->derivatives[k].begin(), formula->derivatives[k].end());
-  const std::vector<double> values = evaluateNodes(formula->graph, roots, c.shape(), &phi);
-  std::vector<Vec3> result;
-  for (std::size_t k = 0; k < values.size(); k += 3) result.push_back({values[k], values[k + 1], values[k + 2]});
-  return result;
-}
-
 SlowPlace findMinSpeed(const Constraint& c, double from, double to) {
-  requireCurve(c);
+  if (c.kind != ConstraintKind::Curve) throw RefusedError(c.name + " is no curve");
   const double lo = std::min(from, to), hi = std::max(from, to);
   SlowPlace slowest{lo, speedAt(c, lo)};
   const auto look = [&](double phi) {

@@ -14,10 +14,6 @@ namespace reachlab::constraints {
 /// The domain with a finite stretch in place of an infinite range.
 std::array<Domain, 2> boundedDomain(const Constraint& constraint);
 
-/// r and its derivatives r', r'' … up to `order` (at most 4) at phi, from the same graph as the compiled forms. [m] Throws RefusedError if
-/// the constraint is not a curve, or if the formula is too large for this order.
-std::vector<Vec3> computeDerivatives(const Constraint& curve, double phi, int order);
-
 struct SlowPlace {
   double phi = 0;
   double speed = 0;  // [m] |r_phi|

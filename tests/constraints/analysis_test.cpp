@@ -172,18 +172,6 @@ TEST(MinSpeed, IsFoundInsideOrAtAnEnd) {
   EXPECT_THROW((void)findMinSpeed(surface({"u", "v", "0"}), 0, 1), RefusedError);
 }
 
-TEST(HigherDerivatives, AreThoseThatAreAskedForOrRefusedInWords) {
-  const Constraint cubic = curve({"phi^3", "2*phi", "phi^4 + 7"});
-  const std::vector<Vec3> d = computeDerivatives(cubic, 2, 4);
-  const std::vector<Vec3> expected{{8, 4, 23}, {12, 2, 32}, {12, 0, 48}, {6, 0, 48}, {0, 0, 24}};
-  EXPECT_EQ(d, expected);
-  EXPECT_EQ(computeDerivatives(cubic, 2, 0), std::vector<Vec3>{expected[0]});
-  for (const int order : {-1, 5})
-    EXPECT_EQ(refusalOf<RefusedError>([&] { (void)computeDerivatives(cubic, 2, order); }),
-              "derivative " + std::to_string(order) + " of curve can't be formed; allowed: orders up to 4");
-  EXPECT_THROW(computeDerivatives(named("torus"), 0, 1), RefusedError);
-}
-
 TEST(AngleSine, IsThatOfTheParameterLines) {
   SurfacePoint p;
   p.rU = {2, 0, 0}, p.rV = {3, 3, 0};
