@@ -10,7 +10,7 @@
 
 #include "base/fault.h"
 #include "sim/predict/line/line_object.h"
-#include "sim/predict/line/symmetric_prediction.h"
+#include "sim/predict/line/line_predictions.h"
 #include "sim/predict/peaks.h"
 #include "tests/predict/objects.h"
 #include "tests/refusal.h"

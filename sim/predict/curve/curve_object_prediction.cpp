@@ -1,4 +1,4 @@
-#include "sim/predict/curve/curve_object_prediction.h"
+#include "sim/predict/curve/path_predictions.h"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,6 @@
 #include "base/fault.h"
 #include "base/math/eigen_solvers.h"
 #include "sim/predict/curve/curve_motion.h"
-#include "sim/predict/curve/curve_prediction.h"
 #include "sim/predict/line/modes.h"
 #include "sim/predict/transcription/transcription.h"
 

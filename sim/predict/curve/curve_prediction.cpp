@@ -1,4 +1,4 @@
-#include "sim/predict/curve/curve_prediction.h"
+#include "sim/predict/curve/path_predictions.h"
 
 #include <algorithm>
 

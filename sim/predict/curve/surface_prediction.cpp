@@ -1,4 +1,4 @@
-#include "sim/predict/curve/surface_prediction.h"
+#include "sim/predict/curve/path_predictions.h"
 
 #include <fmt/format.h>
 

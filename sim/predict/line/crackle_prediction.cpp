@@ -1,4 +1,4 @@
-#include "sim/predict/line/crackle_prediction.h"
+#include "sim/predict/line/line_predictions.h"
 
 #include <algorithm>
 #include <cmath>

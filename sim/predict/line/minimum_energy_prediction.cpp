@@ -1,4 +1,4 @@
-#include "sim/predict/line/minimum_energy_prediction.h"
+#include "sim/predict/line/line_predictions.h"
 
 #include "sim/predict/line/minimum_energy.h"
 
