@@ -4,12 +4,16 @@
 
 #include <chrono>
 #include <filesystem>
+#include <fstream>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/error.h"
 #include "sim/record/log/records.h"
+#include "sim/record/log/whole_file.h"
 #include "tests/record/made_run.h"
+#include "tests/refusal.h"
 
 namespace reachlab::record {
 namespace {
@@ -113,6 +117,62 @@ TEST(TrialIndex, EveryDatasetHasAFileOfItsOwn) {
   EXPECT_EQ(here.size(), std::string("/cache/0123456789abcdef.index").size());
   EXPECT_EQ(indexFileFor("/data/./two/../one", "/cache"), here) << "the same folder by another way";
   EXPECT_NE(indexFileFor("/data/two", "/cache"), here);
+}
+
+TEST(TrialIndex, ADamagedIndexFileIsAsGoodAsNone) {
+  const TemporaryFolder folder;
+  const std::string data = folder / "data", file = folder / "an.index";
+  writeMadeRun(data + "/a_log.reach", 2);
+  const TrialIndex whole = openTrialIndex(data, file);
+  const std::string text = readWholeFile(file);
+  for (std::size_t at = 0; at < text.size(); at += 7) {
+    std::string other = text;
+    other[at] = static_cast<char>(other[at] ^ 0x41);
+    std::ofstream(file, std::ios::binary) << (at % 2 == 0 ? other : text.substr(0, at));
+    const TrialIndex again = openTrialIndex(data, file);
+    ASSERT_EQ(again.read, 1u) << "byte " << at;
+    ASSERT_EQ(again.trialCount(), 2u) << "byte " << at;
+    for (std::size_t i = 0; i < 2; ++i) EXPECT_EQ(bytesOf(again.runs[0].trials[i]), bytesOf(whole.runs[0].trials[i])) << "byte " << at;
+  }
+}
+
+TEST(TrialIndex, ALogThatCannotBeReadIsLeftOutWithASentenceAndGivingUpKeepsTheFile) {
+  const TemporaryFolder folder;
+  const std::string data = folder / "data", file = folder / "an.index";
+  writeMadeRun(data + "/a_log.reach", 1);
+  std::ofstream(data + "/zz_log.reach") << "no log";
+  const TrialIndex index = openTrialIndex(data, "");
+  EXPECT_EQ(index.runs.size(), 1u);
+  ASSERT_EQ(index.unreadable.size(), 1u);
+  EXPECT_TRUE(holds(index.unreadable[0], "zz_log.reach"));
+  EXPECT_EQ(openTrialIndex(data, file, [](std::size_t, std::size_t) { return false; }).runs.size(), 0u);
+  EXPECT_FALSE(std::filesystem::exists(file)) << "half an index is none";
+  EXPECT_THROW(openTrialIndex(folder / "nothing", file), Error);
+}
+
+// Cut off in the fourth of six, as a power cut or a copy that was not finished leaves it.
+TEST(TrialIndex, NamesTheTrialsThatACutLogHasLost) {
+  const TemporaryFolder folder;
+  const std::string data = folder / "data", file = folder / "an.index", log = data + "/a_log.reach";
+  RunConfiguration c = madeConfiguration();
+  for (int i = 0; i < 6; ++i) c.trials.push_back({i, 0, false});
+  writeMadeRun(log, 6, c);
+  const std::vector<RecordedTrial> trials = RunLog::open(log).trials();
+  EXPECT_EQ(openTrialIndex(data, file).runs.at(0).loss, "") << "a whole log has lost nothing";
+  std::filesystem::remove(log);
+  writeMadeRun(log, 4, c);
+  cutInTheLastTrialsRecord(log);
+  for (int again = 0; again < 2; ++again) {  // the second time with the index file
+    const TrialIndex index = openTrialIndex(data, file);
+    ASSERT_EQ(index.runs.size(), 1u);
+    ASSERT_EQ(index.runs[0].trials.size(), 4u);
+    EXPECT_FALSE(index.runs[0].trials[3].complete);
+    const std::string& loss = index.runs[0].loss;
+    EXPECT_TRUE(holds(loss, "Trial 4 broke off. The planned trials 5 and 6 are not in it."));
+    EXPECT_TRUE(holds(loss, "reach recover " + log));
+  }
+  std::filesystem::resize_file(log, trials[1].offset - 1);
+  EXPECT_TRUE(holds(openTrialIndex(data, file).runs.at(0).loss, "The planned trials 2 to 6 are not in it."));
 }
 
 }  // namespace
