@@ -17,14 +17,20 @@ experiment::Task makeTask(double start, double target) {
   return task;
 }
 
-BenchScene onLine(std::string name, std::string title, experiment::ObjectKind kind, int count, double mass, double stiffness,
-                  double damping) {
+BenchScene makeScene(std::string name, std::string title, std::string constraint, std::map<std::string, double> shape,
+                     SceneHand::Kind hand) {
   BenchScene s;
   s.name = std::move(name), s.title = std::move(title);
+  s.experiment.name = s.name;
+  s.experiment.constraint.name = std::move(constraint), s.experiment.constraint.shape = std::move(shape);
+  s.hand.kind = hand, s.hand.duration = kReach;
+  return s;
+}
+
+BenchScene onLine(std::string name, std::string title, experiment::ObjectKind kind, int count, double mass, double stiffness,
+                  double damping) {
+  BenchScene s = makeScene(std::move(name), std::move(title), "line", {{"length_m", 0.2}}, SceneHand::Kind::Straight);
   experiment::Experiment& e = s.experiment;
-  e.name = s.name;
-  e.constraint.name = "line";
-  e.constraint.shape["length_m"] = 0.2;
   e.object.kind = kind;
   e.object.masses.assign(count, mass);
   const int springs = kind == experiment::ObjectKind::Chain ? count - 1 : count;
@@ -33,8 +39,6 @@ BenchScene onLine(std::string name, std::string title, experiment::ObjectKind ki
   if (kind != experiment::ObjectKind::Parallel) e.coupling = experiment::Coupling{600, 0};
   s.start = {0};
   e.task = makeTask(0, 2 * kPi);
-  s.hand.kind = SceneHand::Kind::Straight;
-  s.hand.duration = kReach;
   s.hand.from = {-0.1, 0, 0};
   s.hand.by = {0.2, 0, 0};
   return s;
@@ -49,32 +53,20 @@ void setBead(BenchScene& s, double viscosity) {
 }
 
 BenchScene onEllipse(std::string name, std::string title, double a, double b, double from, double viscosity) {
-  BenchScene s;
-  s.name = std::move(name), s.title = std::move(title);
-  s.experiment.name = s.name;
-  s.experiment.constraint.name = "ellipse";
-  s.experiment.constraint.shape = {{"a_m", a}, {"b_m", b}};
+  BenchScene s = makeScene(std::move(name), std::move(title), "ellipse", {{"a_m", a}, {"b_m", b}}, SceneHand::Kind::Ellipse);
   setBead(s, viscosity);
   s.start = {from};
   s.experiment.task = makeTask(from, from + kPi);
-  s.hand.kind = SceneHand::Kind::Ellipse;
-  s.hand.duration = kReach;
   s.hand.phi0 = from, s.hand.sweep = kPi;
   s.hand.ellipse = {a, b};
   return s;
 }
 
 BenchScene nearCusp(std::string name, std::string title, double small) {
-  BenchScene s;
-  s.name = std::move(name), s.title = std::move(title);
-  s.experiment.name = s.name;
-  s.experiment.constraint.name = "epitrochoid";
-  s.experiment.constraint.shape = {{"a_m", 0.08}, {"d_m", small}};
+  BenchScene s = makeScene(std::move(name), std::move(title), "epitrochoid", {{"a_m", 0.08}, {"d_m", small}}, SceneHand::Kind::Epitrochoid);
   setBead(s, 0);
   s.start = {kPi / 3};
   s.experiment.task = makeTask(kPi / 3, kPi);
-  s.hand.kind = SceneHand::Kind::Epitrochoid;
-  s.hand.duration = kReach;
   s.hand.phi0 = kPi / 3, s.hand.sweep = 2 * kPi / 3;
   s.hand.epitrochoid = {0.08, small};
   return s;
@@ -90,16 +82,10 @@ void setStart(BenchScene& s) {
 
 BenchScene onSurface(std::string name, std::string title, std::string surface, std::map<std::string, double> shape, double viscosity,
                      std::vector<double> start, Vec3 from, Vec3 by) {
-  BenchScene s;
-  s.name = std::move(name), s.title = std::move(title);
-  s.experiment.name = s.name;
-  s.experiment.constraint.name = std::move(surface);
-  s.experiment.constraint.shape = std::move(shape);
+  BenchScene s = makeScene(std::move(name), std::move(title), std::move(surface), std::move(shape), SceneHand::Kind::Straight);
   setBead(s, viscosity);
   s.start = std::move(start);
   setStart(s);
-  s.hand.kind = SceneHand::Kind::Straight;
-  s.hand.duration = kReach;
   s.hand.from = from, s.hand.by = by;
   return s;
 }
@@ -129,7 +115,6 @@ BenchScene pulledPastPole(std::string name, std::string title, double tilt) {
   double r[3], ru[3], rv[3], ruu[3], ruv[3], rvv[3];
   SphereShape{s.experiment.constraint.shape.at("R")}.evaluate(s.start[0], s.start[1], r, ru, rv, ruu, ruv, rvv);
   s.hand.kind = SceneHand::Kind::Straight;
-  s.hand.duration = kReach;
   s.hand.from = {r[0], r[1], r[2]};
   s.hand.by = {0, -2 * r[1], 0};
   return s;
