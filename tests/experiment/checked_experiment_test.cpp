@@ -28,8 +28,6 @@ struct Edit {
 std::vector<Edit> edits() {
   return {
       {"mass", "object.masses_kg[1]", [](Experiment& e) { e.object.masses[1] = -1; }},
-      {"spring", "object.stiffness_n_per_m[0]", [](Experiment& e) { e.object.stiffness[0] = -600; }},
-      {"coupling", "coupling.stiffness_n_per_m", [](Experiment& e) { e.coupling->stiffness = -5; }},
       {"coupling beside parallel", "coupling",
        [](Experiment& e) {
          e.object.kind = ObjectKind::Parallel;
@@ -60,7 +58,6 @@ std::vector<Edit> edits() {
        }},
       {"method", "method", [](Experiment& e) { e.method = "euler"; }},
       {"arm", "arm.link_mass_kg[1]", [](Experiment& e) { e.arm.mass[1] = 0; }},
-      {"shape", "constraint.shape.length_m", [](Experiment& e) { e.constraint.shape["length_m"] = -1; }},
       {"unknown shape", "constraint.shape.lenght_m", [](Experiment& e) { e.constraint.shape["lenght_m"] = 1; }},
       {"unknown constraint", "constraint.name", [](Experiment& e) { e.constraint.name = "lime"; }},
       {"formula", "constraint.curve[1]",

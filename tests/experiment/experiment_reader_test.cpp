@@ -74,17 +74,10 @@ INSTANTIATE_TEST_SUITE_P(
     testing::Values(WrongText{"\"duration_s\"", "\"duration\"", "x.json:7:58: task.duration: is not known here; did you mean duration_s?"},
                     WrongText{"\"duration_s\": 1.35", "\"duration_s\": \"long\"",
                               "x.json:7:72: task.duration_s: is a string; allowed: 0.001 to 3600 s"},
-                    WrongText{"[0.6, 0.6]", "[0.6, -1]", "x.json:5:51: object.masses_kg[1]: is -1; allowed: 1e-06 to 1e+06 kg"},
-
                     WrongText{"\"stiffness_n_per_m\": [600]", "\"viscosity_n_s_per_m\": 0", "object.stiffness_n_per_m: is missing"},
                     WrongText{"1.35", "1e999", "x.json:7:72: this number is beyond the range of a double"},
-                    WrongText{"1.35", "NaN", "x.json:7:"},
-                    WrongText{"\"schema_version\": 1", "\"schema_version\": 2", "x.json:2:21: schema_version: is 2; allowed: 1"},
-                    WrongText{"\"schema_version\": 1,", "", "schema_version: is missing"},
-
+                    WrongText{"1.35", "NaN", "x.json:7:"}, WrongText{"\"schema_version\": 1,", "", "schema_version: is missing"},
                     WrongText{"\"chain\"", "\"chian\"", "object.kind: is \"chian\"; allowed: point, chain, parallel, body or none"},
-                    WrongText{"\"name\": \"line\"", "\"name\": \"lime\"", "x.json:3:27: constraint.name: there is no constraint 'lime'"},
-
                     WrongText{"\"chain\", \"masses_kg\": [0.6, 0.6], \"stiffness_n_per_m\": [600]",
                               "\"parallel\", \"masses_kg\": [0.6, 0.6], \"stiffness_n_per_m\": [600, 60]",
                               "coupling: stands beside a parallel object"}));
