@@ -42,7 +42,7 @@ Judged choose(const Masses& masses, const std::vector<std::size_t>& by) {
 }
 
 /// ln S of each trial, with the shape that the other four folds choose.
-std::vector<double> heldOutScores(const Masses& masses, std::span<const double> rest, std::vector<ShapeChoice>* choices = nullptr) {
+std::vector<double> heldOutScores(const Masses& masses, std::span<const double> rest) {
   const std::size_t n = rest.size();
   std::vector<double> score(n);
   for (int fold = 0; fold < kFolds; ++fold) {
@@ -50,7 +50,6 @@ std::vector<double> heldOutScores(const Masses& masses, std::span<const double> 
     for (std::size_t i = 0; i < n; ++i)
       if (static_cast<int>(i % kFolds) != fold) others.push_back(i);
     const Judged judged = choose(masses, others);
-    if (choices) choices->push_back(judged.choice);
     for (std::size_t i = 0; i < n; ++i)
       if (static_cast<int>(i % kFolds) == fold) score[i] = judged.shape.any ? judged.shape.score[i] : std::log(rest[i]);
   }
@@ -223,7 +222,7 @@ PersonFit fitPerson(std::span<FitWindow> windows, std::span<const double> durati
         fit.beyond = heldOutScores(beyond, rest);
       }
     }
-    fit.score = heldOutScores(masses, rest, &fit.foldChoice);
+    fit.score = heldOutScores(masses, rest);
     const Judged all = choose(masses, everyTrial);
     fit.choice = all.choice;
     fit.family = masses[all.choice.family].family;

@@ -31,7 +31,6 @@ struct MassFit {
 struct CandidateFit {
   std::vector<double> score;                    // ln S of each trial, its shape chosen by the other four folds
   std::vector<double> beyond;                   // the same with hand masses outside the range. Empty unless the mass is at its edge
-  std::vector<ShapeChoice> foldChoice;          // by all trials but those of fold 0 … 4
   ShapeChoice choice;                           // by all trials; the fits below are with it
   std::shared_ptr<const ProfileFamily> family;  // of `choice`
   std::optional<MassFit> mass;                  // by all trials, empty if no mass was searched
