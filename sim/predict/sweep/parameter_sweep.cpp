@@ -31,16 +31,15 @@ double parseNumber(std::string_view text, const std::string& whole) {
   return *value;
 }
 
-/// Each row would be the same where the object has nothing that the key could change.
-void require(bool has, const char* what) {
-  if (!has) throw FaultError(Fault{"sweep", fmt::format("would change nothing: this object has no {}", what), "another key"});
+bool has(const Experiment& e, std::string_view needed) {
+  if (needed == "springs") return !e.object.stiffness.empty() || e.coupling;
+  if (needed == "springs of its own") return !e.object.stiffness.empty();
+  if (needed == "coupling") return e.coupling.has_value();
+  return needed.empty() || !e.object.masses.empty();
 }
-void requireSprings(const Experiment& e) { require(!e.object.stiffness.empty() || e.coupling, "springs"); }
-void requireMasses(const Experiment& e) { require(!e.object.masses.empty(), "masses"); }
 
 void resizeObject(experiment::Experiment& experiment, double value, bool keepTotal) {
   experiment::Object& object = experiment.object;
-  requireMasses(experiment);
   if (value != std::floor(value) || value < 1 || value > experiment::kMaxMasses)
     throw FaultError(
         Fault{"sweep", fmt::format("is n = {}", value), fmt::format("whole numbers of masses from 1 to {}", experiment::kMaxMasses)});
@@ -65,51 +64,34 @@ std::optional<NumberRange> rangeOf(const std::string& key) {
 }
 
 constexpr std::array<SweepKey, 12> kKeys{{
-    {"duration_s", "movement time", [](double v, Experiment&, PredictOptions& o) { o.duration = v; }},
-    {"stiffness_n_per_m", "every spring, the coupling too",
+    {"duration_s", "movement time", "", [](double v, Experiment&, PredictOptions& o) { o.duration = v; }},
+    {"stiffness_n_per_m", "every spring, the coupling too", "springs",
      [](double v, Experiment& e, PredictOptions&) {
-       requireSprings(e);
        std::ranges::fill(e.object.stiffness, v);
        if (e.coupling) e.coupling->stiffness = v;
      }},
-    {"object.stiffness_n_per_m", "every spring of the object",
+    {"object.stiffness_n_per_m", "every spring of the object", "springs of its own",
+     [](double v, Experiment& e, PredictOptions&) { std::ranges::fill(e.object.stiffness, v); }},
+    {"coupling.stiffness_n_per_m", "the coupling", "coupling", [](double v, Experiment& e, PredictOptions&) { e.coupling->stiffness = v; }},
+    {"damping_n_s_per_m", "every damper, the coupling's too", "springs",
      [](double v, Experiment& e, PredictOptions&) {
-       require(!e.object.stiffness.empty(), "springs of its own");
-       std::ranges::fill(e.object.stiffness, v);
-     }},
-    {"coupling.stiffness_n_per_m", "the coupling",
-     [](double v, Experiment& e, PredictOptions&) {
-       require(e.coupling.has_value(), "coupling");
-       e.coupling->stiffness = v;
-     }},
-    {"damping_n_s_per_m", "every damper, the coupling's too",
-     [](double v, Experiment& e, PredictOptions&) {
-       requireSprings(e);
        e.object.damping.assign(e.object.stiffness.size(), v);
        if (e.coupling) e.coupling->damping = v;
      }},
-    {"viscosity_n_s_per_m", "viscosity of the surroundings",
+    {"viscosity_n_s_per_m", "viscosity of the surroundings", "masses",
+     [](double v, Experiment& e, PredictOptions&) { e.object.viscosity = v; }},
+    {"mass_kg", "every mass", "masses", [](double v, Experiment& e, PredictOptions&) { std::ranges::fill(e.object.masses, v); }},
+    {"total_mass_kg", "the object's mass, shared as it is", "masses",
      [](double v, Experiment& e, PredictOptions&) {
-       requireMasses(e);
-       e.object.viscosity = v;
-     }},
-    {"mass_kg", "every mass",
-     [](double v, Experiment& e, PredictOptions&) {
-       requireMasses(e);
-       std::ranges::fill(e.object.masses, v);
-     }},
-    {"total_mass_kg", "the object's mass, shared as it is",
-     [](double v, Experiment& e, PredictOptions&) {
-       requireMasses(e);
        const double total = std::accumulate(e.object.masses.begin(), e.object.masses.end(), 0.0);
        for (double& m : e.object.masses) m *= v / total;
      }},
-    {"n", "number of masses, the total mass kept, springs like the first",
+    {"n", "number of masses, the total mass kept, springs like the first", "masses",
      [](double v, Experiment& e, PredictOptions&) { resizeObject(e, v, true); }},
-    {"n_each", "number of masses, each like the first, springs like the first",
+    {"n_each", "number of masses, each like the first, springs like the first", "masses",
      [](double v, Experiment& e, PredictOptions&) { resizeObject(e, v, false); }},
-    {"hand_mass_kg", "mass of the hand", [](double v, Experiment&, PredictOptions& o) { o.handMass = v; }},
-    {"hand_damping_n_s_per_m", "damping of the hand itself", [](double v, Experiment&, PredictOptions& o) { o.handDamping = v; }},
+    {"hand_mass_kg", "mass of the hand", "", [](double v, Experiment&, PredictOptions& o) { o.handMass = v; }},
+    {"hand_damping_n_s_per_m", "damping of the hand itself", "", [](double v, Experiment&, PredictOptions& o) { o.handDamping = v; }},
 }};
 
 }  // namespace
@@ -175,6 +157,8 @@ void applySweepValue(const std::string& key, double value, Experiment& experimen
   const bool ofSprings = key == "n" || key == "n_each" || key.ends_with("stiffness_n_per_m") || key == "damping_n_s_per_m";
   if (ofSprings && !experiment.hands.empty())
     throw FaultError(Fault{"sweep", fmt::format("is of {}, and this experiment's hands have springs of their own", key), "another key"});
+  if (!has(experiment, found->needs))
+    throw FaultError(Fault{"sweep", fmt::format("would change nothing: this object has no {}", found->needs), "another key"});
   found->set(value, experiment, options);
 }
 

@@ -25,6 +25,7 @@ struct Sweep {
 Sweep parseSweep(const std::string& text);
 struct SweepKey {
   std::string_view name, meaning;
+  std::string_view needs;  // what the object must have, as each row would be the same otherwise: empty, or the words of the refusal
   void (*set)(double value, experiment::Experiment& experiment, PredictOptions& options);
 };
 std::span<const SweepKey> sweepKeys();
