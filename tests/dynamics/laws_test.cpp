@@ -11,6 +11,11 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kEnergyDrift = 1e-10;  // relative, over 10 s without friction
 
+double momentOf(const Scene& scene) {
+  const MassState mass = observed(*scene.plant)[0];
+  return mass.r.x * mass.v.y - mass.r.y * mass.v.x;
+}
+
 // Clairaut: on a surface of revolution the moment of momentum about its axis stays.
 TEST(Laws, ClairautHoldsOnSurfacesOfRevolution) {
   struct Case {
@@ -21,13 +26,9 @@ TEST(Laws, ClairautHoldsOnSurfacesOfRevolution) {
                         Case{"0.1*cosh(v)*cos(u)", "0.1*cosh(v)*sin(u)", "0.1*v", -0.4, 0.5},
                         Case{"(0.1+0.02*sin(3*v))*cos(v)*cos(u)", "(0.1+0.02*sin(3*v))*cos(v)*sin(u)", "0.1*sin(v)", 0.2, 4}}) {
     const Scene scene = freeScene(onSurface(c.x, c.y, c.z), {0.1, c.v}, {2, c.rate});
-    const auto moment = [&] {
-      const MassState mass = observed(*scene.plant)[0];
-      return mass.r.x * mass.v.y - mass.r.y * mass.v.x;
-    };
-    const double before = moment();
+    const double before = momentOf(scene);
     ASSERT_EQ(run(*scene.plant, noHand, 3), StepStatus::Ok) << c.x;
-    EXPECT_NEAR(moment() / before, 1, 1e-11) << c.x;
+    EXPECT_NEAR(momentOf(scene) / before, 1, 1e-11) << c.x;
   }
 }
 
@@ -73,14 +74,10 @@ TEST(Poles, AreFoundOnTheWayOnSurfacesOfAnyShape) {
   for (const double sideways : {1e-2, 1e-5, 0.0}) {
     const Scene scene = freeScene(onSurface(r + "*cos(v)*cos(u)", r + "*cos(v)*sin(u)", r + "*sin(v)"), {0.3, 0.4}, {sideways, 2});
     const double before = scene.plant->energy({});
-    const auto moment = [&] {
-      const MassState mass = observed(*scene.plant)[0];
-      return mass.r.x * mass.v.y - mass.r.y * mass.v.x;
-    };
-    const double momentBefore = moment();
+    const double momentBefore = momentOf(scene);
     ASSERT_EQ(run(*scene.plant, noHand, 4), StepStatus::Ok) << sideways;
     EXPECT_NEAR(scene.plant->energy({}) / before, 1, kEnergyDrift) << sideways;
-    EXPECT_NEAR(moment(), momentBefore, 1e-12) << sideways;
+    EXPECT_NEAR(momentOf(scene), momentBefore, 1e-12) << sideways;
   }
 }
 
