@@ -87,7 +87,7 @@ TEST(Cusps, AStartAtRestOnOneIsRefused) {
 
 TEST(Starts, WhereNothingTellsTheWayAreRefusedWithTheirReason) {
   for (const auto& [name, start] : {std::pair<const char*, std::vector<double>>{"cone", {0, 0}}, {"whitney-umbrella", {0, 0}}}) {
-    Experiment e = makePoint();
+    experiment::Experiment e = makePoint();
     e.constraint.name = name;
     const std::string told = refusalOf([&] { (void)compileScene(from(e, start, start)); });
     EXPECT_TRUE(holds(told, "no motion can begin at the start")) << name << ": " << told;
@@ -96,7 +96,7 @@ TEST(Starts, WhereNothingTellsTheWayAreRefusedWithTheirReason) {
 
 TEST(Starts, OnAnEndAreWarnedOf) {
   for (const auto& [name, start, warned] : {std::tuple{"cycloid", 0.0, true}, {"parabola", -1.0, true}, {"parabola", -0.9, false}}) {
-    Experiment e = makePoint();
+    experiment::Experiment e = makePoint();
     e.constraint.name = name;
     const std::vector<std::string> warnings = compileScene(from(e, {start}, {start})).choice.warnings;
     const bool told =
