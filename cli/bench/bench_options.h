@@ -23,4 +23,7 @@ inline constexpr const char* kBenchSummary =
 /// Puts the options and the footer on `command`. Parsed values end in `options`, which must outlive it.
 void addBenchOptions(CLI::App& command, BenchOptions& options);
 
+/// Carries out the benchmarks of `options` and prints the results, in the program that measures alone. Throws reachlab::Error for a fault.
+void runBench(const BenchOptions& options);
+
 }  // namespace reachlab::cli

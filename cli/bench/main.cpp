@@ -1,7 +1,7 @@
 #include "base/system/error_report.h"
 #include "base/system/os.h"
 #include "base/system/stop_signals.h"
-#include "cli/bench/run_bench.h"
+#include "cli/bench/bench_options.h"
 #include "cli/terminal/exit_code.h"
 #include "cli/terminal/standard_streams.h"
 

@@ -1,4 +1,4 @@
-#include "cli/bench/run_bench.h"
+#include "cli/bench/bench_options.h"
 
 #include <fmt/format.h>
 
