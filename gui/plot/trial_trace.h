@@ -27,8 +27,7 @@ struct TracePoint {
 /// Watches the runs of a session for the window's plot: every fifth tick, without waiting.
 class TraceSink final : public haptics::RunSink {
  public:
-  static constexpr std::uint64_t kEvery = 5;                         // ticks a point
-  static constexpr double kRate = kTicksPerSecond / double{kEvery};  // [Hz]
+  static constexpr std::uint64_t kEvery = 5;  // ticks a point
 
   bool onTick(const haptics::TickState& state, trial::Command command, std::uint32_t missedTicks) noexcept override;
   /// A mass between the ends is computed every fifth tick if it was watched when the run began. Otherwise it comes with the rows of the

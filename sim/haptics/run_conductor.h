@@ -73,12 +73,8 @@ class RunConductor {
   void finish();
   LoopReport report() const { return loop_ ? loop_->report() : LoopReport{}; }
 
-  /// One sentence about a latched fault or loss of the device. nullopt if the device is well. The caller ends the run with this sentence,
-  /// or asks the experimenter and calls `resetFault`.
+  /// One sentence about a latched fault or loss of the device. nullopt if the device is well. The caller ends the run with this sentence.
   std::optional<std::string> fault() const;
-  void resetFault() noexcept {
-    if (loop_) loop_->resetFault();
-  }
 
  private:
   void advanceUntilDone(const std::atomic<bool>* stop);

@@ -88,7 +88,6 @@ class TickEngine {
   const constraints::Constraint& constraint() const { return *now_->scene.constraint; }
   /// Of the trial that was queued last.
   const trial::ProtocolSettings& protocol() const { return now_->settings; }
-  std::string stopReason() const { return now_->scene.plant->stopReason(); }
 
  private:
   /// A scene with its task, ready for a trial.

@@ -263,10 +263,6 @@ TEST(DegeneratePlaces, ACuspidalEdgeIsALineOfPlacesAndAPinchIsOne) {
   EXPECT_NEAR(pinch[0].v, 0.13, 1e-7);
   EXPECT_NEAR(norm(pinch[0].r - Vec3{0, 0.21, 0}), 0, 1e-7);
   EXPECT_TRUE(findDegeneratePlaces(named("circle")).empty());
-  EXPECT_STREQ(nameOf(DegenerateKind::Pole), "pole");
-  EXPECT_STREQ(nameOf(DegenerateKind::Apex), "apex");
-  EXPECT_STREQ(nameOf(DegenerateKind::Edge), "edge");
-  EXPECT_STREQ(nameOf(DegenerateKind::Pinch), "pinch");
 }
 
 // s = a sinh(phi) on a catenary, from either end; and of a spiral whose pace grows a hundredfold.

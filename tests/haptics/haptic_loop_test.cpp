@@ -235,7 +235,6 @@ TEST_F(Conducted, EachTrialIsPreparedAnnouncedAndPutUpInItsOrder) {
   EXPECT_EQ(run.hands().size(), 1u);
   EXPECT_EQ(run.report().ticks, 0u);
   EXPECT_EQ(run.fault(), std::nullopt);
-  run.resetFault();
   run.finish();
   run.start(&sink);
   EXPECT_FALSE(sink.closed) << "a run that has not begun does not end";
@@ -359,12 +358,6 @@ TEST_F(Conducted, ASentenceSaysAtWhichHandAFaultWasFound) {
     const std::string begin = hand == 0 ? "device left reports a fault" : "device right reports a fault";
     EXPECT_EQ(sentence->substr(0, begin.size()), begin);
     EXPECT_EQ(sentence->substr(sentence->size() - 8), ": a fuse");
-    run.resetFault();
-    run.append({});
-    ASSERT_TRUE(run.putUpNext());
-    run.abort();
-    run.poll();
-    EXPECT_EQ(run.fault(), std::nullopt) << "from the next tick on";
     broken.says.clear();
   }
 }

@@ -274,7 +274,6 @@ TEST(FeedbackTask, IsWhatTheTaskSays) {
   EXPECT_EQ(task->cost.effort, 0.07);
   EXPECT_FALSE(task->cost.criterion);
   EXPECT_EQ(task->cost.criterionWeight, 0);
-  EXPECT_EQ(task->onTheWayStiffness, 300);
   // The weight's unit is the least that the criterion can cost on a line as long.
   experiment::Experiment line = shortReach();
   line.constraint = {};

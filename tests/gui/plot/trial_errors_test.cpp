@@ -13,7 +13,7 @@ namespace {
 std::vector<TracePoint> traceOf(const predict::Prediction& plan, const constraints::TaskPath& path) {
   std::vector<TracePoint> trace;
   const Vec3 along = path.directionAt(0);
-  for (double t = -0.3; t < plan.duration + 0.3; t += 1 / TraceSink::kRate) {
+  for (double t = -0.3; t < plan.duration + 0.3; t += TraceSink::kEvery * kTickSeconds) {
     TracePoint p;
     const predict::PredictedHand hand = plan.handAt(std::clamp(t, 0.0, plan.duration));
     const double velocity = t < 0 || t > plan.duration ? 0 : hand.velocity;
