@@ -13,6 +13,14 @@ std::unique_ptr<Plant> make(const ObjectModel& model, const LinearSpace& space, 
   return std::make_unique<LinearPlant<Core, 3>>(model, space, dt);
 }
 
+// Up to eight masses the compiler knows how many there are.
+template <int N = 8>
+std::unique_ptr<Plant> makeDense(const ObjectModel& model, const LinearSpace& space, double dt) {
+  if constexpr (N > 0)
+    if (model.count() != N) return makeDense<N - 1>(model, space, dt);
+  return make<DenseCore<N>>(model, space, dt);
+}
+
 }  // namespace
 
 LinearSpace linearSpace(const constraints::Constraint& constraint) {
@@ -25,18 +33,7 @@ std::unique_ptr<Plant> makeExactPlant(const ObjectModel& model, const LinearSpac
   if (model.kind == experiment::ObjectKind::Parallel) return make<OscillatorCore>(model, space, dt);
   // In its modes a chain costs less from three masses on, and no state waits for another.
   if (model.count() >= 3 && canBeModal(model)) return make<OscillatorCore>(model, space, dt);
-  switch (model.count()) {
-    case 1: return make<DenseCore<1>>(model, space, dt);
-    case 2: return make<DenseCore<2>>(model, space, dt);
-    case 3: return make<DenseCore<3>>(model, space, dt);
-    case 4: return make<DenseCore<4>>(model, space, dt);
-    case 5: return make<DenseCore<5>>(model, space, dt);
-    case 6: return make<DenseCore<6>>(model, space, dt);
-    case 7: return make<DenseCore<7>>(model, space, dt);
-    case 8: return make<DenseCore<8>>(model, space, dt);
-    default: break;
-  }
-  return make<DenseCore<0>>(model, space, dt);
+  return makeDense(model, space, dt);
 }
 
 }  // namespace reachlab::dynamics
