@@ -15,12 +15,12 @@
 #include "sim/experiment/experiment.h"
 #include "sim/haptics/run_conductor.h"
 #include "tests/devices/driver_answers.h"
-#include "tests/devices/fakes/diary_device.h"
+#include "tests/haptics/set_device.h"
 
 namespace reachlab::devices {
 namespace {
 
-using StillHand = test::DiaryDevice;  // means to stay where it is
+using SetHand = haptics::test::SetDevice;  // means to stay where it is
 
 DeviceModel frictionless() {
   DeviceModel model = *findDeviceModel("premium15");
@@ -31,15 +31,15 @@ DeviceModel frictionless() {
 TEST(VirtualDevice, TellsTheMassAndTheFrictionThatItMovesWith) {
   DeviceModel model = *findDeviceModel("premium15");
   model.mass = 0.11, model.friction = 0.12, model.viscosity = 0.13;
-  const haptics::DeviceInfo info = VirtualDevice(model, {}, std::make_unique<StillHand>()).info();
+  const haptics::DeviceInfo info = VirtualDevice(model, {}, std::make_unique<SetHand>()).info();
   EXPECT_EQ(info.apparentMass, 0.11);
   EXPECT_EQ(info.coulombFriction, 0.12);
   EXPECT_EQ(info.viscosity, 0.13);
 }
 
 TEST(VirtualDevice, ADelayedForceActsThatManyTicksLater) {
-  VirtualDevice prompt(frictionless(), {.hand = {1, 0, 0}, .quantised = false}, std::make_unique<StillHand>());
-  VirtualDevice late(frictionless(), {.hand = {1, 0, 0}, .delayTicks = 5, .quantised = false}, std::make_unique<StillHand>());
+  VirtualDevice prompt(frictionless(), {.hand = {1, 0, 0}, .quantised = false}, std::make_unique<SetHand>());
+  VirtualDevice late(frictionless(), {.hand = {1, 0, 0}, .delayTicks = 5, .quantised = false}, std::make_unique<SetHand>());
   prompt.read(), late.read();
   std::vector<double> first, second;
   for (int i = 0; i < 100; ++i) {
@@ -108,38 +108,30 @@ TEST(StabilityMap, ThePapersStiffnessIsAmongTheStableOnesOnEachPremium) {
   }
 }
 
-// A hand that goes by a law of the tick, on three axes of its own.
-class MovingHand final : public haptics::HapticDevice {
- public:
-  haptics::DeviceInfo info() const override {
-    haptics::DeviceInfo info;
-    info.virtualHand = true;
-    return info;
-  }
-  static Vec3 placeAt(int tick) {
-    const double t = 1e-3 * tick;
-    return {0.02 + 0.1 * t * t, -0.03 * (1 - std::cos(3 * t)), 0.04 * (1 - std::cos(5 * t))};
-  }
-  haptics::DeviceSample read() noexcept override {
-    haptics::DeviceSample sample;
-    sample.position = placeAt(tick++);
-    sample.buttons = 9;
-    sample.valid = tick != 100;
-    return sample;
-  }
-  void write(const Vec3&) noexcept override {}
-  void cue(haptics::Cue) noexcept override { ++cues; }
-  void prepareTrial(int index, int /*scene*/ = 0) override { prepared = index; }
-  int tick = 0, cues = 0, prepared = -1;
-};
+Vec3 lawAt(int tick) {
+  const double t = 1e-3 * tick;
+  return {0.02 + 0.1 * t * t, -0.03 * (1 - std::cos(3 * t)), 0.04 * (1 - std::cos(5 * t))};
+}
+
+// A hand that goes by that law, on three axes of its own.
+std::unique_ptr<SetHand> movingHand() {
+  auto hand = std::make_unique<SetHand>();
+  hand->about.virtualHand = true;
+  hand->sample.buttons = 9;
+  hand->whileItIsRead = [&sample = hand->sample, &reads = hand->reads] {
+    sample.position = lawAt(reads - 1);
+    sample.valid = reads != 100;
+  };
+  return hand;
+}
 
 // Its own inertia and the damper's target are fed forward: without force and friction it is where the hand means to be.
 TEST(VirtualDevice, WithoutAForceItGoesWhereTheHandMeansTo) {
-  VirtualDevice device(frictionless(), {.hand = {1, 300, 10}, .quantised = false}, std::make_unique<MovingHand>());
+  VirtualDevice device(frictionless(), {.hand = {1, 300, 10}, .quantised = false}, movingHand());
   for (int tick = 0; tick < 1000; ++tick) {
     const haptics::DeviceSample sample = device.read();
     // The acceleration, some 1 m/s^2, comes half a tick late to a mass of 1 kg on a spring of 300 N/m.
-    ASSERT_LT(norm(sample.position - MovingHand::placeAt(tick)), 6e-5) << tick;
+    ASSERT_LT(norm(sample.position - lawAt(tick)), 6e-5) << tick;
     ASSERT_EQ(sample.reports, static_cast<std::uint64_t>(tick + 1));
     ASSERT_EQ(sample.buttons, 9u);
     ASSERT_EQ(sample.valid, tick != 99);
@@ -147,26 +139,26 @@ TEST(VirtualDevice, WithoutAForceItGoesWhereTheHandMeansTo) {
 }
 
 TEST(VirtualDevice, PlacedItIsWhereTheHandIsAndForgetsItsForces) {
-  auto owned = std::make_unique<MovingHand>();
-  MovingHand* const hand = owned.get();
+  auto owned = movingHand();
+  SetHand* const hand = owned.get();
   VirtualDevice device(frictionless(), {.hand = {1, 300, 10}, .delayTicks = 3, .quantised = false}, std::move(owned));
   device.prepareTrial(4);
-  EXPECT_EQ(hand->prepared, 4);
+  EXPECT_EQ(hand->prepared, std::vector{4});
   for (int i = 0; i < 200; ++i) device.write({3, 3, 3}), device.read();
   device.cue(haptics::Cue::Go);
   device.write({3, 3, 3});
-  EXPECT_GT(norm(device.read().position - MovingHand::placeAt(200)), 1e-3) << "a go changes nothing";
+  EXPECT_GT(norm(device.read().position - lawAt(200)), 1e-3) << "a go changes nothing";
   device.cue(haptics::Cue::Place);
-  EXPECT_EQ(hand->cues, 2);
-  hand->tick = 0;
-  for (int tick = 0; tick < 30; ++tick) ASSERT_LT(norm(device.read().position - MovingHand::placeAt(tick)), 2e-5) << tick;
+  EXPECT_EQ(hand->cues.size(), 2u);
+  hand->reads = 0;
+  for (int tick = 0; tick < 30; ++tick) ASSERT_LT(norm(device.read().position - lawAt(tick)), 2e-5) << tick;
 }
 
 // m x'' = F - b x' between the ticks, on each axis for itself: x = F/b (t - m/b (1 - e^{-bt/m})).
 TEST(VirtualDevice, ViscousFrictionDragsOnEveryAxis) {
   DeviceModel model = frictionless();
   model.mass = 0.2, model.viscosity = 1.5;
-  VirtualDevice device(model, {.hand = {0.1, 0, 0}, .quantised = false}, std::make_unique<StillHand>());
+  VirtualDevice device(model, {.hand = {0.1, 0, 0}, .quantised = false}, std::make_unique<SetHand>());
   device.read();
   const Vec3 force{0.3, -0.2, 0.1};
   for (int tick = 1; tick <= 500; ++tick) {
@@ -180,7 +172,7 @@ TEST(VirtualDevice, ViscousFrictionDragsOnEveryAxis) {
 TEST(VirtualDevice, BelowItsFrictionItCreeps) {
   DeviceModel model = frictionless();
   model.friction = 0.4;
-  VirtualDevice device(model, {.hand = {0, 0, 0}, .quantised = false}, std::make_unique<StillHand>());
+  VirtualDevice device(model, {.hand = {0, 0, 0}, .quantised = false}, std::make_unique<SetHand>());
   Vec3 before, place;
   for (int i = 0; i < 400; ++i) {
     before = place;
@@ -194,7 +186,7 @@ TEST(VirtualDevice, BelowItsFrictionItCreeps) {
 }
 
 TEST(VirtualDevice, AForceThatIsNoNumberIsNoneAndABoundedOneKeepsItsDirection) {
-  VirtualDevice device(frictionless(), {.hand = {1, 300, 30}, .quantised = false}, std::make_unique<StillHand>());
+  VirtualDevice device(frictionless(), {.hand = {1, 300, 30}, .quantised = false}, std::make_unique<SetHand>());
   Vec3 place;
   for (int i = 0; i < 4000; ++i) device.write({30, -40, 0}), place = device.read().position;
   EXPECT_LT(norm(place - 8.5 / 300 * Vec3{0.6, -0.8, 0}), 1e-9);
@@ -205,8 +197,8 @@ TEST(VirtualDevice, AForceThatIsNoNumberIsNoneAndABoundedOneKeepsItsDirection) {
 TEST(VirtualDevice, ThePlaceOfEachAxisIsRounded) {
   DeviceModel model = frictionless();
   model.resolution = 1e-3;
-  VirtualDevice device(model, {.hand = {1, 300, 10}}, std::make_unique<MovingHand>());
-  VirtualDevice exact(model, {.hand = {1, 300, 10}, .quantised = false}, std::make_unique<MovingHand>());
+  VirtualDevice device(model, {.hand = {1, 300, 10}}, movingHand());
+  VirtualDevice exact(model, {.hand = {1, 300, 10}, .quantised = false}, movingHand());
   for (int tick = 0; tick < 500; ++tick) {
     const Vec3 told = device.read().position, is = exact.read().position;
     for (const auto& [a, b] : {std::pair{told.x, is.x}, {told.y, is.y}, {told.z, is.z}}) {
