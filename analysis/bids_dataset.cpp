@@ -271,9 +271,8 @@ void requireOneDataset(const std::vector<std::string>& files, const std::string&
 }  // namespace
 
 std::vector<std::string> findBidsRuns(const std::string& folder) {
-  std::error_code error;
   requireSearchable(folder);
-  if (!fs::is_directory(folder, error)) throw FaultError(Fault{{}, "no such folder", {}, FilePlace{folder}});
+  if (!isFolder(folder)) throw FaultError(Fault{{}, "no such folder", {}, FilePlace{folder}});
   std::vector<std::string> files;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(folder))
     if (const std::string name = entry.path().filename().string();

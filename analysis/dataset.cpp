@@ -17,6 +17,7 @@
 #include "analysis/trials/run_trials.h"
 #include "base/error.h"
 #include "base/fault.h"
+#include "base/text_file.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/export/bids.h"
 #include "sim/record/export/tidy_csv.h"
@@ -182,9 +183,7 @@ void addRun(const RunSource& run, std::span<const experiment::CompiledExperiment
 BidsExperiments readBidsExperiments(const RunSource& run, const std::string& motionFile, const std::string& experimentFile) {
   const record::RunConfiguration& c = run.configuration;
   const std::string own = datasetOf(motionFile) + "/" + record::experimentPath(c);
-  std::error_code error;
-  if (experimentFile.empty() && std::filesystem::exists(own, error))
-    return {record::experimentsFromJson(record::readWholeFile(own), own, c), true};
+  if (experimentFile.empty() && isThere(own)) return {record::experimentsFromJson(record::readWholeFile(own), own, c), true};
   const std::size_t scenes = c.scenes ? c.scenes->size() : 1;
   return {std::vector(scenes, experiment::openExperiment(experimentFile.empty() ? c.experimentName : experimentFile)), false};
 }

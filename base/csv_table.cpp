@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <string_view>
 
 #include "base/as_number.h"
@@ -59,8 +58,7 @@ std::optional<std::size_t> CsvTable::find(const std::string& column) const {
 }
 
 CsvTable readCsvTable(const std::string& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) throw ResourceError(file + ": cannot be opened");
+  if (!isThere(file)) throw ResourceError(file + ": cannot be opened");
   const std::string text = readTextFile(file);
   std::string_view rest = text;
   if (rest.starts_with("\xef\xbb\xbf")) rest.remove_prefix(3);

@@ -11,13 +11,32 @@
 #include "base/fault.h"
 
 namespace reachlab {
+namespace fs = std::filesystem;
+
+bool isThere(const std::string& path) {
+  std::error_code error;
+  return fs::exists(path, error);
+}
+
+bool isFile(const std::string& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+bool isFolder(const std::string& path) {
+  std::error_code error;
+  return fs::is_directory(path, error);
+}
+
+std::string besideFile(const std::string& file, const std::string& name) {
+  const fs::path beside = fs::path(file).parent_path() / name;
+  return isFile(beside) ? beside.string() : name;
+}
 
 std::string readTextFile(const std::string& file, std::uintmax_t mostBytes) {
-  namespace fs = std::filesystem;
   std::error_code error;
   // A pipe or a device might never end, or never begin.
-  if (fs::exists(file, error) && !fs::is_regular_file(file, error) && !fs::is_directory(file, error))
-    throw FaultError(fileFault(file, "is no regular file", "a file on a disk"));
+  if (isThere(file) && !isFile(file) && !isFolder(file)) throw FaultError(fileFault(file, "is no regular file", "a file on a disk"));
   if (const std::uintmax_t size = fs::file_size(file, error); !error && size > mostBytes)
     throw FaultError(fileFault(file, fmt::format("has {} bytes", size), fmt::format("up to {}", mostBytes)));
   std::ifstream in(file, std::ios::binary);
@@ -31,7 +50,7 @@ std::string readTextFile(const std::string& file, std::uintmax_t mostBytes) {
 
 void requireSearchable(const std::string& path) {
   std::error_code error;
-  (void)std::filesystem::exists(path, error);
+  (void)fs::exists(path, error);
   if (error) throw ResourceError(fmt::format("{}: cannot be read: {}", path, error.message()));
 }
 

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cctype>
-#include <filesystem>
 
 #include "base/device_options.h"
+#include "base/text_file.h"
 #include "devices/driver/registry.h"
 #include "devices/hands/several_hands.h"
 #include "devices/make_device.h"
@@ -34,21 +34,16 @@ std::string fileOf(const std::string& name, const std::string& data, const std::
   return mappingFile(data, subject, file);
 }
 
-bool exists(const std::string& file) {
-  std::error_code error;
-  return std::filesystem::exists(file, error);
-}
-
 // The file of the hand's mapping, empty without one. The only device of its kind is the same by its kind and by its own name.
 std::string keptFile(const DeviceDriver& driver, const std::string& hand, const std::string& data, const std::string& subject) {
   const std::string name = nameOf(hand);
-  if (const std::string file = fileOf(name, data, subject); exists(file)) return file;
+  if (const std::string file = fileOf(name, data, subject); isThere(file)) return file;
   if (driver.isMade) return {};
   std::vector<FoundDevice> found = driver.find(driver);
   std::erase_if(found, [](const FoundDevice& device) { return !device.present; });
   if (found.size() != 1 || (name != driver.name && name != found[0].name)) return {};
   const std::string file = fileOf(name == driver.name ? found[0].name : driver.name, data, subject);
-  return exists(file) ? file : "";
+  return isThere(file) ? file : "";
 }
 
 // With its mapping as values behind the other options, however it was written.

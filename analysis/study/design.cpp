@@ -109,12 +109,6 @@ void readAxes(ObjectReader& reader, Design& design) {
   design.samples = samples.value_or(1);
 }
 
-std::string besideStudy(const std::string& study, const std::string& name) {
-  const fs::path beside = fs::path(study).parent_path() / name;
-  std::error_code error;
-  return fs::is_regular_file(beside, error) ? beside.string() : name;
-}
-
 void keepDefinition(Design& design, const std::string& name) {
   if (!name.empty() && name != "free" && constraints::findInCatalogue(name) == nullptr)
     design.definitionTexts[name] = constraints::toJson(constraints::findDefinition(name, "constraint"));
@@ -138,7 +132,7 @@ void readExperiments(const JsonNode& root, Design& design, FaultList& faults) {
     }
   };
   if (!design.experiment.empty())
-    take(*root.find("experiment"), "experiment", design.experiment, besideStudy(design.file, design.experiment));
+    take(*root.find("experiment"), "experiment", design.experiment, besideFile(design.file, design.experiment));
   for (const VariedKey& axis : design.axes) {
     try {
       for (const std::string& value : axis.values) keepDefinitionIn(design, axis.path, value);
@@ -149,12 +143,12 @@ void readExperiments(const JsonNode& root, Design& design, FaultList& faults) {
     const JsonNode& node = *root.find("vary")->find("experiment");
     if (node.kind != JsonNode::Kind::Array) faults.add(node, "vary.experiment", "is no list", "names of experiments");
     for (const JsonNode& item : node.items)
-      if (item.kind == JsonNode::Kind::String) take(item, "vary.experiment", item.string, besideStudy(design.file, item.string));
+      if (item.kind == JsonNode::Kind::String) take(item, "vary.experiment", item.string, besideFile(design.file, item.string));
       else faults.add(item, "vary.experiment", "is no name", "names of experiments");
   }
   if (design.plan.empty()) return;
   const JsonNode& where = *root.find("plan");
-  if (const auto found = session::findPlan(besideStudy(design.file, design.plan))) {
+  if (const auto found = session::findPlan(besideFile(design.file, design.plan))) {
     design.plan = fs::path(*found).filename().string();
     design.planText = readTextFile(*found);
     try {

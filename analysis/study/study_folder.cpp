@@ -66,7 +66,7 @@ StudyFolder makeFolder(const Design& design, const std::string& path) {
   record::removeLeftovers(path);
   const std::string file = designPath(path), text = textOf(folder);
   std::error_code error;
-  if (!fs::exists(file, error) && !fs::is_empty(path, error))
+  if (!isThere(file) && !fs::is_empty(path, error))
     throw ResourceError(path + ": holds other files, and no study; allowed: a new folder, or that of this study");
   if (!record::createFileAtomically(file, text) && record::readWholeFile(file) != text)
     throw ResourceError(file +
@@ -77,9 +77,8 @@ StudyFolder makeFolder(const Design& design, const std::string& path) {
 
 StudyFolder openFolder(const std::string& path) {
   const std::string file = designPath(path);
-  std::error_code error;
   requireSearchable(file);
-  if (!fs::exists(file, error)) throw FaultError(Fault{"study", file + " is not there", "the folder that a study was written to"});
+  if (!isThere(file)) throw FaultError(Fault{"study", file + " is not there", "the folder that a study was written to"});
   try {
     const Json json = Json::parse(record::readWholeFile(file));
     using Texts = std::map<std::string, std::string>;

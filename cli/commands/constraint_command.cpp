@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "base/as_number.h"
@@ -63,8 +62,7 @@ constraints::Definition definitionOf(const std::string& nameOrFile) {
   if (constraints::findInCatalogue(nameOrFile) != nullptr) return constraints::findDefinition(nameOrFile, "constraint");
   if (nameOrFile.find_first_of("/.") != std::string::npos) return constraints::readDefinition(nameOrFile);
   if (nameOrFile == "free") throw FaultError(Fault{"constraint", "free binds nothing: it has no formula", "a curve or surface"});
-  std::error_code error;
-  if (std::filesystem::is_regular_file(nameOrFile, error)) return constraints::readDefinition(nameOrFile);
+  if (isFile(nameOrFile)) return constraints::readDefinition(nameOrFile);
   return constraints::findDefinition(nameOrFile, "constraint");
 }
 

@@ -3,13 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/math/cubic_spline.h"
 #include "base/math/minimum_jerk.h"
+#include "base/text_file.h"
 #include "constraints/geometry/arc_length.h"
 #include "constraints/geometry/task_path.h"
 #include "devices/replay/recorded_reach.h"
@@ -73,9 +73,7 @@ HandLaw reachAlong(const experiment::Experiment& experiment, const constraints::
 }
 
 HandLaw sampledHand(const std::string& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error))
-    throw FaultError(Fault{"--hand", file + " cannot be read", "none, hold, min-jerk, min-jerk-along, or a CSV file"});
+  if (!isThere(file)) throw FaultError(Fault{"--hand", file + " cannot be read", "none, hold, min-jerk, min-jerk-along, or a CSV file"});
   const devices::RecordedReach reach = devices::readReach(file);
   const auto spline = std::make_shared<const CubicSpline>(reach.time, reach.position, SplineEnds::NotAKnot);
   const auto at = [spline](double t) {

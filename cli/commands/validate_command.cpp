@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -34,10 +33,8 @@ constexpr const char* kExpected =
 
 // The file behind a name, as `reach run` and the constraint commands understand it.
 std::string fileOf(const std::string& fileOrName) {
-  namespace fs = std::filesystem;
-  std::error_code error;
-  const bool folder = fs::is_directory(fileOrName, error);
-  if (folder || !fs::exists(fileOrName, error))
+  const bool folder = isFolder(fileOrName);
+  if (folder || !isThere(fileOrName))
     if (const auto shipped = experiment::shippedExperimentFile(fileOrName)) return *shipped;
   const auto plan = session::findPlan(fileOrName);
   if (!plan && folder) throw FaultError(fileFault(fileOrName, "is a folder", kExpected));
@@ -81,10 +78,8 @@ bool isStudy(const JsonNode& tree) {
 // be done with it, if it is an experiment or a plan.
 std::optional<session::Programme> validateFile(const std::string& fileOrName) {
   const std::string file = fileOf(fileOrName);
-  std::error_code error;
-  if (!std::filesystem::exists(file, error) && file.find('/') == std::string::npos && constraints::findInCatalogue(file) != nullptr)
-    return std::nullopt;
-  if (!std::filesystem::exists(file, error)) experiment::readExperiment(file);  // says which names there are
+  if (!isThere(file) && file.find('/') == std::string::npos && constraints::findInCatalogue(file) != nullptr) return std::nullopt;
+  if (!isThere(file)) experiment::readExperiment(file);  // says which names there are
   const std::string text = readTextFile(file);
   checkIsJsonObject(text, file);
   const JsonNode tree = parseJson(text, file);

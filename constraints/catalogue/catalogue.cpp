@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <filesystem>
 
 #include "base/fault.h"
 #include "base/names.h"
+#include "base/text_file.h"
 #include "constraints/catalogue/definition.h"
 #include "constraints/catalogue/generated_catalogue.h"
 
@@ -46,8 +46,7 @@ const Definition* findInCatalogue(const std::string& name) {
 Definition findDefinition(const std::string& name, const std::string& key) {
   // A user's own, saved under its name; a name with a path in it is none.
   const std::string file = userDefinitionFolder() + "/" + name + ".json";
-  std::error_code error;
-  const bool isOwn = !name.empty() && name.find_first_of("/\\.") == std::string::npos && std::filesystem::is_regular_file(file, error);
+  const bool isOwn = !name.empty() && name.find_first_of("/\\.") == std::string::npos && isFile(file);
   if (const Definition* shipped = findInCatalogue(name)) {
     if (isOwn)
       throw FaultError(Fault{keyIn(key, "name"), "is '" + name + "', the name of a shipped constraint and of " + file,

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -17,8 +16,6 @@
 
 namespace reachlab::devices {
 namespace {
-
-namespace fs = std::filesystem;
 
 /// A table whose columns are asked for by their names.
 struct NamedTable {
@@ -51,8 +48,7 @@ std::optional<double> cellNumber(const std::string& cell, const FilePlace& place
 std::string beside(const std::string& motion, const std::string& ending) {
   constexpr std::string_view kMotion = "_motion.tsv";
   const std::string base = motion.substr(0, motion.size() - kMotion.size());
-  std::error_code error;
-  if (fs::exists(base + ending, error)) return base + ending;
+  if (isThere(base + ending)) return base + ending;
   // Events belong to the run, not to one tracking system.
   const std::size_t system = base.find("_tracksys-");
   if (system == std::string::npos) return base + ending;
@@ -99,8 +95,7 @@ Layout layoutOf(const std::string& file, const ReachColumns& asked) {
 
 double rateOf(const std::string& file, const std::optional<double>& asked) {
   if (asked) return *asked;
-  std::error_code error;
-  if (!fs::exists(file, error)) refuse({file}, "is missing, and there is no LATENCY channel", "one of them, or rate=");
+  if (!isThere(file)) refuse({file}, "is missing, and there is no LATENCY channel", "one of them, or rate=");
   const auto json = nlohmann::json::parse(readTextFile(file), nullptr, false);
   if (json.is_object())
     for (const char* key : {"SamplingFrequencyEffective", "SamplingFrequency"})
@@ -189,13 +184,12 @@ std::vector<ReachSpan> reachesIn(const std::string& file, const std::string& tri
 }  // namespace
 
 std::vector<RecordedReach> readBidsReaches(const std::string& motion, const ReachColumns& columns) {
-  std::error_code error;
   const std::string channels = beside(motion, "_channels.tsv"), events = beside(motion, "_events.tsv");
-  if (!fs::exists(motion, error)) throw ResourceError(motion + ": cannot be opened");
-  if (!fs::exists(channels, error)) refuse({channels}, "is missing", "the channels of motion.tsv beside it");
+  if (!isThere(motion)) throw ResourceError(motion + ": cannot be opened");
+  if (!isThere(channels)) refuse({channels}, "is missing", "the channels of motion.tsv beside it");
   const std::vector<Sample> samples = samplesOf(motion, layoutOf(channels, columns), columns);
   std::vector<ReachSpan> spans{{samples.front().time, samples.back().time}};
-  if (fs::exists(events, error)) spans = reachesIn(events, columns.trialType);
+  if (isThere(events)) spans = reachesIn(events, columns.trialType);
   std::vector<RecordedReach> reaches;
   for (std::size_t i = 0; i < spans.size(); ++i) {
     SeenSamples reach(spans.size() == 1 ? motion : fmt::format("{}: event {}", motion, i + 1));

@@ -2,7 +2,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <limits>
 #include <optional>
 
@@ -47,8 +46,7 @@ std::optional<Span> reachIn(const C3dFile& c3d) {
 }  // namespace
 
 std::optional<RecordedReach> readC3dReach(const std::string& file, const ReachColumns& columns) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) throw ResourceError(file + ": cannot be opened");
+  if (!isThere(file)) throw ResourceError(file + ": cannot be opened");
   const C3dFile c3d = readC3d(readTextFile(file), file);
   const std::size_t point = pointAsked(c3d, file, columns.point);
   const double unit = metresOf(columns.unit.empty() ? c3d.pointUnit : columns.unit, {file});

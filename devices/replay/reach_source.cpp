@@ -6,17 +6,13 @@
 #include "base/device_options.h"
 #include "base/fault.h"
 #include "base/names.h"
+#include "base/text_file.h"
 #include "sim/experiment/resources.h"
 
 namespace reachlab::devices {
 namespace {
 
 namespace fs = std::filesystem;
-
-bool isThere(const std::string& path) {
-  std::error_code error;
-  return fs::exists(path, error);
-}
 
 bool isBids(const fs::path& file) { return file.filename().string().ends_with("_motion.tsv"); }
 bool isC3d(const fs::path& file) { return file.extension() == ".c3d" || file.extension() == ".C3D"; }
@@ -67,8 +63,7 @@ ReachSource reachSourceOf(const std::string& argument) {
 }
 
 std::vector<std::string> reachFiles(const std::string& path) {
-  std::error_code error;
-  if (fs::is_directory(path, error)) {
+  if (isFolder(path)) {
     std::vector<std::string> files;
     for (const auto& entry : fs::directory_iterator(path))
       if (entry.path().extension() == ".csv" || isBids(entry.path()) || isC3d(entry.path())) files.push_back(entry.path().string());
@@ -76,7 +71,7 @@ std::vector<std::string> reachFiles(const std::string& path) {
     std::sort(files.begin(), files.end());
     return files;
   }
-  if (!fs::exists(path, error))
+  if (!isThere(path))
     throw ResourceError(path + ": no such file or folder to replay; the reaches that come with the program are in " +
                         experiment::resourceFolder() + "/reaches");
   return {path};

@@ -23,6 +23,7 @@
 #include <optional>
 
 #include "base/fault.h"
+#include "base/text_file.h"
 
 namespace reachlab::network {
 namespace fs = std::filesystem;
@@ -234,8 +235,7 @@ struct Authorities {
 std::string authorityFolder(const std::string& folder) { return folder + "/authority"; }
 Authorities readAuthorities(const std::string& folder) {
   const std::string at = authorityFolder(folder);
-  std::error_code error;
-  if (!fs::exists(at, error))
+  if (!isThere(at))
     throw FaultError(Fault{"peers", fmt::format("{} has no authorities", folder), "the conductor's folder, where they were made"});
   return {readKey(at + "/identity_ca_key.pem"), readKey(at + "/permissions_ca_key.pem"), readCertificate(at + "/identity_ca.pem"),
           readCertificate(at + "/permissions_ca.pem")};
@@ -261,9 +261,8 @@ std::string documentsFault(const std::string& folder, const std::string& name) {
 
 PeerFolder lookAt(const std::string& folder, bool needsKey) {
   PeerFolder found;
-  std::error_code error;
-  found.conductor = fs::exists(authorityFolder(folder), error);
-  const auto has = [&](const char* file) { return fs::exists(folder + "/" + file, error); };
+  found.conductor = isThere(authorityFolder(folder));
+  const auto has = [&](const char* file) { return isThere(folder + "/" + file); };
   try {
     if (has("identity.pem")) {
       const Certificate certificate = readCertificate(folder + "/identity.pem");
@@ -289,8 +288,8 @@ PeerFolder lookAt(const std::string& folder, bool needsKey) {
     } else {
       found.fault = "holds no certificate";
     }
-  } catch (const Error& error_) {
-    found.fault = error_.what();
+  } catch (const Error& error) {
+    found.fault = error.what();
   }
   constexpr std::array kAnswer{"identity.pem", "identity_ca.pem", "permissions_ca.pem", "governance.p7s", "permissions.p7s"};
   found.complete = std::all_of(kAnswer.begin(), kAnswer.end(), has) && (!needsKey || has("key.pem"));

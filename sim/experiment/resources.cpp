@@ -22,7 +22,7 @@ std::string resourceFolder() {
   places.emplace_back(REACHLAB_RESOURCES_IN_SOURCE);
   places.emplace_back(REACHLAB_RESOURCES_INSTALLED);
   for (const fs::path& place : places)
-    if (fs::is_directory(place / "experiments", ignored)) return place.string();
+    if (isFolder(place / "experiments")) return place.string();
   throw ResourceError("the resources (shipped experiments) are not found; set REACHLAB_RESOURCES to their folder");
 }
 
@@ -54,12 +54,11 @@ std::optional<std::string> shippedExperimentFile(const std::string& name) {
 }
 
 CompiledExperiment openExperiment(const std::string& fileOrName) {
-  std::error_code ignored;
-  if (fs::is_regular_file(fileOrName, ignored)) return openExperimentText(readTextFile(fileOrName), fileOrName);
+  if (isFile(fileOrName)) return openExperimentText(readTextFile(fileOrName), fileOrName);
   const bool looksLikeFile = fileOrName.find('/') != std::string::npos || fs::path(fileOrName).has_extension();
   const std::vector<std::string> names = shippedExperiments();
   if (const auto file = shippedExperimentFile(fileOrName)) return openExperimentText(readTextFile(*file), *file);
-  if (fs::is_directory(fileOrName, ignored)) throw FaultError(Fault{fileOrName, "is a folder", "an experiment file or name"});
+  if (isFolder(fileOrName)) throw FaultError(Fault{fileOrName, "is a folder", "an experiment file or name"});
   requireSearchable(fileOrName);
   if (looksLikeFile) throw FaultError(Fault{fileOrName, "there is no such file", "an experiment file, or one of " + listOf(names)});
   if (const std::vector<std::string> plans = shippedNames("plans"); std::find(plans.begin(), plans.end(), fileOrName) != plans.end()) {

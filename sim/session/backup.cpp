@@ -19,6 +19,7 @@
 #include "base/error.h"
 #include "base/fault.h"
 #include "base/system/descriptor.h"
+#include "base/text_file.h"
 #include "sim/record/log/append_file.h"
 #include "sim/record/log/atomic_file.h"
 #include "sim/record/log/log.h"
@@ -92,8 +93,7 @@ using List = std::map<std::string, std::string>;
 List readList(const std::string& backup) {
   const std::string path = backup + "/" + kBackupList;
   List list;
-  std::error_code error;
-  if (!fs::exists(path, error)) return list;
+  if (!isThere(path)) return list;
   std::istringstream lines(record::readWholeFile(path));
   for (std::string line; std::getline(lines, line);)
     if (line.size() > kHashDigits + kBetween.size()) list[line.substr(kHashDigits + kBetween.size())] = line.substr(0, kHashDigits);
@@ -262,7 +262,7 @@ class Backup {
     const bool sameSize = fs::exists(copy, error) && fs::file_size(copy, error) == fs::file_size(file, error);
     // A closed log never changes; what is written again may, at the same length.
     if (listed != list_.end() && sameSize && (isLog || fileHash(file.string(), false) == listed->second)) return;
-    if (listed == list_.end() && fs::exists(copy, error)) {
+    if (listed == list_.end() && isThere(copy)) {
       std::string there = fileHash(copy.string(), true);
       if (there != fileHash(file.string(), false))
         return refuse(
@@ -272,7 +272,7 @@ class Backup {
       return;
     }
     const bool ofARun = !runNameOf(file.filename().string()).run.empty();
-    if (!ofARun && name.ends_with(".tsv") && fs::exists(copy, error)) {
+    if (!ofARun && name.ends_with(".tsv") && isThere(copy)) {
       const std::set<std::string> now = rowsOf(file), kept = rowsOf(copy);
       for (const std::string& row : kept)
         if (!now.contains(row))
@@ -297,13 +297,12 @@ class Backup {
 BackupReport backUp(const std::string& dataset, const std::string& backup) { return Backup(dataset, backup).run(); }
 
 std::vector<std::string> faultsOfBackup(const std::string& backup) {
-  std::error_code error;
-  if (!fs::exists(backup + "/" + kBackupList, error))
+  if (!isThere(backup + "/" + kBackupList))
     throw ResourceError(fmt::format("{}/{}: is missing: no backup was made there", backup, kBackupList));
   std::vector<std::string> faults;
   for (const auto& [file, hash] : readList(backup)) {
     const std::string path = backup + "/" + file;
-    if (!fs::exists(path, error)) {
+    if (!isThere(path)) {
       faults.push_back(path + ": is missing");
       continue;
     }

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "base/json/json_reader.h"
@@ -14,8 +13,6 @@
 
 namespace reachlab::session {
 namespace {
-
-namespace fs = std::filesystem;
 
 constexpr std::size_t kMaxBlocks = 1000, kMaxCondition = 100;  // a condition is part of the names of the analysis's files
 
@@ -39,17 +36,11 @@ void readSettings(ObjectReader& reader, PlanBlock& block) {
   readMix(reader, block.mix);
 }
 
-std::string besidePlan(const std::string& planFile, const std::string& experiment) {
-  const fs::path beside = fs::path(planFile).parent_path() / experiment;
-  std::error_code error;
-  return fs::is_regular_file(beside, error) ? beside.string() : experiment;
-}
-
 void readBlock(ObjectReader& plan, const JsonNode& node, std::size_t index, const std::string& file, PlanBlock block, Plan& out) {
   ObjectReader reader(plan.faults(), node, fmt::format("blocks[{}]", index));
   if (reader.required("experiment", "a file, or the name of a shipped experiment") != nullptr) {
     reader.text("experiment", block.experiment);
-    block.experiment = besidePlan(file, block.experiment);
+    block.experiment = besideFile(file, block.experiment);
   }
   if (const JsonNode* change = reader.optional("change"))
     block.changes = experiment::readPatches(*change, reader.keyPath("change"), plan.faults());
@@ -128,11 +119,10 @@ experiment::CompiledExperiment openExperimentOf(const PlanBlock& block) {
 bool isPlan(const std::string& text, const std::string& file) { return parseJson(text, file).find("blocks") != nullptr; }
 
 std::optional<std::string> findPlan(const std::string& fileOrName) {
-  std::error_code error;
-  if (fs::exists(fileOrName, error) && !fs::is_directory(fileOrName, error)) return fileOrName;
+  if (isThere(fileOrName) && !isFolder(fileOrName)) return fileOrName;
   const bool plainName = fileOrName.find('/') == std::string::npos;
   const std::string shipped = fmt::format("{}/plans/{}.json", experiment::resourceFolder(), fileOrName);
-  if (plainName && fs::is_regular_file(shipped, error)) return shipped;
+  if (plainName && isFile(shipped)) return shipped;
   return std::nullopt;
 }
 

@@ -1,11 +1,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "base/table_text.h"
+#include "base/text_file.h"
 #include "sim/record/export/bids.h"
 #include "sim/record/export/tidy_csv.h"
 #include "sim/record/log/atomic_file.h"
@@ -15,7 +15,6 @@ namespace reachlab::record {
 namespace {
 
 using Json = nlohmann::ordered_json;
-namespace fs = std::filesystem;
 
 constexpr const char* kReadme = R"(# Reaching with simulated objects
 
@@ -36,8 +35,7 @@ events files. Forces are MISC channels in newtons.
 class KeptTable {
  public:
   KeptTable(std::string path, std::vector<std::string> columns) : path_(std::move(path)) {
-    std::error_code error;
-    if (fs::exists(path_, error)) table_ = parseTsv(readWholeFile(path_));
+    if (isThere(path_)) table_ = parseTsv(readWholeFile(path_));
     for (const std::string& column : columns)
       if (std::find(table_.columns.begin(), table_.columns.end(), column) == table_.columns.end()) {
         table_.columns.push_back(column);
@@ -111,8 +109,7 @@ std::map<std::string, std::string> cellsOf(const Participant& p) {
 std::vector<std::string> keptOfParticipant(const std::string& folder, const std::string& subject, const Participant& participant) {
   const std::string path = folder + "/participants.tsv";
   std::vector<std::string> kept;
-  std::error_code error;
-  if (!fs::exists(path, error)) return kept;
+  if (!isThere(path)) return kept;
   const TsvTable table = parseTsv(readWholeFile(path));
   const std::map<std::string, std::string> now = cellsOf(participant);
   for (const auto& row : table.rows)
@@ -128,8 +125,7 @@ std::vector<std::string> writeBidsTables(const std::vector<RunConfiguration>& ru
   std::vector<std::string> written;
   const auto writeIfNew = [&](const std::string& name, const std::string& text) {
     const std::string path = folder + "/" + name;
-    std::error_code error;
-    if (fs::exists(path, error)) return;
+    if (isThere(path)) return;
     writeFileAtomically(path, text);
     written.push_back(path);
   };

@@ -1,8 +1,8 @@
 #include "sim/record/export/exporters.h"
 
-#include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/text_file.h"
 #include "sim/record/export/bids.h"
 #include "sim/record/export/c3d_export.h"
 #include "sim/record/export/hdf5_file.h"
@@ -41,8 +41,7 @@ const Exporter* findExporter(std::string_view name) {
 
 std::string describeDerivative(const std::string& folder, const std::string& name, const std::string& software) {
   const std::string path = folder + "/dataset_description.json";
-  std::error_code error;
-  if (std::filesystem::exists(path, error)) return {};
+  if (isThere(path)) return {};
   const std::size_t space = software.find(' ');
   nlohmann::ordered_json j = nlohmann::ordered_json::object();
   j["Name"] = name;

@@ -2,12 +2,12 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <limits>
 #include <numeric>
 #include <set>
 
 #include "base/csv_table.h"
+#include "base/text_file.h"
 #include "sim/experiment/experiment.h"
 #include "sim/record/export/column_dictionary.h"
 #include "sim/record/export/run_tables.h"
@@ -77,8 +77,7 @@ namespace {
 
 /// An export replaces trials.csv by the trials of the exported runs. Rows of any other run would be lost, so they are refused.
 void requireNoOtherRun(const std::vector<RunLog>& runs, const std::string& file) {
-  std::error_code error;
-  if (!std::filesystem::exists(file, error)) return;
+  if (!isThere(file)) return;
   const auto nameOf = [](const auto& subject, const auto& session, const auto& run) {
     return fmt::format("sub-{}, ses-{}, run {}", subject, session, run);
   };

@@ -268,10 +268,9 @@ std::vector<TrialSetup> RunLog::setups() const {
 
 std::vector<std::string> findLogs(const std::string& path) {
   namespace fs = std::filesystem;
-  std::error_code error;
-  if (fs::is_regular_file(path, error)) return {path};
+  if (isFile(path)) return {path};
   requireSearchable(path);
-  if (!fs::is_directory(path, error)) throw FaultError(fileFault(path, "no such log or folder"));
+  if (!isFolder(path)) throw FaultError(fileFault(path, "no such log or folder"));
   // A session's folder (sub-01/ses-01) holds the exported data; its logs lie in sourcedata of the same dataset, with its labels
   // in their names. A dataset may itself be called sub-pilot.
   std::string prefix;
@@ -279,7 +278,7 @@ std::vector<std::string> findLogs(const std::string& path) {
   if (!root.has_filename()) root = root.parent_path();
   const std::string name = root.filename().string();
   const std::string parent = root.parent_path().filename().string();
-  const bool isDataset = fs::is_directory(root / kLogsFolder, error);
+  const bool isDataset = isFolder(root / kLogsFolder);
   if (!isDataset && name.starts_with("ses-") && parent.starts_with("sub-")) {
     prefix = parent + "_" + name + "_";
     root = root.parent_path().parent_path();
@@ -287,7 +286,7 @@ std::vector<std::string> findLogs(const std::string& path) {
     prefix = name + "_";
     root = root.parent_path();
   }
-  if (fs::is_directory(root / kLogsFolder, error)) root /= kLogsFolder;
+  if (isFolder(root / kLogsFolder)) root /= kLogsFolder;
   std::vector<std::string> logs;
   for (const fs::directory_entry& entry : fs::directory_iterator(root)) {
     const std::string file = entry.path().filename().string();
