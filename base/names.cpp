@@ -42,10 +42,10 @@ std::string nameOfFile(const std::string& path) {
   return (file.extension() == ".json" ? file.stem() : file.filename()).string();
 }
 
-std::string listOf(const std::vector<std::string>& names) {
+std::string listOf(const std::vector<std::string>& names, const char* last) {
   std::string list;
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (i > 0) list += i + 1 == names.size() ? " or " : ", ";
+    if (i > 0) list += i + 1 == names.size() ? last : ", ";
     list += names[i];
   }
   return list;

@@ -13,6 +13,6 @@ std::string nearestName(std::string_view name, const std::vector<std::string>& k
 /// What a file of an experiment, a plan or a study is called: `chain.v2` of `lab/chain.v2.json` and of `chain.v2`.
 std::string nameOfFile(const std::string& path);
 /// "a, b or c".
-std::string listOf(const std::vector<std::string>& names);
+std::string listOf(const std::vector<std::string>& names, const char* last = " or ");
 
 }  // namespace reachlab

@@ -8,17 +8,14 @@
 
 #include "analysis/tables.h"
 #include "analysis/taught_trials.h"
+#include "base/names.h"
 
 namespace reachlab::analysis {
 namespace {
 
 using Names = std::vector<std::vector<predict::Criterion>>;
 
-std::string joined(const std::vector<std::string>& parts) {
-  std::string text;
-  for (std::size_t i = 0; i < parts.size(); ++i) text += (i == 0 ? "" : i + 1 == parts.size() ? " and " : ", ") + parts[i];
-  return text;
-}
+std::string joined(const std::vector<std::string>& parts) { return listOf(parts, " and "); }
 
 /// "[5, 37]"; empty where there is none.
 std::string intervalText(const Bounds& i) {

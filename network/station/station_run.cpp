@@ -25,12 +25,6 @@ constexpr std::size_t kMostHeard = 64;  // events of stations that do not say wh
 
 double now() { return static_cast<double>(os::now()) * 1e-9; }
 
-std::string joined(const std::vector<std::string>& sentences) {
-  std::string all;
-  for (const std::string& one : sentences) all += (all.empty() ? "" : "; ") + one;
-  return all;
-}
-
 StationSetup forExperiment(StationSetup setup, const experiment::Experiment& experiment) {
   const int hands = static_cast<int>(experiment.hands.size());
   if (hands < 2) throw FaultError(Fault{"hands", fmt::format("are {}", std::max(hands, 1)), "an experiment with a hand for each station"});
@@ -191,7 +185,7 @@ void StationRun::awaitLinks(StationNews& news) {
     until_ = now() + kGoodFor;
     return;
   }
-  const std::string all = joined(obstacles);
+  const std::string all = fmt::format("{}", fmt::join(obstacles, "; "));
   if (all != said_) news.notArmed = said_ = all;
   if (now() <= until_ && link_->endpointFault().empty()) return;
   stage_ = Stage::Idle;
