@@ -29,6 +29,11 @@ std::string nearestName(std::string_view name, const std::vector<std::string>& k
   return best;
 }
 
+std::string didYouMean(std::string_view name, const std::vector<std::string>& known) {
+  const std::string nearest = nearestName(name, known);
+  return nearest.empty() ? nearest : "; did you mean " + nearest + "?";
+}
+
 std::string shellWord(const std::string& text) {
   const auto plain = [](unsigned char c) { return std::isalnum(c) != 0 || std::strchr("_./:=,+-", c) != nullptr; };
   if (!text.empty() && std::all_of(text.begin(), text.end(), plain)) return text;

@@ -69,9 +69,7 @@ std::unique_ptr<haptics::HapticDevice> makeHand(const std::string& spec, const B
   }
   std::vector<std::string> known;
   for (const DeviceDriver& driver : deviceDrivers()) known.push_back(driver.name);
-  const std::string nearest = nearestName(asked.name, known);
-  throw FaultError(
-      Fault{"device", "is " + spec + ", which is unknown" + (nearest.empty() ? "" : "; did you mean " + nearest + "?"), listOf(known)});
+  throw FaultError(Fault{"device", "is " + spec + ", which is unknown" + didYouMean(asked.name, known), listOf(known)});
 }
 
 // Before anything is opened: two threads would tell one device two forces.

@@ -223,14 +223,12 @@ void ObjectReader::finish() {
       faults_.add(value, keyPath(key), {});
       continue;
     }
-    const std::string nearest = nearestName(key, known_);
     std::vector<std::string> sorted = known_;
     std::sort(sorted.begin(), sorted.end());
     sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
     JsonNode keyPlace;
     keyPlace.line = value.keyLine, keyPlace.column = value.keyColumn;
-    faults_.add(keyPlace, keyPath(key), nearest.empty() ? "is not known here" : fmt::format("is not known here; did you mean {}?", nearest),
-                listOf(sorted));
+    faults_.add(keyPlace, keyPath(key), "is not known here" + didYouMean(key, known_), listOf(sorted));
   }
 }
 

@@ -66,8 +66,7 @@ std::string nearestOf(const CLI::App& command, const std::string& word) {
   } else {
     known = commandsOf(command);
   }
-  const std::string nearest = nearestName(word.substr(0, word.find('=')), known);
-  return nearest.empty() ? std::string() : "; did you mean " + nearest + "?";
+  return didYouMean(word.substr(0, word.find('=')), known);
 }
 
 Fault unknownWord(const CLI::App& app, const CLI::App& command, const std::string& word) {

@@ -56,9 +56,7 @@ Definition findDefinition(const std::string& name, const std::string& key) {
   if (isOwn) return readNamedDefinition(file);
   std::vector<std::string> known{"free"};
   for (const Definition& definition : catalogue()) known.push_back(definition.name);
-  const std::string near = nearestName(name, known);
-  throw FaultError(Fault{keyIn(key, "name"),
-                         "there is no constraint '" + name.substr(0, 60) + "'" + (near.empty() ? "" : "; did you mean " + near + "?"),
+  throw FaultError(Fault{keyIn(key, "name"), "there is no constraint '" + name.substr(0, 60) + "'" + didYouMean(name, known),
                          "free, or a name of the catalogue"});
 }
 

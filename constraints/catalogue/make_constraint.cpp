@@ -114,12 +114,10 @@ std::array<double, kMaxShapeParameters> shapeOf(const Definition& definition, co
   for (const auto& [name, value] : shape) {
     std::size_t i = 0;
     while (i < definition.shape.size() && definition.shape[i].name != name) ++i;
-    if (i == definition.shape.size()) {
-      const std::string near = nearestName(name, text.parameters);
+    if (i == definition.shape.size())
       faults.push_back({keyIn(key, "shape." + name.substr(0, 40)),
-                        definition.name + " has no such parameter" + (near.empty() ? "" : "; did you mean " + near + "?"),
+                        definition.name + " has no such parameter" + didYouMean(name, text.parameters),
                         text.parameters.empty() ? "none" : listOf(text.parameters)});
-    }
   }
   for (std::size_t i = 0; i < definition.shape.size() && i < kMaxShapeParameters; ++i) {
     const ShapeParameter& p = definition.shape[i];

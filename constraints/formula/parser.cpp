@@ -179,9 +179,8 @@ class Parser {
     const std::string expected = listOf(choices);
     const std::vector<std::string> functions = functionNames();
     known.insert(known.end(), functions.begin(), functions.end());
-    const std::string near = nearestName(word, known);
     std::string shown(word.substr(0, kMaxNameLength));
-    fail(start, "unknown name '" + shown + "'; expected " + expected + (near.empty() ? "" : "; did you mean " + near + "?"));
+    fail(start, "unknown name '" + shown + "'; expected " + expected + didYouMean(word, known));
   }
 
   std::string_view text_;

@@ -68,10 +68,8 @@ CompiledExperiment openExperiment(const std::string& fileOrName) {
   std::vector<std::string> all = names;
   for (const std::vector<std::string>& more : {shippedForTwoHands(), shippedNames("plans")})
     all.insert(all.end(), more.begin(), more.end());
-  const std::string nearest = nearestName(fileOrName, all);
-  throw FaultError(Fault{
-      fileOrName, "is neither a file nor a shipped experiment" + (nearest.empty() ? std::string() : "; did you mean " + nearest + "?"),
-      "a file, or one of " + listOf(names)});
+  throw FaultError(
+      Fault{fileOrName, "is neither a file nor a shipped experiment" + didYouMean(fileOrName, all), "a file, or one of " + listOf(names)});
 }
 
 Experiment readExperiment(const std::string& fileOrName) { return openExperiment(fileOrName).experiment(); }
