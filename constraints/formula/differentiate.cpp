@@ -45,16 +45,9 @@ int ExpressionGraph::derivativeOf(int id, const std::vector<int>& d) {
 }
 
 std::vector<int> ExpressionGraph::differentiate(std::span<const int> roots, int variable) {
-  const std::vector<bool> needed = reachableFrom(roots);
-  std::vector<int> d(needed.size(), -1);
-  for (std::size_t id = 0; id < needed.size(); ++id) {
-    if (!needed[id]) continue;
-    const ExpressionNode& n = nodes_[id];
-    d[id] = n.op == Op::Variable ? constant(n.a == variable ? 1 : 0) : derivativeOf(static_cast<int>(id), d);
-  }
-  std::vector<int> result;
-  for (const int root : roots) result.push_back(d[root]);
-  return result;
+  return madeOfNodes<int>(*this, roots, [&](int id, const ExpressionNode& n, const std::vector<int>& d) {
+    return n.op == Op::Variable ? constant(n.a == variable ? 1 : 0) : derivativeOf(id, d);
+  });
 }
 
 }  // namespace reachlab::constraints

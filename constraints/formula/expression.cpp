@@ -303,46 +303,30 @@ std::vector<int> ExpressionGraph::countUses(std::span<const int> roots) const {
 }
 
 OperationList ExpressionGraph::operationsFor(std::span<const int> roots, const double* shape) const {
-  const std::vector<bool> needed = reachableFrom(roots);
-  std::vector<int> place(needed.size(), -1);
   OperationList list;
-  for (std::size_t id = 0; id < needed.size(); ++id) {
-    if (!needed[id]) continue;
-    ExpressionNode n = nodes_[id];
+  list.roots = madeOfNodes<int>(*this, roots, [&](int, ExpressionNode n, const std::vector<int>& place) {
     const int operands = operandCount(n.op);
     if (n.op == Op::Parameter) n = {Op::Constant, -1, -1, shape[n.a]};
     if (operands >= 1) n.a = place[n.a];
     if (operands == 2) n.b = place[n.b];
-    place[id] = static_cast<int>(list.operations.size());
     list.operations.push_back(n);
-  }
-  for (const int root : roots) list.roots.push_back(place[root]);
+    return static_cast<int>(list.operations.size()) - 1;
+  });
   return list;
 }
 
 std::vector<int> ExpressionGraph::expandPowers(std::span<const int> roots) {
-  const std::vector<bool> needed = reachableFrom(roots);
-  std::vector<int> image(needed.size(), -1);
-  for (std::size_t id = 0; id < needed.size(); ++id) {
-    if (!needed[id]) continue;
-    const ExpressionNode n = nodes_[id];
-    if (n.op == Op::PowInt) {
-      int result = -1;
-      int square = image[n.a];
-      for (int rest = n.b; rest > 0; rest /= 2) {
-        if (rest % 2 == 1) result = result < 0 ? square : intern({Op::Mul, square, result, 0});
-        if (rest > 1) square = intern({Op::Mul, square, square, 0});
-      }
-      image[id] = result;
-    } else if (operandCount(n.op) == 0) {
-      image[id] = static_cast<int>(id);
-    } else {
-      image[id] = intern({n.op, image[n.a], operandCount(n.op) == 2 ? image[n.b] : n.b, n.value});
+  return madeOfNodes<int>(*this, roots, [&](int id, const ExpressionNode& n, const std::vector<int>& image) {
+    if (operandCount(n.op) == 0) return id;
+    if (n.op != Op::PowInt) return intern({n.op, image[n.a], operandCount(n.op) == 2 ? image[n.b] : n.b, n.value});
+    int result = -1;
+    int square = image[n.a];
+    for (int rest = n.b; rest > 0; rest /= 2) {
+      if (rest % 2 == 1) result = result < 0 ? square : intern({Op::Mul, square, result, 0});
+      if (rest > 1) square = intern({Op::Mul, square, square, 0});
     }
-  }
-  std::vector<int> result;
-  for (const int root : roots) result.push_back(image[root]);
-  return result;
+    return result;
+  });
 }
 
 }  // namespace reachlab::constraints

@@ -115,4 +115,16 @@ class ExpressionGraph {
   std::unordered_map<Key, int, KeyHash> ids_;
 };
 
+/// Walks over the nodes that the roots need, and returns the results of the roots. The function `of` makes a result from the number of a
+/// node, the node, and the results of earlier nodes. The function may add nodes to the graph.
+template <class Made, class Of>
+std::vector<Made> madeOfNodes(const ExpressionGraph& graph, std::span<const int> roots, Of&& of) {
+  const std::vector<bool> needed = graph.reachableFrom(roots);
+  std::vector<Made> made(needed.size()), result;
+  for (std::size_t id = 0; id < needed.size(); ++id)
+    if (needed[id]) made[id] = of(static_cast<int>(id), ExpressionNode(graph.node(static_cast<int>(id))), made);
+  for (const int root : roots) result.push_back(made[root]);
+  return result;
+}
+
 }  // namespace reachlab::constraints

@@ -170,22 +170,15 @@ std::vector<int> withDerivatives(ExpressionGraph& graph, std::span<const int> r,
 }
 
 std::vector<double> evaluateNodes(const ExpressionGraph& graph, std::span<const int> roots, const double* shape, const double* variables) {
-  const std::vector<bool> needed = graph.reachableFrom(roots);
-  std::vector<double> values(needed.size(), 0.0);
-  for (std::size_t id = 0; id < needed.size(); ++id) {
-    if (!needed[id]) continue;
-    const ExpressionNode& n = graph.node(static_cast<int>(id));
+  return madeOfNodes<double>(graph, roots, [&](int, const ExpressionNode& n, const std::vector<double>& values) {
     switch (n.op) {
-      case Op::Constant: values[id] = n.value; break;
-      case Op::Variable: values[id] = variables[n.a]; break;
-      case Op::Parameter: values[id] = shape[n.a]; break;
-      case Op::PowInt: values[id] = applyOp(n.op, values[n.a], n.b); break;
-      default: values[id] = applyOp(n.op, values[n.a], n.b < 0 ? 0 : values[n.b]);
+      case Op::Constant: return n.value;
+      case Op::Variable: return variables[n.a];
+      case Op::Parameter: return shape[n.a];
+      case Op::PowInt: return applyOp(n.op, values[n.a], n.b);
+      default: return applyOp(n.op, values[n.a], n.b < 0 ? 0 : values[n.b]);
     }
-  }
-  std::vector<double> result;
-  for (const int root : roots) result.push_back(values[root]);
-  return result;
+  });
 }
 
 }  // namespace reachlab::constraints

@@ -58,44 +58,36 @@ std::vector<Guard> findGuards(ExpressionGraph& graph, std::span<const int> roots
 
 std::vector<int> freezeBranches(ExpressionGraph& graph, std::span<const int> roots, const std::vector<Guard>& guards,
                                 const std::vector<int>& signs) {
-  const std::vector<bool> needed = graph.reachableFrom(roots), moves = findMoving(graph);
+  const std::vector<bool> moves = findMoving(graph);
   std::map<int, int> signAt;
   for (std::size_t k = 0; k < guards.size() && k < signs.size(); ++k)
     if (guards[k].branches()) signAt[guards[k].node] = signs[k];
-  std::vector<int> image(needed.size(), -1);
-  for (std::size_t id = 0; id < needed.size(); ++id) {
-    if (!needed[id]) continue;
-    const ExpressionNode n = graph.node(static_cast<int>(id));
+  return madeOfNodes<int>(graph, roots, [&](int id, const ExpressionNode& n, const std::vector<int>& image) {
     const int operands = operandCount(n.op);
     const int a = operands >= 1 ? image[n.a] : -1, b = operands == 2 ? image[n.b] : -1;
-    int& result = image[id];
-    if (const auto sign = signAt.find(static_cast<int>(id)); sign != signAt.end() && (n.op != Op::Atan2 || sign->second != 0)) {
+    if (const auto sign = signAt.find(id); sign != signAt.end() && (n.op != Op::Atan2 || sign->second != 0)) {
       const int side = graph.constant(sign->second);
-      if (n.op == Op::Sign) result = side;
-      else if (n.op == Op::Atan2 && !moves[n.a]) result = graph.apply(n.op, a, b);
-      else if (n.op == Op::Abs) result = graph.mul(side, a);
-      else  // by a quarter turn, so that the cut lies on the other side
-        result = graph.add(graph.constant(sign->second * std::numbers::pi / 2),
-                           graph.apply(Op::Atan2, graph.mul(graph.constant(-sign->second), b), graph.mul(side, a)));
-      continue;
+      if (n.op == Op::Sign) return side;
+      if (n.op == Op::Atan2 && !moves[n.a]) return graph.apply(n.op, a, b);
+      if (n.op == Op::Abs) return graph.mul(side, a);
+      // By a quarter turn, so that the cut lies on the other side.
+      return graph.add(graph.constant(sign->second * std::numbers::pi / 2),
+                       graph.apply(Op::Atan2, graph.mul(graph.constant(-sign->second), b), graph.mul(side, a)));
     }
     switch (n.op) {
       case Op::Constant:
       case Op::Variable:
-      case Op::Parameter: result = static_cast<int>(id); break;
-      case Op::Add: result = graph.add(a, b); break;
-      case Op::Sub: result = graph.sub(a, b); break;
-      case Op::Mul: result = graph.mul(a, b); break;
-      case Op::Div: result = graph.div(a, b); break;
-      case Op::Neg: result = graph.neg(a); break;
-      case Op::Pow: result = graph.pow(a, b); break;
-      case Op::PowInt: result = graph.powInt(a, n.b); break;
-      default: result = graph.apply(n.op, a, b);
+      case Op::Parameter: return id;
+      case Op::Add: return graph.add(a, b);
+      case Op::Sub: return graph.sub(a, b);
+      case Op::Mul: return graph.mul(a, b);
+      case Op::Div: return graph.div(a, b);
+      case Op::Neg: return graph.neg(a);
+      case Op::Pow: return graph.pow(a, b);
+      case Op::PowInt: return graph.powInt(a, n.b);
+      default: return graph.apply(n.op, a, b);
     }
-  }
-  std::vector<int> result;
-  for (const int root : roots) result.push_back(image[root]);
-  return result;
+  });
 }
 
 std::string writeFormula(const ExpressionGraph& graph, int id, const std::vector<std::string>& variables,
