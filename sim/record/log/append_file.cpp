@@ -40,15 +40,6 @@ AppendFile AppendFile::create(const std::string& path) {
   return file;
 }
 
-AppendFile AppendFile::openAt(const std::string& path, std::uint64_t size) {
-  const int descriptor = os::aboveStandardDescriptors(::open(path.c_str(), O_WRONLY | O_APPEND | O_CLOEXEC));
-  if (descriptor < 0) failByErrno("cannot be opened for writing", path);
-  AppendFile file(descriptor, path, size);
-  lockExclusively(descriptor, path);
-  if (::ftruncate(descriptor, static_cast<off_t>(size)) != 0) failByErrno("cannot be cut to its good part", path);
-  return file;
-}
-
 void AppendFile::append(std::span<const std::uint8_t> bytes) {
   if (torn_ && ::ftruncate(descriptor_, static_cast<off_t>(size_)) != 0) failByErrno("cannot be cut to its good part", path_);
   torn_ = false;

@@ -13,8 +13,6 @@ class AppendFile {
  public:
   /// Creates a new file. A file that exists is refused.
   static AppendFile create(const std::string& path);
-  /// Opens an existing file, cut back to `size` bytes.
-  static AppendFile openAt(const std::string& path, std::uint64_t size);
   /// All or nothing: a part that a full disk has let through is cut off again. While it cannot be cut off, nothing is written behind it,
   /// since reading ends at an incomplete record.
   void append(std::span<const std::uint8_t> bytes);
