@@ -13,6 +13,7 @@
 #include "analysis/steps.h"
 #include "base/math/minimum_jerk.h"
 #include "base/math/seeded.h"
+#include "base/system/worker_threads.h"
 
 namespace reachlab::analysis {
 namespace {
@@ -239,8 +240,9 @@ TruthRecovery recover(const Analysis& analysis, int studies, std::uint64_t seed,
   std::atomic<std::size_t> next{0};
   std::size_t done = 0;
   std::mutex mutex;
-  const auto work = [&] {
-    for (std::size_t job; (job = next++) < jobs;) {
+  if (threads == 0) threads = std::thread::hardware_concurrency();
+  runOnThreads(threads, [&](const std::atomic<bool>& ended) {
+    for (std::size_t job; (job = next++) < jobs && !ended;) {
       std::size_t truth = job % truths, follows = truths;
       std::optional<bool> right;
       if (job < inside) follows = simulated.nameOne(truth, static_cast<int>(job / truths));
@@ -255,12 +257,7 @@ TruthRecovery recover(const Analysis& analysis, int studies, std::uint64_t seed,
       ++done;
       if (progress) progress(done, jobs);
     }
-  };
-  if (threads == 0) threads = std::max(1U, std::thread::hardware_concurrency());
-  std::vector<std::jthread> pool;
-  for (unsigned t = 1; t < threads; ++t) pool.emplace_back(work);
-  work();
-  pool.clear();
+  });
   return out;
 }
 

@@ -2,46 +2,31 @@
 
 #include <algorithm>
 #include <atomic>
-#include <exception>
 #include <mutex>
 #include <set>
-#include <thread>
 
 #include "analysis/study/chunk_worker.h"
 #include "base/system/os.h"
+#include "base/system/worker_threads.h"
 
 namespace reachlab::study {
 
 void computeChunks(const StudyFolder& folder, const PrepareSubjects& prepare, unsigned jobs, const NextChunk& next,
                    const std::function<void(std::int64_t trials)>& done) {
   std::mutex mutex;
-  std::exception_ptr fault;
-  std::atomic<bool> ended{false};
-  const auto work = [&] {
-    try {
-      ChunkWorker worker(folder.design, prepare);
-      while (!ended) {
-        const std::optional<std::int64_t> chunk = next();
-        if (!chunk) return;
-        const auto rows = worker.compute(folder.chunks.at(*chunk), [&](std::int64_t trials) {
-          const std::lock_guard lock(mutex);
-          done(trials);
-          return !ended;
-        });
-        if (rows) writeChunk(folder.path, *chunk, folder.fingerprint, *rows);
-      }
-    } catch (...) {
-      const std::lock_guard lock(mutex);
-      if (!fault) fault = std::current_exception();
-      ended = true;
+  runOnThreads(jobs, [&](const std::atomic<bool>& ended) {
+    ChunkWorker worker(folder.design, prepare);
+    while (!ended) {
+      const std::optional<std::int64_t> chunk = next();
+      if (!chunk) return;
+      const auto rows = worker.compute(folder.chunks.at(*chunk), [&](std::int64_t trials) {
+        const std::lock_guard lock(mutex);
+        done(trials);
+        return !ended;
+      });
+      if (rows) writeChunk(folder.path, *chunk, folder.fingerprint, *rows);
     }
-  };
-  {
-    std::vector<std::jthread> pool;
-    for (unsigned t = 1; t < std::max(1u, jobs); ++t) pool.emplace_back(work);
-    work();
-  }
-  if (fault) std::rethrow_exception(fault);
+  });
 }
 
 void workThrough(const StudyFolder& folder, const Shard& shard, const TellProgress& tell, const ComputeAll& work) {

@@ -273,6 +273,8 @@ TEST(TruthRecovery, NamesTheTruthsAndDoesNotHangOnTheThreads) {
   EXPECT_EQ(one.counts[1][1], 3u);
   EXPECT_EQ(one.counts[2][3], 3u) << "the reference is never named";
   EXPECT_EQ(recover(analysis, 3, 7, 3).counts, one.counts);
+  const auto fail = [](std::size_t, std::size_t) { throw ResourceError("no more"); };
+  EXPECT_EQ(refusalOf([&] { recover(analysis, 3, 7, 3, fail); }), "no more") << "of whichever thread";
   std::vector<std::string_view> names;
   for (const OtherTruth& other : one.others) names.push_back(other.name);
   EXPECT_EQ(names, (std::vector<std::string_view>{"own-skew", "own-warp", "mean-of-two", "two-in-turn", "hand-snap", "two-submovements"}))

@@ -13,6 +13,7 @@
 #include "base/as_number.h"
 #include "base/fault.h"
 #include "base/number_range.h"
+#include "base/system/worker_threads.h"
 #include "sim/experiment/experiment.h"
 #include "sim/experiment/tested_ranges.h"
 
@@ -169,10 +170,9 @@ std::vector<SweepRow> computeSweep(const experiment::CompiledExperiment& compile
   std::vector<SweepRow> rows(values.size());
   std::atomic<int> next{0};
   std::mutex reporting;
-  std::exception_ptr fault;
   int done = 0;
-  const auto work = [&] {
-    for (int i = next++; i < total; i = next++) {
+  runOnThreads(std::min(std::thread::hardware_concurrency(), static_cast<unsigned>(total)), [&](const std::atomic<bool>& ended) {
+    for (int i = next++; i < total && !ended; i = next++) {
       SweepRow& row = rows[i];
       row.value = values[i];
       try {
@@ -183,23 +183,12 @@ std::vector<SweepRow> computeSweep(const experiment::CompiledExperiment& compile
         row.shape = computeShape(*row.prediction);
       } catch (const RefusedError& refused) {
         row.refusal = refused.what();
-      } catch (...) {
-        const std::lock_guard lock(reporting);
-        if (!fault) fault = std::current_exception();
-        next = total;
       }
       const std::lock_guard lock(reporting);
       ++done;
       if (progress) progress(done, total);
     }
-  };
-  {
-    std::vector<std::jthread> workers;
-    for (unsigned w = 1; w < std::max(1u, std::thread::hardware_concurrency()) && static_cast<int>(w) < total; ++w)
-      workers.emplace_back(work);
-    work();
-  }
-  if (fault) std::rethrow_exception(fault);
+  });
   return rows;
 }
 
