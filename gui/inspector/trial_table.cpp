@@ -163,7 +163,7 @@ QVariant TrialTable::data(const QModelIndex& at, int role) const {
 
 QVariant TrialTable::headerData(int section, Qt::Orientation orientation, int role) const {
   if (orientation != Qt::Horizontal) return {};
-  const QString criterion = QString::fromUtf8(predict::nameOf(criterion_).data());
+  const QString criterion = from(std::string(predict::nameOf(criterion_)));
   static const QString kTitles[kColumns] = {tr("subject"), tr("session"),    tr("condition"), tr("run"),      tr("trial"), tr("outcome"),
                                             tr("t [s]"),   tr("peak [m/s]"), tr("ε paper"),   tr("ε fitted"), tr("marks")};
   if (role == Qt::DisplayRole && section >= 0 && section < kColumns) return kTitles[section];
