@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <ranges>
 
 #include "base/as_number.h"
 #include "base/fault.h"
@@ -25,9 +26,7 @@ std::string jsonNumber(double value) { return std::isfinite(value) ? fmt::format
 std::string triple(const Vec3& r) { return fmt::format("[{}, {}, {}]", jsonNumber(r.x), jsonNumber(r.y), jsonNumber(r.z)); }
 std::string quoted(const std::string& text) { return nlohmann::json(text).dump(); }
 std::string list(const std::vector<double>& values) {
-  std::string text;
-  for (const double value : values) text += (text.empty() ? "" : ", ") + jsonNumber(value);
-  return "[" + text + "]";
+  return fmt::format("[{}]", fmt::join(values | std::views::transform(jsonNumber), ", "));
 }
 // For a person; machines ask for --json.
 std::string shortList(const std::vector<double>& values) { return fmt::format("[{:.6g}]", fmt::join(values, ", ")); }
@@ -92,8 +91,7 @@ std::string perParameter(const constraints::Definition& d, F&& f) {
 }
 
 void showJson(const constraints::Definition& d, const constraints::Constraint& c) {
-  std::string coordinates, shape;
-  for (const std::string& line : d.coordinates) coordinates += (coordinates.empty() ? "" : ", ") + quoted(line);
+  std::string shape;
   for (const constraints::ShapeParameter& p : d.shape)
     shape += fmt::format("{}    {}: {{\"default\": {}, \"min\": {}, \"max\": {}, \"unit\": {}, \"meaning\": {}{}}}",
                          shape.empty() ? "\n" : ",\n", quoted(p.name), jsonNumber(p.defaultValue), jsonNumber(p.min), jsonNumber(p.max),
@@ -106,9 +104,9 @@ void showJson(const constraints::Definition& d, const constraints::Constraint& c
   fmt::print(
       "{{\n  \"name\": {},\n  \"kind\": \"{}\",\n  \"{}\": [{}],\n  \"shape\": {{{}{}}},\n  \"domain\": {},\n  \"periodic\": {},\n"
       "  \"at_end\": {},\n  \"start\": {},\n  \"target\": {},\n  \"sentence\": {},\n  \"source\": {}\n}}\n",
-      quoted(d.name), isCurve(d) ? "curve" : "surface", isCurve(d) ? "curve" : "surface", coordinates, shape, shape.empty() ? "" : "\n  ",
-      perParameter(d, domain), perParameter(d, periodic), perParameter(d, atEnd), list(d.start), list(d.target), quoted(d.sentence),
-      quoted(d.source));
+      quoted(d.name), isCurve(d) ? "curve" : "surface", isCurve(d) ? "curve" : "surface",
+      fmt::join(d.coordinates | std::views::transform(quoted), ", "), shape, shape.empty() ? "" : "\n  ", perParameter(d, domain),
+      perParameter(d, periodic), perParameter(d, atEnd), list(d.start), list(d.target), quoted(d.sentence), quoted(d.source));
 }
 
 void showPlaces(const constraints::Constraint& c) {

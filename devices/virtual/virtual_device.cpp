@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <ranges>
 
 #include "base/device_options.h"
 #include "base/fault.h"
@@ -93,12 +94,6 @@ haptics::DeviceSample VirtualDevice::read() noexcept {
 
 namespace {
 
-std::string modelNames() {
-  std::string names;
-  for (const DeviceModel& model : deviceModels()) names += (names.empty() ? "" : ", ") + std::string(model.name);
-  return names;
-}
-
 // Stiffer than an arm is: for a person who has learned what the object does and meets it, which the plan does not. With these a rehearsal
 // succeeds as often as the plan alone (docs/devices.md).
 constexpr double kPractisedStiffness = 3000;  // [N/m]
@@ -108,9 +103,9 @@ std::unique_ptr<haptics::HapticDevice> makeVirtual(const DeviceRequest& request)
   DeviceOptions options(request.argument, request.words());
   const DeviceModel* model = findDeviceModel(options.plain());
   if (model == nullptr)
-    throw FaultError(
-        Fault{"device", options.plain().empty() ? "is virtual, without a model" : "is virtual:" + options.plain() + ", which is no model",
-              fmt::format("virtual:MODEL with MODEL one of {}", modelNames())});
+    throw FaultError(Fault{
+        "device", options.plain().empty() ? "is virtual, without a model" : "is virtual:" + options.plain() + ", which is no model",
+        fmt::format("virtual:MODEL with MODEL one of {}", fmt::join(deviceModels() | std::views::transform(&DeviceModel::name), ", "))});
   VirtualDevice::Options chosen;
   chosen.hand.mass = options.number("arm-mass", chosen.hand.mass, 0, 50);
   chosen.hand.stiffness = options.number("arm-stiffness", kPractisedStiffness, 0, 1e5);
