@@ -210,6 +210,7 @@ void MainWindow::wireSession() {
   connect(slowTimer, &QTimer::timeout, this, [this] {
     if (session_.run() != nullptr) status_->refresh(*session_.run());
     plans_->refresh();
+    if (session_.run() == nullptr) showOverlay();  // another subject may begin with another block
     showStations();
   });
   slowTimer->start(kStatusMs);
@@ -236,8 +237,8 @@ void MainWindow::showExperiment() {
   trace_.setPath(task ? constraints::TaskPath(compiled.constraint(), task->start, task->target) : constraints::TaskPath());
   screens_->lookIn(QFileInfo(edits_.opened().file).path());
   screens_->showExperiment(compiled, session_.blockPlaces());
-  showOverlay();
   plans_->refresh();
+  showOverlay();
   forecast_.setExperiment(compiled);
   showStage();  // a plan's places are not moved
   showTitle(*this, QString::fromStdString(programmeName(session_)));
@@ -245,7 +246,8 @@ void MainWindow::showExperiment() {
 
 void MainWindow::showOverlay() {
   const bool mouse = docks_.session->device() == "mouse";
-  screens_->showOverlay(overlayOf(session_, mouse, screens_->massesHide()), subjectsOverlayOf(session_, words_, score_));
+  screens_->showOverlay(overlayOf(session_, mouse, screens_->massesHide()),
+                        subjectsOverlayOf(session_, words_, score_, plans_->startPage().instructions()));
 }
 
 void MainWindow::showStage() {

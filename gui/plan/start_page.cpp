@@ -104,7 +104,8 @@ void StartPage::show(const Shown& shown) {
             ? tr("Continues in block %1, %2, with trial %3 of %4.").arg(next->block).arg(condition).arg(next->done + 1).arg(next->trials)
             : tr("The first block is block %1, %2, with %3 trials.").arg(next->block).arg(condition).arg(next->trials);
   }
-  if (next != nullptr && !next->instructions.empty()) words += QStringLiteral("\n") + QString::fromStdString(next->instructions);
+  instructions_ = next != nullptr ? QString::fromStdString(next->instructions) : QString();
+  if (!instructions_.isEmpty()) words += QLatin1Char('\n') + instructions_;
   next_->setText(words);
   const bool can = shown.fault.isEmpty() && next != nullptr;
   go_->setEnabled(can);

@@ -23,6 +23,8 @@ class StartPage : public widgets::CardFrame {
   void show(const Shown& shown);
   /// Resumes the session that was begun, instead of starting from the beginning.
   bool resumes() const { return resumes_; }
+  /// The text for the subject before the next block. Empty if the plan has no text for it.
+  const QString& instructions() const { return instructions_; }
 
  Q_SIGNALS:
   void placeEdited(const QString& subject, const QString& session);
@@ -33,6 +35,7 @@ class StartPage : public widgets::CardFrame {
  private:
   using QFrame::show;
   bool resumes_ = false;
+  QString instructions_;
   QLabel *summary_, *next_;
   QLineEdit *subject_, *session_;
   QTableWidget* blocks_;

@@ -110,7 +110,7 @@ scene::OverlayState overlayOf(SessionController& session, bool mouse, bool masse
   return overlay;
 }
 
-scene::OverlayState subjectsOverlayOf(SessionController& session, const subject::SubjectWords& words, int score) {
+scene::OverlayState subjectsOverlayOf(SessionController& session, const subject::SubjectWords& words, int score, const QString& before) {
   const experiment::SubjectScreen& screen = session.experiment().subjectScreen;
   scene::OverlayState overlay;
   overlay.rulersShown = false;
@@ -125,7 +125,10 @@ scene::OverlayState subjectsOverlayOf(SessionController& session, const subject:
   overlay.instruction = words.instruction(state, screen.target);
   if (run != nullptr && session.station() != nullptr && !missingStations(session).isEmpty())
     overlay.instruction = words.instruction(haptics::TickState{}, screen.target);  // to wait
-  if (run == nullptr) return overlay;
+  if (run == nullptr) {
+    if (session.isPlan()) overlay.task = before;
+    return overlay;
+  }
   if (isOver(session) && session.blocksLeft() > 0) overlay.rest = restOf(session, words.rest());
   else if (isOver(session)) overlay.detail = words.thanks();
   if (!overlay.rest && (isOver(session) || isBeforeTheFirstReach(state))) overlay.task = session.instructions();

@@ -10,6 +10,8 @@ namespace reachlab::gui::app {
 scene::OverlayState overlayOf(SessionController& session, bool mouse, bool massesHide);
 
 /// The same for the subject: the next step and the outcome, without names, keys or numbers except the score.
-scene::OverlayState subjectsOverlayOf(SessionController& session, const subject::SubjectWords& words, int score);
+/// `before`: the instructions of the block that a plan begins with, shown until its run is open.
+scene::OverlayState subjectsOverlayOf(SessionController& session, const subject::SubjectWords& words, int score,
+                                      const QString& before = {});
 
 }  // namespace reachlab::gui::app

@@ -260,6 +260,19 @@ TEST_F(PlannedSession, BeginsOnItsStartPageRestsAndResumes) {
   EXPECT_EQ(window->sessionDock().request().participant, record::Participant()) << "it is another person";
 }
 
+TEST_F(PlannedSession, TheSubjectReadsTheInstructionsBeforeABlockBegins) {
+  window_->screens().toggleSubject();
+  const auto read = [] { return subjectsScreen()->view().overlay().state().task; };
+  EXPECT_EQ(read(), QStringLiteral("Reach calmly."));
+  go();
+  waitForTrials(1);
+  window_->nextTrial();
+  waitForTrials(2);
+  EXPECT_TRUE(read().isEmpty()) << read().toStdString();
+  window_->endRun();
+  EXPECT_EQ(read(), QStringLiteral("Now fast."));
+}
+
 TEST_F(PlannedSession, ABlockOfWhichNothingCountsIsNotSkippedBySpace) {
   app::MainWindow* window = window_.get();
   window->openExperiment(
