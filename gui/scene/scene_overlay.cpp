@@ -9,6 +9,8 @@
 namespace reachlab::gui::scene {
 namespace {
 
+constexpr int kWrapped = Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap;
+
 QString lengthText(double metres) {
   if (metres >= 1) return QStringLiteral("%1 m").arg(metres);
   if (metres >= 0.01) return QStringLiteral("%1 cm").arg(std::round(metres * 100));
@@ -34,11 +36,13 @@ double roundLength(double most) {
   return (share >= 5 ? 5 : share >= 2 ? 2 : 1) * decade;
 }
 
-double pointsToFit(const QString& text, QFont font, double most, double room) {
+double pointsToFit(const QString& text, QFont font, double most, const QSizeF& room) {
+  constexpr double kLeast = 1;
   double points = most;  // hinted widths do not grow as sizes do: tried, not computed
-  for (; points > 0.5 * most; points -= 0.025 * most) {
+  for (; points > kLeast; points *= 0.97) {
     font.setPointSizeF(points);
-    if (QFontMetricsF(font).horizontalAdvance(text) <= room) break;
+    const QRectF needed = QFontMetricsF(font).boundingRect(QRectF(0, 0, room.width(), 1e6), kWrapped, text);
+    if (needed.width() <= room.width() && needed.height() <= room.height()) break;
   }
   return points;
 }
@@ -111,12 +115,12 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
   write(painter, QRectF(left, 14 * s, room, 20 * s), kOneLine, state_.counter, 10.5 * s, faint);
   QFont font = painter.font();
   font.setWeight(QFont::DemiBold);
-  font.setPointSizeF(pointsToFit(state_.instruction, font, 19 * s, room));  // why a trial failed is to be read to its end
   const widgets::Colour tone = state_.tone == OverlayState::Tone::Good  ? widgets::colours::kGreen
                                : state_.tone == OverlayState::Tone::Bad ? widgets::colours::kBadText
                                                                         : widgets::colours::kText;
-  const QString line = QFontMetrics(font, this).elidedText(state_.instruction, Qt::ElideRight, static_cast<int>(room));
-  write(painter, QRectF(left, 33 * s, room, 32 * s), kOneLine, line, font.pointSizeF(), widgets::toQColor(tone), QFont::DemiBold);
+  const QRectF line(left, 33 * s, room, 32 * s);  // why a trial failed is to be read to its end, in two lines where one is too small
+  write(painter, line, kOneLine | Qt::TextWordWrap, state_.instruction, pointsToFit(state_.instruction, font, 19 * s, line.size()),
+        widgets::toQColor(tone), QFont::DemiBold);
   write(painter, QRectF(left, 65 * s, room, 22 * s), kOneLine, state_.detail, 11 * s, faint);
   if (!state_.task.isEmpty()) {
     const QRectF place(left, 97 * s, std::min(room, 560 * s), 140 * s);

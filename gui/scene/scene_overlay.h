@@ -66,8 +66,8 @@ class SceneOverlay : public QWidget {
   QPointF labelAt_;
 };
 
-/// The largest font size [pt], at most `most` and at least about half of it, at which the text is no wider than `room` [px].
-double pointsToFit(const QString& text, QFont font, double most, double room);
+/// The largest font size [pt], at most `most`, at which the text, in as many lines as it needs, is no larger than `room` [px].
+double pointsToFit(const QString& text, QFont font, double most, const QSizeF& room);
 
 /// A round length (1, 2 or 5 times a power of ten) not above `most`. [same unit]
 double roundLength(double most);

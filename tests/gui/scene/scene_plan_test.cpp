@@ -5,6 +5,7 @@
 
 #include <QApplication>
 #include <QFontMetricsF>
+#include <QImage>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -12,6 +13,7 @@
 #include "gui/scene/scene_overlay.h"
 #include "gui/scene/trial_texts.h"
 #include "gui/widgets/number_list_edit.h"
+#include "gui/widgets/theme.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::scene {
@@ -222,12 +224,36 @@ TEST(Overlay, TheLongestSentenceFitsIntoTheSmallestScene) {
   result.by = 0.1279;
   QFont font = QApplication::font();
   font.setWeight(QFont::DemiBold);
-  EXPECT_EQ(pointsToFit(QStringLiteral("Wait"), font, 19, 500), 19);
+  EXPECT_EQ(pointsToFit(QStringLiteral("Wait"), font, 19, {500, 32}), 19);
   for (const double room : {450.0, 600.0}) {  // [px] beside the square
-    font.setPointSizeF(pointsToFit(outcomeText(result), font, 19, room));
+    font.setPointSizeF(pointsToFit(outcomeText(result), font, 19, {room, 32}));
     EXPECT_LE(QFontMetricsF(font).horizontalAdvance(outcomeText(result)), room);
     EXPECT_GE(font.pointSizeF(), 9.5);
   }
+}
+
+// Pixels of ink side by side. Full blocks have more of them than points, so that they show whether the end of a text is seen.
+int widestInk(const OverlayState& state, const QSize& size) {
+  SceneOverlay overlay(nullptr);
+  overlay.setTextScale(1.8);
+  overlay.resize(size);
+  overlay.setState(state);
+  const QImage picture = overlay.grab().toImage();
+  const QRgb ink = widgets::toQColor(widgets::colours::kText).rgb();
+  int widest = 0;
+  for (int y = 0; y < picture.height(); ++y)
+    for (int x = 0, run = 0; x < picture.width(); ++x)
+      widest = std::max(widest, run = (picture.pixel(x, y) | 0xff000000u) == ink ? run + 1 : 0);
+  return widest;
+}
+
+const QString kBlocks = QString(8, QChar(0x2588));
+
+TEST(Overlay, ALongInstructionIsSeenToItsEndOnASmallScreen) {
+  OverlayState state;
+  state.rulersShown = false;
+  state.instruction = QString("... ").repeated(30) + kBlocks;
+  EXPECT_GT(widestInk(state, {640, 512}), 7);
 }
 
 TEST(ScaleBar, IsRoundAndNotLongerThanItsRoom) {
