@@ -123,8 +123,11 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
         widgets::toQColor(tone), QFont::DemiBold);
   write(painter, QRectF(left, 65 * s, room, 22 * s), kOneLine, state_.detail, 11 * s, faint);
   if (!state_.task.isEmpty()) {
-    const QRectF place(left, 97 * s, std::min(room, 560 * s), 140 * s);
-    constexpr int kWrapped = Qt::AlignLeft | Qt::AlignTop | Qt::TextWordWrap;
+    const double below = state_.rulersShown ? 6 : 100;  // a square for a light sensor may be there on the subject's screen
+    const QRectF place(left, 97 * s, std::min(room, 560 * s), std::max(1.0, height() - 97 * s - below));
+    font = painter.font();
+    font.setPointSizeF(pointsToFit(state_.task, font, 11 * s, place.size()));
+    painter.setFont(font);
     QColor shade = widgets::toQColor(widgets::colours::kWindow);
     shade.setAlphaF(0.72);  // to be read over whatever is drawn behind
     painter.fillRect(painter.boundingRect(place, kWrapped, state_.task).adjusted(-5 * s, -3 * s, 5 * s, 3 * s), shade);
@@ -144,7 +147,6 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
 // Title, time left, a bar of the blocks, and what the next block asks for.
 void SceneOverlay::paintRest(QPainter& painter, const RestState& rest) const {
   constexpr int kWords = Qt::AlignHCenter | Qt::AlignTop | Qt::TextWordWrap;
-  const double s = textScale_, wide = std::min(560 * s, width() - 40.0), pad = 22 * s, inside = wide - 2 * pad;
   const QString time = rest.secondsLeft <= 0
                            ? QString()
                            : QStringLiteral("%1:%2").arg(rest.secondsLeft / 60).arg(rest.secondsLeft % 60, 2, 10, QLatin1Char('0'));
@@ -153,17 +155,29 @@ void SceneOverlay::paintRest(QPainter& painter, const RestState& rest) const {
     double points;
     int weight;
   };
-  const Text title{rest.title, 15 * s, QFont::DemiBold}, clock{time, 54 * s, QFont::Light},
-      instructions{rest.instructions, 14 * s, QFont::Normal};
+  double s = textScale_;
+  const double wide = std::min(560 * s, width() - 40.0);
+  const auto texts = [&] {
+    return std::array<Text, 3>{
+        {{rest.title, 15 * s, QFont::DemiBold}, {time, 54 * s, QFont::Light}, {rest.instructions, 14 * s, QFont::Normal}}};
+  };
+  const auto inside = [&] { return wide - 44 * s; };
   const auto heightOf = [&](const Text& text) {
     QFont font = painter.font();
     font.setPointSizeF(text.points);
     font.setWeight(text.weight);
-    const QRectF room(0, 0, inside, 1000 * s);
+    const QRectF room(0, 0, inside(), 1e6);
     return text.words.isEmpty() ? 0.0 : QFontMetricsF(font).boundingRect(room, kWords, text.words).height() + 12 * s;
   };
-  const double bar = 8 * s, high = 2 * pad + heightOf(title) + heightOf(clock) + bar + 16 * s + heightOf(instructions);
-  const QRectF panel((width() - wide) / 2, std::max(headHeight(), (height() - high) / 2), wide, high);
+  const auto high = [&] {
+    double sum = (44 + 8 + 16) * s;
+    for (const Text& text : texts()) sum += heightOf(text);
+    return sum;
+  };
+  while (s > 0.1 && headHeight() + high() > height() - 12) s *= 0.97;  // instructions are to be read to their end
+  const auto [title, clock, instructions] = texts();
+  const double pad = 22 * s, bar = 8 * s;
+  const QRectF panel((width() - wide) / 2, std::max(headHeight(), (height() - high()) / 2), wide, high());
   QColor shade = widgets::toQColor(widgets::colours::kBase);
   shade.setAlphaF(0.88);
   painter.setPen(Qt::NoPen);
@@ -171,19 +185,20 @@ void SceneOverlay::paintRest(QPainter& painter, const RestState& rest) const {
   painter.drawRoundedRect(panel, 10 * s, 10 * s);
   double y = panel.top() + pad;
   const auto put = [&](const Text& text) {
-    write(painter, QRectF(panel.left() + pad, y, inside, panel.bottom() - y), kWords, text.words, text.points,
+    write(painter, QRectF(panel.left() + pad, y, inside(), panel.bottom() - y), kWords, text.words, text.points,
           widgets::toQColor(widgets::colours::kText), text.weight);
     y += heightOf(text);
   };
   put(title);
   put(clock);
-  const QRectF track(panel.left() + pad, y, inside, bar);
+  const QRectF track(panel.left() + pad, y, inside(), bar);
   painter.setPen(Qt::NoPen);
   painter.setBrush(widgets::toQColor(widgets::colours::kButton));
   painter.drawRoundedRect(track, bar / 2, bar / 2);
   painter.setBrush(widgets::toQColor(widgets::colours::kAccent));
   if (rest.blocks > 0 && rest.blocksDone > 0)
-    painter.drawRoundedRect(QRectF(track.topLeft(), QSizeF(std::max(bar, inside * rest.blocksDone / rest.blocks), bar)), bar / 2, bar / 2);
+    painter.drawRoundedRect(QRectF(track.topLeft(), QSizeF(std::max(bar, inside() * rest.blocksDone / rest.blocks), bar)), bar / 2,
+                            bar / 2);
   y += bar + 16 * s;
   put(instructions);
 }

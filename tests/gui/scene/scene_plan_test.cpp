@@ -256,6 +256,17 @@ TEST(Overlay, ALongInstructionIsSeenToItsEndOnASmallScreen) {
   EXPECT_GT(widestInk(state, {640, 512}), 7);
 }
 
+TEST(Overlay, LongInstructionsAreSeenToTheirEndBeforeABlockAndInARest) {
+  const QString words = QString("... ").repeated(500) + kBlocks;
+  OverlayState state;
+  state.rulersShown = false;
+  state.task = words;
+  EXPECT_GT(widestInk(state, {1024, 768}), 7);
+  state.task.clear();
+  state.rest = RestState{QString(), words, 0, 1, 2};
+  EXPECT_GT(widestInk(state, {1024, 768}), 7);
+}
+
 TEST(ScaleBar, IsRoundAndNotLongerThanItsRoom) {
   EXPECT_DOUBLE_EQ(roundLength(0.237), 0.2);
   EXPECT_DOUBLE_EQ(roundLength(0.099), 0.05);
