@@ -83,6 +83,7 @@ QWidget* InspectorPage::makeLeft() {
   view_->setSelectionBehavior(QAbstractItemView::SelectRows);
   view_->setSelectionMode(QAbstractItemView::ExtendedSelection);
   view_->setShowGrid(false);
+  view_->setTabKeyNavigation(false);  // Tab goes on to the next field
   view_->setAlternatingRowColors(true);
   view_->verticalHeader()->hide();
   view_->verticalHeader()->setSectionResizeMode(QHeaderView::Fixed);

@@ -99,6 +99,7 @@ QWidget* MixEditor::makeKinds() {
   kinds_->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   kinds_->horizontalHeader()->setStretchLastSection(true);
   kinds_->setMinimumHeight(100);
+  kinds_->setTabKeyNavigation(false);  // Tab goes on to the next field
   column->addWidget(kinds_, 1);
   auto* add = widgets::named<QPushButton>("planAddKind", tr("Add kind"));
   remove_ = widgets::named<QPushButton>("planRemoveKind", tr("Remove kind"));

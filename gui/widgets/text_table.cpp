@@ -15,6 +15,7 @@ QTableWidget* makeTextTable(const char* name, const QStringList& headings, int r
   table->setSelectionMode(QAbstractItemView::NoSelection);
   table->setEditTriggers(QAbstractItemView::NoEditTriggers);
   table->setShowGrid(false);
+  table->setTabKeyNavigation(false);  // Tab goes on to the next field
   table->horizontalHeader()->setSectionResizeMode(QHeaderView::ResizeToContents);
   return table;
 }

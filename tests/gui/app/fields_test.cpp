@@ -6,6 +6,7 @@
 #include <QLabel>
 #include <QLineEdit>
 #include <QTabBar>
+#include <algorithm>
 
 #include "tests/gui/at_the_window.h"
 
@@ -102,6 +103,23 @@ TEST_F(Fields, TabGoesThroughADockAsItIsRead) {
       EXPECT_EQ(rows, 7) << "start, target, via, T and three tolerances";
     }
   }
+}
+
+TEST_F(Fields, TabGoesRoundTheWindow) {
+  open().resize(1900, 1050);
+  QTest::qWait(100);
+  QWidget* const first = QApplication::focusWidget();
+  QWidget* now = first;
+  std::vector<const QWidget*> seen;
+  do {
+    seen.push_back(now);
+    QTest::keyClick(now, Qt::Key_Tab);
+    now = QApplication::focusWidget();
+    ASSERT_NE(now, nullptr);
+    ASSERT_EQ(std::find(seen.begin() + 1, seen.end(), now), seen.end()) << "Tab does not leave " << nameOf(now);
+  } while (now != first);
+  EXPECT_NE(std::find(seen.begin(), seen.end(), find<QWidget>("criteria")), seen.end());
+  EXPECT_GT(seen.size(), 40u);
 }
 
 }  // namespace
