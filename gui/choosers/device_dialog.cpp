@@ -43,7 +43,7 @@ DeviceDialog::DeviceDialog(const experiment::CompiledExperiment& experiment, con
   QHBoxLayout* line = widgets::rowOf({name_, open_, calibrate_, take_});
   line->setStretch(0, 1);
   layout->addLayout(line);
-  hint_ = new QLabel;
+  hint_ = widgets::named<QLabel>("deviceState");
   hint_->setWordWrap(true);
   view_ = new DeviceView;
   numbers_ = widgets::named<QLabel>("deviceNumbers");
@@ -96,9 +96,9 @@ void DeviceDialog::openOrLetGo() {
     reach_ = info.workspaceRadius > 0 ? info.workspaceRadius : 0.15;
     force_ = info.rendersForce && info.maxForce > 0 ? info.maxForce : 1;
     const QString hint = QString::fromStdString(device_->calibrationHint());
-    tell(QString::fromStdString(info.name) +
-             (hint.isEmpty() ? tr(" needs no calibration") : tr(": to calibrate, %1, and press Calibrate").arg(hint)),
-         false);
+    usual_ = QString::fromStdString(info.name) +
+             (hint.isEmpty() ? tr(" needs no calibration") : tr(": to calibrate, %1, and press Calibrate").arg(hint));
+    tell(usual_, false);
     timer_->start(kLookMs);
   });
   if (!fault.isEmpty()) tell(fault, true);
@@ -120,6 +120,8 @@ void DeviceDialog::look() {
                         .arg(view.rate, 6, 'f', 1)
                         .arg(buttons.isEmpty() ? " –" : buttons));
   if (!view.fault.empty()) tell(QString::fromStdString(view.fault), true);
+  else if (!fault_.empty()) tell(usual_, false);  // it is back
+  fault_ = view.fault;
 }
 
 void DeviceDialog::calibrate() {

@@ -39,6 +39,8 @@ class DeviceDialog : public QDialog {
   QLabel *numbers_, *hint_;
   QTimer* timer_;
   std::unique_ptr<devices::LiveDevice> device_;
+  QString usual_;      // the hint while the device is well
+  std::string fault_;  // of the device at the last look
   double reach_ = 0.1, force_ = 1;
 };
 

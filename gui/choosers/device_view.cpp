@@ -55,7 +55,8 @@ void DeviceView::drawPlace(QPainter& painter, const QRectF& frame, const QString
   painter.drawEllipse(middle, reach_ * scale, reach_ * scale);
   if (!live_) return;
   painter.setClipRect(field);
-  const QPointF at = middle + scale * QPointF(right, -up);
+  const QPointF place = middle + scale * QPointF(right, -up);
+  const QPointF at(std::clamp(place.x(), field.left(), field.right()), std::clamp(place.y(), field.top(), field.bottom()));
   const QPointF tip = at + field.width() / 2 / force_ * QPointF(forceRight, -forceUp);
   painter.setPen(QPen(toQColor(colours::kLast), 3));
   painter.drawLine(at, tip);

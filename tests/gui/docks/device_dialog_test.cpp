@@ -7,6 +7,9 @@
 #include <QPushButton>
 #include <QTest>
 
+#include "gui/widgets/theme.h"
+#include "tests/devices/fakes/fake_haply.h"
+
 namespace reachlab::gui::docks {
 namespace {
 
@@ -36,6 +39,32 @@ TEST(DeviceDialog, ShowsADeviceLiveAndLetsItGo) {
   EXPECT_TRUE(words->text().isEmpty());
   QTest::mouseClick(dialog.findChild<QPushButton*>(QStringLiteral("deviceTake")), Qt::LeftButton);
   EXPECT_EQ(taken, QStringLiteral("virtual:premium15"));
+}
+
+TEST(DeviceDialog, ADeviceThatIsBackIsNotCalledLost) {
+  test::FakeHaply service;
+  DeviceDialog dialog(chain(), QStringLiteral("haply:port=%1").arg(service.port()), nobody, nullptr);
+  dialog.openOrLetGo();
+  const auto* hint = dialog.findChild<QLabel*>(QStringLiteral("deviceState"));
+  const QString usual = hint->text();
+  service.setPlugged(false);
+  ASSERT_TRUE(QTest::qWaitFor([&] { return hint->text().contains(QStringLiteral("is lost")); }, 20000)) << hint->text().toStdString();
+  service.setPlugged(true);
+  EXPECT_TRUE(QTest::qWaitFor([&] { return hint->text() == usual; }, 20000)) << hint->text().toStdString();
+}
+
+TEST(DeviceView, ShowsAHandBeyondItsRangeAtTheEdge) {
+  DeviceView picture;
+  picture.resize(picture.sizeHint());
+  devices::LiveDevice::View view{};
+  view.valid = true;
+  view.position = {1, 0, 0};
+  picture.display(view, 0.15, 1);
+  const QImage image = picture.grab().toImage();
+  int seen = 0;
+  for (int y = 0; y < image.height(); ++y)
+    for (int x = 0; x < image.width(); ++x) seen += image.pixel(x, y) == widgets::toQColor(widgets::colours::kHand).rgb() ? 1 : 0;
+  EXPECT_GT(seen, 50) << "in both pictures";
 }
 
 TEST(DeviceDialog, ADeviceThatCannotBeHadIsSaidInItsWords) {
