@@ -53,10 +53,10 @@ QString reasonText(trial::Reason reason) {
   return wordsOf(result).brief;
 }
 
-OverlayState overlayOf(const haptics::TickState& state, const experiment::Task& task, int trialsPlanned, bool mouse) {
+OverlayState overlayOf(const haptics::TickState& state, const experiment::Task& task, int trialsPlanned, bool mouse, int trialsBefore) {
   OverlayState o;
   o.semaphore = state.semaphore;
-  o.counter = state.trial > 0      ? QStringLiteral("Trial %1 of %2").arg(state.trial).arg(trialsPlanned)
+  o.counter = state.trial > 0      ? QStringLiteral("Trial %1 of %2").arg(trialsBefore + state.trial).arg(trialsBefore + trialsPlanned)
               : trialsPlanned == 1 ? QStringLiteral("1 trial")
                                    : QStringLiteral("%1 trials").arg(trialsPlanned);
   const double latest = task.duration + task.tolerance.time;

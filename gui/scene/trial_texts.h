@@ -6,8 +6,9 @@
 
 namespace reachlab::gui::scene {
 
-/// Texts over the scene: the subject's next step, and the outcome of the last trial. Pure.
-OverlayState overlayOf(const haptics::TickState& state, const experiment::Task& task, int trialsPlanned, bool mouse);
+/// Texts over the scene: the subject's next step, and the outcome of the last trial. `trialsBefore`: trials of the block in earlier
+/// runs. Pure.
+OverlayState overlayOf(const haptics::TickState& state, const experiment::Task& task, int trialsPlanned, bool mouse, int trialsBefore = 0);
 /// Grey unless the trial counts: a trial that ended without success or failure has no square and no tone.
 void showWhetherItCounts(const haptics::TickState& state, OverlayState& overlay);
 /// Before a run.

@@ -51,6 +51,7 @@ void rememberOpenRun(const record::RunConfiguration& run, const session::Session
   const auto path = run.planText.empty() ? std::nullopt : session::findPlan(request.what);
   keep("openRun/plan", path ? absolute(*path) : std::string());
   keep("openRun/experiment", path ? std::string() : run.experimentText);
+  keep("openRun/name", run.experimentName);
   keep("openRun/definition", path ? std::string() : run.definitionText);
   keep("openRun/data", absolute(request.place.data));
   keep("openRun/subject", run.subject);
@@ -87,7 +88,7 @@ std::optional<InterruptedRun> findInterruptedRun() {
   r.what = text("openRun/plan");
   if (r.what.empty()) {
     found.programme =
-        session::programmeOf(experiment::openExperimentText(text("openRun/experiment"), "the interrupted run", text("openRun/definition")));
+        session::programmeOf(experiment::openExperimentText(text("openRun/experiment"), text("openRun/name"), text("openRun/definition")));
     r.trials = textOf(settings, "openRun/trials").toInt();
   } else {
     found.programme = session::readProgramme(r.what);

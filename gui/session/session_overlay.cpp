@@ -88,7 +88,8 @@ scene::OverlayState overlayOf(SessionController& session, bool mouse, bool masse
     overlay = scene::restingOverlay(QString::fromStdString(experiment.name), mouse);
     if (session.resumes()) overlay.instruction = "Press Space to resume the session";
   } else {
-    overlay = scene::overlayOf(run->latest(), experiment.task.value_or(experiment::Task{}), static_cast<int>(run->trialCount()), mouse);
+    overlay = scene::overlayOf(run->latest(), experiment.task.value_or(experiment::Task{}), static_cast<int>(run->trialCount()), mouse,
+                               run->configuration().firstTrial - 1);
     if (!run->underWay() && run->latest().trial == 0) overlay.instruction = "Press Space to begin";
     if (session.isPlan())
       overlay.counter = QStringLiteral("Block %1 of %2, ").arg(run->configuration().block).arg(session.blockCount()) +

@@ -2,6 +2,7 @@
 #include <QAction>
 #include <QLabel>
 #include <QPushButton>
+#include <QSettings>
 #include <QTableWidget>
 #include <csignal>
 #include <filesystem>
@@ -229,6 +230,28 @@ TEST_F(RecordingWindow, ThePapersPlanIsDoneBlockByBlockAndResumedAfterAKill) {
   std::set<std::string> conditions{found[0].configuration().condition, found[1].configuration().condition,
                                    found[3].configuration().condition};
   EXPECT_EQ(conditions, (std::set<std::string>{"slow", "moderate", "fast"}));
+}
+
+TEST_F(RecordingWindow, AResumedRunKeepsItsNameAndContinuesItsNumbers) {
+  request_.trials = 3;
+  open();
+  doTrial();
+  // As a kill leaves it: the run is still remembered.
+  QSettings settings;
+  std::map<QString, QVariant> left;
+  for (const QString& key : settings.allKeys())
+    if (key.startsWith("openRun/")) left[key] = settings.value(key);
+  session().endRun();
+  for (const auto& [key, value] : left) settings.setValue(key, value);
+  settings.sync();
+  request_.what = "dingwell";
+  open();
+  window_->offerResume();
+  find<QPushButton>("resumeYes")->click();
+  EXPECT_EQ(window_->windowTitle(), QStringLiteral("chain-moderate[*] – Reachlab"));
+  doTrial();
+  EXPECT_EQ(session().run()->configuration().experimentName, "chain-moderate");
+  EXPECT_EQ(overlayOf(session(), false, false).counter.toStdString(), "Trial 2 of 3");
 }
 
 // A text without what tells the time.
