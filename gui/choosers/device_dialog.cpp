@@ -27,6 +27,11 @@ bool isInWindowOnly(const QString& device) {
   return driver != nullptr && driver->inWindowOnly;
 }
 
+bool needsMoreThanItsName(const QString& device) {
+  const devices::DeviceDriver* driver = devices::findDriver(device.toStdString());
+  return driver != nullptr && driver->usage.starts_with(driver->name + ":");
+}
+
 DeviceDialog::DeviceDialog(const experiment::CompiledExperiment& experiment, const QString& chosen,
                            std::function<void(const QString& name)> take, QWidget* parent)
     : QDialog(parent), experiment_(experiment), taken_(std::move(take)) {
@@ -70,7 +75,7 @@ void DeviceDialog::showButtons() {
   open_->setEnabled(device_ != nullptr || (!name.isEmpty() && !isInWindowOnly(name)));
   open_->setToolTip(isInWindowOnly(name) ? tr("it is seen in the window itself") : QString());
   calibrate_->setEnabled(device_ != nullptr && !device_->calibrationHint().empty());
-  take_->setEnabled(!name.isEmpty());
+  take_->setEnabled(!name.isEmpty() && !needsMoreThanItsName(name));
   name_->setEnabled(!device_);
 }
 

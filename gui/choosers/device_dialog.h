@@ -15,6 +15,8 @@ namespace reachlab::gui::docks {
 
 /// Whether the device of this name, with its options, is seen only in the window itself, as the mouse is.
 bool isInWindowOnly(const QString& device);
+/// Whether this is the bare name of a driver that needs more, as `replay` needs a file.
+bool needsMoreThanItsName(const QString& device);
 
 /// A device live: its place, the force on it, how regularly it reports, and its calibration. No object is held.
 class DeviceDialog : public QDialog {

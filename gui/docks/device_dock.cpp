@@ -123,12 +123,13 @@ void DeviceDock::list() {
 
 void DeviceDock::showButtons() {
   const QTreeWidgetItem* row = rows_->currentItem();
-  const bool usable = !busy_ && !chosen().isEmpty() && isPresent(*row);
+  const bool lacks = needsMoreThanItsName(chosen()), usable = !busy_ && !chosen().isEmpty() && isPresent(*row) && !lacks;
   take_->setEnabled(usable);
   look_->setEnabled(usable && !isInWindowOnly(row->text(kName)));
   again_->setEnabled(!busy_);
   hint_->setText(busy_                ? tr("The run uses its devices. End the run to search for devices again.")
                  : chosen().isEmpty() ? QString()
+                 : lacks              ? tr("Type the whole name into the dock Session: %1").arg(row->toolTip(kName))
                                       : row->text(kWords));
   hint_->setVisible(!hint_->text().isEmpty());
 }

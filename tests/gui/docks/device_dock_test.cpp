@@ -117,6 +117,18 @@ TEST_F(DeviceDockOnPlugs, WhatIsNotThereCannotBeTaken) {
   EXPECT_EQ(child<QLabel>(dock, "deviceHint")->text(), QStringLiteral("its firmware is too old")) << "in full";
 }
 
+TEST_F(DeviceDockOnPlugs, WhatNeedsMoreThanItsNameIsToldAndNotTaken) {
+  devices::FoundDevice replay = arm();
+  replay.name = replay.kind = "replay";
+  plugged = {replay};
+  show();
+  rows->setCurrentItem(rowOf(dock, "replay"));
+  EXPECT_FALSE(button("deviceUse")->isEnabled());
+  EXPECT_FALSE(button("deviceLook")->isEnabled());
+  const QString hint = child<QLabel>(dock, "deviceHint")->text();
+  EXPECT_TRUE(hint.contains(QStringLiteral("replay:FILE"))) << hint.toStdString();
+}
+
 TEST(DeviceDock, SaysWhatIsThereWhatIsNotAndWhy) {
   DeviceDock dock;
   dock.resize(378, 420);
