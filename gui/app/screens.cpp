@@ -167,7 +167,7 @@ void Screens::showSubjectOn(const QString& screen) {
 }
 
 void Screens::openSubject(const QString& screen) {
-  subject_ = new subject::SubjectWindow;
+  subject_ = new subject::SubjectWindow(main_);
   subject_->setAttribute(Qt::WA_DeleteOnClose);
   connect(&subject_->view(), &scene::SceneView::handDragged, this, &Screens::handDragged);
   subject_->view().setPlan(subjectsPlan(main_.plan(), experiment_->experiment().subjectScreen));

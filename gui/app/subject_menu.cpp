@@ -12,7 +12,7 @@ namespace {
 void listScreens(MainWindow& window, QMenu& menu) {
   menu.clear();
   auto* group = new QActionGroup(&menu);
-  const QString known = subject::rememberedScreen();
+  const QString known = subject::rememberedScreen(window);
   for (const QScreen* screen : QGuiApplication::screens()) {
     const QString name = screen->name();
     QAction* action = addSwitch(window, menu, subject::titleOf(*screen), [&window, name] { window.screens().showSubjectOn(name); });

@@ -5,6 +5,7 @@
 #include <QSettings>
 #include <QVBoxLayout>
 #include <QWindow>
+#include <algorithm>
 
 #include "gui/widgets/named.h"
 
@@ -28,14 +29,20 @@ QString titleOf(const QScreen& screen) {
   return QStringLiteral("%1, %2 × %3").arg(screen.name()).arg(pixels.width(), 0, 'f', 0).arg(pixels.height(), 0, 'f', 0);
 }
 
-QString rememberedScreen() {
-  const QString known = QSettings().value(screenKey()).toString();
-  if (screenNamed(known) != nullptr) return known;
-  const QList<QScreen*> screens = QGuiApplication::screens();
-  return screens.isEmpty() ? QString() : screens[screens.size() > 1 ? 1 : 0]->name();
+QString screenFor(const QString& known, const QStringList& present, const QString& experimenters) {
+  if (present.contains(known)) return known;
+  const auto free = std::find_if(present.begin(), present.end(), [&](const QString& name) { return name != experimenters; });
+  return free != present.end() ? *free : experimenters;
 }
 
-SubjectWindow::SubjectWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
+QString rememberedScreen(const QWidget& experimenters) {
+  QStringList present;
+  for (const QScreen* screen : QGuiApplication::screens()) present << screen->name();
+  const QScreen* const theirs = experimenters.screen();
+  return screenFor(QSettings().value(screenKey()).toString(), present, theirs != nullptr ? theirs->name() : present.value(0));
+}
+
+SubjectWindow::SubjectWindow(const QWidget& experimenters) : QWidget(nullptr, Qt::Window), experimenters_(experimenters) {
   setWindowTitle("Reachlab – subject");
   auto* layout = widgets::filling<QVBoxLayout>(this);
   view_ = new scene::SceneView;
@@ -49,7 +56,7 @@ SubjectWindow::SubjectWindow(QWidget* parent) : QWidget(parent, Qt::Window) {
 }
 
 void SubjectWindow::showFull(const QString& screen) {
-  const QString wanted = screenNamed(screen) != nullptr ? screen : rememberedScreen();
+  const QString wanted = screenNamed(screen) != nullptr ? screen : rememberedScreen(experimenters_);
   if (!screen.isEmpty() && wanted == screen) QSettings().setValue(screenKey(), screen);
   if (QScreen* found = screenNamed(wanted)) {
     if (isFullScreen()) showNormal();  // or it stays where it is

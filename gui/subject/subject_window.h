@@ -12,9 +12,9 @@ namespace reachlab::gui::subject {
 class SubjectWindow : public QWidget {
   Q_OBJECT
  public:
-  explicit SubjectWindow(QWidget* parent = nullptr);
-  /// Fills the screen of that name. Otherwise it fills the screen that was used last, or else the second screen. The choice is remembered
-  /// (QSettings).
+  /// `experimenters`: the experimenter's window or a part of it, which outlives this window. Its screen is not covered without a choice.
+  explicit SubjectWindow(const QWidget& experimenters);
+  /// Fills the screen of that name, or without a name the `rememberedScreen`. The choice is remembered (QSettings).
   void showFull(const QString& screen = {});
   scene::SceneView& view() { return *view_; }
   /// The square for a light sensor in the lower left corner: not there, black, or white.
@@ -26,6 +26,7 @@ class SubjectWindow : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
+  const QWidget& experimenters_;
   scene::SceneView* view_;
   QWidget* square_;
   Patch patch_ = Patch::None;
@@ -33,7 +34,9 @@ class SubjectWindow : public QWidget {
 
 /// "HDMI-1, 1920 × 1080": the menu's name of a screen. The first word is the screen's name.
 QString titleOf(const QScreen& screen);
-/// The screen that showFull takes without a name.
-QString rememberedScreen();
+/// The screen for the subject: the `known` screen if it is present, else a screen without the experimenter's window if possible.
+QString screenFor(const QString& known, const QStringList& present, const QString& experimenters);
+/// The same for the screens of this computer and the remembered choice. `experimenters`: the experimenter's window.
+QString rememberedScreen(const QWidget& experimenters);
 
 }  // namespace reachlab::gui::subject

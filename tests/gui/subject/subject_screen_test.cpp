@@ -70,6 +70,14 @@ TEST_F(SubjectsScreen, ShowsWhatTheExperimentSaysAndNothingElse) {
   EXPECT_TRUE(QTest::qWaitFor([&] { return mirror->isVisible(); }, 5000)) << "small in the experimenter's corner";
 }
 
+TEST(SubjectsMonitor, IsTheChosenOneOrOneWithoutTheExperimentersWindow) {
+  const QStringList two{QStringLiteral("A"), QStringLiteral("B")}, one{QStringLiteral("A")};
+  EXPECT_EQ(screenFor({}, two, "A"), "B");
+  EXPECT_EQ(screenFor({}, two, "B"), "A");
+  EXPECT_EQ(screenFor("B", two, "B"), "B") << "it is chosen";
+  EXPECT_EQ(screenFor("B", one, "A"), "A") << "there is no other";
+}
+
 TEST_F(SubjectsScreen, SpeaksTheSubjectsLanguageAndIsChangedWithTheExperiment) {
   showing("{}");
   open();
