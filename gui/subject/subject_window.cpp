@@ -53,18 +53,38 @@ SubjectWindow::SubjectWindow(const QWidget& experimenters) : QWidget(nullptr, Qt
   square_->setAttribute(Qt::WA_TransparentForMouseEvents);
   square_->hide();
   setCursor(Qt::BlankCursor);
+  for (const auto changed : {&QGuiApplication::screenAdded, &QGuiApplication::screenRemoved})
+    connect(qGuiApp, changed, this, &SubjectWindow::followScreens, Qt::QueuedConnection);  // when Qt has moved its windows
 }
 
 void SubjectWindow::showFull(const QString& screen) {
   const QString wanted = screenNamed(screen) != nullptr ? screen : rememberedScreen(experimenters_);
   if (!screen.isEmpty() && wanted == screen) QSettings().setValue(screenKey(), screen);
-  if (QScreen* found = screenNamed(wanted)) {
+  fill(wanted);
+}
+
+void SubjectWindow::fill(const QString& screen) {
+  shownOn_ = screen;
+  if (QScreen* found = screenNamed(screen)) {
     if (isFullScreen()) showNormal();  // or it stays where it is
     create();
     windowHandle()->setScreen(found);
     setGeometry(found->geometry());
   }
   showFullScreen();
+}
+
+// A monitor was plugged in or out. The experimenter's monitor is not covered by itself.
+void SubjectWindow::followScreens() {
+  const QString wanted = rememberedScreen(experimenters_);
+  const QScreen* const theirs = experimenters_.screen();
+  if (wanted == shownOn_ || !isVisible()) return;
+  if (theirs == nullptr || theirs->name() != wanted) return fill(wanted);
+  if (screenNamed(shownOn_) != nullptr) return;
+  shownOn_.clear();
+  showNormal();
+  const QRect room = theirs->availableGeometry();
+  setGeometry(QRect(room.topLeft() + QPoint(room.width() / 2, 40), room.size() / 2.5));
 }
 
 void SubjectWindow::setPatch(Patch patch) {

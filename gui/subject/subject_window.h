@@ -8,7 +8,7 @@ class QScreen;
 namespace reachlab::gui::subject {
 
 /// The subject's screen: the scene and a few words in full screen. The experimenter's keys also work here, because the main window passes
-/// its actions on.
+/// its actions on. It leaves full screen while its monitor is unplugged.
 class SubjectWindow : public QWidget {
   Q_OBJECT
  public:
@@ -26,7 +26,11 @@ class SubjectWindow : public QWidget {
   void resizeEvent(QResizeEvent* event) override;
 
  private:
+  void fill(const QString& screen);
+  void followScreens();
+
   const QWidget& experimenters_;
+  QString shownOn_;  // the filled screen; empty: no screen
   scene::SceneView* view_;
   QWidget* square_;
   Patch patch_ = Patch::None;
