@@ -105,6 +105,7 @@ QWidget* ConstraintChooser::makeSide() {
   use_ = named<QPushButton>("use", "Reach on this");
   use_->setProperty("role", "go");
   refusal_ = named<widgets::FaultLabel>("refusal");
+  refusal_->watch(sliders_);
   usePoint_ = named<QPushButton>("usePoint", "Reach on this with one mass");
   usePoint_->hide();
   for (QPushButton* button : {save_, use_, usePoint_}) button->setAutoDefault(false);

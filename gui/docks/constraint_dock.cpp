@@ -67,6 +67,7 @@ ConstraintDock::ConstraintDock(QWidget* parent) : Dock("Constraint", "constraint
   widgets::addAll(*layout, {name_, formula_, sliders_, faults(), another});
   layout->addStretch();
   setBody(body);
+  faults()->watch(sliders_);
   connect(sliders_, &widgets::ShapeSliders::moved, this, [this] {
     inSliders_.shape = sliders_->values();
     edit("shape", [this](experiment::Experiment& e) { e.constraint.shape = inSliders_.shape; });
@@ -93,7 +94,8 @@ void ConstraintDock::display(const experiment::CompiledExperiment& experiment, b
   formula_->setText(formula.trimmed());
   formula_->setVisible(!formula.isEmpty());
   // While a slider is being moved its row must stand still.
-  if (!sameFormula(spec, inSliders_) || spec.shape != sliders_->values()) sliders_->setParameters(parametersOf(spec), spec.shape);
+  if (!sameFormula(spec, inSliders_) || spec.shape != sliders_->values() || !sliders_->fault().isEmpty())
+    sliders_->setParameters(parametersOf(spec), spec.shape);
   inSliders_ = spec;
   faults()->hide();
 }

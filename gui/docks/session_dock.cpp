@@ -61,8 +61,11 @@ SessionDock::SessionDock(QWidget* parent) : Dock("Session", "sessionDock", paren
 
   automatic_ = tipped(new QCheckBox("start the next trial after"),
                       "The next trial begins without a key after this pause. A plan has its own pauses.");
-  pause_ = tipped(new widgets::UnitSpinBox(0, 600, "s"), automatic_->toolTip());
+  pause_ = tipped(named<widgets::UnitSpinBox>("pause", 0, 600, "s"), automatic_->toolTip());
+  pause_->setName("pause");
   pause_->show(1);
+  auto* pauseFault = named<widgets::FaultLabel>("pauseFault");  // not among the faults that prevent a start: the value before holds
+  pauseFault->watch(pause_);
   QHBoxLayout* pausing = rowOf({automatic_, pause_});
   pausing->addStretch();
 
@@ -70,6 +73,7 @@ SessionDock::SessionDock(QWidget* parent) : Dock("Session", "sessionDock", paren
   auto* layout = new QVBoxLayout(body);
   widgets::addAll(*layout, {who_, faults()});
   layout->addLayout(pausing);
+  layout->addWidget(pauseFault);
   layout->addStretch();
   setBody(body, false);
 

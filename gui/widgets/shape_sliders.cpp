@@ -70,7 +70,9 @@ void ShapeSliders::addRow(const constraints::ShapeParameter& p, double value) {
   const double low = typed ? -kMostTyped : p.min, high = typed ? kMostTyped : p.max;
   auto* box = new UnitSpinBox(low, high, p.unit == "1" ? QString() : QString::fromStdString(p.unit));
   box->setObjectName("value_" + QString::fromStdString(p.name));
+  box->setName(plainName(p));
   box->show(value);
+  connect(box, &UnitSpinBox::checked, this, &ShapeSliders::checked);
   auto* line = new QHBoxLayout;
   line->addWidget(slider, 1);
   const QString meaning = QStringLiteral("%1: %2").arg(QString::fromStdString(p.name), QString::fromStdString(p.meaning));
@@ -105,6 +107,8 @@ void ShapeSliders::addEnds(std::size_t at, QHBoxLayout& line) {
     box->setMinimumWidth(44);
     box->setMaximumWidth(56);
     box->setToolTip("end of the slider");
+    box->setName(plainName(rows_[at].parameter) + ", end of the slider");
+    connect(box, &UnitSpinBox::checked, this, &ShapeSliders::checked);
     box->show(rows_[at].parameter.*bound);
     connect(box, qOverload<double>(&QDoubleSpinBox::valueChanged), this, [this, at, bound](double v) {
       rows_[at].parameter.*bound = v;
@@ -137,6 +141,15 @@ std::map<std::string, double> ShapeSliders::values() const {
   std::map<std::string, double> values;
   for (const Row& row : rows_) values[row.parameter.name] = row.box->value();
   return values;
+}
+
+QString ShapeSliders::fault() const {
+  QStringList faults;
+  for (const Row& row : rows_)
+    for (const UnitSpinBox* box : {row.low, row.box, row.high})
+      if (box != nullptr) faults << box->fault();
+  faults.removeAll({});
+  return faults.join(QLatin1Char('\n'));
 }
 
 std::vector<constraints::ShapeParameter> ShapeSliders::parameters() const {

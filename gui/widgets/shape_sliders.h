@@ -28,9 +28,13 @@ class ShapeSliders : public QWidget {
   std::map<std::string, double> values() const;
   /// With the ranges as they are now.
   std::vector<constraints::ShapeParameter> parameters() const;
+  /// The faults of the numbers, one line each. Empty if there is no fault.
+  QString fault() const;
 
  Q_SIGNALS:
   void moved();
+  /// Emitted at every keystroke, because `fault` may have changed.
+  void checked();
 
  private:
   struct Row {

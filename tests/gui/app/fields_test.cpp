@@ -79,6 +79,25 @@ TEST_F(Fields, AFaultStaysWhileItsEntryStays) {
   EXPECT_EQ(find<QLabel>("sessionFaults")->text(), QString());
 }
 
+TEST_F(Fields, AWrongShapeOrPauseIsToldAndTheValueBeforeIsKept) {
+  openAll();
+  window_->openExperiment("ellipse");
+  const auto told = [&](QAbstractSpinBox* number, const QLabel* faults) {
+    const QString before = number->text();
+    type(number, "0,3");
+    EXPECT_EQ(number->text(), before);
+    EXPECT_TRUE(faults->isVisible());
+    EXPECT_TRUE(faults->text().contains("\"0,3\" is no number")) << faults->text().toStdString();
+    EXPECT_TRUE(faults->text().endsWith(before + " is kept")) << faults->text().toStdString();
+    type(number, "0.25");
+    EXPECT_EQ(faults->text(), QString());
+  };
+  const auto shapes = find<QDockWidget>("constraintDock")->findChildren<QDoubleSpinBox*>();
+  ASSERT_FALSE(shapes.isEmpty());
+  told(shapes.front(), find<QLabel>("constraintFaults"));
+  told(find<QAbstractSpinBox>("pause"), find<QLabel>("pauseFault"));
+}
+
 TEST_F(Fields, TabGoesThroughADockAsItIsRead) {
   openAll();
   for (QDockWidget* dock : window_->findChildren<QDockWidget*>()) {
