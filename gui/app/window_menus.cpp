@@ -34,14 +34,19 @@ void listKeys(const QList<QAction*>& actions, QStringList& rows) {
 }
 
 void sayKeys(MainWindow& window) {
-  QStringList rows{keyRow("left drag", "moves the hand (device mouse)"), keyRow("right drag", "turns the view"),
-                   keyRow("middle drag", "shifts the view"), keyRow("wheel", "zooms"), keyRow("Tab", "goes to the next field or button")};
+  QStringList rows{keyRow("left drag", "moves the hand (device mouse)"),
+                   keyRow("left drag on start or target", "moves that position while no run is open"),
+                   keyRow("right drag", "turns the view"),
+                   keyRow("middle drag, Shift + left drag", "shifts the view"),
+                   keyRow("wheel", "zooms"),
+                   keyRow("Tab", "goes to the next field or button")};
   listKeys(window.menuBar()->actions(), rows);
+  for (const auto& key : inspector::InspectorPage::keys()) rows << keyRow(key.keys, "page Inspect: " + key.words);
   const int half = (rows.size() + 1) / 2;
   QString columns;
   for (const QStringList& column : {QStringList(rows.mid(0, half)), QStringList(rows.mid(half))})
     columns += QStringLiteral("<td><table cellpadding=2>%1</table></td>").arg(column.join(QString()));
-  say(window, "Keys and mouse", QStringLiteral("<table><tr>%1</tr></table>").arg(columns));
+  say(window, "Keys and mouse", QStringLiteral("<table style=\"white-space: nowrap\"><tr>%1</tr></table>").arg(columns));
 }
 
 void sayAbout(MainWindow& window) {

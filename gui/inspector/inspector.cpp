@@ -146,16 +146,21 @@ void InspectorPage::report(const QString& dataset) {
   report_->setEnabled(!analysis_.busy());
 }
 
+const std::vector<InspectorPage::Key>& InspectorPage::keys() {
+  static const std::vector<Key> all{
+      {"P", tr("plays and stops the replay"), [](InspectorPage& page) { page.replay_->togglePlaying(); }},
+      {",", tr("shows the replay one sample earlier"), [](InspectorPage& page) { page.replay_->step(-1); }},
+      {".", tr("shows the replay one sample later"), [](InspectorPage& page) { page.replay_->step(1); }},
+      {"Ctrl+F", tr("goes to the filter of the trials"), [](InspectorPage& page) { page.words_->setFocus(), page.words_->selectAll(); }}};
+  return all;
+}
+
 void InspectorPage::addKeys() {
-  const auto key = [this](const QKeySequence& keys, auto slot) {
-    auto* shortcut = new QShortcut(keys, this);
+  for (const Key& key : keys()) {
+    auto* shortcut = new QShortcut(QKeySequence(key.keys), this);
     shortcut->setContext(Qt::WidgetWithChildrenShortcut);
-    connect(shortcut, &QShortcut::activated, this, slot);
-  };
-  key(Qt::Key_P, [this] { replay_->togglePlaying(); });
-  key(Qt::Key_Comma, [this] { replay_->step(-1); });
-  key(Qt::Key_Period, [this] { replay_->step(1); });
-  key(QKeySequence("Ctrl+F"), [this] { words_->setFocus(), words_->selectAll(); });
+    connect(shortcut, &QShortcut::activated, this, [this, act = key.act] { act(*this); });
+  }
 }
 
 std::vector<int> InspectorPage::chosenRows() const {

@@ -34,6 +34,12 @@ class InspectorPage : public QWidget {
   Q_OBJECT
  public:
   explicit InspectorPage(QWidget* parent = nullptr);
+  struct Key {
+    QString keys, words;
+    void (*act)(InspectorPage& page);
+  };
+  /// The keys of this page, for itself and for the list of all keys.
+  static const std::vector<Key>& keys();
   /// Opens a dataset, a session or a log on another thread, with progress. Faults are shown.
   void open(const QString& path);
   QString path() const { return path_; }

@@ -10,6 +10,7 @@
 #include <QMenuBar>
 #include <QMessageBox>
 #include <QSettings>
+#include <QShortcut>
 #include <QSlider>
 #include <QWidgetAction>
 #include <algorithm>
@@ -422,6 +423,11 @@ TEST_F(MenuActions, OfHelpOpenTheManualAndTheBoxes) {
     EXPECT_TRUE(box("Keys and mouse")->text().contains(action->shortcut().toString(QKeySequence::NativeText).toHtmlEscaped()))
         << path.toStdString();
   }
+  const QString keys = box("Keys and mouse")->text();
+  for (const QShortcut* shortcut : window.inspector().findChildren<QShortcut*>())
+    EXPECT_TRUE(keys.contains("<b>" + shortcut->key().toString(QKeySequence::NativeText) + "</b>"))
+        << shortcut->key().toString().toStdString();
+  for (const char* drag : {"Shift + left drag", "left drag on start or target"}) EXPECT_TRUE(keys.contains(drag)) << drag;
   trigger("Help/About");
   ASSERT_NE(box("Reachlab"), nullptr);
   EXPECT_TRUE(box("Reachlab")->text().contains(QLatin1String(qVersion())));
