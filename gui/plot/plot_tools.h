@@ -41,11 +41,38 @@ inline QwtText axisTitle(const QString& text) {
   return title;
 }
 
+/// Gives the left axis this title, and fits title and numbers to the length of the axis.
+inline void fitLeftAxis(QwtPlot& plot, const QString& words) {
+  constexpr double kMost = 10, kLeast = 6;  // [pt]
+  const double length = plot.canvas()->height();
+  QwtText title = axisTitle(words);
+  QFont font = title.font();
+  font.setPointSizeF(kMost);
+  const double needed = QFontMetricsF(font).horizontalAdvance(words) + 8;
+  font.setPointSizeF(std::clamp(kMost * length / needed, kLeast, kMost));
+  title.setFont(font);
+  plot.setAxisTitle(QwtPlot::yLeft, title);
+  const double row = 1.8 * QFontMetricsF(plot.axisFont(QwtPlot::yLeft)).height();
+  const int rows = std::clamp(static_cast<int>(length / row), 1, 8);
+  if (rows == plot.axisMaxMajor(QwtPlot::yLeft)) return;
+  plot.setAxisMaxMajor(QwtPlot::yLeft, rows);
+  plot.updateAxes();
+}
+
+/// A canvas whose left axis fits to it, whatever its size is.
+class FittedCanvas : public QwtPlotCanvas {
+  using QwtPlotCanvas::QwtPlotCanvas;
+  void resizeEvent(QResizeEvent* event) override {
+    QwtPlotCanvas::resizeEvent(event);
+    fitLeftAxis(*plot(), plot()->axisTitle(QwtPlot::yLeft).text());
+  }
+};
+
 /// Canvas and grid of a plot, in the theme's colours. The plot owns both.
 inline QwtPlotCanvas* dress(QwtPlot& plot) {
   // Qwt would draw a line in pieces and start the dashes again in each. In a small plot a piece is shorter than a dash and looks solid.
   QwtPainter::setPolylineSplitting(false);
-  auto* canvas = new QwtPlotCanvas(&plot);
+  auto* canvas = new FittedCanvas(&plot);
   canvas->setFrameStyle(QFrame::NoFrame);
   canvas->setAutoFillBackground(true);
   QPalette palette = canvas->palette();

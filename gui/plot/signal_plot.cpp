@@ -121,7 +121,7 @@ void SignalPlot::fill() {
   }
   const QString units[] = {tr("velocity [m/s]"), tr("position [m]"), tr("force of the coupling [N]"), tr("velocity along x [m/s]"),
                            tr("a tick [ms], missed ticks")};
-  plot_->setAxisTitle(QwtPlot::yLeft, axisTitle(units[static_cast<int>(what)]));
+  fitLeftAxis(*plot_, units[static_cast<int>(what)]);
   plot_->setAxisTitle(QwtPlot::xBottom, axisTitle(what == Quantity::PhasePlane ? tr("position along x [m]") : tr("time of the run [s]")));
   if (zoomer_->zoomRectIndex() == 0) {
     plot_->setAxisAutoScale(QwtPlot::xBottom, true);

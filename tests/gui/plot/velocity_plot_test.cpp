@@ -32,6 +32,26 @@ struct ShownPlot {
   QCheckBox& freeze() { return *plot.findChild<QCheckBox*>(QStringLiteral("velocityFreeze")); }
 };
 
+// Rows of a picture without ink in these columns.
+int blankRows(const QImage& picture, int from, int to) {
+  int blank = 0;
+  for (int y = 0; y < picture.height(); ++y) {
+    bool ink = false;
+    for (int x = from; x < to; ++x) ink = ink || picture.pixel(x, y) != picture.pixel(0, 0);
+    blank += ink ? 0 : 1;
+  }
+  return blank;
+}
+
+TEST(VelocityPlot, TheLeftAxisFitsIntoTheSmallestPlot) {
+  ShownPlot shown;
+  shown.plot.resize(shown.plot.minimumSizeHint());
+  const QImage axis = shown.plot.findChild<QWidget*>(QStringLiteral("QwtPlotAxisYLeft"))->grab().toImage();
+  const int title = QFontMetrics(QApplication::font()).height();
+  EXPECT_GT(blankRows(axis, 0, title), 4) << "the title is not cut";
+  EXPECT_GT(blankRows(axis, title + 4, axis.width() - 12), axis.height() / 5) << "the numbers are apart";
+}
+
 // Columns of the small canvas of a screen of 1366 pixels in which the line has no pixel, from its first to its last.
 TEST(VelocityPlot, APredictionIsDashedHoweverSmallThePlotIs) {
   ShownPlot shown;
