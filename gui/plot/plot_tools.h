@@ -75,6 +75,7 @@ inline QwtPlotCanvas* dress(QwtPlot& plot) {
   auto* canvas = new FittedCanvas(&plot);
   canvas->setFrameStyle(QFrame::NoFrame);
   canvas->setAutoFillBackground(true);
+  canvas->setFocusPolicy(Qt::ClickFocus);  // it shows no focus, and nothing is typed in it
   QPalette palette = canvas->palette();
   palette.setColor(QPalette::Window, widgets::toQColor(widgets::colours::kBase));
   canvas->setPalette(palette);

@@ -90,6 +90,7 @@ void applyTheme(QApplication& application) {
           "QPushButton[role=\"go\"]:focus { border: 2px solid %9; }"
           "QPushButton[role=\"go\"]:disabled { background: %6; color: %8; border: 1px solid %2; }"
           "*:focus { outline: 2px solid %9; }"
+          "QTableView:focus, QTreeView:focus, QListView:focus { border: 1px solid %9; }"  // an empty one has no line to be outlined
           "QFrame[role=\"card\"] { background: %7; border: 1px solid %2; border-radius: 8px; }"
           "QToolBar { background: %7; border: none; }"
           "QStatusBar { background: %7; } QStatusBar QLabel { color: %4; padding: 0 6px; }"
