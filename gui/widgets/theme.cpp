@@ -74,7 +74,7 @@ void applyTheme(QApplication& application) {
       QStringLiteral(
           "QDockWidget { font-weight: 600; }"
           "QDockWidget::close-button, QDockWidget::float-button { subcontrol-position: top right; subcontrol-origin: margin;"
-          " position: absolute; top: 8px; bottom: 8px; width: 14px; background: %2; border-radius: 2px; }"
+          " position: absolute; top: 8px; bottom: 8px; width: 14px; background: %5; border-radius: 2px; }"
           "QDockWidget::close-button { right: 8px; } QDockWidget::float-button { right: 28px; }"
           "QDockWidget::title { background: %1; padding: 6px 9px; }"
           "QToolTip { border: 1px solid %2; padding: 4px; }"

@@ -73,6 +73,20 @@ TEST_P(Contrast, OfEveryWordIsEnough) {
   }
 }
 
+TEST_P(Contrast, OfTheButtonsOfADockIsEnough) {
+  open().resize(1900, 1050);
+  QTest::qWait(100);
+  int seen = 0;
+  for (const char* name : {"qt_dockwidget_closebutton", "qt_dockwidget_floatbutton"})
+    for (QAbstractButton* button : window_->findChildren<QAbstractButton*>(QLatin1String(name))) {
+      if (!button->isVisible() || button->visibleRegion().isEmpty()) continue;
+      const QImage picture = window_->grab(QRect(button->mapTo(window_.get(), QPoint()), button->size())).toImage();
+      EXPECT_GE(measure(picture), 3) << name;
+      ++seen;
+    }
+  EXPECT_GT(seen, 4);
+}
+
 INSTANTIATE_TEST_SUITE_P(Themes, Contrast, ::testing::Values(Theme::Dark, Theme::Light));
 
 }  // namespace
