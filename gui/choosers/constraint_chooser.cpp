@@ -70,7 +70,7 @@ QVBoxLayout* ConstraintChooser::makeList() {
   list_ = widgets::named<QListWidget>("definitions");
   list_->setIconSize({104, 72});
   list_->setUniformItemSizes(true);
-  list_->setMinimumWidth(280);
+  list_->setMinimumWidth(220);
   left->addWidget(search_);
   left->addWidget(list_, 1);
   return left;

@@ -217,6 +217,12 @@ TEST(ConstraintDock, AChainOnASurfaceIsOfferedAsOneMass) {
   EXPECT_EQ(told.object.masses, (std::vector<double>{3}));
 }
 
+TEST(ConstraintChooser, FitsOnAFullHdScreenAtAScaleOf2) {
+  const ConstraintChooser chooser;
+  EXPECT_LE(chooser.minimumSizeHint().width(), 960 - 8) << "with the frame";
+  EXPECT_LE(chooser.minimumSizeHint().height(), 540 - 60) << "with title bar and panel";
+}
+
 TEST(FormulaNames, BesideAVariableAreOneLetterOrTheCaseApart) {
   for (const char* name : {"phj", "Phi", "ph", "phii", "pih"})
     EXPECT_EQ(variableMeant(constraints::ConstraintKind::Curve, name), "phi") << name;
