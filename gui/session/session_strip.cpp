@@ -36,7 +36,7 @@ SessionStrip::SessionStrip(QAction* next, QAction* abort, QAction* repeat, QActi
   toggleViewAction()->setVisible(false);
   QPushButton* start = buttonOf(next, "next");
   start->setProperty("role", "go");
-  start->setMinimumWidth(start->fontMetrics().horizontalAdvance("Next block  (Space)") + 40);  // of the longest words
+  start->setMinimumWidth(start->fontMetrics().horizontalAdvance("Next block  (Space)") + 32);  // of the longest words
   auto* body = new QWidget;
   auto* row = new QHBoxLayout(body);
   row->setContentsMargins(8, 4, 8, 4);
@@ -49,11 +49,11 @@ SessionStrip::SessionStrip(QAction* next, QAction* abort, QAction* repeat, QActi
   bold.setWeight(QFont::DemiBold);
   tally_->setFont(bold);
   widgets::addAll(*lines, {run_, tally_});
-  row->addSpacing(8);
   row->addLayout(lines, 3);
-  note_->setPlaceholderText(tr("Note for the record (Enter)"));
+  note_->setPlaceholderText(tr("Note (Enter)"));
   note_->setToolTip(tr("A note that is recorded with its time. Enter keeps it."));
-  note_->setMinimumWidth(210);
+  note_->setMinimumWidth(96);
+  note_->setSizePolicy(QSizePolicy::Ignored, QSizePolicy::Fixed);  // the count of results needs the room more
   row->addWidget(note_, 1);
   addWidget(body);
   connect(note_, &QLineEdit::returnPressed, this, [this] {

@@ -1,5 +1,6 @@
 #include "gui/app/main_window.h"
 
+#include <QAction>
 #include <QComboBox>
 #include <QDockWidget>
 #include <QDoubleSpinBox>
@@ -152,6 +153,25 @@ TEST(Overlay, IsGreyWhereATrialDoesNotCount) {
     EXPECT_EQ(shown.semaphore, trial::Semaphore::Neutral) << trial::nameOf(reason);
     EXPECT_EQ(shown.tone, scene::OverlayState::Tone::Plain) << trial::nameOf(reason);
   }
+}
+
+TEST(Strip, TellsWhyATrialFailedOnAFullHdScreenAtAScaleOf2) {
+  QAction next("&Next trial"), abort("&Abort"), repeat("&Repeat"), end("&End run");
+  for (const auto& [action, keys] : {std::pair{&next, "Space"}, {&abort, "Esc"}, {&repeat, "Ctrl+R"}, {&end, "Ctrl+E"}})
+    action->setShortcut(QKeySequence(keys));
+  SessionStrip strip(&next, &abort, &repeat, &end);
+  strip.resize(960, strip.sizeHint().height());
+  record::RunConfiguration run;
+  run.condition = "chain-moderate";
+  strip.showRun(run);
+  trial::TrialResult result;
+  result.outcome = trial::Outcome::Failure;
+  result.reason = trial::Reason::TimeShort;
+  strip.count(result);
+  strip.show();
+  ASSERT_TRUE(QTest::qWaitForWindowExposed(&strip));
+  const auto* tally = child<QLabel>(strip, "tally");
+  EXPECT_GE(tally->width(), tally->fontMetrics().horizontalAdvance(tally->text())) << tally->text().toStdString();
 }
 
 TEST_F(Window, FieldsSpeakPlainWordsAndUnits) {
