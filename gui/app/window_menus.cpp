@@ -35,13 +35,13 @@ void listKeys(const QList<QAction*>& actions, QStringList& rows) {
 
 void sayKeys(MainWindow& window) {
   QStringList rows{keyRow("left drag", "moves the hand (device mouse)"),
-                   keyRow("left drag on start or target", "moves that position while no run is open"),
+                   keyRow("left drag on start or target", "moves it while no run is open"),
                    keyRow("right drag", "turns the view"),
                    keyRow("middle drag, Shift + left drag", "shifts the view"),
                    keyRow("wheel", "zooms"),
                    keyRow("Tab", "goes to the next field or button")};
   listKeys(window.menuBar()->actions(), rows);
-  for (const auto& key : inspector::InspectorPage::keys()) rows << keyRow(key.keys, "page Inspect: " + key.words);
+  for (const auto& key : inspector::InspectorPage::keys()) rows << keyRow(key.keys, "Inspect: " + key.words);
   const int half = (rows.size() + 1) / 2;
   QString columns;
   for (const QStringList& column : {QStringList(rows.mid(0, half)), QStringList(rows.mid(half))})

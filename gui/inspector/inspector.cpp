@@ -149,8 +149,8 @@ void InspectorPage::report(const QString& dataset) {
 const std::vector<InspectorPage::Key>& InspectorPage::keys() {
   static const std::vector<Key> all{
       {"P", tr("plays and stops the replay"), [](InspectorPage& page) { page.replay_->togglePlaying(); }},
-      {",", tr("shows the replay one sample earlier"), [](InspectorPage& page) { page.replay_->step(-1); }},
-      {".", tr("shows the replay one sample later"), [](InspectorPage& page) { page.replay_->step(1); }},
+      {",", tr("shows one sample earlier"), [](InspectorPage& page) { page.replay_->step(-1); }},
+      {".", tr("shows one sample later"), [](InspectorPage& page) { page.replay_->step(1); }},
       {"Ctrl+F", tr("goes to the filter of the trials"), [](InspectorPage& page) { page.words_->setFocus(), page.words_->selectAll(); }}};
   return all;
 }
