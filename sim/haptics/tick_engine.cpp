@@ -82,7 +82,7 @@ TickEngine::Stage::Stage(const experiment::Experiment& experiment, dynamics::Sce
 
 TickEngine::Hand::Hand(const experiment::Experiment& experiment, const DeviceInfo& device)
     : virtualHand(device.virtualHand), estimator(experiment.velocityEstimator), path(4), safety(limitsFor(experiment, device)),
-      guards(device.guards) {}
+      guards(device.guards), guarded(device.rendersForce || guards.wallRadius > 0 || guards.passivityControl) {}
 
 void TickEngine::begin(const experiment::Experiment& experiment, const EngineOptions& options) {
   now_ = &stages_.front();
@@ -285,7 +285,6 @@ void TickEngine::step(const TickInput& input) noexcept {
 
 // What acts beside the object: the workspace's wall, and the passivity controller where it is wanted.
 Vec3 TickEngine::guardForce(Hand& hand, HandState& out, bool engaged) noexcept {
-  out.interventions = 0;
   if (out.hip.valid) hand.observer.observe(out.device.position);
   out.portEnergy = hand.observer.energy();
   if (!engaged) return {};
@@ -329,13 +328,15 @@ void TickEngine::exertEnvironment(bool acts) noexcept {
 void TickEngine::limitForce(Hand& hand, HandState& out, bool held, std::uint32_t missedTicks) noexcept {
   const bool engaged = trial::isEngaged(protocol_.phase);
   out.feedbackForce = state_.hasEnvironment ? state_.environment.force - out.couplingForce : -out.couplingForce;
-  const Vec3 added = guardForce(hand, out, engaged && held);
+  out.interventions = 0;
+  const Vec3 added = hand.guarded ? guardForce(hand, out, engaged && held) : Vec3{};
   const bool weighs = !(hand.guards.compensation == Vec3{});
   Vec3 asked = out.feedbackForce;
   if (!(added == Vec3{})) asked += added;
   if (weighs) asked += hand.guards.compensation;
   out.deviceForce = hand.safety.limit(asked, engaged || weighs, held && missedTicks <= kGapTicks);
-  hand.observer.render(weighs && !(out.deviceForce == Vec3{}) ? out.deviceForce - hand.guards.compensation : out.deviceForce);
+  if (hand.guarded)
+    hand.observer.render(weighs && !(out.deviceForce == Vec3{}) ? out.deviceForce - hand.guards.compensation : out.deviceForce);
   out.clamped = !(out.deviceForce == asked);
   out.interventions |= hand.safety.interventions();
   hand.clamped = norm(out.feedbackForce) > hand.safety.limit();

@@ -112,6 +112,7 @@ class TickEngine {
     dynamics::HandPath path;
     ForceSafety safety;
     GuardSettings guards;
+    bool guarded;  // energy is observed, or a guard may act
     PassivityObserver observer;
     Vec3 fpOffset;           // [m] HIP minus FP at arming, fixed in world axes
     Vec3 anchor;             // [m] the hand after a gap: seen minus true, at the gap
