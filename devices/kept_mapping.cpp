@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <filesystem>
 
 #include "base/device_options.h"
 #include "base/text_file.h"
@@ -15,9 +16,11 @@
 namespace reachlab::devices {
 namespace {
 
+namespace fs = std::filesystem;
+
 std::string kindOf(const std::string& hand) { return hand.substr(0, hand.find_first_of(":,")); }
 
-// "phantom", or "phantom:Left" of a device that is asked for by a name of its own: another one lies elsewhere.
+// "phantom", or "phantom:Left" if the device is asked for by its own name.
 std::string nameOf(const std::string& hand) {
   const std::string kind = kindOf(hand);
   const std::string own =
@@ -29,7 +32,7 @@ std::string nameOf(const std::string& hand) {
 std::string fileOf(const std::string& name, const std::string& data, const std::string& subject) {
   std::string file = kindOf(name);
   if (name.size() > file.size()) file += '-';
-  for (const char c : std::string_view(name).substr(std::min(file.size(), name.size())))
+  for (const char c : std::string_view(name).substr(file.size()))
     file += std::isalnum(static_cast<unsigned char>(c)) != 0 ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
   return mappingFile(data, subject, file);
 }
@@ -38,7 +41,12 @@ std::string fileOf(const std::string& name, const std::string& data, const std::
 std::string keptFile(const DeviceDriver& driver, const std::string& hand, const std::string& data, const std::string& subject) {
   const std::string name = nameOf(hand);
   if (const std::string file = fileOf(name, data, subject); isThere(file)) return file;
-  if (driver.isMade) return {};
+  // Looking for devices takes time and may open some, so it is done only where it can find a mapping.
+  const fs::path ofKind = fileOf(driver.name, data, subject);
+  const auto isOfOne = [&](const fs::path& file) { return file.filename().string().starts_with(ofKind.stem().string() + "-"); };
+  std::error_code error;
+  const fs::directory_iterator kept(ofKind.parent_path(), error);
+  if (driver.isMade || (name != driver.name ? !isThere(ofKind) : std::none_of(begin(kept), end(kept), isOfOne))) return {};
   std::vector<FoundDevice> found = driver.find(driver);
   std::erase_if(found, [](const FoundDevice& device) { return !device.present; });
   if (found.size() != 1 || (name != driver.name && name != found[0].name)) return {};
