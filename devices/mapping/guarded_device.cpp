@@ -131,18 +131,19 @@ HandSettings takeHandSettings(DeviceOptions& options) {
 
 std::unique_ptr<haptics::HapticDevice> guardDevice(std::unique_ptr<haptics::HapticDevice> device, const HandSettings& options) {
   if (!options.any()) return device;
-  if (options.wall && *options.wall == 0 && !(device->info().workspaceRadius > 0))
-    throw FaultError(Fault{"device", fmt::format("wall=yes: the workspace of {} is not known", device->info().name), "wall=RADIUS_M"});
+  const haptics::DeviceInfo info = device->info();
+  if (options.wall && *options.wall == 0 && !(info.workspaceRadius > 0))
+    throw FaultError(Fault{"device", fmt::format("wall=yes: the workspace of {} is not known", info.name), "wall=RADIUS_M"});
   for (const auto& [key, asked] : {std::pair{"wall", options.wall.has_value()},
                                    {"speed-limit", options.speedLimit.has_value()},
                                    {"stylus-mass", options.stylusMass.has_value()},
                                    {"passivity", options.passivityControl},
                                    {"dead-man-button", options.deadManButton > 0}})
-    if (asked && !device->info().rendersForce)
-      throw FaultError(Fault{"device", fmt::format("{}: {} renders no force", key, device->info().name), "a force device"});
-  if (options.deadManButton > 0 && device->info().virtualHand)
-    throw FaultError(Fault{"device", fmt::format("dead-man-button: no hand presses a button of {}", device->info().name),
-                           "a force device that a person holds"});
+    if (asked && !info.rendersForce)
+      throw FaultError(Fault{"device", fmt::format("{}: {} renders no force", key, info.name), "a force device"});
+  if (options.deadManButton > 0 && info.virtualHand)
+    throw FaultError(
+        Fault{"device", fmt::format("dead-man-button: no hand presses a button of {}", info.name), "a force device that a person holds"});
   return std::make_unique<GuardedDevice>(std::move(device), options);
 }
 

@@ -11,9 +11,9 @@
 #include "devices/kept_mapping.h"
 #include "gui/app/main_window.h"
 #include "gui/model/model_reader.h"
+#include "gui/model/name_in_file.h"
 #include "gui/widgets/ask.h"
 #include "gui/widgets/fault_in.h"
-#include "gui/model/name_in_file.h"
 #include "sim/experiment/experiment.h"
 #include "sim/session/recorded_blocks.h"
 

@@ -22,12 +22,12 @@
 #include <set>
 
 #include "base/fault.h"
+#include "gui/model/name_in_file.h"
 #include "gui/plan/mix_editor.h"
 #include "gui/widgets/ask.h"
 #include "gui/widgets/fault_in.h"
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/fault_words.h"
-#include "gui/model/name_in_file.h"
 #include "gui/widgets/named.h"
 #include "gui/widgets/on_screen.h"
 #include "gui/widgets/text_table.h"

@@ -123,8 +123,7 @@ void SceneOverlay::paintEvent(QPaintEvent*) {
         widgets::toQColor(tone), QFont::DemiBold);
   write(painter, QRectF(left, 65 * s, room, 22 * s), kOneLine, state_.detail, 11 * s, faint);
   if (!state_.task.isEmpty()) {
-    const double below = state_.rulersShown ? 6 : 100;  // a square for a light sensor may be there on the subject's screen
-    const QRectF place(left, 97 * s, std::min(room, 560 * s), std::max(1.0, height() - 97 * s - below));
+    const QRectF place(left, 97 * s, std::min(room, 560 * s), std::max(1.0, height() - 97 * s - state_.below));
     font = painter.font();
     font.setPointSizeF(pointsToFit(state_.task, font, 11 * s, place.size()));
     painter.setFont(font);

@@ -26,6 +26,7 @@ struct OverlayState {
   QString instruction;      // what the subject is to do
   QString detail;           // how the last trial ended
   QString task;             // what the trials ask for; over several lines, and only before the first
+  int below = 6;            // pixels under `task` that stay free
   QString legend;           // of the drawn forces, a line each
   enum class Tone { Plain, Good, Bad } tone = Tone::Plain;
   std::optional<RestState> rest;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "gui/scene/trial_texts.h"
+#include "gui/subject/subject_window.h"
 #include "sim/experiment/experiment.h"
 
 namespace reachlab::gui::app {
@@ -115,6 +116,7 @@ scene::OverlayState subjectsOverlayOf(SessionController& session, const subject:
   const experiment::SubjectScreen& screen = session.experiment().subjectScreen;
   scene::OverlayState overlay;
   overlay.rulersShown = false;
+  overlay.below += subject::kPatchSide;
   overlay.semaphoreShown = screen.semaphore;
   session::RecordedRun* run = session.run();
   const haptics::TickState idle;

@@ -12,8 +12,6 @@
 namespace reachlab::gui::subject {
 namespace {
 
-constexpr int kPatchSide = 90;  // pixels: a light sensor covers it
-
 QString screenKey() { return "subject/screen"; }
 
 QScreen* screenNamed(const QString& name) {

@@ -7,6 +7,8 @@ class QScreen;
 
 namespace reachlab::gui::subject {
 
+inline constexpr int kPatchSide = 90;  // pixels of the square that a light sensor covers
+
 /// The subject's screen: the scene and a few words in full screen. The experimenter's keys also work here, because the main window passes
 /// its actions on. It leaves full screen while its monitor is unplugged.
 class SubjectWindow : public QWidget {

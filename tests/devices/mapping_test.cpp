@@ -245,7 +245,7 @@ TEST(HandSettings, SayWhatWasAskedFor) {
   EXPECT_FALSE(taken("mapping=" + mirrored + ",mirror=no").mapping.mirrorX) << "said last";
 }
 
-// It has no place of its own: it is put at the start, which no mapping moves.
+// A SpaceMouse puts the hand at the start before each trial. A mapping turns its motion and leaves the start.
 TEST(HandSettings, AHandThatIsSteeredKeepsItsStart) {
   HandSettings options;
   options.mapping.scale = 2, options.mapping.mirrorX = true, options.mapped = true;

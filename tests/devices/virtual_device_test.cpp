@@ -113,7 +113,7 @@ Vec3 lawAt(int tick) {
   return {0.02 + 0.1 * t * t, -0.03 * (1 - std::cos(3 * t)), 0.04 * (1 - std::cos(5 * t))};
 }
 
-// A hand that goes by that law, on three axes of its own.
+// A hand whose place at each tick is that of `lawAt`.
 std::unique_ptr<SetHand> movingHand() {
   auto hand = std::make_unique<SetHand>();
   hand->about.virtualHand = true;

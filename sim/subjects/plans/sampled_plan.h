@@ -23,7 +23,7 @@ class SampledPlan {
 
   ReachPlan plan_;
   double step_ = 0;             // [s]
-  std::vector<double> places_;  // [m] x, y, z and nothing of each; empty: the plan is not smooth enough
+  std::vector<double> places_;  // [m] x, y, z and a 0 for each; empty: the plan is not smooth enough
 };
 
 }  // namespace reachlab::subjects
