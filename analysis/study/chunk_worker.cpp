@@ -10,6 +10,7 @@
 #include "sim/experiment/experiment.h"
 #include "sim/session/block_scenes.h"
 #include "sim/session/planned_trials.h"
+#include "sim/subjects/subject_kinds.h"
 #include "sim/trial/task_check.h"
 
 namespace reachlab::study {
@@ -58,9 +59,8 @@ std::size_t placeOf(const std::vector<std::string>& words, const std::string& wo
 
 }  // namespace
 
-ChunkWorker::ChunkWorker(const Design& design, PrepareSubjects prepare)
-    : design_(design), prepare_(std::move(prepare)), needs_(needsOf(design)), columns_(columnsOf(design)),
-      identity_(identityColumns(design)) {}
+ChunkWorker::ChunkWorker(const Design& design)
+    : design_(design), needs_(needsOf(design)), columns_(columnsOf(design)), identity_(identityColumns(design)) {}
 
 ChunkWorker::Kit& ChunkWorker::kitFor(const std::string& device, const PointExperiment& experiment, const session::PlanBlock& block) {
   const std::string text = textOf(experiment, block);
@@ -72,7 +72,7 @@ ChunkWorker::Kit& ChunkWorker::kitFor(const std::string& device, const PointExpe
   for (const Kit& other : kits_)
     if (other.text == kit.text) kit.scenes = other.scenes;
   if (kit.scenes.empty()) kit.scenes = openScenes(experiment, block);
-  kit.hands = prepare_(device, kit.scenes);
+  kit.hands = subjects::prepareSubjects(kit.scenes, device);
   for (const experiment::CompiledExperiment& scene : kit.scenes) kit.measurers.push_back(std::make_unique<Measurer>(design_, scene));
   kits_.push_front(std::move(kit));
   kits_.front().run = std::make_unique<BlockRun>(kits_.front().scenes, needs_.samples);
@@ -169,8 +169,7 @@ std::optional<ChunkRows> ChunkWorker::compute(const PairRange& pairs, const std:
   return out;
 }
 
-void checkPoint(const Design& design, std::int64_t index, const PrepareSubjects& prepare,
-                std::set<std::pair<std::string, std::string>>& seen) {
+void checkPoint(const Design& design, std::int64_t index, std::set<std::pair<std::string, std::string>>& seen) {
   const Point point = pointAt(design, index);
   const PointTask task = taskOf(design, point);
   for (std::size_t i = 0; i < task.experiments.size(); ++i) {
@@ -180,7 +179,7 @@ void checkPoint(const Design& design, std::int64_t index, const PrepareSubjects&
     try {
       const std::vector<experiment::CompiledExperiment> scenes = openScenes(one, block);
       std::shared_ptr<void> learnt;
-      BlockRun(scenes, false).begin(prepare(task.device, scenes)(1, 0, learnt));
+      BlockRun(scenes, false).begin(subjects::prepareSubjects(scenes, task.device)(1, 0, learnt));
     } catch (const Error&) {
       rethrowAt(point);
     }

@@ -7,7 +7,7 @@
 #include "analysis/study/chunk.h"
 #include "analysis/study/measurer.h"
 #include "analysis/study/points.h"
-#include "analysis/study/subject_hands.h"
+#include "sim/subjects/plans/simulated_hand.h"
 
 namespace reachlab::study {
 
@@ -15,7 +15,7 @@ namespace reachlab::study {
 /// worker.
 class ChunkWorker {
  public:
-  ChunkWorker(const Design& design, PrepareSubjects prepare);
+  explicit ChunkWorker(const Design& design);
 
   /// `goOn` is asked between subjects. If it answers false, the chunk is left and the result is nullopt. Throws FaultError for a point that
   /// is no experiment and RefusedError for a point that cannot be computed. Both name the point.
@@ -26,7 +26,7 @@ class ChunkWorker {
   struct Kit {
     std::string device, text;
     std::vector<experiment::CompiledExperiment> scenes;
-    SubjectHands hands;
+    subjects::MakeSubject hands;
     std::vector<std::unique_ptr<Measurer>> measurers;  // of each scene
     std::unique_ptr<BlockRun> run;
   };
@@ -34,7 +34,6 @@ class ChunkWorker {
   void computeSubject(std::int64_t subject, std::vector<MeasuredTrial>& trials, std::vector<double>& identity);
 
   const Design& design_;
-  PrepareSubjects prepare_;
   Needs needs_;
   std::vector<Column> columns_;
   std::size_t identity_;
@@ -45,7 +44,6 @@ class ChunkWorker {
 
 /// Throws FaultError, RefusedError where a point is no experiment, or its subject has no plan. Checked devices and experiments are added to
 /// `seen` and not checked again.
-void checkPoint(const Design& design, std::int64_t index, const PrepareSubjects& prepare,
-                std::set<std::pair<std::string, std::string>>& seen);
+void checkPoint(const Design& design, std::int64_t index, std::set<std::pair<std::string, std::string>>& seen);
 
 }  // namespace reachlab::study

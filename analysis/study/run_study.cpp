@@ -11,11 +11,10 @@
 
 namespace reachlab::study {
 
-void computeChunks(const StudyFolder& folder, const PrepareSubjects& prepare, unsigned jobs, const NextChunk& next,
-                   const std::function<void(std::int64_t trials)>& done) {
+void computeChunks(const StudyFolder& folder, unsigned jobs, const NextChunk& next, const std::function<void(std::int64_t trials)>& done) {
   std::mutex mutex;
   runOnThreads(jobs, [&](const std::atomic<bool>& ended) {
-    ChunkWorker worker(folder.design, prepare);
+    ChunkWorker worker(folder.design);
     while (!ended) {
       const std::optional<std::int64_t> chunk = next();
       if (!chunk) return;
@@ -56,17 +55,17 @@ void workThrough(const StudyFolder& folder, const Shard& shard, const TellProgre
   });
 }
 
-void computeShard(const StudyFolder& folder, const PrepareSubjects& prepare, unsigned jobs, const Shard& shard, const TellProgress& tell) {
-  workThrough(folder, shard, tell, [&](const NextChunk& next, const auto& done) { computeChunks(folder, prepare, jobs, next, done); });
+void computeShard(const StudyFolder& folder, unsigned jobs, const Shard& shard, const TellProgress& tell) {
+  workThrough(folder, shard, tell, [&](const NextChunk& next, const auto& done) { computeChunks(folder, jobs, next, done); });
 }
 
-void checkPoints(const Design& design, const PrepareSubjects& prepare) {
+void checkPoints(const Design& design) {
   constexpr std::int64_t kMostPoints = 200;
   const std::int64_t points = pointCount(design), looked = std::min(points, kMostPoints);
   std::set<std::pair<std::string, std::string>> seen;
   for (std::int64_t i = 0; i < looked; ++i) {
     const std::int64_t index = looked < 2 ? 0 : i * (points - 1) / (looked - 1);
-    checkPoint(design, index, prepare, seen);
+    checkPoint(design, index, seen);
   }
 }
 

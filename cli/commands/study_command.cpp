@@ -32,8 +32,7 @@ void runStudy(const StudyRequest& request) {
   if (request.study.empty()) throw FaultError(Fault{"study", "is missing", "a study file, or one of status, report, point and sbatch"});
   const study::Design design = study::readDesign(request.study);
   const study::Shard shard = shardOf(request.shard);
-  const study::PrepareSubjects prepare = prepareSimulated();
-  study::checkPoints(design, prepare);
+  study::checkPoints(design);
   const std::string out = outOf(request.out, request.study);
   atOption("--out", [&] {
     const study::StudyFolder folder = study::makeFolder(design, out);
@@ -48,7 +47,7 @@ void runStudy(const StudyRequest& request) {
                design.subjects, folder.chunks.count(), shard.of > 1 ? fmt::format(", share {} of {}", shard.index, shard.of) : "", jobs,
                jobs == 1 ? "" : "s");
     ProgressLine line;
-    study::computeShard(folder, prepare, jobs, shard, [&](const study::StudyProgress& progress) { line.tell(describeProgress(progress)); });
+    study::computeShard(folder, jobs, shard, [&](const study::StudyProgress& progress) { line.tell(describeProgress(progress)); });
     line.end();
     if (study::mergeTables(folder)) fmt::print("{0}/trials.csv.gz {0}/trials.h5 {0}/trials.json\n", out);
     else fmt::print(stderr, "this share is done; the run that finds all chunks there writes the tables\n");

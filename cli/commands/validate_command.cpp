@@ -13,7 +13,7 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/definition_files.h"
 #include "cli/output/json_text.h"
-#include "cli/output/study_words.h"
+#include "analysis/study/run_study.h"
 #include "cli/terminal/option_words.h"
 #include "constraints/catalogue/definition.h"
 #include "devices/make_device.h"
@@ -88,7 +88,7 @@ std::optional<session::Programme> validateFile(const std::string& fileOrName) {
     warn(warningsOf(programme), text, file);
     return programme;
   } else if (isStudy(tree)) {
-    study::checkPoints(study::readDesign(file), prepareSimulated());
+    study::checkPoints(study::readDesign(file));
   } else if (tree.find("curve") != nullptr || tree.find("surface") != nullptr) {
     (void)makeAtAllShapes(constraints::parseDefinition(text, file), text, file);
   } else {

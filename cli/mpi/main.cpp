@@ -65,7 +65,7 @@ void conduct(const study::StudyFolder& folder, int others) {
   std::future<void> own;
   const auto tell = [&](const study::StudyProgress& progress) { line.tell(describeProgress(progress)); };
   study::workThrough(folder, {}, tell, [&](const study::NextChunk& next, const auto& done) {
-    own = std::async(std::launch::async, [&] { study::computeChunks(folder, prepareSimulated(), 1, next, done); });
+    own = std::async(std::launch::async, [&] { study::computeChunks(folder, 1, next, done); });
     serve(next, others, done);
     own.wait();
   });
@@ -82,13 +82,13 @@ void work(const study::StudyFolder& folder) {
     MPI_Recv(&chunk, 1, MPI_INT64_T, 0, kAnswer, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
     return chunk == kNoMore ? std::nullopt : std::optional(chunk);
   };
-  study::computeChunks(folder, prepareSimulated(), 1, next, [&](std::int64_t trials) { trialsSince += trials; });
+  study::computeChunks(folder, 1, next, [&](std::int64_t trials) { trialsSince += trials; });
 }
 
 void runStudy(const std::string& file, const std::string& out, bool resume, const MpiWorld& world) {
   if (world.rank() == 0) {
     const study::Design design = study::readDesign(file);
-    study::checkPoints(design, prepareSimulated());
+    study::checkPoints(design);
     const study::StudyFolder folder = study::makeFolder(design, out);
     if (const std::int64_t there = study::chunksToDo(folder).there; there > 0 && !resume && !study::areTablesThere(folder))
       throw FaultError(Fault{"--out", fmt::format("{}: {} chunks are there already", out, there),

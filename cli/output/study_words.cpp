@@ -8,7 +8,6 @@
 
 #include "base/as_number.h"
 #include "base/fault.h"
-#include "sim/subjects/subject_kinds.h"
 
 namespace reachlab::cli {
 namespace {
@@ -40,12 +39,6 @@ study::Shard shardOf(const std::string& text) {
   const auto of = slash == std::string::npos ? std::nullopt : asNumber<int>(std::string_view(text).substr(slash + 1));
   if (!index || !of || *of < 1 || *index < 1 || *index > *of) throw FaultError(Fault{"--shard", "is " + text, "I/N with 1 <= I <= N"});
   return {*index, *of};
-}
-
-study::PrepareSubjects prepareSimulated() {
-  return [](const std::string& device, std::span<const experiment::CompiledExperiment> scenes) {
-    return study::SubjectHands(subjects::prepareSubjects(scenes, device));
-  };
 }
 
 std::string describeSeconds(double seconds) {

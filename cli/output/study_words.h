@@ -8,9 +8,6 @@ namespace reachlab::cli {
 /// "I/N", or the share of this task of a Slurm array where that is empty, else all. Throws FaultError.
 study::Shard shardOf(const std::string& text);
 
-/// The subjects of this program's simulated device.
-study::PrepareSubjects prepareSimulated();
-
 /// "1 h 02 min", "3 min 20 s", "12 s".
 std::string describeSeconds(double seconds);
 
