@@ -38,9 +38,8 @@ struct Series {
   double width = kNormal;  // [pt]; 0: no line
   Dash dash = Dash::Solid;
   MarkerShape marker = MarkerShape::None;
-  double markerSize = 4;                                // [pt] diameter
-  std::vector<double> errorLow = {}, errorHigh = {};    // vertical error bars from … to, in y's units; empty: none
-  std::vector<double> errorLeft = {}, errorRight = {};  // the same along x
+  double markerSize = 4;                              // [pt] diameter
+  std::vector<double> errorLow = {}, errorHigh = {};  // vertical error bars from … to, in y's units; empty: none
 };
 
 /// An area between two curves: mean ± SD, an interval. Drawn below all lines.

@@ -52,7 +52,7 @@ double PanelPainter::yAt(double value) const { return height_ * (1 - share(panel
 void PanelPainter::chooseRanges() {
   Extent x, y;
   for (const Series& s : panel_.series) {
-    for (const auto* values : {&s.x, &s.errorLeft, &s.errorRight}) x.include(*values, panel_.x.scale);
+    x.include(s.x, panel_.x.scale);
     for (const auto* values : {&s.y, &s.errorLow, &s.errorHigh}) y.include(*values, panel_.y.scale);
   }
   for (const Band& b : panel_.bands) {
@@ -272,10 +272,6 @@ void PanelPainter::drawSeries(const Series& s) {
     if (i < s.errorLow.size() && i < s.errorHigh.size() && good(s.x[i], s.errorLow[i]) && good(s.x[i], s.errorHigh[i])) {
       canvas_.line(px(s.x[i]), py(s.errorLow[i]), px(s.x[i]), py(s.errorHigh[i]));
       for (const double end : {s.errorLow[i], s.errorHigh[i]}) canvas_.line(px(s.x[i]) - cap, py(end), px(s.x[i]) + cap, py(end));
-    }
-    if (i < s.errorLeft.size() && i < s.errorRight.size() && good(s.errorLeft[i], s.y[i]) && good(s.errorRight[i], s.y[i])) {
-      canvas_.line(px(s.errorLeft[i]), py(s.y[i]), px(s.errorRight[i]), py(s.y[i]));
-      for (const double end : {s.errorLeft[i], s.errorRight[i]}) canvas_.line(px(end), py(s.y[i]) - cap, px(end), py(s.y[i]) + cap);
     }
   }
   if (s.marker != MarkerShape::None)
