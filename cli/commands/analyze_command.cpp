@@ -29,10 +29,10 @@ namespace {
 struct AnalyzeOptions {
   std::string dataset, out, plan, experiment, onset = "percent", duration = "task", masses;
   std::vector<std::string> criteria;
-  double percent = 5, speed = 0.01, cutoff = 10, handMass = -1, handDamping = 0;
-  int bin = 10, recovery = 0, jobs = 0;
+  int recovery = 0, jobs = 0;
   std::uint64_t seed = 1;
-  bool includePractice = false, alternatives = false, residuals = false, json = false, progress = false;
+  bool alternatives = false, json = false, progress = false;
+  analysis::AnalysisOptions how;  // as far as options are its members
 };
 
 std::vector<double> parseMasses(const std::string& text) {
@@ -47,21 +47,13 @@ std::vector<double> parseMasses(const std::string& text) {
 }
 
 analysis::AnalysisOptions analysisOptions(const AnalyzeOptions& o) {
-  analysis::AnalysisOptions s;
-  s.measure.cutoff = o.cutoff;
-  s.measure.onset.percent = o.percent;
-  s.measure.onset.speed = o.speed;
+  analysis::AnalysisOptions s = o.how;
   s.measure.onset.rule = o.onset == "absolute" ? analysis::OnsetRule::Absolute
                          : o.onset == "task"   ? analysis::OnsetRule::Task
                                                : analysis::OnsetRule::Percent;
-  s.includePractice = o.includePractice;
   s.predictFor = o.duration == "mean" ? analysis::PredictionDuration::Moved : analysis::PredictionDuration::Task;
-  s.learningBin = o.bin;
-  if (o.handMass >= 0) s.handMass = o.handMass;
   if (!o.masses.empty()) s.handMasses = parseMasses(o.masses);
-  s.handDamping = o.handDamping;
   s.keepScatter = o.recovery > 0;
-  s.residuals = o.residuals;
   for (const std::string& name : o.criteria) s.drawn.push_back(parseCriterion(name));
   return s;
 }
@@ -306,25 +298,26 @@ std::vector<std::string> describePlan(const AnalysisPlan& plan) {
 /// Every option that is not its default, so that the report can be made again.
 std::string commandOf(const AnalyzeOptions& o) {
   const AnalyzeOptions usual;
+  const analysis::OnsetOptions& onset = o.how.measure.onset;
   std::string text = "reach analyze " + o.dataset;
   const auto add = [&](bool changed, const std::string& words) { text += changed ? " " + words : ""; };
   for (const std::string& c : o.criteria) text += " --criterion " + c;
-  add(o.handMass >= 0, fmt::format("--hand-mass {}", o.handMass));
+  add(o.how.handMass.has_value(), fmt::format("--hand-mass {}", o.how.handMass.value_or(0)));
   add(!o.masses.empty(), "--hand-masses " + o.masses);
-  add(o.handDamping != 0, fmt::format("--hand-damping {}", o.handDamping));
+  add(o.how.handDamping != 0, fmt::format("--hand-damping {}", o.how.handDamping));
   add(o.duration == "mean", "--prediction-duration mean");
   add(o.onset != usual.onset, "--onset " + o.onset);
-  add(o.percent != usual.percent, fmt::format("--onset-percent {}", o.percent));
-  add(o.speed != usual.speed, fmt::format("--onset-speed {}", o.speed));
-  add(o.cutoff != usual.cutoff, fmt::format("--cutoff {}", o.cutoff));
-  add(o.bin != usual.bin, fmt::format("--learning-bin {}", o.bin));
-  add(o.residuals, "--residuals");
+  add(onset.percent != usual.how.measure.onset.percent, fmt::format("--onset-percent {}", onset.percent));
+  add(onset.speed != usual.how.measure.onset.speed, fmt::format("--onset-speed {}", onset.speed));
+  add(o.how.measure.cutoff != usual.how.measure.cutoff, fmt::format("--cutoff {}", o.how.measure.cutoff));
+  add(o.how.learningBin != usual.how.learningBin, fmt::format("--learning-bin {}", o.how.learningBin));
+  add(o.how.residuals, "--residuals");
   add(o.alternatives, "--alternatives");
   add(o.recovery > 0, fmt::format("--recovery {}", o.recovery));
   add(o.recovery > 0 && o.seed != usual.seed, fmt::format("--seed {}", o.seed));
   add(!o.experiment.empty(), "--experiment " + o.experiment);
   add(!o.plan.empty(), "--plan " + o.plan);
-  add(o.includePractice, "--include-practice");
+  add(o.how.includePractice, "--include-practice");
   return text;
 }
 
@@ -334,7 +327,7 @@ void refuseWithoutEffect(const CLI::App& command, const AnalyzeOptions& o) {
     bool counts;
   } options[] = {{"--jobs", "without --recovery", o.recovery > 0},
                  {"--seed", "without --recovery", o.recovery > 0},
-                 {"--hand-masses", "beside --hand-mass", o.handMass < 0},
+                 {"--hand-masses", "beside --hand-mass", !o.how.handMass},
                  {"--onset-percent", "without --onset percent", o.onset == "percent"},
                  {"--onset-speed", "without --onset absolute", o.onset == "absolute"}};
   for (const auto& [option, when, counts] : options)
@@ -423,9 +416,10 @@ void addAnalyzeCommand(CLI::App& app, int&) {
       ->add_option("--criterion", o->criteria,
                    "Draw this criterion and tell its ε; repeat for more. Every criterion is compared all the same [default: all]")
       ->allow_extra_args(false);
-  command->add_option("--hand-mass", o->handMass, "Mass of the hand in the predictions [kg] [default: the experiment's]")
+  command->add_option("--hand-mass", o->how.handMass, "Mass of the hand in the predictions [kg] [default: the experiment's]")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--hand-damping", o->handDamping, "Damping of the hand in the predictions [N s/m]")->check(CLI::NonNegativeNumber);
+  command->add_option("--hand-damping", o->how.handDamping, "Damping of the hand in the predictions [N s/m]")
+      ->check(CLI::NonNegativeNumber);
   command->add_option(
       "--hand-masses", o->masses,
       "Masses of the hand [kg], with commas. The fits of (4) to (6) search between the least and the largest of them [default: "
@@ -438,10 +432,11 @@ void addAnalyzeCommand(CLI::App& app, int&) {
   command->add_option("--onset", o->onset, "Rule for onset and offset of a movement")
       ->check(CLI::IsMember({"percent", "absolute", "task"}))
       ->capture_default_str();
-  command->add_option("--onset-percent", o->percent, "Share of the trial's peak speed [%]")->capture_default_str();
-  command->add_option("--onset-speed", o->speed, "Speed for --onset absolute [m/s]")->capture_default_str();
-  command->add_option("--cutoff", o->cutoff, "Zero-lag Butterworth on the hand's velocity [Hz], 0: none")->capture_default_str();
-  command->add_flag("--residuals", o->residuals,
+  command->add_option("--onset-percent", o->how.measure.onset.percent, "Share of the trial's peak speed [%]")->capture_default_str();
+  command->add_option("--onset-speed", o->how.measure.onset.speed, "Speed for --onset absolute [m/s]")->capture_default_str();
+  command->add_option("--cutoff", o->how.measure.cutoff, "Zero-lag Butterworth on the hand's velocity [Hz], 0: none")
+      ->capture_default_str();
+  command->add_flag("--residuals", o->how.residuals,
                     "Write residuals.csv too: velocity, weight and the residual of every candidate at every sample of the fits");
   command->add_flag("--alternatives", o->alternatives,
                     "Analyse again with each of some other choices (cut-off, onset, hand masses, failed trials, criteria), and say which "
@@ -452,12 +447,12 @@ void addAnalyzeCommand(CLI::App& app, int&) {
       ->check(CLI::Range(1, 100000));
   command->add_option("--jobs", o->jobs, "Threads of the recovery [default: one per processor]")->check(CLI::PositiveNumber);
   command->add_option("--seed", o->seed, "Seed of the recovery")->check(CLI::Validator(session::seedFault, "SEED"))->capture_default_str();
-  command->add_option("--learning-bin", o->bin, "Trials a point of the learning curve")->capture_default_str();
+  command->add_option("--learning-bin", o->how.learningBin, "Trials a point of the learning curve")->capture_default_str();
   command->add_option("--experiment", o->experiment, "Experiment of a dataset without logs (file or shipped name)");
   command->add_option(
       "--plan", o->plan,
       "Analysis plan (JSON): options that were chosen before the data. The report names the plan and every departure from it");
-  command->add_flag("--include-practice", o->includePractice, "Count practice blocks too");
+  command->add_flag("--include-practice", o->how.includePractice, "Count practice blocks too");
   command->add_flag("--progress", o->progress, "Write progress to a log or a pipe too");
   command->add_flag("--json", o->json, "Summary as JSON on stdout");
   command->footer(

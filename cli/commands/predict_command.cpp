@@ -26,9 +26,9 @@ constexpr int kMostSamples = 1'000'000;
 
 struct PredictArguments {
   std::string experiment, criterion, point, sweep, out, figure;
-  double duration = 0, handMass = -1, handDamping = 0;
-  int samples = 201, unknowns = 0;
+  int samples = 201;
   bool json = false, time = false;
+  predict::PredictOptions options;  // its point from the name
 };
 
 void writeText(const std::string& text, const std::string& path) {
@@ -100,8 +100,9 @@ void runPredict(const PredictArguments& arguments) {
   const predict::Criterion criterion = parseCriterion(arguments.criterion);
   if (arguments.samples < 2 || arguments.samples > kMostSamples)
     throw FaultError(Fault{"--samples", fmt::format("is {}", arguments.samples), fmt::format("2 to {}", kMostSamples)});
-  if (const NumberRange range = experiment::durationRange(); arguments.duration != 0 && !isWithin(range, arguments.duration))
-    throw FaultError(Fault{"--duration", fmt::format("is {} s", arguments.duration), range.allowed});
+  if (const NumberRange range = experiment::durationRange();
+      arguments.options.duration != 0 && !isWithin(range, arguments.options.duration))
+    throw FaultError(Fault{"--duration", fmt::format("is {} s", arguments.options.duration), range.allowed});
   if (arguments.json && !arguments.sweep.empty()) throw FaultError(Fault{"--sweep", "writes CSV rows; --json is for a single prediction"});
   if (arguments.time && !arguments.sweep.empty()) throw FaultError(Fault{"--sweep", "is not timed; --time is for a single prediction"});
   if (!arguments.out.empty() && arguments.out == arguments.figure)
@@ -109,13 +110,9 @@ void runPredict(const PredictArguments& arguments) {
   const experiment::CompiledExperiment experiment = experiment::openExperiment(arguments.experiment);
   if (!experiment.experiment().task)
     throw FaultError(atTheirPlaces({predict::missingTaskFault()}, experiment.experiment().text, arguments.experiment));
-  predict::PredictOptions options;
-  options.duration = arguments.duration;
-  options.handDamping = arguments.handDamping;
-  options.unknowns = arguments.unknowns;
+  predict::PredictOptions options = arguments.options;
   for (const predict::PointIs point : {predict::PointIs::BehindSpring, predict::PointIs::Hand})
     if (arguments.point == nameOf(point)) options.point = point;
-  if (arguments.handMass >= 0) options.handMass = arguments.handMass;
   if (!arguments.sweep.empty()) return runSweep(arguments, experiment, criterion, options);
 
   const auto prediction = predictPatiently(experiment, criterion, options);
@@ -146,17 +143,17 @@ void addPredictCommand(CLI::App& app, int&) {
   const auto arguments = std::make_shared<PredictArguments>();
   command->add_option("experiment", arguments->experiment, "Experiment file, or the name of a shipped one")->required();
   command->add_option("--criterion", arguments->criterion, "min-hand-jerk, min-crackle … `reach help predict` lists them all")->required();
-  command->add_option("--duration", arguments->duration, "Movement time [s] [default: the task's]")->check(CLI::PositiveNumber);
-  command->add_option("--hand-mass", arguments->handMass, "Mass of the hand [kg] [default: the experiment's]")
+  command->add_option("--duration", arguments->options.duration, "Movement time [s] [default: the task's]")->check(CLI::PositiveNumber);
+  command->add_option("--hand-mass", arguments->options.handMass, "Mass of the hand [kg] [default: the experiment's]")
       ->check(CLI::NonNegativeNumber);
-  command->add_option("--hand-damping", arguments->handDamping, "Damping of the hand itself [N s/m] [default: 0]")
+  command->add_option("--hand-damping", arguments->options.handDamping, "Damping of the hand itself [N s/m] [default: 0]")
       ->check(CLI::NonNegativeNumber);
   command
       ->add_option("--point", arguments->point,
                    "What an object of kind point is: behind-spring (default on a line) or hand, one with the hand [default: elsewhere]")
       ->check(CLI::IsMember({"behind-spring", "hand"}));
   command->add_option("--samples", arguments->samples, "Rows from 0 to T [default: 201]");
-  command->add_option("--unknowns", arguments->unknowns, "Unknowns of arm and curve predictions [default: chosen for 1e-8]")
+  command->add_option("--unknowns", arguments->options.unknowns, "Unknowns of arm and curve predictions [default: chosen for 1e-8]")
       ->check(CLI::NonNegativeNumber);
   command->add_option("--sweep", arguments->sweep, "KEY=FROM:TO:STEP: one row for each value, on all cores");
   command->add_flag("--json", arguments->json,
