@@ -49,20 +49,24 @@ void addBody(std::vector<Channel>& out) {
   addVector(out, {"body_gyro", "body_w{}_rad_per_s", "GYRO", "mass1", "rad/s", "simulated body, angular velocity in the world frame"});
 }
 
-// A further hand's own columns, in the order of `fillRow`.
-constexpr std::size_t kHandColumns = 20;
-void addHand(std::vector<Channel>& out, int number) {
-  const std::string hand = fmt::format("hand{}", number), device = fmt::format("device{}", number);
-  const std::string whose = fmt::format("hand {}: ", number);
+// The vectors of a hand, in the order of `putVectors`. `number`: empty for the first hand.
+void addHandVectors(std::vector<Channel>& out, const std::string& number, const std::string& whose, const std::string& coupled) {
+  const std::string hand = "hand" + number, device = "device" + number, before = number.empty() ? "" : hand + "_";
   addVector(out, {hand + "_pos", hand + "_{}_m", "POS", hand, "m", whose + "haptic interface point as the coupling sees it"});
   addVector(out, {hand + "_vel", hand + "_v{}_m_per_s", "VEL", hand, "m/s", whose + "haptic interface point, estimated velocity"});
   addVector(out, {device + "_pos", device + "_{}_m", "POS", device, "m", whose + "haptic interface point, raw device position"});
-  const auto force = [&](const char* name, const char* column, const char* description) {
-    addVector(out, {fmt::format("{}_{}_force", hand, name), hand + "_" + column + "_{}_n", "MISC", hand, "N", whose + description});
-  };
-  force("coupling", "coupling", "coupling force on the object, unclamped");
-  force("feedback", "feedback", "force meant for the hand, before the safety limits");
-  force("device", "device_force", "force commanded to the device");
+  addVector(out,
+            {before + "coupling_force", before + "coupling_{}_n", "MISC", coupled, "N", whose + "coupling force on the object, unclamped"});
+  addVector(out, {before + "feedback_force", before + "feedback_{}_n", "MISC", hand, "N",
+                  whose + "force meant for the hand, before the safety limits"});
+  addVector(out, {before + "device_force", before + "device_force_{}_n", "MISC", hand, "N", whose + "force commanded to the device"});
+}
+
+// A further hand's own columns, in the order of `fillRow`.
+constexpr std::size_t kHandColumns = 20;
+void addHand(std::vector<Channel>& out, int number) {
+  const std::string hand = fmt::format("hand{}", number), whose = fmt::format("hand {}: ", number);
+  addHandVectors(out, std::to_string(number), whose, hand);
   addScalar(out, {hand + "_valid", hand + "_valid", "MISC", "n/a", "n/a", whose + "1 while the device delivers samples"});
   addScalar(out, {hand + "_work", hand + "_work_j", "MISC", hand, "J", whose + "work done on the object in this trial"});
 }
@@ -101,12 +105,7 @@ ChannelTable makeChannelTable(const experiment::Experiment& experiment, int para
   addScalar(out, {"latency", "time_s", "LATENCY", "n/a", "s",
                   "time in ticks of 1 ms, the clock of protocol and physics; in exported files since the first sample, as events"});
   addScalar(out, {"measured_time", "measured_s", "MISC", "n/a", "s", "monotonic clock of the computer, from the same moment as latency"});
-  addVector(out, {"hand_pos", "hand_{}_m", "POS", "hand", "m", "haptic interface point as the coupling sees it"});
-  addVector(out, {"hand_vel", "hand_v{}_m_per_s", "VEL", "hand", "m/s", "haptic interface point, estimated velocity"});
-  addVector(out, {"device_pos", "device_{}_m", "POS", "device", "m", "haptic interface point, raw device position"});
-  addVector(out, {"coupling_force", "coupling_{}_n", "MISC", "mass1", "N", "coupling force on the object, unclamped"});
-  addVector(out, {"feedback_force", "feedback_{}_n", "MISC", "hand", "N", "force meant for the hand, before the safety limits"});
-  addVector(out, {"device_force", "device_force_{}_n", "MISC", "hand", "N", "force commanded to the device"});
+  addHandVectors(out, "", "", "mass1");
   addScalar(out, {"energy", "energy_j", "MISC", "n/a", "J", "kinetic, elastic and gravity energy of object and coupling"});
   addScalar(out, {"trial", "trial", "MISC", "n/a", "n/a",
                   "trial number within the block, from 1; it stays until the next trial begins (phase 4); 0 before the first trial"});
