@@ -84,8 +84,7 @@ void writeWithConfiguration(const std::string& path, const std::string& configur
   LogReader reader(path);
   LogWriter writer = LogWriter::create(mended);
   for (RecordView record; reader.next(record);)
-    if (record.type == RecordType::Configuration)
-      writer.append(record.type, {reinterpret_cast<const std::uint8_t*>(configuration.data()), configuration.size()});
+    if (record.type == RecordType::Configuration) writer.append(record.type, asBytes(configuration));
     else writer.append(record.type, record.payload);
   writer.sync();
 }

@@ -22,9 +22,6 @@ namespace fs = std::filesystem;
 constexpr std::string_view kMagic = "REACHIDX";
 constexpr std::uint32_t kVersion = 3;
 
-std::string_view asText(std::span<const std::uint8_t> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
-std::span<const std::uint8_t> asBytes(std::string_view text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
-
 // What comes before the scenes and trials, in the order of its bytes.
 template <MaybeConst<IndexedRun> T, class Visit>
 void visitRun(T& run, const Visit& visit) {

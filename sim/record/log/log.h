@@ -37,6 +37,11 @@ enum class RecordType : std::uint16_t {
   PeerTicks = 9,      // what other stations' samples were in force at those ticks
 };
 
+inline std::string_view asText(std::span<const std::uint8_t> bytes) { return {reinterpret_cast<const char*>(bytes.data()), bytes.size()}; }
+inline std::span<const std::uint8_t> asBytes(std::string_view text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
 /// Bytes of a payload that is written or read, little-endian. Reading past the end gives zeros and clears `ok`.
 class ByteWriter {
  public:

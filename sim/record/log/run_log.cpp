@@ -18,8 +18,6 @@ namespace {
 
 constexpr std::uint64_t kNoTick = std::numeric_limits<std::uint64_t>::max();
 
-std::string_view textOf(const RecordView& record) { return {reinterpret_cast<const char*>(record.payload.data()), record.payload.size()}; }
-
 // The trial that was under way when the log broke off, put together from what was logged of it.
 struct OpenTrial {
   std::vector<TrialSetup> setups;
@@ -99,7 +97,7 @@ RunLog RunLog::open(const std::string& path, LogCheck check) try {
   RunLog log;
   log.path_ = path;
   log.fileBytes_ = reader.fileSize();
-  log.configuration_ = configurationFromJson(textOf(record), path);
+  log.configuration_ = configurationFromJson(asText(record.payload), path);
   const std::uint64_t first = reader.goodEnd();
   if (check != LogCheck::Trials || !log.readChain(reader)) {
     log.trials_.clear();

@@ -18,8 +18,6 @@ constexpr std::uint32_t kTicksPerBlock = 1000;
 constexpr std::uint32_t kTicksPerClockLook = 16;
 constexpr std::uint64_t kBytesPerDiskLook = 1 << 20;
 
-std::span<const std::uint8_t> bytesOf(const std::string& text) { return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}; }
-
 // What a full disk would take with it is more than this recording.
 void keepReserve(const std::string& path, const os::DiskSpace& disk, std::uint64_t diskReserve) {
   if (const std::string fault = reserveFault(path, disk, diskReserve); !fault.empty()) throw ResourceError(fault);
@@ -36,7 +34,7 @@ LogWriter createLog(const std::string& path, const RunConfiguration& configurati
   const bool another = std::filesystem::exists(path, error);
   try {
     LogWriter log = LogWriter::create(path);
-    log.append(RecordType::Configuration, bytesOf(text));
+    log.append(RecordType::Configuration, asBytes(text));
     return log;
   } catch (const ResourceError&) {
     if (!another) std::filesystem::remove(path, error);
