@@ -34,23 +34,14 @@ struct OpenTrial {
   }
   void begin(const RecordedEvent& event) {
     const double unknown = std::numeric_limits<double>::quiet_NaN();
-    trial = {};
-    trial.trial = event.trial;
-    trial.planned.index = static_cast<int>(event.value);
-    for (const TrialSetup& setup : setups)
-      if (setup.trial == event.trial) trial.planned = setup.planned;
-    trial.startTick = trial.lastTick = event.tick;
+    trial = beginTrial(event.trial, static_cast<int>(event.value), event.tick, setups);
     trial.peakHandSpeed = trial.handPathLength = trial.peakForce = trial.meanForce = unknown;
-    trial.result.outcome = trial::Outcome::Interrupted;
-    trial.result.reason = trial::Reason::Program;
-    trial.complete = false;
     underWay = true;
   }
   RecordedTrial brokenOff(std::uint64_t lastTick) const {
     RecordedTrial t = trial;
     t.lastTick = std::max(t.lastTick, lastTick);
-    t.result.endTick = t.lastTick;
-    if (t.result.onsetTick > 0) t.result.movementTime = secondsBetween(t.result.onsetTick, t.lastTick);
+    breakOff(t);
     return t;
   }
 };
@@ -70,6 +61,23 @@ bool findLastTrial(LogReader& reader, TrialLink& link) {
 }
 
 }  // namespace
+
+RecordedTrial beginTrial(int number, int index, std::uint64_t tick, const std::vector<TrialSetup>& setups) {
+  RecordedTrial trial;
+  trial.trial = number;
+  trial.planned.index = index;
+  for (const TrialSetup& setup : setups)
+    if (setup.trial == number) trial.planned = setup.planned;
+  trial.startTick = trial.lastTick = tick;
+  return trial;
+}
+
+void breakOff(RecordedTrial& trial) {
+  const std::uint64_t onset = trial.result.onsetTick;
+  trial.result = {.outcome = trial::Outcome::Interrupted, .reason = trial::Reason::Program, .onsetTick = onset, .endTick = trial.lastTick};
+  if (onset > 0) trial.result.movementTime = secondsBetween(onset, trial.lastTick);
+  trial.complete = false;
+}
 
 SampleRows SampleRows::between(std::uint64_t first, std::uint64_t last) const {
   SampleRows part;

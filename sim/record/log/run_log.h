@@ -79,6 +79,10 @@ struct RecordedTrial {
   std::uint64_t offset = 0;                                   // where in the log reading of this trial starts,
   std::uint32_t sequence = 0;                                 // and the number of the record there
 };
+/// A trial that begins at `tick`, planned as the latest of its setups says.
+RecordedTrial beginTrial(int number, int index, std::uint64_t tick, const std::vector<TrialSetup>& setups);
+/// Ends, at its last tick, a trial that has no result.
+void breakOff(RecordedTrial& trial);
 
 /// Rows of the derived channels: row-major, table.size() numbers per row.
 struct SampleRows {

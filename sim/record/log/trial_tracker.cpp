@@ -27,13 +27,8 @@ TickFacts factsOf(const haptics::TickState& state) noexcept {
 }
 
 void TrialTracker::begin(const TickStamp& tick, std::int32_t number) {
-  trial_ = {};
-  trial_.trial = number;
-  trial_.planned.index = number - 1;
-  const auto setup = std::find_if(setups_.rbegin(), setups_.rend(), [&](const TrialSetup& s) { return s.trial == number; });
-  if (setup != setups_.rend()) trial_.planned = setup->planned;
+  trial_ = beginTrial(number, number - 1, tick.tick, setups_);
   setups_.clear();
-  trial_.startTick = trial_.lastTick = tick.tick;
   underWay_ = true;
   phase_ = trial::Phase::Idle;
   forceSum_ = 0;
@@ -137,14 +132,7 @@ TrialTracker::Step TrialTracker::add(const TickStamp& tick, const TickFacts& fac
 RecordedTrial TrialTracker::brokenOff() const {
   RecordedTrial trial = trial_;
   trial.meanForce = meanForce();
-  const std::uint64_t onset = trial.result.onsetTick;
-  trial.result = {};
-  trial.result.outcome = trial::Outcome::Interrupted;
-  trial.result.reason = trial::Reason::Program;
-  trial.result.onsetTick = onset;
-  trial.result.endTick = trial.lastTick;
-  trial.result.movementTime = onset > 0 ? secondsBetween(onset, trial.lastTick) : 0;
-  trial.complete = false;
+  breakOff(trial);
   return trial;
 }
 
