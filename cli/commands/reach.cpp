@@ -21,10 +21,8 @@ class Reach : public CLI::App {
   void pre_callback() override { checkOutputs(*this); }
 };
 
-using AddCommand = void (*)(CLI::App&, int&);
-
 /// The commands in the order of the work with them.
-const std::vector<std::pair<const char*, std::vector<AddCommand>>> kGroups{
+const std::vector<std::pair<const char*, std::vector<AddCommand*>>> kGroups{
     {"Record", {addRunCommand, addStationCommand, addBackupCommand, addRecoverCommand}},
     {"Inspect", {addShowCommand, addReplayCommand, addExportCommand, addMergeCommand}},
     {"Understand", {addPredictCommand, addAnalyzeCommand, addStudyCommand, addAdaptationCommand, addSimulateCommand}},
