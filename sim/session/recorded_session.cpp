@@ -43,18 +43,14 @@ bool conductRun(RecordedSession& session, const std::atomic<bool>& stop, const S
 
 RecordedSession::RecordedSession(const Programme& programme, const SessionRequest& request, DeviceMaker makeDevice,
                                  haptics::RunSink* watcher, record::InstrumentLink* instruments)
-    : request_(request), makeDevice_(std::move(makeDevice)), watcher_(watcher), instruments_(instruments) {
-  SessionToRun session = planSession(request, programme);
-  notice_ = session.notice;
-  seed_ = session.seed;
-  blocks_.assign(std::make_move_iterator(session.blocks.begin()), std::make_move_iterator(session.blocks.end()));
-}
+    : request_(request), makeDevice_(std::move(makeDevice)), watcher_(watcher), instruments_(instruments),
+      session_(planSession(request, programme)) {}
 
 bool RecordedSession::openNext() {
   closeRun();
-  if (blocks_.empty()) return false;
+  if (session_.blocks.empty()) return false;
   pacing_ = {};
-  const BlockToRun& block = blocks_.front();
+  const BlockToRun& block = session_.blocks.front();
   RecordedRunOptions options;
   options.place = request_.place;
   options.numberAskedFor = request_.run == block.configuration.run;
@@ -65,7 +61,7 @@ bool RecordedSession::openNext() {
   options.instruments = instruments_;
   if (prepare_) prepare_(options);
   run_ = std::make_unique<RecordedRun>(block, makeDevice_(request_.device, block.scenes, block.configuration.seed), options);
-  blocks_.pop_front();
+  session_.blocks.pop_front();
   return true;
 }
 
@@ -78,8 +74,8 @@ void RecordedSession::trialEnded(Pacing::Time now, std::optional<double> ownPaus
   if (run_->trialsLeft() > 0) {
     const double planned = run_->configuration().pauseSeconds;
     if (planned > 0 || ownPause) pacing_.pauseFor(unlessFast(planned > 0 ? planned : *ownPause), now);
-  } else if (!blocks_.empty() && unlessFast(blocks_.front().restSeconds) > 0) {
-    pacing_.restFor(blocks_.front().restSeconds, now);
+  } else if (!session_.blocks.empty() && unlessFast(session_.blocks.front().restSeconds) > 0) {
+    pacing_.restFor(session_.blocks.front().restSeconds, now);
   }
 }
 

@@ -1,5 +1,4 @@
 #pragma once
-#include <deque>
 #include <functional>
 #include <memory>
 #include <span>
@@ -26,10 +25,10 @@ class RecordedSession {
   void prepareRuns(std::function<void(RecordedRunOptions&)> prepare) { prepare_ = std::move(prepare); }
 
   /// The warnings before it begins.
-  const SessionNotice& notice() const { return notice_; }
-  std::uint64_t seed() const { return seed_; }
-  std::size_t blocksLeft() const { return blocks_.size(); }
-  const BlockToRun* nextBlock() const { return blocks_.empty() ? nullptr : &blocks_.front(); }  // null: no block is left
+  const SessionNotice& notice() const { return session_.notice; }
+  std::uint64_t seed() const { return session_.seed; }
+  std::size_t blocksLeft() const { return session_.blocks.size(); }
+  const BlockToRun* nextBlock() const { return session_.blocks.empty() ? nullptr : &session_.blocks.front(); }  // null: no block is left
 
   /// To be called when a trial of the run has ended. It begins the plan's pause before the next trial or, after the last trial, the plan's
   /// rest before the next block. `ownPause` [s] holds where the plan has no pause. Without both, the next trial waits for a request. The
@@ -49,9 +48,7 @@ class RecordedSession {
   haptics::RunSink* watcher_;
   record::InstrumentLink* instruments_;
   std::function<void(RecordedRunOptions&)> prepare_;
-  SessionNotice notice_;
-  std::uint64_t seed_ = 0;
-  std::deque<BlockToRun> blocks_;  // still to be opened
+  SessionToRun session_;
   std::unique_ptr<RecordedRun> run_;
   Pacing pacing_;
 };

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <deque>
 #include <optional>
 #include <string>
 #include <vector>
@@ -53,7 +54,7 @@ struct BlockToRun {
 };
 
 struct SessionToRun {
-  std::vector<BlockToRun> blocks;  // empty: a resumed session is complete
+  std::deque<BlockToRun> blocks;  // still to be opened; empty: a resumed session is complete
   std::uint64_t seed = 0;
   SessionNotice notice;
 };
