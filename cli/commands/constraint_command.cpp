@@ -31,6 +31,7 @@ std::string list(const std::vector<double>& values) {
 // For a person; machines ask for --json.
 std::string shortList(const std::vector<double>& values) { return fmt::format("[{:.6g}]", fmt::join(values, ", ")); }
 bool isCurve(const constraints::Definition& d) { return d.kind == constraints::ConstraintKind::Curve; }
+const char* kindOf(const constraints::Definition& d) { return isCurve(d) ? "curve" : "surface"; }
 
 double parseNumber(const std::string& text, const std::string& option) {
   const auto value = asNumber<double>(text);
@@ -72,15 +73,14 @@ struct ConstraintOptions {
 };
 
 void printList(const ConstraintOptions& o) {
-  if (o.json) fmt::print("[\n  {{\"name\": \"free\", \"kind\": \"free\", \"sentence\": \"Nothing binds the object.\"}}");
-  else fmt::print("{:<22} {:<8} {}\n", "free", "free", "Nothing binds the object.");
-  const auto print = [&](const constraints::Definition& d) {
-    const char* kind = isCurve(d) ? "curve" : "surface";
-    if (o.json) fmt::print(",\n  {{\"name\": {}, \"kind\": \"{}\", \"sentence\": {}}}", quoted(d.name), kind, quoted(d.sentence));
-    else fmt::print("{:<22} {:<8} {}\n", d.name, kind, d.sentence);
+  auto print = [&, before = "[\n  "](const std::string& name, const char* kind, const std::string& sentence) mutable {
+    if (o.json) fmt::print("{}{{\"name\": {}, \"kind\": \"{}\", \"sentence\": {}}}", before, quoted(name), kind, quoted(sentence));
+    else fmt::print("{:<22} {:<8} {}\n", name, kind, sentence);
+    before = ",\n  ";
   };
-  for (const constraints::Definition& d : constraints::catalogue()) print(d);
-  for (const constraints::Definition& d : ownDefinitions()) print(d);
+  print("free", "free", "Nothing binds the object.");
+  for (const constraints::Definition& d : constraints::catalogue()) print(d.name, kindOf(d), d.sentence);
+  for (const constraints::Definition& d : ownDefinitions()) print(d.name, kindOf(d), d.sentence);
   if (o.json) fmt::print("\n]\n");
 }
 
@@ -104,9 +104,9 @@ void showJson(const constraints::Definition& d, const constraints::Constraint& c
   fmt::print(
       "{{\n  \"name\": {},\n  \"kind\": \"{}\",\n  \"{}\": [{}],\n  \"shape\": {{{}{}}},\n  \"domain\": {},\n  \"periodic\": {},\n"
       "  \"at_end\": {},\n  \"start\": {},\n  \"target\": {},\n  \"sentence\": {},\n  \"source\": {}\n}}\n",
-      quoted(d.name), isCurve(d) ? "curve" : "surface", isCurve(d) ? "curve" : "surface",
-      fmt::join(d.coordinates | std::views::transform(quoted), ", "), shape, shape.empty() ? "" : "\n  ", perParameter(d, domain),
-      perParameter(d, periodic), perParameter(d, atEnd), list(d.start), list(d.target), quoted(d.sentence), quoted(d.source));
+      quoted(d.name), kindOf(d), kindOf(d), fmt::join(d.coordinates | std::views::transform(quoted), ", "), shape,
+      shape.empty() ? "" : "\n  ", perParameter(d, domain), perParameter(d, periodic), perParameter(d, atEnd), list(d.start),
+      list(d.target), quoted(d.sentence), quoted(d.source));
 }
 
 void showPlaces(const constraints::Constraint& c) {
@@ -205,7 +205,7 @@ void check(const ConstraintOptions& o) {
         throw FaultError(fileFault(file, "is an experiment file, no constraint definition; `reach validate` checks it"));
       const constraints::Definition d = constraints::parseDefinition(text, file);
       const constraints::Constraint c = makeAtAllShapes(d, text, file);
-      fmt::print("{}: fine: {} {}\n", file, isCurve(d) ? "curve" : "surface", d.name);
+      fmt::print("{}: fine: {} {}\n", file, kindOf(d), d.name);
       showPlaces(c);
     } catch (const FaultError& error) {
       faults.insert(faults.end(), error.faults.begin(), error.faults.end());
