@@ -162,24 +162,21 @@ double checkedEnd(const SimulateRequest& request, const experiment::Experiment& 
 
 void checkVectors(const SimulateRequest& request, const std::vector<double>& at, const std::vector<double>& rate, std::size_t coordinates,
                   bool body) {
-  const auto requireCount = [&](const std::vector<double>& values, const char* option) {
-    if (values.size() != coordinates)
-      throw FaultError(
-          Fault{option, fmt::format("has {} numbers", values.size()), fmt::format("{} here, separated by commas", coordinates)});
+  const auto requireCount = [](const char* option, const std::vector<double>& values, std::size_t count, const std::string& allowed) {
+    if (values.size() != count) throw FaultError(Fault{option, fmt::format("has {} numbers", values.size()), allowed});
   };
-  requireCount(at, "--at");
-  requireCount(rate, "--rate");
+  const std::string here = fmt::format("{} here, separated by commas", coordinates);
+  requireCount("--at", at, coordinates, here);
+  requireCount("--rate", rate, coordinates, here);
   std::vector<Fault> faults;
   for (const auto& [option, values] :
        {std::pair{"--at", &request.at}, {"--rate", &request.rate}, {"--force", &request.force}, {"--angular-rate", &request.angularRate}})
     checkNumbers(option, *values, -1, experiment::componentRange(), faults);
   if (!faults.empty()) throw FaultError(std::move(faults));
-  if (!request.force.empty() && request.force.size() != 3)
-    throw FaultError(Fault{"--force", fmt::format("has {} numbers", request.force.size()), "three, X,Y,Z in N"});
-  if (!request.angularRate.empty() && !body)
-    throw FaultError(Fault{"--angular-rate", "the object does not turn", "for object.kind body only"});
-  if (!request.angularRate.empty() && request.angularRate.size() != 3)
-    throw FaultError(Fault{"--angular-rate", fmt::format("has {} numbers", request.angularRate.size()), "three, X,Y,Z in rad/s"});
+  if (!request.force.empty()) requireCount("--force", request.force, 3, "three, X,Y,Z in N");
+  if (request.angularRate.empty()) return;
+  if (!body) throw FaultError(Fault{"--angular-rate", "the object does not turn", "for object.kind body only"});
+  requireCount("--angular-rate", request.angularRate, 3, "three, X,Y,Z in rad/s");
 }
 
 struct Simulation {
