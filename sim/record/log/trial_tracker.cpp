@@ -2,8 +2,6 @@
 
 #include <algorithm>
 
-#include "base/ticks.h"
-
 namespace reachlab::record {
 
 // Of several hands: what acts on any of them. The movement is the first hand's.
