@@ -122,6 +122,8 @@ struct ConditionResult {
   CandidateSet candidates;              // of the fits
   Conclusion conclusion;                // indexes `candidates`
   std::optional<MeanInterval> success;  // share of a typical person
+
+  bool predicts(predict::Criterion criterion) const;
 };
 
 /// RMS error of one series: one subject, session, run.

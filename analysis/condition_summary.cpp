@@ -65,9 +65,7 @@ void addPredictions(const Condition& condition, const AnalysisOptions& options, 
 /// The paper's Figs. 9 and 10 are also shown with criterion (1) for the duration that was moved.
 void addMoved(const Condition& condition, const AnalysisOptions& options, ConditionResult& result) {
   constexpr predict::Criterion kShown = predict::Criterion::MinHandJerk;
-  const bool drawn =
-      std::any_of(result.signals.begin(), result.signals.end(), [](const PredictedSignal& s) { return s.criterion == kShown; });
-  if (!drawn || result.used == 0 || options.predictFor == PredictionDuration::Moved) return;
+  if (!result.predicts(kShown) || result.used == 0 || options.predictFor == PredictionDuration::Moved) return;
   try {
     result.moved = predictLasting(condition, kShown, howOf(options), options, result);
   } catch (const Error& error) {
@@ -97,6 +95,10 @@ struct RunningProfile {
 };
 
 }  // namespace
+
+bool ConditionResult::predicts(predict::Criterion criterion) const {
+  return std::any_of(signals.begin(), signals.end(), [&](const PredictedSignal& s) { return s.criterion == criterion; });
+}
 
 void summarise(Analysis& analysis, std::size_t condition) {
   ConditionResult& result = analysis.results[condition];

@@ -14,9 +14,7 @@ using predict::Criterion;
 std::vector<Criterion> allCriteria(const Analysis& analysis) {
   std::vector<Criterion> out;
   for (const Criterion criterion : predict::kAllCriteria) {
-    const auto predicts = [&](const PredictedSignal& p) { return p.criterion == criterion; };
-    if (std::any_of(analysis.results.begin(), analysis.results.end(),
-                    [&](const ConditionResult& r) { return std::any_of(r.signals.begin(), r.signals.end(), predicts); }))
+    if (std::any_of(analysis.results.begin(), analysis.results.end(), [&](const ConditionResult& r) { return r.predicts(criterion); }))
       out.push_back(criterion);
   }
   return out;

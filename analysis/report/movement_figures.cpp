@@ -54,15 +54,11 @@ void addPrediction(Panel& panel, const ConditionResult& r, Criterion criterion, 
     if (signal.criterion == criterion) addPrediction(panel, signal, object, color, dash, width, zero);
 }
 
-bool hasPrediction(const ConditionResult& r, Criterion criterion) {
-  return std::any_of(r.signals.begin(), r.signals.end(), [&](const PredictedSignal& s) { return s.criterion == criterion; });
-}
-
 /// What the thick lines of the paper's figure are, of the predictions that the condition has.
 std::string describeThick(const ConditionResult& r, bool moved) {
   std::string which;
-  if (hasPrediction(r, Criterion::MinHandJerk)) which = "criterion (1) solid";
-  if (hasPrediction(r, Criterion::MinCrackle)) which += which.empty() ? "criterion (3) dashed" : ", (3) dashed";
+  if (r.predicts(Criterion::MinHandJerk)) which = "criterion (1) solid";
+  if (r.predicts(Criterion::MinCrackle)) which += which.empty() ? "criterion (3) dashed" : ", (3) dashed";
   if (which.empty()) return "Neither criterion (1) nor (3) is shown.";
   return fmt::format("Thick: {}, {}.", which,
                      moved
@@ -169,7 +165,7 @@ NamedFigure lastFiveFigure(const Analysis& analysis, std::size_t condition) {
       "{}, subject {}, as in Figs. 9 and 10: the last {} successful trials (thin),{}{} and the average of all {} successful trials (thick "
       "black), time-scaled to their average.",
       analysis.conditions[condition].name, subject, last.size(),
-      hasPrediction(r, Criterion::MinHandJerk) ? fmt::format(" criterion (1) for {} (thick grey)", grey) : "",
+      r.predicts(Criterion::MinHandJerk) ? fmt::format(" criterion (1) for {} (thick grey)", grey) : "",
       r.moved ? fmt::format(" and for {} (dashed blue)", moved) : "", used.size());
   return out;
 }
