@@ -50,6 +50,13 @@ std::string analysisFolderOf(const std::string& dataset) {
   return dataset + "/derivatives/reachlab";
 }
 
+void writeFigure(const std::string& stem, const figure::Figure& figure, std::vector<std::string>& written) {
+  for (const char* ending : {".svg", ".pdf"}) {
+    const std::string& file = written.emplace_back(stem + ending);
+    record::writeFileAtomically(file, figure::renderFor(file, figure));
+  }
+}
+
 AnalysisFiles writeAnalysis(const Analysis& analysis, const DatasetIndex& dataset, const ReportHeader& header, const std::string& folder,
                             const std::optional<TruthRecovery>& recovery) {
   AnalysisFiles files;
@@ -61,13 +68,7 @@ AnalysisFiles writeAnalysis(const Analysis& analysis, const DatasetIndex& datase
   if (const std::string hands = handsTable(dataset); !hands.empty()) tables.write("hands.csv", hands);
   files.tables = tables.close();
   const std::vector<NamedFigure> figures = makeFigures(analysis, recovery);
-  for (const NamedFigure& figure : figures) {
-    const std::string path = folder + "/figures/" + figure.name;
-    record::writeFileAtomically(path + ".svg", figure::renderSvg(figure.figure));
-    record::writeFileAtomically(path + ".pdf", figure::renderPdf(figure.figure));
-    files.figures.push_back(path + ".svg");
-    files.figures.push_back(path + ".pdf");
-  }
+  for (const NamedFigure& figure : figures) writeFigure(folder + "/figures/" + figure.name, figure.figure, files.figures);
   files.report = folder + "/report.html";
   record::writeFileAtomically(files.report, makeReport(header, analysis, figures, dataset.runs, dataset.notes, recovery));
   return files;

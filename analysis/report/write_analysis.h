@@ -10,6 +10,9 @@ namespace reachlab::analysis {
 /// The folder that an analysis is written to: one in the dataset, or one beside a single log.
 std::string analysisFolderOf(const std::string& dataset);
 
+/// Writes `stem`.svg and `stem`.pdf, and adds both to `written`.
+void writeFigure(const std::string& stem, const figure::Figure& figure, std::vector<std::string>& written);
+
 struct AnalysisFiles {
   std::string report;
   std::vector<std::string> tables, figures;

@@ -6,6 +6,7 @@
 #include "analysis/figure/figure.h"
 #include "analysis/measures/statistics.h"
 #include "analysis/report/figures.h"
+#include "analysis/report/write_analysis.h"
 #include "analysis/study/report.h"
 #include "analysis/tables.h"
 #include "base/table_text.h"
@@ -232,10 +233,7 @@ std::vector<std::string> writeReport(const StudyReport& report, const std::strin
   const auto draw = [&](const std::string& name, const figure::Figure& figure) {
     if (figure.panels.empty()) return;
     figures.push_back(name);
-    for (const char* ending : {".svg", ".pdf"}) {
-      const std::string& file = written.emplace_back(out + "/" + name + ending);
-      record::writeFileAtomically(file, figure::renderFor(file, figure));
-    }
+    analysis::writeFigure(out + "/" + name, figure, written);
   };
   record::makeFolders(out);
   write("success", "key,value,successes,trials,success_percent,low_percent,high_percent", report.success);
