@@ -86,10 +86,10 @@ void addConclusion(Sheet& table, const std::string& condition, const Conclusion&
     const auto ofOthers = [&](const auto& value) { return best ? std::nullopt : std::optional(value); };
     const auto ofBest = [&](const auto& value) { return best ? std::optional(value) : std::nullopt; };
     const auto ofMixed = [&](const auto& value) { return mixed ? std::optional(value) : std::nullopt; };
-    const Bounds share = computeBinomialInterval(c.closest[k], c.subjects);
+    const Bounds share = computeBinomialInterval(c.closest[k], c.subjects).percent();
     table.row(condition, c.overSubjects ? "subjects" : "trials", nameOfCandidate(candidates[k]), c.score[k], best ? 0.0 : c.against[k].mean,
               ofOthers(intervalOf(c.against[k])), ofOthers(c.against[k].p), ofOthers(computeBayesFactor(c.against[k])), c.closest[k],
-              100 * static_cast<double>(c.closest[k]) / static_cast<double>(c.subjects), 100 * share.low, 100 * share.high,
+              100 * static_cast<double>(c.closest[k]) / static_cast<double>(c.subjects), share,
               std::count(c.each.begin(), c.each.end(), std::optional(k)), c.posterior.empty() ? kNotMeasured : c.posterior[k],
               best ? "yes" : "no", c.follows == k, c.decided() ? "" : nameOf(c.reason), c.level,
               std::find(c.atEdge.begin(), c.atEdge.end(), k) != c.atEdge.end(), ofBest(c.misfit.mean), ofBest(c.misfit.p),
@@ -128,8 +128,7 @@ void conditionsTable(const Analysis& analysis, Sheet& table) {
 
 /// Successes, trials, their share and its interval [%].
 void addShare(Sheet& table, std::size_t successes, std::size_t trials, const Bounds& interval) {
-  table.row(successes, trials, 100.0 * static_cast<double>(successes) / static_cast<double>(trials),
-            Bounds{100 * interval.low, 100 * interval.high});
+  table.row(successes, trials, 100.0 * static_cast<double>(successes) / static_cast<double>(trials), interval.percent());
 }
 
 void successRows(const Analysis& analysis, Sheet& table) {

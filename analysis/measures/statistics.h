@@ -23,6 +23,7 @@ MeanSd computeMeanSd(std::span<const double> values);
 struct Bounds {
   double low = 0, high = 0;
   bool finite() const { return std::isfinite(low) && std::isfinite(high); }  // false: there is no interval
+  Bounds percent() const { return {100 * low, 100 * high}; }                 // of a share
 };
 
 /// Clopper and Pearson's exact interval of a binomial share (1934): covers at least `level` whatever the share. [0, 1] for no trials.

@@ -91,7 +91,7 @@ std::string signedPercent(double points) {
 std::string percentInterval(double mean, const Bounds& i) {
   std::string text = real(fmt::format("{:.0f}", mean));
   // On a line of its own, so that nine columns fit a page.
-  if (std::isfinite(i.low) && std::isfinite(i.high)) text += real(fmt::format("<br>[{:.0f}, {:.0f}]", i.low, i.high));
+  if (i.finite()) text += real(fmt::format("<br>[{:.0f}, {:.0f}]", i.low, i.high));
   return text;
 }
 
@@ -139,7 +139,7 @@ void addSuccessTable(Html& html, const Analysis& analysis) {
     for (std::size_t c = 0; c < analysis.conditions.size(); ++c) {
       for (const int day : days) {
         const auto typical = typicalShare(analysis.success, c, day);
-        cells.push_back(typical ? percentInterval(100 * typical->mean, {100 * typical->interval.low, 100 * typical->interval.high}) : "–");
+        cells.push_back(typical ? percentInterval(100 * typical->mean, typical->interval.percent()) : "–");
       }
       if (!progress) continue;
       const auto effect =

@@ -18,9 +18,7 @@ using Names = std::vector<std::vector<predict::Criterion>>;
 std::string joined(const std::vector<std::string>& parts) { return listOf(parts, " and "); }
 
 /// "[5, 37]"; empty where there is none.
-std::string intervalText(const Bounds& i) {
-  return std::isfinite(i.low) && std::isfinite(i.high) ? fmt::format("[{}, {}]", shortNumber(i.low), shortNumber(i.high)) : "";
-}
+std::string intervalText(const Bounds& i) { return i.finite() ? fmt::format("[{}, {}]", shortNumber(i.low), shortNumber(i.high)) : ""; }
 
 /// "3 follow (1) min-hand-jerk, 2 follow (5) min-hand-force-change, 1 undecided".
 std::string eachOf(const Conclusion& c, const Names& names) {
@@ -54,8 +52,7 @@ std::string shortNumber(double value) {
 
 std::string shareText(std::size_t part, std::size_t of) {
   const Bounds share = computeBinomialInterval(part, of);
-  return fmt::format("{} % {}", shortNumber(100 * static_cast<double>(part) / static_cast<double>(of)),
-                     intervalText({100 * share.low, 100 * share.high}));
+  return fmt::format("{} % {}", shortNumber(100 * static_cast<double>(part) / static_cast<double>(of)), intervalText(share.percent()));
 }
 
 std::string plural(std::size_t n, const std::string& noun) { return fmt::format("{} {}{}", n, noun, n == 1 ? "" : "s"); }
@@ -81,7 +78,7 @@ std::string fitText(const Conclusion& c, const Names& names) {
   constexpr double kMostShown = 2;  // farther beyond the other, the two hardly differ, and the share says nothing
   if (c.mixedWith && c.mixture.mean > 0 && c.mixture.mean <= kMostShown) {
     const Bounds interval = intervalOf(c.mixture);
-    const std::string within = intervalText({100 * interval.low, 100 * interval.high});
+    const std::string within = intervalText(interval.percent());
     text += fmt::format("The movements go {} %{}{} of the way towards {} ({}). ", shortNumber(100 * c.mixture.mean),
                         within.empty() ? "" : " ", within, describeCandidate(names[*c.mixedWith]), pText(c.mixtureP));
   }
@@ -379,7 +376,7 @@ std::string describeCounts(const ConditionResult& r) {
   if (attempts > 0) text += fmt::format(" ({:.0f} %)", 100.0 * static_cast<double>(r.counts.success) / static_cast<double>(attempts));
   if (r.success)
     text += fmt::format("; a typical one of the {} {:.0f} % {} (mean of their empirical logits)", plural(r.success->people, "subject"),
-                        100 * r.success->mean, intervalText({100 * r.success->interval.low, 100 * r.success->interval.high}));
+                        100 * r.success->mean, intervalText(r.success->interval.percent()));
   std::vector<std::string> rest;
   if (r.counts.aborted > 0) rest.push_back(fmt::format("{} aborted", r.counts.aborted));
   if (const std::size_t n = r.counts.interrupted - r.counts.invalidTiming; n > 0) rest.push_back(fmt::format("{} interrupted", n));

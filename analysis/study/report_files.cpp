@@ -44,15 +44,9 @@ double percentOf(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0 : 100.0 * static_cast<double>(part) / static_cast<double>(whole);
 }
 
-/// The exact interval of a share [%].
-analysis::Bounds intervalOf(std::size_t successes, std::size_t trials) {
-  const analysis::Bounds share = analysis::computeBinomialInterval(successes, trials);
-  return {100 * share.low, 100 * share.high};
-}
-
 /// Successes, trials, their share and its interval [%].
 void addShare(TableText& table, std::size_t successes, std::size_t trials) {
-  const analysis::Bounds interval = intervalOf(successes, trials);
+  const analysis::Bounds interval = analysis::computeBinomialInterval(successes, trials).percent();
   table.row(successes, trials, percentOf(successes, trials), interval.low, interval.high);
 }
 
@@ -113,7 +107,7 @@ figure::Figure successFigure(const StudyReport& report) {
         panel.x.ticks.emplace_back(at.number, at.value);
         series.width = 0;
       }
-      const analysis::Bounds interval = intervalOf(at.successes, at.trials);
+      const analysis::Bounds interval = analysis::computeBinomialInterval(at.successes, at.trials).percent();
       series.x.push_back(at.number);
       series.y.push_back(percentOf(at.successes, at.trials));
       series.errorLow.push_back(interval.low);
@@ -176,7 +170,7 @@ std::string textOf(const StudyReport& report, const std::vector<std::string>& fi
   if (!report.success.empty()) {
     text += "\n## Success\n\n| key | value | success % | 95 % interval | trials |\n|---|---|---|---|---|\n";
     for (const SuccessAt& at : report.success) {
-      const analysis::Bounds interval = intervalOf(at.successes, at.trials);
+      const analysis::Bounds interval = analysis::computeBinomialInterval(at.successes, at.trials).percent();
       text += fmt::format("| {} | {} | {:.1f} | {:.1f} to {:.1f} | {} |\n", at.key, at.value, percentOf(at.successes, at.trials),
                           interval.low, interval.high, at.trials);
     }

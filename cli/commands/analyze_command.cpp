@@ -61,7 +61,7 @@ analysis::AnalysisOptions analysisOptions(const AnalyzeOptions& o) {
 using Names = std::vector<std::vector<predict::Criterion>>;
 using Json = nlohmann::ordered_json;
 
-Json jsonOf(const analysis::Bounds& i) { return std::isfinite(i.low) && std::isfinite(i.high) ? Json{i.low, i.high} : Json(nullptr); }
+Json jsonOf(const analysis::Bounds& i) { return i.finite() ? Json{i.low, i.high} : Json(nullptr); }
 
 /// The paper's epsilon of one signal, as a description.
 Json jsonOf(const analysis::EpsilonTable& table, const analysis::ConditionResult& result, bool decided) {
@@ -220,10 +220,7 @@ std::string summaryJson(const analysis::Analysis& analysis, const analysis::Data
       condition["mean_duration_s"] = r.duration.mean;
       condition["movement_time_s"] = {{"mean", r.movementTime.mean}, {"min", r.movementRange.low}, {"max", r.movementRange.high}};
     }
-    if (r.success)
-      condition["success_percent"] = {
-          {"typical", 100 * r.success->mean},
-          {"interval", jsonOf(analysis::Bounds{100 * r.success->interval.low, 100 * r.success->interval.high})}};
+    if (r.success) condition["success_percent"] = {{"typical", 100 * r.success->mean}, {"interval", jsonOf(r.success->interval.percent())}};
     condition["conclusion"] = jsonOf(r.conclusion, analysis::namesOf(r.candidates), r.candidates.masses);
     condition["hand_ranking"] = jsonOf(r.handEpsilon, r, r.conclusion.decided());
     condition["object_ranking"] = jsonOf(r.objectEpsilon, r, false);
