@@ -57,7 +57,7 @@ Lag lagBehind(const std::vector<double>& first, const std::vector<double>& hand,
   return best;
 }
 
-std::vector<HandSignals> signalsOf(const record::ChannelTable& table, const record::SampleRows& rows, std::size_t first, std::size_t last) {
+std::vector<HandSignals> signalsOf(const record::ChannelTable& table, const record::SampleRows& rows) {
   std::vector<HandSignals> hands(static_cast<std::size_t>(table.hands));
   for (int hand = 1; hand <= table.hands; ++hand) {
     const std::string name = hand == 1 ? "hand" : fmt::format("hand{}", hand);
@@ -65,7 +65,7 @@ std::vector<HandSignals> signalsOf(const record::ChannelTable& table, const reco
                       force = table.indexOf(hand == 1 ? "coupling_force_x" : name + "_coupling_force_x"),
                       work = table.indexOf(name + "_work");
     HandSignals& signals = hands[static_cast<std::size_t>(hand - 1)];
-    for (std::size_t row = first; row < last; ++row) {
+    for (std::size_t row = 0; row < rows.size(); ++row) {
       signals.place.push_back(rows.vectorAt(row, place));
       signals.velocity.push_back(rows.vectorAt(row, velocity));
       signals.force.push_back(rows.vectorAt(row, force));
@@ -80,15 +80,10 @@ void addRun(const record::RunLog& run, Sheet& table) {
   const record::RunMarks marks = record::readMarks(run);
   for (const record::RecordedTrial& trial : run.trials()) {
     if (trial.result.onsetTick == 0 || !trial.complete) continue;
-    const record::SampleRows rows = run.rows(trial);
-    const auto begin = std::lower_bound(rows.ticks.begin(), rows.ticks.end(), trial.result.onsetTick);
-    const auto end = std::upper_bound(rows.ticks.begin(), rows.ticks.end(), trial.result.endTick);
     // At the tick that ends the trial no force acts any more.
-    const auto first = static_cast<std::size_t>(begin - rows.ticks.begin());
-    auto last = static_cast<std::size_t>(end - rows.ticks.begin());
-    if (last > first && rows.ticks[last - 1] == trial.result.endTick) --last;
-    if (last < first + 3) continue;
-    const TogetherMeasures together = measureTogether(signalsOf(c.table, rows, first, last), c.samplingHz);
+    const record::SampleRows rows = run.rows(trial).between(trial.result.onsetTick, trial.result.endTick - 1);
+    if (rows.size() < 3) continue;
+    const TogetherMeasures together = measureTogether(signalsOf(c.table, rows), c.samplingHz);
     const record::TrialMark* mark = marks.find(trial.trial);
     for (std::size_t hand = 0; hand < together.hands.size(); ++hand) {
       const HandMeasures& m = together.hands[hand];
