@@ -1,7 +1,5 @@
 #include "sim/subjects/feedback_subject.h"
 
-#include <fmt/format.h>
-
 #include <cmath>
 
 #include "base/fault.h"
@@ -51,7 +49,7 @@ Person drawPerson(std::uint64_t seed) {
 
 FeedbackSpec parseFeedbackSubject(const std::string& text) {
   SubjectOptions options(text, feedbackParameters());
-  if (options.word("kind", {"ofc"}) != "ofc") throw FaultError(Fault{"device", "simulated: kind", "ofc"});
+  static_cast<void>(options.word("kind", {"ofc"}));
   const auto number = [&](std::string_view key) { return options.number(key); };
   FeedbackSpec spec;
   const std::string subject = options.word("subject", {"practised", "1", "2", "3", "4", "5", "drawn"});

@@ -1,7 +1,5 @@
 #include "sim/subjects/impedance_subject.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <utility>
