@@ -2,7 +2,6 @@
 #include <cmath>
 #include <filesystem>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -126,10 +125,6 @@ std::string textOf(const Write& write, const RunLog& run) {
   std::string text;
   write(run, [&](std::string_view piece) { text += piece; });
   return text;
-}
-
-inline std::span<const std::uint8_t> asBytes(const std::string& text) {
-  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
 }
 
 /// The record of a trial without its place in the log.
