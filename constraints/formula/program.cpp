@@ -100,18 +100,12 @@ class Compiler {
 
   // Two instructions of one kind in a row need one jump.
   void pair() {
-    constexpr std::pair<Code, Code> kPairs[] = {{Code::Mul, Code::TwoMul},
-                                                {Code::MulMulC, Code::TwoMulMulC},
-                                                {Code::NegMul, Code::TwoNegMul},
-                                                {Code::Neg, Code::TwoNeg},
-                                                {Code::Square, Code::TwoSquare}};
     std::vector<Instruction>& all = program_.instructions;
-    for (std::size_t i = 0; i + 1 < all.size(); ++i)
-      for (const auto& [one, two] : kPairs)
-        if (all[i].handler == handlerOf(one) && all[i + 1].handler == handlerOf(one)) {
-          all[i++].handler = handlerOf(two);
-          break;
-        }
+    for (std::size_t i = 0; i + 1 < all.size(); ++i) {
+      const Code code = program_.codes[i];
+      const void* const two = handlerOfTwo(code);
+      if (two != nullptr && program_.codes[i + 1] == code) all[i++].handler = two;
+    }
   }
 
   // Numbers are loaded only where an operation has no form with the number inside.

@@ -8,46 +8,17 @@
 
 namespace reachlab::constraints {
 
-/// Operations of the straight-line program. R: register, C: number kept in the instruction.
-enum class Code : std::uint16_t {
-  Load,
-  Add,
-  AddC,
-  Sub,
-  RSubC,
-  Mul,
-  MulC,
-  MulMulC,
-  NegMul,
-  MulAdd,
-  MulSub,
-  RMulSub,
-  Div,
-  RDivC,
-  Neg,
-  Square,
-  SinCos,
-  Pow,
-  Tan,
-  Asin,
-  Acos,
-  Atan,
-  Atan2,
-  Sinh,
-  Cosh,
-  Tanh,
-  Exp,
-  Log,
-  Sqrt,
-  Abs,
-  Sign,
-  Return,
-  TwoMul,
-  TwoMulMulC,
-  TwoNegMul,
-  TwoNeg,
-  TwoSquare  // this instruction and the next, of the same kind, with one jump
-};
+/// Operations with one result, see resultOf. R: register, C: number kept in the instruction.
+#define REACHLAB_OPERATIONS(X)                                                                                                       \
+  X(Load)                                                                                                                            \
+  X(Add) X(AddC) X(Sub) X(RSubC) X(Mul) X(MulC) X(MulMulC) X(NegMul) X(MulAdd) X(MulSub) X(RMulSub) X(Div) X(RDivC) X(Neg) X(Square) \
+      X(Pow) X(Tan) X(Asin) X(Acos) X(Atan) X(Atan2) X(Sinh) X(Cosh) X(Tanh) X(Exp) X(Log) X(Sqrt) X(Abs) X(Sign)
+/// Two of these in a row, of the same kind, have one jump.
+#define REACHLAB_PAIRED_OPERATIONS(X) X(Mul) X(MulMulC) X(NegMul) X(Neg) X(Square)
+
+#define REACHLAB_CODE(name) name,
+enum class Code : std::uint16_t { SinCos, Return, REACHLAB_OPERATIONS(REACHLAB_CODE) };
+#undef REACHLAB_CODE
 
 struct Instruction {
   const void* handler = nullptr;  // where the interpreter jumps for it
@@ -85,5 +56,7 @@ void evaluateSurfaceProgram(const void* program, const double* shape, double u, 
 
 /// Address that the interpreter jumps to for an operation.
 const void* handlerOf(Code code) noexcept;
+/// The same for two instructions of one operation in a row, or null.
+const void* handlerOfTwo(Code code) noexcept;
 
 }  // namespace reachlab::constraints
