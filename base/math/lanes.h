@@ -99,50 +99,23 @@ template <class Operation, class... Operands>
   using Part = decltype(operation(lowOf(x)...));
   return Halves<Part>(operation(lowOf(x)...), operation(highOf(x)...));
 }
-template <class A, HalvesWith<A> B>
-[[gnu::always_inline]] inline auto operator+(const A& a, const B& b) noexcept {
-  return byHalves([](const auto& x, const auto& y) { return x + y; }, a, b);
-}
-template <class A, HalvesWith<A> B>
-[[gnu::always_inline]] inline auto operator-(const A& a, const B& b) noexcept {
-  return byHalves([](const auto& x, const auto& y) { return x - y; }, a, b);
-}
-template <class A, HalvesWith<A> B>
-[[gnu::always_inline]] inline auto operator*(const A& a, const B& b) noexcept {
-  return byHalves([](const auto& x, const auto& y) { return x * y; }, a, b);
-}
-template <class A, HalvesWith<A> B>
-[[gnu::always_inline]] inline auto operator/(const A& a, const B& b) noexcept {
-  return byHalves([](const auto& x, const auto& y) { return x / y; }, a, b);
-}
-template <class A, HalvesWith<A> B>
-[[gnu::always_inline]] inline auto operator<(const A& a, const B& b) noexcept {
-  return byHalves([](const auto& x, const auto& y) { return x < y; }, a, b);
-}
-template <class A, HalvesWith<A> B>
-[[gnu::always_inline]] inline auto operator<=(const A& a, const B& b) noexcept {
-  return byHalves([](const auto& x, const auto& y) { return x <= y; }, a, b);
-}
-template <class A, HalvesWith<A> B>
-[[gnu::always_inline]] inline auto operator>(const A& a, const B& b) noexcept {
-  return byHalves([](const auto& x, const auto& y) { return x > y; }, a, b);
-}
-template <class A, HalvesWith<A> B>
-[[gnu::always_inline]] inline auto operator>=(const A& a, const B& b) noexcept {
-  return byHalves([](const auto& x, const auto& y) { return x >= y; }, a, b);
-}
-template <class A, HalvesWith<A> B>
-[[gnu::always_inline]] inline auto operator==(const A& a, const B& b) noexcept {
-  return byHalves([](const auto& x, const auto& y) { return x == y; }, a, b);
-}
-template <class A, HalvesWith<A> B>
-[[gnu::always_inline]] inline auto operator|(const A& a, const B& b) noexcept {
-  return byHalves([](const auto& x, const auto& y) { return x | y; }, a, b);
-}
-template <class A, HalvesWith<A> B>
-[[gnu::always_inline]] inline auto operator&(const A& a, const B& b) noexcept {
-  return byHalves([](const auto& x, const auto& y) { return x & y; }, a, b);
-}
+#define REACHLAB_OPERATOR(op)                                                       \
+  template <class A, HalvesWith<A> B>                                               \
+  [[gnu::always_inline]] inline auto operator op(const A& a, const B& b) noexcept { \
+    return byHalves([](const auto& x, const auto& y) { return x op y; }, a, b);     \
+  }
+REACHLAB_OPERATOR(+)
+REACHLAB_OPERATOR(-)
+REACHLAB_OPERATOR(*)
+REACHLAB_OPERATOR(/)
+REACHLAB_OPERATOR(<)
+REACHLAB_OPERATOR(<=)
+REACHLAB_OPERATOR(>)
+REACHLAB_OPERATOR(>=)
+REACHLAB_OPERATOR(==)
+REACHLAB_OPERATOR(|)
+REACHLAB_OPERATOR(&)
+#undef REACHLAB_OPERATOR
 template <class Part>
 [[gnu::always_inline]] inline Halves<Part> operator-(const Halves<Part>& a) noexcept {
   return {-a.low, -a.high};
@@ -151,22 +124,16 @@ template <class Part>
 [[gnu::always_inline]] inline Halves<Part> operator~(const Halves<Part>& a) noexcept {
   return {~a.low, ~a.high};
 }
-template <class Part, class B>
-[[gnu::always_inline]] inline Halves<Part>& operator+=(Halves<Part>& a, const B& b) noexcept {
-  return a = a + b;
-}
-template <class Part, class B>
-[[gnu::always_inline]] inline Halves<Part>& operator-=(Halves<Part>& a, const B& b) noexcept {
-  return a = a - b;
-}
-template <class Part, class B>
-[[gnu::always_inline]] inline Halves<Part>& operator*=(Halves<Part>& a, const B& b) noexcept {
-  return a = a * b;
-}
-template <class Part, class B>
-[[gnu::always_inline]] inline Halves<Part>& operator|=(Halves<Part>& a, const B& b) noexcept {
-  return a = a | b;
-}
+#define REACHLAB_ASSIGNMENT(op)                                                                      \
+  template <class Part, class B>                                                                     \
+  [[gnu::always_inline]] inline Halves<Part>& operator op##=(Halves<Part>& a, const B& b) noexcept { \
+    return a = a op b;                                                                               \
+  }
+REACHLAB_ASSIGNMENT(+)
+REACHLAB_ASSIGNMENT(-)
+REACHLAB_ASSIGNMENT(*)
+REACHLAB_ASSIGNMENT(|)
+#undef REACHLAB_ASSIGNMENT
 }  // namespace lanesDetail
 
 template <int Width>
