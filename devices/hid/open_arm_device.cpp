@@ -35,14 +35,12 @@ OpenArm::OpenArm(const Options& options, const std::string& serial, OpenPort ope
 std::string OpenArm::lossText() const { return whole_ || shortReport_ == 0 ? std::string() : firmwareFault(shortReport_); }
 
 haptics::DeviceInfo OpenArm::info() const {
-  haptics::DeviceInfo info;
-  info.name = fmt::format("{}{}", options_.model->name, serial_.empty() ? "" : " " + serial_);
-  info.version = "open arm over HID";
-  info.maxForce = options_.model->maxForce;
-  info.rendersForce = true;
-  info.workspaceRadius = 0.1;
-  info.secondPath = "the I/O thread tells it zero when the tick leaves no new force for 20 ms; its firmware switches off after 0.5 s";
-  return info;
+  return {.name = fmt::format("{}{}", options_.model->name, serial_.empty() ? "" : " " + serial_),
+          .version = "open arm over HID",
+          .maxForce = options_.model->maxForce,
+          .rendersForce = true,
+          .workspaceRadius = 0.1,
+          .secondPath = "the I/O thread tells it zero when the tick leaves no new force for 20 ms; its firmware switches off after 0.5 s"};
 }
 
 bool OpenArm::send(const ArmCommand& command) {
@@ -188,10 +186,9 @@ std::vector<FoundDevice> findArmDevices(const DeviceDriver& self) {
   std::vector<FoundDevice> found;
   for (const HidInterface& arm : findArms()) {
     const std::string closed = whyNotOpen(arm);
-    haptics::DeviceInfo info;
-    info.name = arm.title.empty() ? self.description : arm.maker + (arm.maker.empty() ? "" : " ") + arm.title;
-    info.maxForce = optionsFor(arm).model->maxForce;
-    info.rendersForce = true;
+    const haptics::DeviceInfo info{.name = arm.title.empty() ? self.description : arm.maker + (arm.maker.empty() ? "" : " ") + arm.title,
+                                   .maxForce = optionsFor(arm).model->maxForce,
+                                   .rendersForce = true};
     found.push_back(presentDevice(self, arm.key(), info, closed.empty() ? firmwareFaultOf(arm) : closed));
   }
   return rowsOr(std::move(found), self, kNoArm);

@@ -89,24 +89,16 @@ std::unique_ptr<haptics::HapticDevice> makeSpaceMouse(const DeviceRequest& reque
   chosen.deadZone = options.number("dead-zone", chosen.deadZone, 0, 0.5);
   options.done();
   const HidInterface mouse = chooseSpaceMouse(options.plain(), request.words());
-  haptics::DeviceInfo info;
-  info.name = mouse.title.empty() ? "SpaceMouse" : mouse.title;
-  info.version = "HID";
-  info.rate = 125;
-  info.steered = true;
-  info.workspaceCentre = trial::startOf(request.experiment);
-  return std::make_unique<RateHand>(info, chosen, info.workspaceCentre, std::make_shared<SpaceMouseSource>(mouse.key(), request.words()));
+  const Vec3 start = trial::startOf(request.experiment);
+  const haptics::DeviceInfo info{
+      .name = mouse.title.empty() ? "SpaceMouse" : mouse.title, .version = "HID", .rate = 125, .workspaceCentre = start, .steered = true};
+  return std::make_unique<RateHand>(info, chosen, start, std::make_shared<SpaceMouseSource>(mouse.key(), request.words()));
 }
 
 std::vector<FoundDevice> findSpaceMouseDevices(const DeviceDriver& self) {
   std::vector<FoundDevice> found;
-  for (const HidInterface& mouse : findSpaceMice()) {
-    haptics::DeviceInfo info;
-    info.name = mouse.title;
-    info.rate = 125;
-    info.degreesOfFreedom = 6;
-    found.push_back(presentDevice(self, mouse.key(), info, whyNotOpen(mouse)));
-  }
+  for (const HidInterface& mouse : findSpaceMice())
+    found.push_back(presentDevice(self, mouse.key(), {.name = mouse.title, .degreesOfFreedom = 6, .rate = 125}, whyNotOpen(mouse)));
   return rowsOr(std::move(found), self, "no 3Dconnexion SpaceMouse (USB 256f, 046d:c6xx) is connected");
 }
 

@@ -22,12 +22,7 @@ constexpr std::int64_t kReopenNs = 200'000'000;
 using ChooseTablet = std::function<TabletNode()>;  // throws ResourceError while the tablet is not present
 
 haptics::DeviceInfo infoOf(const TabletNode& node) {
-  haptics::DeviceInfo info;
-  info.name = node.name.empty() ? "tablet" : node.name;
-  info.version = "evdev";
-  info.degreesOfFreedom = 2;
-  info.rate = 200;
-  return info;
+  return {.name = node.name.empty() ? "tablet" : node.name, .version = "evdev", .degreesOfFreedom = 2, .rate = 200};
 }
 
 /// Reads events, and opens the node again after it was lost.

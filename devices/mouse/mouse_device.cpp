@@ -27,12 +27,7 @@ void MouseDevice::point(const Vec3& place, std::int64_t eventNs) noexcept {
   if (isFinite(place)) events_.tryPush({place, eventNs, now_()});
 }
 
-haptics::DeviceInfo MouseDevice::info() const {
-  haptics::DeviceInfo info;
-  info.name = "mouse";
-  info.version = "2";
-  return info;
-}
+haptics::DeviceInfo MouseDevice::info() const { return {.name = "mouse", .version = "2"}; }
 
 void MouseDevice::take(const Event& event) noexcept {
   constexpr std::int64_t kLeakNs = 200;  // an event: clocks that drift apart

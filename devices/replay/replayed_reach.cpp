@@ -67,9 +67,7 @@ subjects::PlayedReach layOnto(const RecordedReach& reach, const Vec3& start, con
 std::unique_ptr<haptics::HapticDevice> makeReplayHand(const std::string& argument, const Vec3& start, const Vec3& target) {
   std::vector<subjects::PlayedReach> reaches;
   for (const RecordedReach& reach : readReaches(reachSourceOf(argument))) reaches.push_back(layOnto(reach, start, target));
-  haptics::DeviceInfo info;
-  info.name = "replay";
-  info.version = "1";
+  const haptics::DeviceInfo info{.name = "replay", .version = "1"};
   return std::make_unique<subjects::PlayedHand>(
       info, [reaches = std::move(reaches)](int trial) { return reaches[static_cast<std::size_t>(trial) % reaches.size()]; });
 }

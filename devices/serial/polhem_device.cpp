@@ -26,14 +26,12 @@ PolhemSerial::PolhemSerial(std::string name, OpenLink open) : AskedDevice(std::m
 }
 
 haptics::DeviceInfo PolhemSerial::info() const {
-  haptics::DeviceInfo info;
-  info.name = name_;
-  info.version = "Polhem v3, serial line";
-  info.maxForce = 5;
-  info.rendersForce = true;
-  info.workspaceRadius = 0.15;
-  info.secondPath = "the I/O thread tells it zero when the tick leaves no new force for 20 ms; its firmware switches off after 0.5 s";
-  return info;
+  return {.name = name_,
+          .version = "Polhem v3, serial line",
+          .maxForce = 5,
+          .rendersForce = true,
+          .workspaceRadius = 0.15,
+          .secondPath = "the I/O thread tells it zero when the tick leaves no new force for 20 ms; its firmware switches off after 0.5 s"};
 }
 
 std::string PolhemSerial::commandOf(const Vec3& force) const { return polhemForceLine(toTowardsRightUp(force)); }
@@ -87,13 +85,8 @@ std::unique_ptr<haptics::HapticDevice> makePolhem(const DeviceRequest& request) 
 
 std::vector<FoundDevice> findPolhem(const DeviceDriver& self) {
   std::vector<FoundDevice> found;
-  for (const std::string& path : findTerminals()) {
-    haptics::DeviceInfo info;
-    info.name = "Polhem v3";
-    info.maxForce = 5;
-    info.rendersForce = true;
-    found.push_back(presentDevice(self, path, info));
-  }
+  for (const std::string& path : findTerminals())
+    found.push_back(presentDevice(self, path, {.name = "Polhem v3", .maxForce = 5, .rendersForce = true}));
   return rowsOr(std::move(found), self, "no serial line ttyACM of USB vendor 16c0 is there; another line is named: polhem:/dev/ttyACM0");
 }
 
