@@ -77,14 +77,8 @@ class Compiler {
     return static_cast<std::uint16_t>(next_++);
   }
   void emit(Code code, int a, int b, int c, int out, double number) {
-    Instruction i;
-    i.handler = handlerOf(code);
-    i.number = number;
-    i.a = static_cast<std::uint16_t>(a);
-    i.b = static_cast<std::uint16_t>(b);
-    i.c = static_cast<std::uint16_t>(c);
-    i.out = static_cast<std::uint16_t>(out);
-    program_.instructions.push_back(i);
+    const auto narrow = [](int x) { return static_cast<std::uint16_t>(x); };
+    program_.instructions.push_back({handlerOf(code), number, narrow(a), narrow(b), narrow(c), narrow(out)});
     program_.codes.push_back(code);
   }
   void put(int id, Code code, int a, int b = 0, int c = 0, double number = 0) {

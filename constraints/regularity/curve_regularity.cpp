@@ -99,12 +99,8 @@ class Examiner {
       if (!(way <= 0.9 * before)) return;
       before = way;
     }
-    Place place;
-    place.kind = PlaceKind::End;
-    place.at = direction * std::numeric_limits<double>::infinity();
-    place.r = last;
-    place.because = "r comes to rest";
-    result_.places.push_back(place);
+    const double infinity = std::numeric_limits<double>::infinity();
+    result_.places.push_back({.kind = PlaceKind::End, .at = direction * infinity, .r = last, .because = "r comes to rest"});
   }
 
   /// Where a curve comes to rest, nothing is stepped over on its last millimetre.

@@ -80,11 +80,7 @@ haptics::DeviceSample MouseDevice::read() noexcept {
   const Vec3 away = position_ - target, slope = velocity_ + w * away;
   position_ = target + decay * (away + kTickSeconds * slope);
   velocity_ = decay * (velocity_ - w * kTickSeconds * slope);
-  haptics::DeviceSample sample;
-  sample.position = position_;
-  sample.velocity = velocity_;
-  sample.hasVelocity = true;
-  return sample;
+  return {.position = position_, .velocity = velocity_, .hasVelocity = true};
 }
 
 DeviceDriver mouseDriver() {

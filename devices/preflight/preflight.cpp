@@ -105,14 +105,12 @@ PreflightLine continuousForce(const CompiledExperiment& experiment, const haptic
 }
 
 LoopSettings heldLoop(const experiment::Coupling& coupling, const haptics::DeviceInfo& device, const Experiment& experiment) {
-  LoopSettings loop;
-  loop.stiffness = coupling.stiffness;
-  loop.damping = coupling.damping;
-  loop.mass = device.apparentMass;
-  loop.friction = device.viscosity;
-  loop.period = std::max(kTickSeconds, device.rate > 0 ? 1 / device.rate : 0.0);
-  loop.estimator = experiment.velocityEstimator;
-  return loop;
+  return {.stiffness = coupling.stiffness,
+          .damping = coupling.damping,
+          .mass = device.apparentMass,
+          .friction = device.viscosity,
+          .period = std::max(kTickSeconds, device.rate > 0 ? 1 / device.rate : 0.0),
+          .estimator = experiment.velocityEstimator};
 }
 
 // The damping of a hand that holds the device lightly, as the world sees it.

@@ -22,12 +22,10 @@ ReachDemand rigidBodyDemand(const experiment::Experiment& experiment, const tria
   const double mass = std::accumulate(experiment.object.masses.begin(), experiment.object.masses.end(), 0.0);
   const double unit = mass * norm(settings.target - settings.start) / (experiment.task->duration * experiment.task->duration);
   const double weight = mass * norm(experiment.object.gravity);
-  ReachDemand demand;
-  demand.peakForce = 10 / std::sqrt(3.0) * unit + weight;
-  demand.rmsForce = std::hypot(std::sqrt(120.0 / 7) * unit, weight);
-  demand.farthest = std::max(norm(settings.start - centre), norm(settings.target - centre));
-  demand.law = "its whole mass as one rigid body (" + why + ")";
-  return demand;
+  return {.peakForce = 10 / std::sqrt(3.0) * unit + weight,
+          .rmsForce = std::hypot(std::sqrt(120.0 / 7) * unit, weight),
+          .farthest = std::max(norm(settings.start - centre), norm(settings.target - centre)),
+          .law = "its whole mass as one rigid body (" + why + ")"};
 }
 
 /// The stages of a tick of a practised hand on the virtual clock.

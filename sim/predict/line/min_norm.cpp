@@ -66,14 +66,12 @@ MinNormMotion solveMinNorm(int order, double distance, double halfTime, const Ei
   r.triangularView<Eigen::Upper>().solveInPlace(c);
   c = c.cwiseProduct(scale);
 
-  MinNormMotion motion;
-  motion.order = order;
-  motion.halfTime = halfTime;
-  motion.polynomial = c.head(polynomials);
-  motion.trig = c.tail(frequency.size());
-  motion.cost = right * c(polynomials - 1);
-  motion.condition = computeCondition(r);
-  return motion;
+  return {.order = order,
+          .halfTime = halfTime,
+          .polynomial = c.head(polynomials),
+          .trig = c.tail(frequency.size()),
+          .cost = right * c(polynomials - 1),
+          .condition = computeCondition(r)};
 }
 
 }  // namespace reachlab::predict
