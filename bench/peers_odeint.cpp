@@ -24,60 +24,54 @@ struct Problem {
   Segments segments;
 };
 
-// The state, the stepper and the system are locals of a run, so that the compiler may keep them where it likes.
-template <class Stepper, class System>
-Contender fixedStep(const std::string& method, const BenchScene& scene, const System& system, double step) {
+// The state, the stepper and the system are locals of a run, so that the compiler may keep them where it likes. `fresh` has a stepper that
+// no run has used.
+template <class System, class Tick>
+std::function<void(Trajectory*)> makeRun(const BenchScene& scene, const System& system, const Tick& fresh) {
   const auto problem = std::make_shared<const Problem<System>>(Problem<System>{scene, system, makeSegments(scene, kTickSeconds)});
-  Contender out;
-  out.method = method, out.step = step;
-  out.run = [problem, step](Trajectory* trajectory) {
-    const int stepsPerTick = static_cast<int>(std::lround(kTickSeconds / step));
+  return [problem, fresh](Trajectory* trajectory) {
     PeerSystem<System> peer{problem->system};
-    Stepper stepper;
+    Tick tick = fresh;
     State<System> y{};
     setInitialState<System>(problem->scene, y.data());
     const auto rate = [&peer](const State<System>& at, State<System>& slope, double t) { peer.rate(at.data(), slope.data(), t); };
-    runReach(peer, *problem->segments, y.data(), trajectory, [&] {
-      for (int i = 0; i < stepsPerTick; ++i) stepper.do_step(rate, y, i * step, step);
-      return true;
-    });
-    if (trajectory) trajectory->steps = problem->segments->size() * stepsPerTick;
+    std::uint64_t steps = 0;
+    runReach(peer, *problem->segments, y.data(), trajectory, [&] { return tick(rate, y, steps); });
+    if (trajectory) trajectory->steps = steps;
   };
-  return out;
+}
+
+template <class Stepper, class System>
+Contender fixedStep(const std::string& method, const BenchScene& scene, const System& system, double step) {
+  const int stepsPerTick = static_cast<int>(std::lround(kTickSeconds / step));
+  const auto tick = [step, stepsPerTick, stepper = Stepper()](const auto& rate, State<System>& y, std::uint64_t& steps) mutable {
+    for (int i = 0; i < stepsPerTick; ++i) stepper.do_step(rate, y, i * step, step);
+    steps += stepsPerTick;
+    return true;
+  };
+  return {.method = method, .step = step, .form = {}, .run = makeRun(scene, system, tick)};
 }
 
 template <class Stepper, class System>
 Contender controlled(const std::string& method, const BenchScene& scene, const System& system, double tolerance) {
-  const auto problem = std::make_shared<const Problem<System>>(Problem<System>{scene, system, makeSegments(scene, kTickSeconds)});
-  Contender out;
-  out.method = method, out.tolerance = tolerance;
-  out.run = [problem, tolerance](Trajectory* trajectory) {
-    PeerSystem<System> peer{problem->system};
-    auto stepper = odeint::make_controlled(tolerance, tolerance, Stepper());
-    State<System> y{};
-    setInitialState<System>(problem->scene, y.data());
-    const auto rate = [&peer](const State<System>& at, State<System>& slope, double t) { peer.rate(at.data(), slope.data(), t); };
-    double suggested = kTickSeconds;
-    std::uint64_t steps = 0;
-    runReach(peer, *problem->segments, y.data(), trajectory, [&] {
-      double t = 0;
-      int tries = 0;
-      while (t < kTickSeconds * (1 - 1e-12)) {
-        double dt = std::min(suggested, kTickSeconds - t);
-        const bool shortened = dt < suggested;
-        if (stepper.try_step(rate, y, t, dt) == odeint::success) {
-          ++steps;
-          suggested = shortened ? std::max(suggested, dt) : dt;
-        } else {
-          suggested = dt;
-        }
-        if (++tries > 20'000 || !(suggested > 1e-15)) return false;
+  const auto tick = [suggested = kTickSeconds, stepper = odeint::make_controlled(tolerance, tolerance, Stepper())](
+                        const auto& rate, State<System>& y, std::uint64_t& steps) mutable {
+    double t = 0;
+    int tries = 0;
+    while (t < kTickSeconds * (1 - 1e-12)) {
+      double dt = std::min(suggested, kTickSeconds - t);
+      const bool shortened = dt < suggested;
+      if (stepper.try_step(rate, y, t, dt) == odeint::success) {
+        ++steps;
+        suggested = shortened ? std::max(suggested, dt) : dt;
+      } else {
+        suggested = dt;
       }
-      return true;
-    });
-    if (trajectory) trajectory->steps = steps;
+      if (++tries > 20'000 || !(suggested > 1e-15)) return false;
+    }
+    return true;
   };
-  return out;
+  return {.method = method, .tolerance = tolerance, .form = {}, .run = makeRun(scene, system, tick)};
 }
 
 }  // namespace
