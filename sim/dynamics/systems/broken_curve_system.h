@@ -85,11 +85,7 @@ struct BrokenCurveSystem : SpaceSystem<Springs<N>> {
     return most;
   }
 
-  struct Vectors {
-    std::array<Vec3, kMassCapacity<N>> all;
-    Vec3& operator[](int i) noexcept { return all[i]; }
-    const Vec3& operator[](int i) const noexcept { return all[i]; }
-  };
+  using Vectors = std::array<Vec3, kMassCapacity<N>>;
   /// Force over mass on each mass [m/s^2], without viscosity, and the quantities of the curve that the equations need.
   void push(const Hand& hand, const State& y, Vectors& drive, Vectors& tangent, std::array<double, kMassCapacity<N>>& measure,
             int lead = -1, double* speed = nullptr) const noexcept {

@@ -18,12 +18,7 @@ struct FreeSystem : SpaceSystem<Springs<N>> {
   int states() const noexcept { return 6 * n(); }
 
   void rate(const Hand& hand, const State& y, State& dy) const noexcept {
-    struct Points {
-      std::array<Vec3, kMassCapacity<N>> value;
-      Vec3& operator[](int i) noexcept { return value[i]; }
-      const Vec3& operator[](int i) const noexcept { return value[i]; }
-    };
-    Points r, v, force;
+    std::array<Vec3, kMassCapacity<N>> r, v, force;
     for (int i = 0; i < n(); ++i) {
       r[i] = at3(y, i);
       v[i] = at3(y, n() + i);
