@@ -36,10 +36,12 @@ void execute(const Program& program, Register* r) noexcept {
 #define CASE(name) \
   case Code::name: computeInLanes<Code::name>(*i, r); break;
     switch (code) {
-      REACHLAB_OPERATIONS(CASE)
+      REACHLAB_JOINED_OPERATIONS(CASE)
+      REACHLAB_PLAIN_OPERATIONS(CASE)
       case Code::SinCos: sinCosInLanes(r[i->a], r[i->b], r[i->c]); break;
       case Code::Return: return;
     }
+#undef CASE
     ++i;
   }
 }

@@ -8,7 +8,7 @@
 
 #include "base/fault.h"
 #include "base/math/elementary.h"
-#include "constraints/formula/sincos.h"
+#include "constraints/formula/operations.h"
 
 namespace reachlab::constraints {
 namespace {
@@ -49,33 +49,18 @@ int operandCount(Op op) {
 }
 
 double applyOp(Op op, double a, double b) noexcept {
+#define CASE(name) \
+  case Op::name: return resultOf<Code::name>(a, b, 0, 0);
   switch (op) {
-    case Op::Add: return a + b;
-    case Op::Sub: return a - b;
-    case Op::Mul: return a * b;
-    case Op::Div: return a / b;
-    case Op::Neg: return -a;
+    REACHLAB_PLAIN_OPERATIONS(CASE)
     case Op::PowInt: return powInteger(a, static_cast<int>(b));
-    case Op::Pow: return elementary::pow(a, b);
     case Op::Sin: return sine(a);
     case Op::Cos: return cosine(a);
-    case Op::Tan: return elementary::tan(a);
-    case Op::Asin: return elementary::asin(a);
-    case Op::Acos: return elementary::acos(a);
-    case Op::Atan: return elementary::atan(a);
-    case Op::Atan2: return elementary::atan2(a, b);
-    case Op::Sinh: return elementary::sinh(a);
-    case Op::Cosh: return elementary::cosh(a);
-    case Op::Tanh: return elementary::tanh(a);
-    case Op::Exp: return elementary::exp(a);
-    case Op::Log: return elementary::log(a);
-    case Op::Sqrt: return std::sqrt(a);
-    case Op::Abs: return std::abs(a);
-    case Op::Sign: return signOf(a);
     case Op::Constant:
     case Op::Variable:
     case Op::Parameter: break;
   }
+#undef CASE
   return 0;
 }
 

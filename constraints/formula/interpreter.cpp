@@ -23,7 +23,7 @@ template <Code code>
 #define ADDRESS(name) &&name,
 #define ADDRESS_OF_TWO(name) table->two[static_cast<std::size_t>(Code::name)] = &&Two##name;
   if (table != nullptr) [[unlikely]] {
-    table->one = {&&SinCos, &&Return, REACHLAB_OPERATIONS(ADDRESS)};
+    table->one = {&&SinCos, &&Return, REACHLAB_JOINED_OPERATIONS(ADDRESS) REACHLAB_PLAIN_OPERATIONS(ADDRESS)};
     REACHLAB_PAIRED_OPERATIONS(ADDRESS_OF_TWO)
     return;
   }
@@ -40,12 +40,18 @@ template <Code code>
   compute<Code::name>(*i, r);             \
   NEXT;
   goto * i->handler;
-  REACHLAB_OPERATIONS(HANDLE)
+  REACHLAB_JOINED_OPERATIONS(HANDLE)
+  REACHLAB_PLAIN_OPERATIONS(HANDLE)
   REACHLAB_PAIRED_OPERATIONS(HANDLE_TWO)
 SinCos:
   sinCos(r[i->a], r[i->b], r[i->c]);
   NEXT;
 Return:;
+#undef HANDLE_TWO
+#undef HANDLE
+#undef NEXT
+#undef ADDRESS_OF_TWO
+#undef ADDRESS
 }
 
 const HandlerTable& handlers() noexcept {

@@ -7,7 +7,7 @@
 
 namespace reachlab::constraints {
 
-/// The result of an operation on its operand registers and its number, for both interpreters.
+/// The result of an operation on its operands and its number, for both interpreters and for single numbers.
 template <Code code>
 [[gnu::always_inline]] inline double resultOf(double a, double b, double c, double number) noexcept {
   switch (code) {

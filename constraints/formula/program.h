@@ -8,16 +8,18 @@
 
 namespace reachlab::constraints {
 
-/// Operations with one result, see resultOf. R: register, C: number kept in the instruction.
-#define REACHLAB_OPERATIONS(X)                                                                                                       \
-  X(Load)                                                                                                                            \
-  X(Add) X(AddC) X(Sub) X(RSubC) X(Mul) X(MulC) X(MulMulC) X(NegMul) X(MulAdd) X(MulSub) X(RMulSub) X(Div) X(RDivC) X(Neg) X(Square) \
-      X(Pow) X(Tan) X(Asin) X(Acos) X(Atan) X(Atan2) X(Sinh) X(Cosh) X(Tanh) X(Exp) X(Log) X(Sqrt) X(Abs) X(Sign)
+/// Operations with one result, see resultOf. Those of a formula itself, and those in which several of a formula are joined. R: register, C:
+/// number kept in the instruction.
+#define REACHLAB_PLAIN_OPERATIONS(X) \
+  X(Add)                             \
+  X(Sub) X(Mul) X(Div) X(Neg) X(Pow) X(Tan) X(Asin) X(Acos) X(Atan) X(Atan2) X(Sinh) X(Cosh) X(Tanh) X(Exp) X(Log) X(Sqrt) X(Abs) X(Sign)
+#define REACHLAB_JOINED_OPERATIONS(X) \
+  X(Load) X(AddC) X(RSubC) X(MulC) X(MulMulC) X(NegMul) X(MulAdd) X(MulSub) X(RMulSub) X(RDivC) X(Square)
 /// Two of these in a row, of the same kind, have one jump.
 #define REACHLAB_PAIRED_OPERATIONS(X) X(Mul) X(MulMulC) X(NegMul) X(Neg) X(Square)
 
 #define REACHLAB_CODE(name) name,
-enum class Code : std::uint16_t { SinCos, Return, REACHLAB_OPERATIONS(REACHLAB_CODE) };
+enum class Code : std::uint16_t { SinCos, Return, REACHLAB_JOINED_OPERATIONS(REACHLAB_CODE) REACHLAB_PLAIN_OPERATIONS(REACHLAB_CODE) };
 #undef REACHLAB_CODE
 
 struct Instruction {
