@@ -81,15 +81,20 @@ Series integrate(const Series& a, Interval begin, const Next& next) {
   }
   return f;
 }
-/// f with f' = a' / w.
-Series integrateOver(const Series& a, Interval begin, const Series& w) {
+/// f with s f' = r / w, begun with f_0. `rate` makes r_k from f_0 … f_(k-1).
+template <class Rate>
+Series integrateOver(Interval begin, const Series& w, const Rate& rate) {
   Series f{}, slopes{};  // slopes: of f
   f[0] = begin;
   for (int k = 1; k < kCount; ++k) {
-    slopes[k] = quotient(k * a[k] - convolve(slopes, w, k, 1, k - 1), w[0]);
+    slopes[k] = quotient(rate(f, k) - convolve(slopes, w, k, 1, k - 1), w[0]);
     f[k] = (1.0 / k) * slopes[k];
   }
   return f;
+}
+/// f with f' = a' / w.
+Series integrateOver(const Series& a, Interval begin, const Series& w) {
+  return integrateOver(begin, w, [&](const Series&, int k) { return k * a[k]; });
 }
 
 Series exponentialOf(const Series& a) {
@@ -138,33 +143,22 @@ Series powerOf(const Series& a, const Series& b) {
   const bool fixed = std::all_of(b.begin() + 1, b.end(), [](Interval c) { return c.lo == 0 && c.hi == 0; }) && b[0].lo == b[0].hi;
   const double p = b[0].lo;
   if (fixed && p == std::floor(p) && std::abs(p) <= 64) return wholePowerOf(a, static_cast<int>(p));
-  Series t{};
-  if (!fixed) {
-    t = exponentialOf(multiply(b, logarithmOf(a)));
-  } else {  // a t' = p a' t
+  const Interval first = over(Op::Pow, a[0], b[0]);
+  if (fixed) {  // a t' = p a' t
     const Series slopes = slopesOf(a);
-    Series ofT{};
-    t[0] = over(Op::Pow, a[0], b[0]);
-    for (int k = 1; k < kCount; ++k) {
-      ofT[k] = quotient(p * convolve(slopes, t, k, 1, k) - convolve(ofT, a, k, 1, k - 1), a[0]);
-      t[k] = (1.0 / k) * ofT[k];
-    }
+    return integrateOver(first, a, [&](const Series& t, int k) { return p * convolve(slopes, t, k, 1, k); });
   }
-  t[0] = over(Op::Pow, a[0], b[0]);
+  Series t = exponentialOf(multiply(b, logarithmOf(a)));
+  t[0] = first;
   return t;
 }
 /// The angle of (x, y): (x y' - y x') / (x^2 + y^2).
 Series angleOf(const Series& y, const Series& x) {
   const Series dy = slopesOf(y), dx = slopesOf(x), xx = squareOf(x), yy = squareOf(y);
-  Series t{}, slopes{}, w;
+  Series w;
   for (int k = 0; k < kCount; ++k) w[k] = xx[k] + yy[k];
-  t[0] = over(Op::Atan2, y[0], x[0]);
-  for (int k = 1; k < kCount; ++k) {
-    const Interval rate = convolve(dy, x, k, 1, k) - convolve(dx, y, k, 1, k);
-    slopes[k] = quotient(rate - convolve(slopes, w, k, 1, k - 1), w[0]);
-    t[k] = (1.0 / k) * slopes[k];
-  }
-  return t;
+  return integrateOver(over(Op::Atan2, y[0], x[0]), w,
+                       [&](const Series&, int k) { return convolve(dy, x, k, 1, k) - convolve(dx, y, k, 1, k); });
 }
 /// 1 + sign a^2.
 Series oneAnd(double sign, const Series& a) {
