@@ -20,26 +20,22 @@ struct PeerSystem {
     ++evaluations;
     double r[3] = {}, v[3] = {};
     const double s = t * (1 / kTickSeconds);
-    constexpr int d = System::kHandDegree;
-    constexpr unsigned axes = System::kHandAxes;
-    const auto& p = segment->position;
-    const auto& q = segment->velocity;
-    if constexpr (axes & 1) r[0] = horner<d>([&](int k) { return p[k].x; }, s);
-    if constexpr (axes & 2) r[1] = horner<d>([&](int k) { return p[k].y; }, s);
-    if constexpr (axes & 4) r[2] = horner<d>([&](int k) { return p[k].z; }, s);
-    if (system.handVelocity()) {
-      if constexpr (axes & 1) v[0] = horner<d>([&](int k) { return q[k].x; }, s);
-      if constexpr (axes & 2) v[1] = horner<d>([&](int k) { return q[k].y; }, s);
-      if constexpr (axes & 4) v[2] = horner<d>([&](int k) { return q[k].z; }, s);
-    }
+    evaluateAxes(segment->position, s, r);
+    if (system.handVelocity()) evaluateAxes(segment->velocity, s, v);
     system.rate(y, r, v, dy);
   }
 
  private:
-  template <int Degree, class Coefficient>
-  static double horner(Coefficient c, double s) {
-    double sum = c(Degree);
-    for (int k = Degree - 1; k >= 0; --k) sum = c(k) + s * sum;
+  static void evaluateAxes(const dynamics::HandSegment::Coefficients& c, double s, double* to) {
+    constexpr unsigned axes = System::kHandAxes;
+    if constexpr (axes & 1) to[0] = horner(c, &Vec3::x, s);
+    if constexpr (axes & 2) to[1] = horner(c, &Vec3::y, s);
+    if constexpr (axes & 4) to[2] = horner(c, &Vec3::z, s);
+  }
+  static double horner(const dynamics::HandSegment::Coefficients& c, double Vec3::*axis, double s) {
+    constexpr int kDegree = System::kHandDegree;
+    double sum = c[kDegree].*axis;
+    for (int k = kDegree - 1; k >= 0; --k) sum = c[k].*axis + s * sum;
     return sum;
   }
 };
