@@ -67,14 +67,10 @@ struct HyperDual {
   }
   friend HyperDual atan2(const HyperDual& y,
                          const HyperDual& x) {  // d = (x dy - y dx) / (x^2 + y^2): by the quotient that is smaller than one
-    if (std::abs(y.value) <= std::abs(x.value)) {
-      const HyperDual t = y / x;
-      const double d = 1 / (1 + t.value * t.value);
-      return chain(t, std::atan2(y.value, x.value), d, -2 * t.value * d * d);
-    }
-    const HyperDual t = x / y;
-    const double d = 1 / (1 + t.value * t.value);
-    return chain(t, std::atan2(y.value, x.value), -d, 2 * t.value * d * d);
+    const bool flat = std::abs(y.value) <= std::abs(x.value);
+    const HyperDual t = flat ? y / x : x / y;
+    const double d = 1 / (1 + t.value * t.value), slope = flat ? d : -d;
+    return chain(t, std::atan2(y.value, x.value), slope, -2 * t.value * d * slope);
   }
 };
 
