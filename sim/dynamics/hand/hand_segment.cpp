@@ -15,11 +15,7 @@ HandSegment::Coefficients shifted(HandSegment::Coefficients c, int degree, doubl
 }  // namespace
 
 HandSegment part(const HandSegment& whole, double s0, double s1) noexcept {
-  HandSegment result;
-  result.degree = whole.degree;
-  result.position = shifted(whole.position, whole.degree, s0, s1 - s0);
-  result.velocity = shifted(whole.velocity, whole.degree, s0, s1 - s0);
-  return result;
+  return {whole.degree, shifted(whole.position, whole.degree, s0, s1 - s0), shifted(whole.velocity, whole.degree, s0, s1 - s0)};
 }
 
 }  // namespace reachlab::dynamics

@@ -20,11 +20,7 @@ struct HandSegment {
 
 /// Straight from one sample to the next.
 inline HandSegment straightSegment(const HandSample& from, const HandSample& to) noexcept {
-  HandSegment segment;
-  segment.degree = 1;
-  segment.position[0] = from.position, segment.position[1] = to.position - from.position;
-  segment.velocity[0] = from.velocity, segment.velocity[1] = to.velocity - from.velocity;
-  return segment;
+  return {1, {from.position, to.position - from.position}, {from.velocity, to.velocity - from.velocity}};
 }
 
 /// Value at s of a segment's polynomial [m] or [m/s].
