@@ -13,19 +13,13 @@ OscillatorCore::OscillatorCore(const ObjectModel& model, bool coupled, double dt
     double handStiffness, handDamping, extra, gravity, rest;
   };
   std::vector<Oscillator> oscillators;
-  const auto single = [](double stiffness, double damping, double mass) {
-    ObjectModel one;
-    one.mass = {mass};
-    one.handStiffness = {stiffness};
-    one.handDamping = {damping};
-    return one;
+  const auto single = [](double stiffness, double damping, double mass, double viscosity = 0) -> ObjectModel {
+    return {.mass = {mass}, .handStiffness = {stiffness}, .handDamping = {damping}, .viscosity = viscosity};
   };
   if (model.kind == experiment::ObjectKind::Parallel) {
     for (int i = 0; i < n_; ++i) {
       const double k = coupled ? model.handStiffness[i] : 0, b = coupled ? model.handDamping[i] : 0;
-      ObjectModel one = single(k, b, model.mass[i]);
-      one.viscosity = model.viscosity;
-      oscillators.push_back({one, k, b, i == 0 ? 1.0 : 0.0, 1.0, 1.0});
+      oscillators.push_back({single(k, b, model.mass[i], model.viscosity), k, b, i == 0 ? 1.0 : 0.0, 1.0, 1.0});
     }
   } else {
     const ChainModes modes = computeModes(model, coupled);

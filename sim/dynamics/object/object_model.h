@@ -12,11 +12,11 @@ namespace reachlab::dynamics {
 /// masses. A chain has a hand spring on mass 1 only, Eq. (8). A parallel object has a hand spring on each mass, paper sec. 5.
 struct ObjectModel {
   experiment::ObjectKind kind = experiment::ObjectKind::Point;
-  std::vector<double> mass;                        // [kg] N
-  std::vector<double> stiffness, damping;          // [N/m], [N s/m] between neighbours, N-1; empty for parallel
-  std::vector<double> handStiffness, handDamping;  // [N/m], [N s/m] to the hand, N; the sum over several hands
-  double viscosity = 0;                            // [N s/m] on every mass
-  Vec3 gravity;                                    // [m/s^2]
+  std::vector<double> mass;                          // [kg] N
+  std::vector<double> stiffness = {}, damping = {};  // [N/m], [N s/m] between neighbours, N-1; empty for parallel
+  std::vector<double> handStiffness, handDamping;    // [N/m], [N s/m] to the hand, N; the sum over several hands
+  double viscosity = 0;                              // [N s/m] on every mass
+  Vec3 gravity = {};                                 // [m/s^2]
   // A body only: its inertia [kg m^2] in its own frame, and the hands that hold it.
   std::array<std::array<double, 3>, 3> inertia{};
   std::vector<HandSprings> hands = {};
