@@ -175,10 +175,9 @@ class Compiler {
       case Op::Cos: return emitSinCos(id);
       default: break;
     }
-    static const std::map<Op, Code> kCodes{{Op::Pow, Code::Pow},   {Op::Tan, Code::Tan},     {Op::Asin, Code::Asin}, {Op::Acos, Code::Acos},
-                                           {Op::Atan, Code::Atan}, {Op::Atan2, Code::Atan2}, {Op::Sinh, Code::Sinh}, {Op::Cosh, Code::Cosh},
-                                           {Op::Tanh, Code::Tanh}, {Op::Exp, Code::Exp},     {Op::Log, Code::Log},   {Op::Sqrt, Code::Sqrt},
-                                           {Op::Abs, Code::Abs},   {Op::Sign, Code::Sign}};
+#define CODE_OF(name) {Op::name, Code::name},
+    static const std::map<Op, Code> kCodes{REACHLAB_PLAIN_OPERATIONS(CODE_OF)};
+#undef CODE_OF
     const int b = operandCount(n.op) == 2 ? registerOf(n.b) : 0;
     put(id, kCodes.at(n.op), registerOf(n.a), b);
   }
