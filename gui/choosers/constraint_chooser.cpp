@@ -71,8 +71,7 @@ QVBoxLayout* ConstraintChooser::makeList() {
   list_->setIconSize({104, 72});
   list_->setUniformItemSizes(true);
   list_->setMinimumWidth(220);
-  left->addWidget(search_);
-  left->addWidget(list_, 1);
+  widgets::addAll(*left, {search_, list_}, list_);
   return left;
 }
 
@@ -88,8 +87,7 @@ QVBoxLayout* ConstraintChooser::makePicture() {
   scene::OverlayState overlay;
   overlay.semaphoreShown = false;
   preview_->overlay().setState(overlay);
-  widgets::addAll(*middle, {title_, sentence_, preview_});
-  middle->setStretch(2, 1);
+  widgets::addAll(*middle, {title_, sentence_, preview_}, preview_);
   return middle;
 }
 
@@ -114,11 +112,8 @@ QWidget* ConstraintChooser::makeSide() {
   auto* column = widgets::filling<QVBoxLayout>(side);
   widgets::addAll(*column, {new QLabel("<b>Formula</b>"), formula_});
   column->addSpacing(8);
-  widgets::addAll(*column, {new QLabel("<b>Shape</b>"), sliders_});
-  column->addStretch();
-  QHBoxLayout* saving = widgets::rowOf({name_, save_});
-  saving->setStretch(0, 1);
-  column->addLayout(saving);
+  widgets::addAll(*column, {new QLabel("<b>Shape</b>"), sliders_, nullptr});
+  column->addLayout(widgets::rowOf({name_, save_}, name_));
   widgets::addAll(*column, {saved_, use_, refusal_, usePoint_});
   return side;
 }

@@ -45,9 +45,7 @@ DeviceDialog::DeviceDialog(const experiment::CompiledExperiment& experiment, con
   calibrate_ = widgets::named<QPushButton>("deviceCalibrate", tr("Calibrate"));
   take_ = widgets::named<QPushButton>("deviceTake", tr("Use it"));
   for (QPushButton* button : {open_, calibrate_, take_}) button->setAutoDefault(false);
-  QHBoxLayout* line = widgets::rowOf({name_, open_, calibrate_, take_});
-  line->setStretch(0, 1);
-  layout->addLayout(line);
+  layout->addLayout(widgets::rowOf({name_, open_, calibrate_, take_}, name_));
   hint_ = widgets::named<QLabel>("deviceState");
   hint_->setWordWrap(true);
   view_ = new DeviceView;

@@ -1,7 +1,6 @@
 #include "gui/docks/constraint_dock.h"
 
 #include <QPushButton>
-#include <QVBoxLayout>
 #include <algorithm>
 #include <cmath>
 #include <numeric>
@@ -56,17 +55,13 @@ bool sameFormula(const constraints::ConstraintSpec& a, const constraints::Constr
 }  // namespace
 
 ConstraintDock::ConstraintDock(QWidget* parent) : Dock("Constraint", "constraintDock", parent) {
-  auto* body = new QWidget;
-  auto* layout = new QVBoxLayout(body);
   name_ = new QLabel;
   formula_ = widgets::roleLabel("quiet");
   sliders_ = new widgets::ShapeSliders;
   auto* another = widgets::tipped(widgets::named<QPushButton>("choose", "Choose or type another…  (Ctrl+K)"),
                                   "shows the catalogue of curves and surfaces, and takes a formula of your own");
   another->setFocusPolicy(Qt::NoFocus);
-  widgets::addAll(*layout, {name_, formula_, sliders_, faults(), another});
-  layout->addStretch();
-  setBody(body);
+  setBody(widgets::columnOf({name_, formula_, sliders_, faults(), another, nullptr}));
   faults()->watch(sliders_);
   connect(sliders_, &widgets::ShapeSliders::moved, this, [this] {
     inSliders_.shape = sliders_->values();

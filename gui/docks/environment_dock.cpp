@@ -195,11 +195,7 @@ EnvironmentDock::Page EnvironmentDock::makePage(const QString& name, const T& of
 }
 
 EnvironmentDock::EnvironmentDock(QWidget* parent) : Dock("Environment", "environmentDock", parent) {
-  auto* body = new QWidget;
-  auto* column = new QVBoxLayout(body);
-  widgets::addAll(*column, {makeForces(), makeCursor(), faults()});
-  column->addStretch(1);
-  setBody(body);
+  setBody(widgets::columnOf({makeForces(), makeCursor(), faults(), nullptr}));
 }
 
 QWidget* EnvironmentDock::makeForces() {
@@ -214,9 +210,7 @@ QWidget* EnvironmentDock::makeForces() {
   kind_ = tipped(named<QComboBox>("forceKind"),
                  tr("Kind of the chosen force. Another kind begins with the numbers of a published experiment."));
   for (const std::string& name : experiment::kForceKindNames) kind_->addItem(QString::fromStdString(name));
-  QHBoxLayout* buttons = widgets::rowOf({add, remove_, kind_});
-  buttons->setStretch(2, 1);
-  column->addLayout(buttons);
+  column->addLayout(widgets::rowOf({add, remove_, kind_}, kind_));
   for (std::size_t kind = 0; kind < beginnings().size(); ++kind) {
     kinds_.push_back(makePage(kind_->itemText(static_cast<int>(kind)), beginnings()[kind], &EnvironmentDock::tellForce));
     column->addWidget(kinds_.back().widget);

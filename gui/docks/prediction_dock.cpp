@@ -2,7 +2,6 @@
 
 #include <QSignalBlocker>
 #include <QTableWidget>
-#include <QVBoxLayout>
 #include <cmath>
 
 #include "gui/plot/criterion_style.h"
@@ -22,8 +21,6 @@ QString text(std::string_view s) { return QString::fromUtf8(s.data(), static_cas
 }  // namespace
 
 PredictionDock::PredictionDock(QWidget* parent) : Dock("Predictions", "predictionDock", parent) {
-  auto* body = new QWidget;
-  auto* layout = new QVBoxLayout(body);
   table_ =
       plot::makeCriteriaTable("criteria", {"criterion", "peak", "ε last", "ε run", "ε fit"}, {predict::Criterion::MinHandJerk}, kRowHeight);
   table_->horizontalHeaderItem(kPeak)->setToolTip("predicted peak velocity of the hand [m/s]");
@@ -38,9 +35,7 @@ PredictionDock::PredictionDock(QWidget* parent) : Dock("Predictions", "predictio
   for (int i = 0; i < predict::kCriterionCount; ++i)
     table_->item(i, kName)->setToolTip(text(predict::describe(static_cast<predict::Criterion>(i))));
   table_->setFixedHeight(predict::kCriterionCount * kRowHeight + 30);
-  widgets::addAll(*layout, {table_, widgets::roleLabel("quiet", "m/s; dashed on the plot where ticked")});
-  layout->addStretch();
-  setBody(body);
+  setBody(widgets::columnOf({table_, widgets::roleLabel("quiet", "m/s; dashed on the plot where ticked"), nullptr}));
   connect(table_, &QTableWidget::itemChanged, this, [this](QTableWidgetItem* item) {
     if (item->column() == kName) Q_EMIT chosenChanged();
   });

@@ -66,15 +66,12 @@ SessionDock::SessionDock(QWidget* parent) : Dock("Session", "sessionDock", paren
   pause_->show(1);
   auto* pauseFault = named<widgets::FaultLabel>("pauseFault");  // not among the faults that prevent a start: the value before holds
   pauseFault->watch(pause_);
-  QHBoxLayout* pausing = rowOf({automatic_, pause_});
-  pausing->addStretch();
 
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);
   widgets::addAll(*layout, {who_, faults()});
-  layout->addLayout(pausing);
-  layout->addWidget(pauseFault);
-  layout->addStretch();
+  layout->addLayout(rowOf({automatic_, pause_, nullptr}));
+  widgets::addAll(*layout, {pauseFault, nullptr});
   setBody(body, false);
 
   for (QLineEdit* field : {subject_, session_, age_, data_}) {
@@ -103,9 +100,7 @@ QHBoxLayout* SessionDock::makeDeviceRow() {
                                   "opens the dock Devices: the present devices, why others are missing, and a live view");
   devices->setMaximumWidth(48);
   connect(devices, &QPushButton::clicked, this, &SessionDock::devicesRequested);
-  QHBoxLayout* row = widgets::rowOf({device_, devices, new QLabel("trials"), trials_});
-  row->setStretch(0, 1);
-  return row;
+  return widgets::rowOf({device_, devices, new QLabel("trials"), trials_}, device_);
 }
 
 // What was plugged in or out is offered or not any more; what is typed stays.

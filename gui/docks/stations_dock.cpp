@@ -57,8 +57,7 @@ StationsDock::StationsDock(QWidget* parent) : Dock(tr("Stations"), "stationsDock
   auto* body = new QWidget;
   auto* layout = new QVBoxLayout(body);
   layout->setContentsMargins(8, 4, 8, 6);
-  widgets::addAll(*layout, {table_, sentence_, told_});
-  layout->setStretch(0, 1);
+  widgets::addAll(*layout, {table_, sentence_, told_}, table_);
   setBody(body, false);
 }
 

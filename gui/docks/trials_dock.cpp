@@ -42,19 +42,17 @@ TrialsDock::TrialsDock(QWidget* parent) : Dock("Trials", "trialsDock", parent) {
   auto* body = new QWidget;
   auto* layout = widgets::filling<QVBoxLayout>(body, 2);
   layout->addWidget(table_, 1);
-  auto* line = new QHBoxLayout;
-  const auto addButton = [&](const QString& text, const char* name, const QString& tip, auto slot) {
+  const auto makeButton = [&](const QString& text, const char* name, const QString& tip, auto slot) {
     auto* made = widgets::tipped(widgets::named<QToolButton>(name), tip);
     made->setText(text);
     made->setFocusPolicy(Qt::NoFocus);
-    line->addWidget(made);
     connect(made, &QToolButton::clicked, this, slot);
+    return made;
   };
-  addButton(tr("⚑ Flag"), "flagTrial", tr("flags the chosen trial, or the newest trial, to look at it again"), &TrialsDock::flag);
-  addButton(tr("Exclude…"), "excludeTrial", tr("excludes the trial from the analysis, with a reason"), &TrialsDock::exclude);
-  addButton(tr("Undo repeat"), "undoRepeat", tr("cancels the last planned repeat"), &TrialsDock::takeBackRequested);
-  line->addStretch(1);
-  layout->addLayout(line);
+  layout->addLayout(widgets::rowOf(
+      {makeButton(tr("⚑ Flag"), "flagTrial", tr("flags the chosen trial, or the newest trial, to look at it again"), &TrialsDock::flag),
+       makeButton(tr("Exclude…"), "excludeTrial", tr("excludes the trial from the analysis, with a reason"), &TrialsDock::exclude),
+       makeButton(tr("Undo repeat"), "undoRepeat", tr("cancels the last planned repeat"), &TrialsDock::takeBackRequested), nullptr}));
   setBody(body, false);
   connect(table_, &QTableWidget::cellDoubleClicked, this,
           [this](int row, int) { Q_EMIT noteRequested(rows_[static_cast<std::size_t>(row)].number); });

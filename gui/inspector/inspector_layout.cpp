@@ -2,7 +2,6 @@
 #include <QCheckBox>
 #include <QComboBox>
 #include <QFileDialog>
-#include <QHBoxLayout>
 #include <QHeaderView>
 #include <QLabel>
 #include <QLineEdit>
@@ -92,16 +91,13 @@ QWidget* InspectorPage::makeLeft() {
   view_->horizontalHeader()->setMinimumSectionSize(24);  // Qt's own is the width of the widest letter, whatever is in the column
   view_->horizontalHeader()->setStretchLastSection(true);
   view_->setWordWrap(false);
-  auto* left = new QWidget;
-  auto* column = widgets::filling<QVBoxLayout>(left, 4);
-  column->addWidget(view_, 1);
   marks_ = new MarksPanel;
-  column->addWidget(marks_);
+  auto* left = new QWidget;
+  widgets::addAll(*widgets::filling<QVBoxLayout>(left, 4), {view_, marks_}, view_);
   return left;
 }
 
 void InspectorPage::addTop(QVBoxLayout& layout) {
-  auto* top = new QHBoxLayout;
   QMenu *menu = nullptr, *exports = nullptr;
   auto *openButton = makeMenuButton(tr("Open"), menu), *exportButton = makeMenuButton(tr("Export"), exports);
   openButton->setObjectName("inspectorOpen");
@@ -141,15 +137,12 @@ void InspectorPage::addTop(QVBoxLayout& layout) {
   report_ = widgets::named<QPushButton>("inspectorReport", tr("Report"));
   report_->setToolTip(tr("analyses all open recordings, as `reach analyze` does, and shows the report"));
   report_->setEnabled(false);
-  widgets::addAll(*top, {openButton, title_, words_, count_, progress_, cancel_, exportButton, report_});
-  top->setStretchFactor(words_, 1);
-  layout.addLayout(top);
+  layout.addLayout(widgets::rowOf({openButton, title_, words_, count_, progress_, cancel_, exportButton, report_}, words_));
 }
 
 QWidget* InspectorPage::makeRight() {
   auto* right = new QWidget;
   auto* column = widgets::filling<QVBoxLayout>(right, 3);
-  auto* row = new QHBoxLayout;
   signal_ = widgets::named<QComboBox>("inspectorSignal");
   signal_->addItems({tr("velocity of the hand"), tr("velocity of the last mass")});
   axis_ = widgets::named<QComboBox>("inspectorAxis");
@@ -159,9 +152,7 @@ QWidget* InspectorPage::makeRight() {
   fitted_ = widgets::named<QCheckBox>("inspectorFitted", tr("fitted"));
   fitted_->setChecked(true);
   fitted_->setToolTip(tr("the mean of the movements that were fitted to a person's trials (ten trials or more)"));
-  widgets::addAll(*row, {signal_, axis_, predicted_, fitted_});
-  row->addStretch(1);
-  column->addLayout(row);
+  column->addLayout(widgets::rowOf({signal_, axis_, predicted_, fitted_, nullptr}));
   plot_ = widgets::named<ProfilePlot>("inspectorPlot");
   replay_ = new ReplayView;
   epsilons_ = new EpsilonPanel;

@@ -20,16 +20,13 @@ MarksPanel::MarksPanel(QWidget* parent) : QWidget(parent) {
   form->addRow(title_);
   times_ = widgets::tipped(new QLabel, tr("drag the dashed lines of the picked trial to move its onset and end"));
   byRule_ = widgets::tipped(widgets::named<QPushButton>("marksByRule", tr("by the rule")), tr("onset and end as the analysis finds them"));
-  QHBoxLayout* times = widgets::rowOf({times_, byRule_});
-  times->setStretchFactor(times_, 1);
-  form->addRow(tr("moves"), times);
+  form->addRow(tr("moves"), widgets::rowOf({times_, byRule_}, times_));
   flag_ = widgets::named<QCheckBox>("flag", tr("flag"));
   exclude_ = widgets::named<QCheckBox>("exclude", tr("exclude:"));
   reason_ = widgets::named<QLineEdit>("excludeReason");
   reason_->setPlaceholderText(tr("the reason, for the report"));
-  QHBoxLayout* out = widgets::rowOf({flag_, exclude_, reason_});
+  QHBoxLayout* out = widgets::rowOf({flag_, exclude_, reason_}, reason_);
   out->insertSpacing(1, 12);  // two questions
-  out->setStretchFactor(reason_, 1);
   form->addRow(out);
   note_ = widgets::named<QLineEdit>("trialNote");
   form->addRow(tr("note"), note_);

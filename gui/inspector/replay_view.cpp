@@ -65,8 +65,6 @@ ReplayView::ReplayView(QWidget* parent) : QWidget(parent) {
   layout->addWidget(view_, 1);
   slider_ = widgets::named<QSlider>("replayTime", Qt::Horizontal);
   layout->addWidget(slider_);
-  auto* row = new QHBoxLayout;
-  row->setSpacing(3);
   back_ = makeButton("replayBack", Sign::Back, tr("one row back (,)"));
   play_ = makeButton("replayPlay", Sign::Play, tr("play, pause (P)"));
   on_ = makeButton("replayOn", Sign::On, tr("one row on (.)"));
@@ -80,9 +78,8 @@ ReplayView::ReplayView(QWidget* parent) : QWidget(parent) {
   ghostsShown_->setChecked(true);
   told_ = new QLabel;
   told_->setProperty("role", "quiet");
-  widgets::addAll(*row, {back_, play_, on_, speed_, loop_, ghostsShown_});
-  row->addStretch(1);
-  row->addWidget(told_);
+  QHBoxLayout* row = widgets::rowOf({back_, play_, on_, speed_, loop_, ghostsShown_, nullptr, told_});
+  row->setSpacing(3);
   layout->addLayout(row);
   timer_ = new QTimer(this);
   timer_->setInterval(kFrameMs);

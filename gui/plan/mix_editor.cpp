@@ -103,9 +103,7 @@ QWidget* MixEditor::makeKinds() {
   column->addWidget(kinds_, 1);
   auto* add = widgets::named<QPushButton>("planAddKind", tr("Add kind"));
   remove_ = widgets::named<QPushButton>("planRemoveKind", tr("Remove kind"));
-  QHBoxLayout* buttons = widgets::rowOf({add, remove_});
-  buttons->addStretch(1);
-  column->addLayout(buttons);
+  column->addLayout(widgets::rowOf({add, remove_, nullptr}));
   connect(add, &QPushButton::clicked, this, [this] {
     std::string name = "kind1";
     for (int number = 2; std::ranges::count(mix_.kinds, name, &session::TrialKind::name) > 0; ++number)

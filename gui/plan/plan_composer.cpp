@@ -136,8 +136,7 @@ QWidget* PlanComposer::makeWhole() {
   orderSeed_ = widgets::tipped(new QDoubleSpinBox, tr("draws which subject gets which order"));
   orderSeed_->setDecimals(0);
   orderSeed_->setRange(0, session::kMaxOrderSeed);
-  widgets::addAll(*row, {new QLabel(tr("plan")), name_, permute_, new QLabel(tr("drawn by")), orderSeed_});
-  row->setStretchFactor(name_, 1);
+  widgets::addAll(*row, {new QLabel(tr("plan")), name_, permute_, new QLabel(tr("drawn by")), orderSeed_}, name_);
   return whole;
 }
 
@@ -154,10 +153,7 @@ QWidget* PlanComposer::makeList() {
   remove_ = widgets::named<QPushButton>("planRemove", tr("Remove"));
   up_ = widgets::named<QPushButton>("planUp", tr("Earlier"));
   down_ = widgets::named<QPushButton>("planDown", tr("Later"));
-  QHBoxLayout* line = widgets::rowOf({add, copy_, remove_});
-  line->addStretch(1);
-  widgets::addAll(*line, {up_, down_});
-  column->addLayout(line);
+  column->addLayout(widgets::rowOf({add, copy_, remove_, nullptr, up_, down_}));
   const auto insert = [this](const session::PlanBlock& block) {
     const int at = row() < 0 ? static_cast<int>(plan_.blocks.size()) : row() + 1;
     plan_.blocks.insert(plan_.blocks.begin() + at, block);

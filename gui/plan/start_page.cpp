@@ -6,7 +6,6 @@
 #include <QLineEdit>
 #include <QPushButton>
 #include <QTableWidget>
-#include <QVBoxLayout>
 #include <QVariant>
 #include <algorithm>
 
@@ -40,8 +39,7 @@ StartPage::StartPage(QWidget& over) : CardFrame(over, 1.6, 9, 660) {
   subject_ = field(tr("subject"), "startSubject");
   session_ = field(tr("session"), "startSession");
   summary_ = widgets::named<QLabel>("startSummary");
-  who->addStretch(1);
-  who->addWidget(summary_);
+  widgets::addAll(*who, {nullptr, summary_});
   blocks_ = widgets::makeTextTable("startBlocks", {tr("block"), tr("condition"), tr("trials"), tr("state")}, kRowHeight);
   blocks_->setFocusPolicy(Qt::NoFocus);
   blocks_->horizontalHeader()->setSectionResizeMode(1, QHeaderView::Stretch);
@@ -52,12 +50,9 @@ StartPage::StartPage(QWidget& over) : CardFrame(over, 1.6, 9, 660) {
   go_ = widgets::named<QPushButton>("startGo");
   go_->setProperty("role", QStringLiteral("go"));
   for (QPushButton* button : {compose, anew_, go_}) button->setFocusPolicy(Qt::NoFocus);  // Space is the trial's
-  QHBoxLayout* buttons = widgets::rowOf({compose});
-  buttons->addStretch(1);
-  widgets::addAll(*buttons, {anew_, go_});
   column_->addLayout(who);
   widgets::addAll(*column_, {blocks_, next_});
-  column_->addLayout(buttons);
+  column_->addLayout(widgets::rowOf({compose, nullptr, anew_, go_}));
   for (QLineEdit* edit : {subject_, session_})
     connect(edit, &QLineEdit::editingFinished, this,
             [this] { Q_EMIT placeEdited(subject_->text().trimmed(), session_->text().trimmed()); });

@@ -2,6 +2,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QString>
+#include <QVBoxLayout>
 #include <QVariant>
 #include <QWidget>
 #include <initializer_list>
@@ -41,16 +42,26 @@ Layout* filling(QWidget* widget, int spacing = -1) {
   return layout;
 }
 
-/// Adds the widgets to the layout in this order.
-inline void addAll(QBoxLayout& layout, std::initializer_list<QWidget*> widgets) {
-  for (QWidget* widget : widgets) layout.addWidget(widget);
+/// Adds the widgets to the layout in this order. A null among them is room that stretches, and `wide` is a widget that does.
+inline void addAll(QBoxLayout& layout, std::initializer_list<QWidget*> widgets, const QWidget* wide = nullptr) {
+  for (QWidget* widget : widgets) {
+    if (widget == nullptr) layout.addStretch(1);
+    else layout.addWidget(widget, widget == wide ? 1 : 0);
+  }
 }
 
-/// The widgets beside one another, from left to right.
-inline QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets) {
+/// The widgets beside one another, from left to right, as `addAll` adds them.
+inline QHBoxLayout* rowOf(std::initializer_list<QWidget*> widgets, const QWidget* wide = nullptr) {
   auto* row = new QHBoxLayout;
-  addAll(*row, widgets);
+  addAll(*row, widgets, wide);
   return row;
+}
+
+/// A widget with these below one another, as `addAll` adds them.
+inline QWidget* columnOf(std::initializer_list<QWidget*> widgets, const QWidget* wide = nullptr) {
+  auto* column = new QWidget;
+  addAll(*new QVBoxLayout(column), widgets, wide);
+  return column;
 }
 
 }  // namespace reachlab::gui::widgets
