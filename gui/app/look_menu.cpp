@@ -3,13 +3,13 @@
 #include <QFileDialog>
 #include <QInputDialog>
 #include <QSettings>
-#include <QSignalBlocker>
 #include <QSlider>
 #include <QStatusBar>
 #include <tuple>
 
 #include "gui/app/frame_recorder.h"
 #include "gui/app/menu_entries.h"
+#include "gui/widgets/named.h"
 #include "gui/widgets/theme.h"
 #include "gui/widgets/work_strip.h"
 
@@ -72,8 +72,7 @@ void addOpacity(MainWindow& window, QMenu& menu) {
   QSlider* slider = addSlider(menu, QObject::tr("Surface's opacity"), "surfaceOpacity", 140);
   slider->setTracking(false);  // one change of the experiment for one drag, key or click
   QObject::connect(&menu, &QMenu::aboutToShow, slider, [&window, slider] {
-    const QSignalBlocker quiet(slider);
-    slider->setValue(static_cast<int>(100 * window.look().surfaceOpacity + 0.5));
+    widgets::quietly(slider)->setValue(static_cast<int>(100 * window.look().surfaceOpacity + 0.5));
     slider->setEnabled(!window.session().isPlan());
   });
   QObject::connect(slider, &QSlider::valueChanged, &window,

@@ -9,7 +9,6 @@
 #include <QGuiApplication>
 #include <QLineEdit>
 #include <QSettings>
-#include <QSignalBlocker>
 #include <QStatusBar>
 #include <QTabBar>
 #include <QTableView>
@@ -517,8 +516,7 @@ void MainWindow::switchLayout(WindowLayout layout) {
 }
 
 void MainWindow::showPage() {
-  const QSignalBlocker quiet(pages_);
-  pages_->setCurrentIndex(inspecting() ? 1 : 0);
+  widgets::quietly(pages_)->setCurrentIndex(inspecting() ? 1 : 0);
   if (inspecting() && inspector().path().isEmpty())  // what this session records
     if (const QString folder = QString::fromStdString(docks_.session->request().place.data); QFileInfo(folder).isDir())
       inspector().open(folder);

@@ -3,7 +3,6 @@
 #include <QLineEdit>
 #include <QListWidget>
 #include <QPushButton>
-#include <QSignalBlocker>
 #include <QVBoxLayout>
 #include <algorithm>
 #include <filesystem>
@@ -176,8 +175,7 @@ void ConstraintChooser::setCurrent(const experiment::Experiment& experiment) {
   const constraints::ConstraintSpec& spec = experiment.constraint;
   for (std::size_t i = 0; i < definitions_.size(); ++i)
     if (spec.curve.empty() && spec.surface.empty() && definitions_[i].name == spec.name) {
-      const QSignalBlocker quiet(list_);
-      list_->setCurrentRow(static_cast<int>(i));
+      widgets::quietly(list_)->setCurrentRow(static_cast<int>(i));
       show(definitions_[i], spec.shape);
       return;
     }
@@ -235,8 +233,7 @@ void ConstraintChooser::formulaChanged() {
     typed.source.clear();
     title_->setText("typed formula");
     sentence_->setText("as typed at the right; the picture follows");
-    const QSignalBlocker quiet(list_);
-    list_->setCurrentRow(-1);
+    widgets::quietly(list_)->setCurrentRow(-1);
   }
   const bool sameNames =
       typed.shape.size() == values.size() &&

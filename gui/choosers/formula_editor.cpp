@@ -5,7 +5,6 @@
 #include <QGridLayout>
 #include <QLineEdit>
 #include <QRegularExpression>
-#include <QSignalBlocker>
 #include <algorithm>
 #include <set>
 #include <string_view>
@@ -83,14 +82,10 @@ FormulaEditor::FormulaEditor(QWidget* parent) : QWidget(parent) {
 }
 
 void FormulaEditor::setFormula(constraints::ConstraintKind kind, const std::array<std::string, 3>& coordinates) {
-  {
-    const QSignalBlocker quietKind(kind_);
-    kind_->setCurrentIndex(kind == constraints::ConstraintKind::Surface ? 1 : 0);
-    for (std::size_t i = 0; i < 3; ++i) {
-      const QSignalBlocker quiet(lines_[i]);
-      lines_[i]->setText(QString::fromStdString(coordinates[i]));
-      lines_[i]->setCursorPosition(0);
-    }
+  widgets::quietly(kind_)->setCurrentIndex(kind == constraints::ConstraintKind::Surface ? 1 : 0);
+  for (std::size_t i = 0; i < 3; ++i) {
+    widgets::quietly(lines_[i])->setText(QString::fromStdString(coordinates[i]));
+    lines_[i]->setCursorPosition(0);
   }
   check();
 }

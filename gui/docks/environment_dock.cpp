@@ -3,7 +3,6 @@
 #include <QGroupBox>
 #include <QListWidget>
 #include <QPushButton>
-#include <QSignalBlocker>
 #include <algorithm>
 #include <map>
 #include <string_view>
@@ -265,8 +264,7 @@ void EnvironmentDock::display(const experiment::CompiledExperiment& experiment, 
   cursorBox_->setEnabled(bare || e.cursor);
   cursorBox_->setToolTip(
       bare ? QString() : tr("Only without an object, because the subject sees an object where it is: kind none in the dock Object."));
-  const QSignalBlocker quiet(cursorBox_);
-  cursorBox_->setChecked(e.cursor.has_value());
+  widgets::quietly(cursorBox_)->setChecked(e.cursor.has_value());
   cursor_.widget->setVisible(e.cursor.has_value());
   showIn(cursor_.fields, e.cursor.value_or(experiment::Cursor{}));
 }

@@ -6,7 +6,6 @@
 #include <QLabel>
 #include <QIcon>
 #include <QPainter>
-#include <QSignalBlocker>
 #include <QSlider>
 #include <QTimer>
 #include <QToolButton>
@@ -107,10 +106,7 @@ void ReplayView::show(const experiment::CompiledExperiment& experiment, const QS
   ghosts_ = std::move(ghosts);
   setEnabled(!trial_.replay.empty());
   ghostsShown_->setEnabled(!ghosts_.empty());
-  {
-    const QSignalBlocker quiet(slider_);
-    slider_->setRange(static_cast<int>(std::floor(1000 * begin())), static_cast<int>(std::ceil(1000 * end())));
-  }
+  widgets::quietly(slider_)->setRange(static_cast<int>(std::floor(1000 * begin())), static_cast<int>(std::ceil(1000 * end())));
   goTo(std::clamp(time_, begin(), end()));
 }
 
@@ -134,10 +130,7 @@ void ReplayView::clear() {
 void ReplayView::goTo(double time) {
   if (trial_.replay.empty()) return;
   time_ = std::clamp(time, begin(), end());
-  {
-    const QSignalBlocker quiet(slider_);
-    slider_->setValue(static_cast<int>(std::lround(1000 * time_)));
-  }
+  widgets::quietly(slider_)->setValue(static_cast<int>(std::lround(1000 * time_)));
   draw();
   Q_EMIT timeChanged(time_);
 }
@@ -161,8 +154,7 @@ void ReplayView::setPlaying(bool playing) {
   if (can && time_ >= end() - 1e-6) time_ = begin();
   if (can) clock_.start(), timer_->start();
   else timer_->stop();
-  const QSignalBlocker quiet(play_);
-  play_->setChecked(can);
+  widgets::quietly(play_)->setChecked(can);
   play_->setIcon(iconOf(can ? Sign::Pause : Sign::Play));
 }
 

@@ -4,7 +4,6 @@
 #include <QComboBox>
 #include <QGridLayout>
 #include <QHBoxLayout>
-#include <QSignalBlocker>
 #include <algorithm>
 
 #include "gui/widgets/named.h"
@@ -53,15 +52,11 @@ void KeyField::enableNumbers() {
 
 void KeyField::show(const std::vector<double>& value) {
   if (given_ != nullptr) {
-    const QSignalBlocker quiet(given_);
-    given_->setChecked(!value.empty());
+    quietly(given_)->setChecked(!value.empty());
     enableNumbers();
   }
   std::size_t next = 0;
-  if (choice_ != nullptr) {
-    const QSignalBlocker quiet(choice_);
-    choice_->setCurrentIndex(value.empty() ? 0 : static_cast<int>(value[next++]));
-  }
+  if (choice_ != nullptr) quietly(choice_)->setCurrentIndex(value.empty() ? 0 : static_cast<int>(value[next++]));
   for (UnitSpinBox* box : numbers_) box->show(next < value.size() ? value[next++] : std::clamp(0.0, box->minimum(), box->maximum()));
 }
 

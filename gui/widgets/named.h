@@ -1,6 +1,7 @@
 #pragma once
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QSignalBlocker>
 #include <QString>
 #include <QVBoxLayout>
 #include <QVariant>
@@ -23,6 +24,17 @@ template <typename Widget>
 Widget* tipped(Widget* widget, const QString& tip) {
   widget->setToolTip(tip);
   return widget;
+}
+
+/// The widget, with its signals blocked until the end of the statement: `quietly(box)->setValue(3)`.
+template <typename Widget>
+auto quietly(Widget* widget) {
+  struct Quiet {
+    Widget* of;
+    QSignalBlocker blocker;
+    Widget* operator->() const { return of; }
+  };
+  return Quiet{widget, QSignalBlocker(widget)};
 }
 
 /// A label of several lines in the theme's colours of a role: "quiet" or "fault".

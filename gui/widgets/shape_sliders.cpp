@@ -1,7 +1,6 @@
 #include "gui/widgets/shape_sliders.h"
 
 #include <QFormLayout>
-#include <QSignalBlocker>
 #include <QSlider>
 #include <QVBoxLayout>
 #include <algorithm>
@@ -132,9 +131,8 @@ void ShapeSliders::fit(Row& row) {
     row.low->show(p.min);
     row.high->show(p.max);
   }
-  const QSignalBlocker quiet(row.slider);
   const double range = p.max - p.min;
-  row.slider->setValue(range > 0 ? static_cast<int>(std::lround((value - p.min) / range * row.steps)) : 0);
+  quietly(row.slider)->setValue(range > 0 ? static_cast<int>(std::lround((value - p.min) / range * row.steps)) : 0);
 }
 
 std::map<std::string, double> ShapeSliders::values() const {
