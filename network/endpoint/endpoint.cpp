@@ -12,9 +12,9 @@
 #include <csignal>
 #include <cstring>
 #include <filesystem>
+#include <memory>
 #include <mutex>
 #include <string>
-#include <vector>
 
 #include "Reachlab.h"
 #include "base/error.h"
@@ -36,6 +36,8 @@ constexpr std::int64_t kNapNs = 200'000, kNapPerPeerNs = 100'000;  // with many 
 struct DdsError : ResourceError {
   using ResourceError::ResourceError;
 };
+using Statistics = std::unique_ptr<dds_statistics, decltype([](dds_statistics* statistics) { dds_delete_statistics(statistics); })>;
+using Qos = std::unique_ptr<dds_qos_t, decltype([](dds_qos_t* qos) { dds_delete_qos(qos); })>;
 dds_entity_t made(dds_entity_t entity, const char* what) {
   if (entity < 0) throw DdsError(fmt::format("{} cannot be made: {}", what, dds_strretcode(-entity)));
   return entity;
@@ -104,10 +106,10 @@ LinkMemory& mapMemory(const std::string& name) {
 template <class Message>
 struct TopicEnds {
   dds_entity_t writer = 0, reader = 0;
-  TopicEnds(dds_entity_t participant, const dds_topic_descriptor_t& type, const char* topic, const dds_qos_t* qos) {
+  TopicEnds(dds_entity_t participant, const dds_topic_descriptor_t& type, const char* topic, const Qos& qos) {
     const dds_entity_t made = network::made(dds_create_topic(participant, &type, topic, nullptr, nullptr), topic);
-    writer = network::made(dds_create_writer(participant, made, qos, nullptr), "a writer");
-    reader = network::made(dds_create_reader(participant, made, qos, nullptr), "a reader");
+    writer = network::made(dds_create_writer(participant, made, qos.get(), nullptr), "a writer");
+    reader = network::made(dds_create_reader(participant, made, qos.get(), nullptr), "a reader");
   }
   template <class Take>
   void takeAll(Take&& take) {
@@ -121,22 +123,22 @@ struct TopicEnds {
   }
 };
 
-dds_qos_t* makeQos(dds_reliability_kind_t reliability, dds_history_kind_t history, int depth) {
-  dds_qos_t* qos = dds_create_qos();
-  dds_qset_reliability(qos, reliability, reliability == DDS_RELIABILITY_RELIABLE ? DDS_MSECS(100) : 0);
-  dds_qset_history(qos, history, depth);
+Qos makeQos(dds_reliability_kind_t reliability, dds_history_kind_t history, int depth) {
+  Qos qos(dds_create_qos());
+  dds_qset_reliability(qos.get(), reliability, reliability == DDS_RELIABILITY_RELIABLE ? DDS_MSECS(100) : 0);
+  dds_qset_history(qos.get(), history, depth);
   return qos;
 }
 // A reader holds one instance for all: what several stations send between two rounds must fit.
-dds_qos_t* stateQos() { return makeQos(DDS_RELIABILITY_BEST_EFFORT, DDS_HISTORY_KEEP_LAST, 32); }
-dds_qos_t* cardQos() {
-  dds_qos_t* qos = makeQos(DDS_RELIABILITY_RELIABLE, DDS_HISTORY_KEEP_LAST, 16);
-  dds_qset_ignorelocal(qos, DDS_IGNORELOCAL_PARTICIPANT);  // a card with the own number is then of another station
+Qos stateQos() { return makeQos(DDS_RELIABILITY_BEST_EFFORT, DDS_HISTORY_KEEP_LAST, 32); }
+Qos cardQos() {
+  Qos qos = makeQos(DDS_RELIABILITY_RELIABLE, DDS_HISTORY_KEEP_LAST, 16);
+  dds_qset_ignorelocal(qos.get(), DDS_IGNORELOCAL_PARTICIPANT);  // a card with the own number is then of another station
   return qos;
 }
-dds_qos_t* eventQos() {
-  dds_qos_t* qos = makeQos(DDS_RELIABILITY_RELIABLE, DDS_HISTORY_KEEP_ALL, 0);
-  dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
+Qos eventQos() {
+  Qos qos = makeQos(DDS_RELIABILITY_RELIABLE, DDS_HISTORY_KEEP_ALL, 0);
+  dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
   return qos;
 }
 
@@ -149,16 +151,10 @@ void copyText(const char* from, std::array<char, N>& to) {
 class Endpoint {
  public:
   Endpoint(LinkMemory& memory, dds_entity_t participant)
-      : own_(memory.settings.card), memory_(memory), states_(participant, reach_State_desc, "reach_state", qos(stateQos())),
-        probes_(participant, reach_Probe_desc, "reach_probe", qos(stateQos())),
-        events_(participant, reach_Event_desc, "reach_event", qos(eventQos())),
-        cards_(participant, reach_Card_desc, "reach_station", qos(cardQos())), statistics_(dds_create_statistics(states_.reader)) {}
-  ~Endpoint() {
-    dds_delete_statistics(statistics_);
-    for (dds_qos_t* qos : kept_) dds_delete_qos(qos);
-  }
-  Endpoint(const Endpoint&) = delete;
-  Endpoint& operator=(const Endpoint&) = delete;
+      : own_(memory.settings.card), memory_(memory), states_(participant, reach_State_desc, "reach_state", stateQos()),
+        probes_(participant, reach_Probe_desc, "reach_probe", stateQos()),
+        events_(participant, reach_Event_desc, "reach_event", eventQos()), cards_(participant, reach_Card_desc, "reach_station", cardQos()),
+        statistics_(dds_create_statistics(states_.reader)) {}
 
   void run() {
     std::int64_t cardNs = 0, probeNs = 0;
@@ -184,10 +180,6 @@ class Endpoint {
   }
 
  private:
-  const dds_qos_t* qos(dds_qos_t* made) {
-    kept_.push_back(made);
-    return made;
-  }
   bool isPeer(std::uint32_t station) const { return station >= 1 && station <= kMaxStations && station != own_.station; }
 
   void receive() {
@@ -283,8 +275,9 @@ class Endpoint {
 
   // What came twice, or long after its time, and was dropped before anybody saw it.
   void countDiscarded() {
-    if (statistics_ == nullptr || dds_refresh_statistics(statistics_) != DDS_RETCODE_OK) return;
-    if (const dds_stat_keyvalue* bytes = dds_lookup_statistic(statistics_, "discarded_bytes")) memory_.discardedBytes.store(bytes->u.u64);
+    if (!statistics_ || dds_refresh_statistics(statistics_.get()) != DDS_RETCODE_OK) return;
+    if (const dds_stat_keyvalue* bytes = dds_lookup_statistic(statistics_.get(), "discarded_bytes"))
+      memory_.discardedBytes.store(bytes->u.u64);
   }
 
   void sendProbe() {
@@ -305,25 +298,16 @@ class Endpoint {
 
   StationCard own_;
   LinkMemory& memory_;
-  std::vector<dds_qos_t*> kept_;
   TopicEnds<reach_State> states_;
   TopicEnds<reach_Probe> probes_;
   TopicEnds<reach_Event> events_;
   TopicEnds<reach_Card> cards_;
-  dds_statistics* statistics_;  // of the states' reader; null where there are none
+  Statistics statistics_;  // of the states' reader; null where there are none
   std::array<PeerClock, kMaxStations> clocks_;
   std::array<ProbeLoss, kMaxStations> losses_;
   std::uint32_t probe_ = 0;
   std::int64_t peers_ = 0;  // heard so far
   reach_State outgoing_{};
-};
-
-/// Ends all threads of Cyclone DDS, on every way out: what they use (OpenSSL) is taken down behind main.
-struct DdsThreads {
-  DdsThreads() = default;
-  DdsThreads(const DdsThreads&) = delete;
-  DdsThreads& operator=(const DdsThreads&) = delete;
-  ~DdsThreads() { dds_delete(DDS_CYCLONEDDS_HANDLE); }
 };
 
 /// What Cyclone DDS has to say goes to standard error, but no more of it than somebody can read: whoever sends rubbish to the port makes it
@@ -364,12 +348,12 @@ void run(const std::string& memoryName) {
   os::requestExactSleep();
   const auto domain = static_cast<dds_domainid_t>(settings.domain);
   LimitedMessages messages;
-  const DdsThreads threads;
+  // Ends all threads of Cyclone DDS, on every way out: what they use (OpenSSL) is taken down behind main.
+  const std::shared_ptr<void> threads(nullptr, [](void*) { dds_delete(DDS_CYCLONEDDS_HANDLE); });
   made(dds_create_domain(domain, configurationOf(settings).c_str()), "the domain");
-  dds_qos_t* qos = dds_create_qos();
-  if (settings.secure[0] != 0) addSecurity(qos, settings.secure.data());
-  const dds_entity_t participant = made(dds_create_participant(domain, qos, nullptr), "the participant");
-  dds_delete_qos(qos);
+  const Qos qos(dds_create_qos());
+  if (settings.secure[0] != 0) addSecurity(qos.get(), settings.secure.data());
+  const dds_entity_t participant = made(dds_create_participant(domain, qos.get(), nullptr), "the participant");
   Endpoint endpoint(memory, participant);
   endpoint.run();
 }

@@ -31,10 +31,7 @@ namespace {
 
 template <auto Free>
 struct Freed {
-  template <class T>
-  void operator()(T* thing) const {
-    Free(thing);
-  }
+  void operator()(auto* thing) const { Free(thing); }
 };
 void freeStack(STACK_OF(X509) * stack) { sk_X509_free(stack); }
 using Key = std::unique_ptr<EVP_PKEY, Freed<EVP_PKEY_free>>;
@@ -85,23 +82,19 @@ void writeNew(const std::string& path, bool secret, Write&& write) {
 void writeKey(const Key& key, const std::string& path) {
   writeNew(path, true, [&](BIO* out) { return PEM_write_bio_PrivateKey(out, key.get(), nullptr, nullptr, 0, nullptr, nullptr); });
 }
-Key readKey(const std::string& path) {
-  const Bio in = openForReading(path);
-  return Key(need(PEM_read_bio_PrivateKey(in.get(), nullptr, nullptr, nullptr), path + ": is no key"));
+/// Null when the file holds none.
+template <class Thing, auto Read>
+Thing readPem(const std::string& path) {
+  return Thing(Read(openForReading(path).get(), nullptr, nullptr, nullptr));
 }
+Key readKey(const std::string& path) { return need(readPem<Key, PEM_read_bio_PrivateKey>(path), path + ": is no key"); }
 void writeCertificate(const Certificate& certificate, const std::string& path) {
   writeNew(path, false, [&](BIO* out) { return PEM_write_bio_X509(out, certificate.get()); });
 }
 Certificate readCertificate(const std::string& path) {
-  const Bio in = openForReading(path);
-  return Certificate(need(PEM_read_bio_X509(in.get(), nullptr, nullptr, nullptr), path + ": is no certificate"));
+  return need(readPem<Certificate, PEM_read_bio_X509>(path), path + ": is no certificate");
 }
-
-/// Null when the file holds no request.
-Request readRequest(const std::string& path) {
-  const Bio in = openForReading(path);
-  return Request(PEM_read_bio_X509_REQ(in.get(), nullptr, nullptr, nullptr));
-}
+Request readRequest(const std::string& path) { return readPem<Request, PEM_read_bio_X509_REQ>(path); }
 
 std::string commonName(const X509_NAME* subject) {
   char text[256] = {};
