@@ -38,10 +38,6 @@ QIcon swatchOf(const QColor& colour) {
   return QIcon(picture);
 }
 
-scene::Camera cameraOf(const experiment::NamedCamera& named) {
-  return {named.position, named.focus, named.up, named.angle, named.parallel};
-}
-
 void changeLook(MainWindow& window, const std::function<void(SceneLook&)>& change) {
   SceneLook look = window.look();
   change(look);
@@ -100,10 +96,9 @@ void rememberView(MainWindow& window) {
   const QString text = QInputDialog::getText(&window, QObject::tr("Remember this view"), QObject::tr("Its name, for the menu"));
   const std::string name = text.trimmed().toStdString();
   if (name.empty()) return;
-  const scene::Camera& c = window.view().camera();
   changeLook(window, [&](SceneLook& look) {
     std::erase_if(look.cameras, [&](const experiment::NamedCamera& known) { return known.name == name; });
-    look.cameras.push_back({name, c.position, c.focus, c.up, c.angle, c.parallel});
+    look.cameras.push_back({window.view().camera(), name});
   });
 }
 
@@ -111,7 +106,7 @@ void listCameras(MainWindow& window, QMenu& menu) {
   menu.clear();
   const std::vector<experiment::NamedCamera> cameras = window.look().cameras;
   for (const experiment::NamedCamera& camera : cameras)
-    addEntry(window, menu, QString::fromStdString(camera.name), [&window, camera] { window.view().setCamera(cameraOf(camera)); });
+    addEntry(window, menu, QString::fromStdString(camera.name), [&window, camera] { window.view().setCamera(camera); });
   menu.addSeparator();
   QAction* keep = addEntry(window, menu, QObject::tr("Remember this view…"), [&window] { rememberView(window); });
   keep->setObjectName("rememberView");

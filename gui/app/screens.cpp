@@ -57,9 +57,8 @@ void Screens::rebuild(bool keepsView) {
   main_.setPlan(plan, !keepsView);
   if (subject_) subject_->view().setPlan(subjectsPlan(plan, experiment_->experiment().subjectScreen), !keepsView);
   if (const experiment::SceneLook look = experiment::lookOf(experiment_->experiment()); !keepsView && !look.cameras.empty()) {
-    const experiment::NamedCamera& first = look.cameras.front();
     for (scene::SceneView* view : {&main_, subject_ ? &subject_->view() : nullptr})
-      if (view != nullptr) view->setCamera({first.position, first.focus, first.up, first.angle, first.parallel});
+      if (view != nullptr) view->setCamera(look.cameras.front());
   }
   showPatch(nullptr);
 }

@@ -4,15 +4,12 @@
 
 #include "base/math/vec3.h"
 #include "gui/scene_plan/constraint_mesh.h"
+#include "sim/experiment/scene_look.h"
 
 /// The camera as a plain value, and the effect of the pointer on it. Pixels: y down, origin at the top left.
 namespace reachlab::gui::scene {
 
-struct Camera {
-  Vec3 position{0, 0, 1}, focus, up{0, 1, 0};  // [m]
-  double angle = 30;                           // [degrees] of view, vertical
-  bool parallel = false;                       // what is farther is not smaller: as large as at the focus
-};
+using experiment::Camera;
 
 /// Unit directions of a camera.
 struct CameraAxes {

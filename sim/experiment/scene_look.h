@@ -14,12 +14,15 @@ namespace reachlab::experiment {
 
 struct Experiment;
 
-/// A place to look from, by a name.
-struct NamedCamera {
-  std::string name;
+/// A place to look from.
+struct Camera {
   Vec3 position{0, 0, 1}, focus, up{0, 1, 0};  // [m]
   double angle = 30;                           // [degrees] of view, vertical
-  bool parallel = false;                       // what is farther is not smaller
+  bool parallel = false;                       // what is farther is not smaller: as large as at the focus
+  bool operator==(const Camera&) const = default;
+};
+struct NamedCamera : Camera {
+  std::string name;
   bool operator==(const NamedCamera&) const = default;
 };
 

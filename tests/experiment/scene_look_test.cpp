@@ -51,8 +51,8 @@ TEST(SceneLook, OfAFileIsReadAndGoesIntoAnotherUnchanged) {
   EXPECT_EQ(look.sceneFile, "lab.wrl");
   EXPECT_EQ(look.colours, (std::map<std::string, std::string>{{"hand", "#0aF9e1"}, {"rail", "#000000"}}));
   ASSERT_EQ(look.cameras.size(), 2u);
-  EXPECT_EQ(look.cameras[0], (NamedCamera{"near", {1, 2, 3}, {4, 5, 6}, {0, 0.5, 1}, 45, true}));
-  EXPECT_EQ(look.cameras[1], (NamedCamera{"far", {0, 0, 9}, {0, 0, 0}, {0, 1, 0}, 30, false}));
+  EXPECT_EQ(look.cameras[0], (NamedCamera{{{1, 2, 3}, {4, 5, 6}, {0, 0.5, 1}, 45, true}, "near"}));
+  EXPECT_EQ(look.cameras[1], (NamedCamera{{{0, 0, 9}, {0, 0, 0}, {0, 1, 0}, 30, false}, "far"}));
   const Experiment plain = parseExperiment(fileWith("{}"), "x.json");
   const Experiment dressed = withLook(plain, look);
   EXPECT_EQ(lookOf(dressed), look);
