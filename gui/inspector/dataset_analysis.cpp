@@ -44,14 +44,8 @@ DatasetAnalysis::~DatasetAnalysis() {
 }
 
 void DatasetAnalysis::begin(const QString& dataset) {
-  if (busy()) {
-    Q_EMIT said(tr("%1 is being analysed. Wait until it is done, then analyse the other dataset.").arg(dataset_));
-    return;
-  }
-  if (program_.isEmpty()) {
-    Q_EMIT said(tr("The analysis needs the program reach. Install the package reachlab-cli."));
-    return;
-  }
+  if (busy()) return Q_EMIT said(tr("%1 is being analysed. Wait until it is done, then analyse the other dataset.").arg(dataset_));
+  if (program_.isEmpty()) return Q_EMIT said(tr("The analysis needs the program reach. Install the package reachlab-cli."));
   dataset_ = dataset;
   words_.clear();
   cancelled_ = false;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <span>
 
 #include "constraints/constraint.h"
 #include "constraints/geometry/task_path.h"
@@ -97,29 +96,25 @@ struct Part {
   widgets::Colour usual;
 };
 
-std::span<const Part> parts() {
-  using namespace widgets::colours;
-  static constexpr Part kParts[] = {{"background_top", &PartColours::backgroundTop, kSkyTop},
-                                    {"background_bottom", &PartColours::backgroundBottom, kSkyBottom},
-                                    {"rail", &PartColours::rail, kRail},
-                                    {"surface", &PartColours::surface, kSurface},
-                                    {"surface_line", &PartColours::surfaceLine, kSurfaceLine},
-                                    {"start", &PartColours::start, kStart},
-                                    {"target", &PartColours::target, kTarget},
-                                    {"driven", &PartColours::driven, kDriven},
-                                    {"middle", &PartColours::middle, kMiddle},
-                                    {"last", &PartColours::last, kLast},
-                                    {"hand", &PartColours::hand, kHand},
-                                    {"spring", &PartColours::spring, kSpring},
-                                    {"coupling", &PartColours::coupling, kCoupling},
-                                    {"force", &PartColours::force, kRed},
-                                    {"trace", &PartColours::trace, kTrace}};
-  return kParts;
-}
+constexpr Part kSceneParts[] = {{"background_top", &PartColours::backgroundTop, widgets::colours::kSkyTop},
+                                {"background_bottom", &PartColours::backgroundBottom, widgets::colours::kSkyBottom},
+                                {"rail", &PartColours::rail, widgets::colours::kRail},
+                                {"surface", &PartColours::surface, widgets::colours::kSurface},
+                                {"surface_line", &PartColours::surfaceLine, widgets::colours::kSurfaceLine},
+                                {"start", &PartColours::start, widgets::colours::kStart},
+                                {"target", &PartColours::target, widgets::colours::kTarget},
+                                {"driven", &PartColours::driven, widgets::colours::kDriven},
+                                {"middle", &PartColours::middle, widgets::colours::kMiddle},
+                                {"last", &PartColours::last, widgets::colours::kLast},
+                                {"hand", &PartColours::hand, widgets::colours::kHand},
+                                {"spring", &PartColours::spring, widgets::colours::kSpring},
+                                {"coupling", &PartColours::coupling, widgets::colours::kCoupling},
+                                {"force", &PartColours::force, widgets::colours::kRed},
+                                {"trace", &PartColours::trace, widgets::colours::kTrace}};
 
 PartColours coloursOf(const experiment::SceneLook& look) {
   PartColours colours;
-  for (const Part& part : parts()) {
+  for (const Part& part : kSceneParts) {
     const auto own = look.colours.find(part.name);
     colours.*part.colour = own == look.colours.end() ? widgets::themed(part.usual) : widgets::colourOf(own->second);
   }
@@ -149,7 +144,7 @@ std::vector<Vec3> pointsSeen(const ScenePlan& plan, const std::vector<Vec3>& blo
 }  // namespace
 
 const widgets::Colour* partNamed(const PartColours& colours, const std::string& name) {
-  for (const Part& part : parts())
+  for (const Part& part : kSceneParts)
     if (name == part.name) return &(colours.*part.colour);
   return nullptr;
 }

@@ -73,7 +73,8 @@ void SessionController::setProgramme(const session::Programme& programme) {
     recorded_.reset();  // what is to be done next is another
   }
   Q_EMIT experimentChanged();
-  if (observed) tellFault(widgets::faultIn([this] { join(asked_); }));
+  if (!observed) return;
+  if (const QString fault = widgets::faultIn([this] { join(asked_); }); !fault.isEmpty()) Q_EMIT failed(fault);
 }
 
 std::vector<Fault> SessionController::tryEdit(const experiment::Experiment& experiment) {
@@ -421,10 +422,6 @@ void SessionController::stopInOrder() {
   if (run() != nullptr && wrong.isEmpty()) wrong = widgets::faultIn([this] { run()->finish(); });
   if (!wrong.isEmpty()) std::fputs(messageOf(wrong.toStdString()).c_str(), stderr);
   std::_Exit(StopRequest::exitCode());
-}
-
-void SessionController::tellFault(const QString& fault) {
-  if (!fault.isEmpty()) Q_EMIT failed(fault);
 }
 
 // After a fault the run cannot go on: what was finished is on the disk, and the loop ends with zero force.

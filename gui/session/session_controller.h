@@ -139,7 +139,6 @@ class SessionController : public QObject {
                                                         std::uint64_t seed);
   void fail(const QString& fault);
   QString putInOrder();
-  void tellFault(const QString& fault);
   void tellTiming();
   void tellInstruments();
   void tellBackup();
