@@ -18,7 +18,6 @@
 #include "gui/widgets/fault_in.h"
 #include "gui/widgets/fault_words.h"
 #include "gui/widgets/named.h"
-#include "gui/widgets/on_screen.h"
 #include "sim/record/log/atomic_file.h"
 
 namespace reachlab::gui::docks {

@@ -29,7 +29,6 @@
 #include "gui/widgets/fault_label.h"
 #include "gui/widgets/fault_words.h"
 #include "gui/widgets/named.h"
-#include "gui/widgets/on_screen.h"
 #include "gui/widgets/text_table.h"
 #include "gui/widgets/unit_spin_box.h"
 #include "sim/experiment/resources.h"

@@ -1,6 +1,7 @@
 #pragma once
 #include <QHBoxLayout>
 #include <QLabel>
+#include <QScreen>
 #include <QSignalBlocker>
 #include <QString>
 #include <QVBoxLayout>
@@ -74,6 +75,12 @@ inline QWidget* columnOf(std::initializer_list<QWidget*> widgets, const QWidget*
   auto* column = new QWidget;
   addAll(*new QVBoxLayout(column), widgets, wide);
   return column;
+}
+
+/// Gives a dialog this size, or the size of the screen without its panels and a title bar if that is smaller.
+inline void resizeOnScreen(QWidget& dialog, const QSize& wanted) {
+  constexpr int kTitleBar = 40;  // [px]
+  dialog.resize(wanted.boundedTo(dialog.screen()->availableGeometry().size() - QSize(0, kTitleBar)));
 }
 
 }  // namespace reachlab::gui::widgets

@@ -20,7 +20,7 @@
 #include "gui/docks/session_dock.h"
 #include "gui/plan/plan_composer.h"
 #include "gui/plan/start_page.h"
-#include "gui/widgets/on_screen.h"
+#include "gui/widgets/named.h"
 #include "sim/experiment/resources.h"
 #include "sim/record/trial_marks.h"
 #include "sim/session/programme.h"
