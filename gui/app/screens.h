@@ -11,12 +11,9 @@
 #include "gui/scene_plan/late_cursor.h"
 #include "gui/scene_plan/scene_plan.h"
 #include "gui/subject/subject_window.h"
+#include "gui/widgets/qt_names.h"
 #include "network/link/station_sink.h"
 #include "sim/experiment/compiled_experiment.h"
-
-class QAction;
-class QLabel;
-class QTimer;
 
 namespace reachlab::gui::app {
 

@@ -7,14 +7,9 @@
 #include "gui/choosers/formula_editor.h"
 #include "gui/scene/scene_view.h"
 #include "gui/widgets/fault_label.h"
+#include "gui/widgets/qt_names.h"
 #include "gui/widgets/shape_sliders.h"
 #include "sim/experiment/experiment.h"
-
-class QLabel;
-class QLineEdit;
-class QListWidget;
-class QPushButton;
-class QVBoxLayout;
 
 namespace reachlab::gui::docks {
 

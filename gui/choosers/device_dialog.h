@@ -5,11 +5,7 @@
 
 #include "devices/live_device.h"
 #include "gui/choosers/device_view.h"
-
-class QLabel;
-class QLineEdit;
-class QPushButton;
-class QTimer;
+#include "gui/widgets/qt_names.h"
 
 namespace reachlab::gui::docks {
 

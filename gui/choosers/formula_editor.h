@@ -6,9 +6,7 @@
 
 #include "constraints/catalogue/definition.h"
 #include "gui/widgets/fault_label.h"
-
-class QComboBox;
-class QLineEdit;
+#include "gui/widgets/qt_names.h"
 
 namespace reachlab::gui::docks {
 

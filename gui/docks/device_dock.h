@@ -8,10 +8,7 @@
 #include "devices/hot_plug.h"
 #include "gui/choosers/device_dialog.h"
 #include "gui/docks/dock.h"
-
-class QLabel;
-class QPushButton;
-class QTreeWidget;
+#include "gui/widgets/qt_names.h"
 
 namespace reachlab::gui::docks {
 

@@ -2,14 +2,9 @@
 #include <string>
 
 #include "gui/docks/dock.h"
+#include "gui/widgets/qt_names.h"
 #include "gui/widgets/unit_spin_box.h"
 #include "sim/session/session.h"
-
-class QCheckBox;
-class QComboBox;
-class QHBoxLayout;
-class QLineEdit;
-class QSpinBox;
 
 namespace reachlab::gui::docks {
 

@@ -2,10 +2,8 @@
 #include <vector>
 
 #include "gui/docks/dock.h"
+#include "gui/widgets/qt_names.h"
 #include "network/station/station_run.h"
-
-class QLabel;
-class QTableWidget;
 
 namespace reachlab::gui::docks {
 

@@ -3,9 +3,7 @@
 #include <vector>
 
 #include "analysis/analysis.h"
-
-class QLabel;
-class QTableWidget;
+#include "gui/widgets/qt_names.h"
 
 namespace reachlab::gui::inspector {
 

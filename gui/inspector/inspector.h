@@ -8,18 +8,7 @@
 #include "gui/inspector/analysis_lines.h"
 #include "gui/inspector/dataset_analysis.h"
 #include "gui/inspector/trial_table.h"
-
-class QCheckBox;
-class QComboBox;
-class QLabel;
-class QLineEdit;
-class QProgressBar;
-class QPushButton;
-class QSortFilterProxyModel;
-class QSplitter;
-class QTableView;
-class QTimer;
-class QVBoxLayout;
+#include "gui/widgets/qt_names.h"
 
 namespace reachlab::gui::inspector {
 

@@ -1,12 +1,8 @@
 #pragma once
 #include <QWidget>
 
+#include "gui/widgets/qt_names.h"
 #include "sim/record/trial_marks.h"
-
-class QCheckBox;
-class QLabel;
-class QLineEdit;
-class QPushButton;
 
 namespace reachlab::gui::inspector {
 

@@ -5,14 +5,8 @@
 
 #include "gui/inspector/trial_replay.h"
 #include "gui/model/model_reader.h"
+#include "gui/widgets/qt_names.h"
 #include "sim/experiment/compiled_experiment.h"
-
-class QCheckBox;
-class QComboBox;
-class QLabel;
-class QSlider;
-class QTimer;
-class QToolButton;
 
 namespace reachlab::gui::scene {
 class SceneView;

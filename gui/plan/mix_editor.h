@@ -1,14 +1,8 @@
 #pragma once
 #include <QGroupBox>
 
+#include "gui/widgets/qt_names.h"
 #include "sim/session/mix/trial_mix.h"
-
-class QCheckBox;
-class QComboBox;
-class QLineEdit;
-class QPushButton;
-class QSpinBox;
-class QTableWidget;
 
 namespace reachlab::gui::widgets {
 class UnitSpinBox;

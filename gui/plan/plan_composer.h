@@ -3,14 +3,8 @@
 #include <functional>
 #include <vector>
 
+#include "gui/widgets/qt_names.h"
 #include "sim/session/plan.h"
-
-class QCheckBox;
-class QDoubleSpinBox;
-class QLabel;
-class QLineEdit;
-class QPushButton;
-class QTableWidget;
 
 namespace reachlab::gui::widgets {
 class FaultLabel;

@@ -1,10 +1,7 @@
 #pragma once
 #include "gui/widgets/card.h"
+#include "gui/widgets/qt_names.h"
 #include "sim/session/session_progress.h"
-
-class QLineEdit;
-class QPushButton;
-class QTableWidget;
 
 namespace reachlab::gui::plan {
 

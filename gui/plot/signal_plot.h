@@ -5,8 +5,8 @@
 #include <deque>
 #include <memory>
 
-class QCheckBox;
-class QComboBox;
+#include "gui/widgets/qt_names.h"
+
 class QwtPlot;
 class QwtPlotCurve;
 

@@ -3,11 +3,9 @@
 #include <map>
 
 #include "gui/widgets/elided_label.h"
+#include "gui/widgets/qt_names.h"
 #include "sim/record/configuration/run_configuration.h"
 #include "sim/trial/outcome.h"
-
-class QAction;
-class QLineEdit;
 
 namespace reachlab::gui::app {
 

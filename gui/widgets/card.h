@@ -3,9 +3,7 @@
 #include <functional>
 #include <vector>
 
-class QHBoxLayout;
-class QLabel;
-class QVBoxLayout;
+#include "gui/widgets/qt_names.h"
 
 namespace reachlab::gui::widgets {
 

@@ -3,10 +3,8 @@
 #include <vector>
 
 #include "base/number_range.h"
+#include "gui/widgets/qt_names.h"
 #include "gui/widgets/unit_spin_box.h"
-
-class QCheckBox;
-class QComboBox;
 
 namespace reachlab::gui::widgets {
 

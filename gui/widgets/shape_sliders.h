@@ -5,11 +5,8 @@
 #include <vector>
 
 #include "constraints/catalogue/definition.h"
+#include "gui/widgets/qt_names.h"
 #include "gui/widgets/unit_spin_box.h"
-
-class QFormLayout;
-class QHBoxLayout;
-class QSlider;
 
 namespace reachlab::gui::widgets {
 
