@@ -10,6 +10,7 @@
 #include "analysis/study/gzip.h"
 #include "base/error.h"
 #include "sim/record/log/whole_file.h"
+#include "tests/in_a_folder.h"
 #include "tests/refusal.h"
 #include "tests/study/made_study.h"
 
@@ -23,14 +24,15 @@ ChunkRows someRows() {
   return rows;
 }
 
-TEST(Chunk, ReadsBackAsItWasWritten) {
-  const TemporaryFolder folder;
-  EXPECT_FALSE(isChunkThere(folder.path(), 1234, 99));
-  EXPECT_THROW(readChunk(folder.path(), 1234, 99), ResourceError);
-  writeChunk(folder.path(), 1234, 99, someRows());
-  EXPECT_EQ(chunkPath(folder.path(), 1234), folder.path() + "/chunks/001/00001234.chunk");
-  EXPECT_TRUE(isChunkThere(folder.path(), 1234, 99));
-  const ChunkRows rows = readChunk(folder.path(), 1234, 99);
+class Chunks : public InAFolder {};
+
+TEST_F(Chunks, ReadsBackAsItWasWritten) {
+  EXPECT_FALSE(isChunkThere(folder_.path(), 1234, 99));
+  EXPECT_THROW(readChunk(folder_.path(), 1234, 99), ResourceError);
+  writeChunk(folder_.path(), 1234, 99, someRows());
+  EXPECT_EQ(chunkPath(folder_.path(), 1234), folder_.path() + "/chunks/001/00001234.chunk");
+  EXPECT_TRUE(isChunkThere(folder_.path(), 1234, 99));
+  const ChunkRows rows = readChunk(folder_.path(), 1234, 99);
   EXPECT_EQ(rows.rows, 2);
   EXPECT_EQ(rows.columns, 3u);
   ASSERT_EQ(rows.values.size(), 6u);
@@ -41,26 +43,24 @@ TEST(Chunk, ReadsBackAsItWasWritten) {
   EXPECT_EQ(rows.csvGz, "a,b,c\n");
   ChunkRows plain = someRows();
   plain.profiles.clear();
-  writeChunk(folder.path(), 0, 99, plain);
-  EXPECT_TRUE(readChunk(folder.path(), 0, 99).profiles.empty());
+  writeChunk(folder_.path(), 0, 99, plain);
+  EXPECT_TRUE(readChunk(folder_.path(), 0, 99).profiles.empty());
 }
 
-TEST(Chunk, OfAnotherStudyOrPlaceIsRefused) {
-  const TemporaryFolder folder;
-  writeChunk(folder.path(), 3, 99, someRows());
-  EXPECT_THROW(isChunkThere(folder.path(), 3, 98), ResourceError);
-  std::filesystem::copy_file(chunkPath(folder.path(), 3), chunkPath(folder.path(), 4));
-  EXPECT_THROW(isChunkThere(folder.path(), 4, 99), ResourceError);
+TEST_F(Chunks, OfAnotherStudyOrPlaceIsRefused) {
+  writeChunk(folder_.path(), 3, 99, someRows());
+  EXPECT_THROW(isChunkThere(folder_.path(), 3, 98), ResourceError);
+  std::filesystem::copy_file(chunkPath(folder_.path(), 3), chunkPath(folder_.path(), 4));
+  EXPECT_THROW(isChunkThere(folder_.path(), 4, 99), ResourceError);
 }
 
 // Whatever byte of it is not what it was, and wherever it ends.
-TEST(Chunk, ThatIsDamagedIsToldWithTheRemedy) {
-  const TemporaryFolder folder;
-  writeChunk(folder.path(), 3, 99, someRows());
-  const std::string path = chunkPath(folder.path(), 3), whole = record::readWholeFile(path);
+TEST_F(Chunks, ThatIsDamagedIsToldWithTheRemedy) {
+  writeChunk(folder_.path(), 3, 99, someRows());
+  const std::string path = chunkPath(folder_.path(), 3), whole = record::readWholeFile(path);
   const auto refusalOf = [&](const std::string& bytes) -> std::string {
     std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
-    return reachlab::refusalOf([&] { readChunk(folder.path(), 3, 99); });
+    return reachlab::refusalOf([&] { readChunk(folder_.path(), 3, 99); });
   };
   for (std::size_t at = 0; at < whole.size(); ++at) {
     std::string other = whole;
@@ -68,8 +68,8 @@ TEST(Chunk, ThatIsDamagedIsToldWithTheRemedy) {
     EXPECT_NE(refusalOf(other), "") << at;
   }
   for (const std::size_t length : {std::size_t{0}, std::size_t{71}, std::size_t{72}, whole.size() - 1})
-    EXPECT_NE(refusalOf(whole.substr(0, length)).find("is damaged; delete it, and resume the study"), std::string::npos) << length;
-  EXPECT_NE(refusalOf(whole + "x").find("is damaged"), std::string::npos);
+    EXPECT_TRUE(holds(refusalOf(whole.substr(0, length)), "is damaged; delete it, and resume the study")) << length;
+  EXPECT_TRUE(holds(refusalOf(whole + "x"), "is damaged"));
   std::string more = whole;
   more[24] = 3;
   EXPECT_NE(refusalOf(more).find("is damaged"), std::string::npos) << "more rows than there are";
