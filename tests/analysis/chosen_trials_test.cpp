@@ -10,25 +10,24 @@
 #include "base/fault.h"
 #include "sim/record/trial_marks.h"
 #include "tests/analysis/recorded.h"
-#include "tests/analysis/whole_dataset.h"
 #include "tests/refusal.h"
 
 namespace reachlab::analysis {
 namespace {
 
-std::string logIn(const TemporaryFolder& folder) { return folder.path() + "/sourcedata/sub-01_ses-01_task-chainmoderate_run-01_log.reach"; }
+class TrialsThatAreChosen : public RecordedDataset {};
+class Marks : public RecordedDataset {};
 
 // Bit for bit: the window's numbers are those of the whole dataset's analysis.
-TEST(ChosenTrials, AreTheTrialsOfTheDatasetAsTheAnalysisReadsThem) {
-  const TemporaryFolder folder;
-  recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 12});
-  const Dataset all = openDataset(folder.path());
-  const AnalysisInput some = readChosen(std::vector<ChosenTrials>{{logIn(folder), {2, 5, 99}}});
+TEST_F(TrialsThatAreChosen, AreTheTrialsOfTheDatasetAsTheAnalysisReadsThem) {
+  const std::string log = record({.trials = 12});
+  const Dataset all = opened();
+  const AnalysisInput some = readChosen(std::vector<ChosenTrials>{{log, {2, 5, 99}}});
   ASSERT_EQ(some.trials.size(), 2u) << "there is no trial 99";
   EXPECT_EQ(some.trials[1].key.trial, 5);
   EXPECT_EQ(some.trials[1].hand, all.input.trials[4].hand);
   EXPECT_EQ(some.trials[1].first, all.input.trials[4].first);
-  ChosenTrials every{logIn(folder), {}};
+  ChosenTrials every{log, {}};
   for (int t = 1; t <= 12; ++t) every.trials.push_back(t);
   const Analysis a = analyzeTrials(readChosen(std::vector{every}), {}), b = analyzeTrials(all.input, {});
   ASSERT_EQ(a.people.size(), 1u);
@@ -49,12 +48,11 @@ TEST(ChosenTrials, AreTheTrialsOfTheDatasetAsTheAnalysisReadsThem) {
   EXPECT_THROW((void)analyzeChosen(std::vector{every}, {}, [] { throw Enough{}; }), Enough);
 }
 
-TEST(ChosenTrials, OfADatasetWithoutLogsAreThoseOfItsLogs) {
-  const TemporaryFolder folder;
-  const std::string log = recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 3});
+TEST_F(TrialsThatAreChosen, OfADatasetWithoutLogsAreThoseOfItsLogs) {
+  const std::string log = record({.trials = 3});
   const AnalysisInput before = readChosen(std::vector<ChosenTrials>{{log, {1, 3}}});
-  removeLogs(folder.path(), log);
-  const record::TrialIndex index = indexMotionFiles(folder.path());
+  removeLogs(folder_.path(), log);
+  const record::TrialIndex index = indexMotionFiles(folder_.path());
   ASSERT_EQ(index.runs.size(), 1u) << (index.unreadable.empty() ? "" : index.unreadable.front());
   EXPECT_EQ(index.runs[0].subject, "01");
   ASSERT_EQ(index.runs[0].trials.size(), 3u);
@@ -68,25 +66,23 @@ TEST(ChosenTrials, OfADatasetWithoutLogsAreThoseOfItsLogs) {
   }
 }
 
-TEST(ChosenTrials, OfAnotherProgramsMotionFilesAreRefusedByTheName) {
-  const TemporaryFolder folder;
-  std::filesystem::create_directories(folder.path() + "/sub-01/motion");
-  std::ofstream(folder.path() + "/sub-01/motion/sub-01_task-walk_tracksys-imu_motion.tsv") << "0\t1\n";
-  EXPECT_NE(refusalOf<FaultError>([&] { (void)indexMotionFiles(folder.path()); }).find("not of Reachlab: tracksys-imu"), std::string::npos);
+TEST_F(TrialsThatAreChosen, OfAnotherProgramsMotionFilesAreRefusedByTheName) {
+  std::filesystem::create_directories(folder_.path() + "/sub-01/motion");
+  std::ofstream(folder_.path() + "/sub-01/motion/sub-01_task-walk_tracksys-imu_motion.tsv") << "0\t1\n";
+  EXPECT_TRUE(holds(refusalOf<FaultError>([&] { (void)indexMotionFiles(folder_.path()); }), "not of Reachlab: tracksys-imu"));
 }
 
-TEST(Marks, ExcludeATrialWithItsReasonAndMoveOnsetAndEnd) {
-  const TemporaryFolder folder;
-  recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 3});
-  const Dataset before = openDataset(folder.path());
+TEST_F(Marks, ExcludeATrialWithItsReasonAndMoveOnsetAndEnd) {
+  const std::string log = record({.trials = 3});
+  const Dataset before = opened();
   const Analysis plain = analyzeTrials(before.input, fewCriteria());
   const double onset = plain.trials[1].measures.onset, offset = plain.trials[1].measures.offset;
   record::RunMarks marks;
   marks.set({.trial = 1, .excluded = "talked"});
   marks.set({.trial = 2, .onset = onset + 0.05, .offset = offset - 0.1});
   marks.set({.trial = 3, .flagged = true, .note = "look again"});
-  record::writeMarks(logIn(folder), marks);
-  const Dataset after = openDataset(folder.path());
+  record::writeMarks(log, marks);
+  const Dataset after = opened();
   const Analysis analysis = analyzeTrials(after.input, fewCriteria());
   EXPECT_EQ(analysis.trials[0].exclusion, "excluded: talked");
   EXPECT_FALSE(analysis.trials[0].counted) << "neither success nor failure";
@@ -98,12 +94,11 @@ TEST(Marks, ExcludeATrialWithItsReasonAndMoveOnsetAndEnd) {
   EXPECT_DOUBLE_EQ(analysis.trials[2].measures.onset, plain.trials[2].measures.onset) << "a flag changes no number";
 }
 
-TEST(Marks, ThatCannotBeReadLeaveTheirRunOut) {
-  const TemporaryFolder folder;
-  recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2});
-  recordRun(folder.path(), {.experiment = "chain-fast", .trials = 1});
-  std::ofstream(record::marksPathOf(logIn(folder))) << "{";
-  const Dataset dataset = openDataset(folder.path());
+TEST_F(Marks, ThatCannotBeReadLeaveTheirRunOut) {
+  const std::string log = record({.trials = 2});
+  record({.experiment = "chain-fast", .trials = 1});
+  std::ofstream(record::marksPathOf(log)) << "{";
+  const Dataset dataset = opened();
   EXPECT_EQ(dataset.input.trials.size(), 1u);
   ASSERT_EQ(dataset.notes.size(), 1u);
   EXPECT_NE(dataset.notes[0].find("_marks.json:1:"), std::string::npos) << dataset.notes[0];

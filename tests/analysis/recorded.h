@@ -14,13 +14,14 @@
 #include "sim/record/export/bids.h"
 #include "sim/record/log/recorder.h"
 #include "sim/session/session_folder.h"
-#include "tests/temporary_folder.h"
+#include "tests/analysis/whole_dataset.h"
+#include "tests/in_a_folder.h"
 
 /// Datasets made the way a session makes them: experiment, device, engine, recorder, on the virtual clock.
 namespace reachlab::analysis {
 
 struct RunToRecord {
-  std::string experiment, device = "simulated", subject = "01", session = "01";
+  std::string experiment = "chain-moderate", device = "simulated", subject = "01", session = "01";
   int run = 1, trials = 3;
   bool practice = false;
   std::uint64_t seed = 1;
@@ -66,5 +67,12 @@ inline void removeLogs(const std::string& folder, const std::string& log) {
   record::writeBids(runs, folder);
   std::filesystem::remove_all(folder + "/sourcedata");
 }
+
+/// Runs that are recorded into a dataset in a folder of its own.
+class RecordedDataset : public InAFolder {
+ protected:
+  std::string record(const RunToRecord& what) const { return recordRun(folder_.path(), what); }
+  Dataset opened() const { return openDataset(folder_.path()); }
+};
 
 }  // namespace reachlab::analysis

@@ -7,16 +7,16 @@
 
 #include "base/error.h"
 #include "tests/analysis/recorded.h"
-#include "tests/analysis/whole_dataset.h"
 #include "tests/refusal.h"
 
 namespace reachlab::record {
 namespace {
 
-TEST(TrialMarks, StandBesideTheLogAndReadBackEqual) {
-  const TemporaryFolder folder;
-  const std::string log = folder.path() + "/sub-01_ses-01_task-x_run-01_log.reach";
-  EXPECT_EQ(marksPathOf(log), folder.path() + "/sub-01_ses-01_task-x_run-01_marks.json");
+class TrialMarks : public analysis::RecordedDataset {};
+
+TEST_F(TrialMarks, StandBesideTheLogAndReadBackEqual) {
+  const std::string log = folder_.path() + "/sub-01_ses-01_task-x_run-01_log.reach";
+  EXPECT_EQ(marksPathOf(log), folder_.path() + "/sub-01_ses-01_task-x_run-01_marks.json");
   EXPECT_TRUE(readMarks(log).trials.empty()) << "no file, no marks";
   RunMarks marks;
   marks.set({.trial = 7, .flagged = true, .note = "sneezed, \"loudly\""});
@@ -33,48 +33,41 @@ TEST(TrialMarks, StandBesideTheLogAndReadBackEqual) {
   EXPECT_FALSE(std::filesystem::exists(marksPathOf(log)));
 }
 
-TEST(TrialMarks, AFaultyFileIsToldWithItsPlaces) {
-  const TemporaryFolder folder;
-  const std::string log = folder.path() + "/a_log.reach";
-  std::ofstream(marksPathOf(log)) << R"({"schema_version": 1, "trials": [{"trial": 0, "onset_s": 2, "offset_s": 1, "excludde": "x"}]})";
-  const std::string text = refusalOf([&] { (void)readMarks(log); });
+TEST_F(TrialMarks, AFaultyFileIsToldWithItsPlaces) {
+  std::ofstream(marksPathOf(log_)) << R"({"schema_version": 1, "trials": [{"trial": 0, "onset_s": 2, "offset_s": 1, "excludde": "x"}]})";
+  const std::string text = refusalOf([&] { (void)readMarks(log_); });
   for (const char* part : {"a_marks.json:1:", "trials[0].trial", "trials[0].offset_s: is not after onset_s", "excludde"})
     EXPECT_NE(text.find(part), std::string::npos) << part << " in " << text;
 }
 
 // The later of two lines of one trial would undo the exclusion that the earlier one asks for.
-TEST(TrialMarks, OfATrialThatIsNamedTwiceAreRefused) {
-  const TemporaryFolder folder;
-  const std::string log = folder.path() + "/a_log.reach";
-  std::ofstream(marksPathOf(log))
+TEST_F(TrialMarks, OfATrialThatIsNamedTwiceAreRefused) {
+  std::ofstream(marksPathOf(log_))
       << R"({"schema_version": 1, "trials": [{"trial": 3, "excluded": "talked"}, {"trial": 3, "flagged": true}]})";
-  EXPECT_NE(refusalOf([&] { (void)readMarks(log); }).find("trials[1].trial: is 3 for the second time"), std::string::npos);
+  EXPECT_TRUE(holds(refusalOf([&] { (void)readMarks(log_); }), "trials[1].trial: is 3 for the second time"));
 }
 
-TEST(TrialMarks, OfATrialThatTheRunDoesNotHaveAreRefused) {
-  const TemporaryFolder folder;
-  const std::string log = analysis::recordRun(folder.path(), {.experiment = "chain-moderate", .trials = 2});
+TEST_F(TrialMarks, OfATrialThatTheRunDoesNotHaveAreRefused) {
+  const std::string log = record({.trials = 2});
   std::ofstream(marksPathOf(log))
       << R"({"schema_version": 1, "trials": [{"trial": 2, "flagged": true}, {"trial": 300, "excluded": "talked"}]})";
   EXPECT_NO_THROW((void)readMarks(log)) << "a run that goes on may still have it";
   const std::string said = refusalOf([&] { (void)readMarks(RunLog::open(log)); });
   EXPECT_NE(said.find("trials[1].trial: is 300, which the run does not have"), std::string::npos) << said;
   EXPECT_NE(said.find("1 to 2"), std::string::npos) << said;
-  EXPECT_NE(refusalOf([&] { (void)analysis::openDataset(folder.path()); }).find("is 300"), std::string::npos);
+  EXPECT_TRUE(holds(refusalOf([&] { (void)opened(); }), "is 300"));
 }
 
-TEST(TrialMarks, TimesReachAMillionSecondsAndNoFurther) {
-  const TemporaryFolder folder;
-  const std::string log = folder.path() + "/a_log.reach";
+TEST_F(TrialMarks, TimesReachAMillionSecondsAndNoFurther) {
   const auto write = [&](const char* onset) {
-    std::ofstream(marksPathOf(log)) << R"({"schema_version": 1, "trials": [{"trial": 1, "onset_s": )" << onset << "}]}";
+    std::ofstream(marksPathOf(log_)) << R"({"schema_version": 1, "trials": [{"trial": 1, "onset_s": )" << onset << "}]}";
   };
   write("1000000");
-  EXPECT_EQ(readMarks(log).trials.at(0).onset, 1e6);
+  EXPECT_EQ(readMarks(log_).trials.at(0).onset, 1e6);
   write("1000001");
-  EXPECT_THROW((void)readMarks(log), Error);
+  EXPECT_THROW((void)readMarks(log_), Error);
   write("-1e-9");
-  EXPECT_THROW((void)readMarks(log), Error);
+  EXPECT_THROW((void)readMarks(log_), Error);
 }
 
 }  // namespace
