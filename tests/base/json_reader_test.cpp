@@ -21,52 +21,59 @@ std::string toldOf(const std::string& text, const Use& use, const std::string& p
   return toText(faults.faults());
 }
 
-TEST(ObjectReader, ReadsEachKindOfValue) {
-  double number = 0, required = 0;
-  int whole = 0;
+// A member of each kind, all of which are 7 until they are read.
+struct Values {
+  double number = 7;
+  int whole = 7;
   bool truth = false;
-  std::string text, choice;
-  std::vector<double> numbers;
-  std::vector<std::string> strings;
-  const std::string told =
-      toldOf(R"({"n": 1.5, "r": -2, "i": 3, "t": true, "s": "x y", "c": "b", "l": [1, 2], "w": ["p", "q"]})", [&](ObjectReader& reader) {
-        reader.number("n", anyNumber(), number);
-        EXPECT_TRUE(reader.requiredNumber("r", anyNumber(), required));
-        reader.integer("i", 3, 3, whole);
-        reader.boolean("t", truth);
-        reader.text("s", text);
-        EXPECT_TRUE(reader.choice("c", {"a", "b"}, choice, true));
-        EXPECT_TRUE(reader.numbers(*reader.optional("l"), "l", 2, anyNumber(), numbers));
-        EXPECT_TRUE(reader.strings(*reader.optional("w"), "w", 2, strings));
-        reader.finish();
-      });
-  EXPECT_EQ(told, "");
-  EXPECT_EQ(number, 1.5);
-  EXPECT_EQ(required, -2);
-  EXPECT_EQ(whole, 3);
-  EXPECT_TRUE(truth);
-  EXPECT_EQ(text, "x y");
-  EXPECT_EQ(choice, "b");
-  EXPECT_EQ(numbers, (std::vector<double>{1, 2}));
-  EXPECT_EQ(strings, (std::vector<std::string>{"p", "q"}));
+  std::string text = "7", choice = "7";
+  std::vector<double> numbers{7};
+  std::vector<std::string> strings{"7"};
+  std::vector<bool> took;  // what the readers that say so say of themselves
+
+  std::string read(const std::string& json, bool required = false) {
+    return toldOf(json, [&](ObjectReader& reader) {
+      if (required) took.push_back(reader.requiredNumber("n", positive("kg"), number));
+      else reader.number("n", positive("kg"), number);
+      reader.integer("i", 2, 9, whole);
+      reader.boolean("t", truth);
+      reader.text("s", text);
+      took.push_back(reader.choice("c", {"a", "b"}, choice, required));
+      if (const JsonNode* list = reader.optional("l")) took.push_back(reader.numbers(*list, "l", -1, anyNumber(), numbers));
+      if (const JsonNode* list = reader.optional("w")) took.push_back(reader.strings(*list, "w", 3, strings));
+      reader.finish();
+    });
+  }
+  void expectUnread() const {
+    EXPECT_TRUE(whole == 7 && !truth && text == "7" && choice == "7");
+    EXPECT_EQ(numbers, std::vector<double>{7});
+    EXPECT_EQ(strings, std::vector<std::string>{"7"});
+  }
+};
+
+TEST(ObjectReader, ReadsEachKindOfValue) {
+  for (const bool required : {false, true}) {
+    Values v;
+    EXPECT_EQ(v.read(R"({"n": 1.5, "i": 9, "t": true, "s": "x y", "c": "b", "l": [1, -2], "w": ["p", "q", "r"]})", required), "");
+    EXPECT_EQ(v.took, std::vector<bool>(required ? 4 : 3, true));
+    EXPECT_EQ(v.number, 1.5);
+    EXPECT_EQ(v.whole, 9);
+    EXPECT_TRUE(v.truth);
+    EXPECT_EQ(v.text, "x y");
+    EXPECT_EQ(v.choice, "b");
+    EXPECT_EQ(v.numbers, (std::vector<double>{1, -2}));
+    EXPECT_EQ(v.strings, (std::vector<std::string>{"p", "q", "r"}));
+    EXPECT_EQ(v.read(R"({"i": 2})"), "") << "either bound is allowed";
+    EXPECT_EQ(v.whole, 2);
+  }
 }
 
 TEST(ObjectReader, LeavesWhatIsNotThere) {
-  double number = 7;
-  int whole = 7;
-  bool truth = true;
-  std::string text = "7", choice = "7";
-  EXPECT_EQ(toldOf("{}",
-                   [&](ObjectReader& reader) {
-                     reader.number("n", anyNumber(), number);
-                     reader.integer("i", 0, 9, whole);
-                     reader.boolean("t", truth);
-                     reader.text("s", text);
-                     EXPECT_FALSE(reader.choice("c", {"a", "b"}, choice, false));
-                     reader.finish();
-                   }),
-            "");
-  EXPECT_TRUE(number == 7 && whole == 7 && truth && text == "7" && choice == "7");
+  Values v;
+  EXPECT_EQ(v.read("{}"), "");
+  EXPECT_EQ(v.took, std::vector<bool>{false});
+  EXPECT_EQ(v.number, 7);
+  v.expectUnread();
 }
 
 TEST(ObjectReader, TellsWhatIsMissing) {
@@ -86,30 +93,15 @@ TEST(ObjectReader, TellsWhatIsMissing) {
 }
 
 TEST(ObjectReader, TellsWhatIsOfAnotherKind) {
-  double number = 7;
-  int whole = 7;
-  bool truth = false;
-  std::string text = "7", choice = "7";
-  std::vector<double> numbers{7};
-  std::vector<std::string> strings{"7"};
-  EXPECT_EQ(toldOf(R"({"n": "1", "i": null, "t": 1, "s": true, "c": [], "l": {}, "w": 2})",
-                   [&](ObjectReader& reader) {
-                     reader.number("n", positive("kg"), number);
-                     reader.integer("i", 2, 9, whole);
-                     reader.boolean("t", truth);
-                     reader.text("s", text);
-                     EXPECT_FALSE(reader.choice("c", {"a", "b"}, choice, false));
-                     EXPECT_FALSE(reader.numbers(*reader.optional("l"), "l", -1, anyNumber(), numbers));
-                     EXPECT_FALSE(reader.strings(*reader.optional("w"), "w", 3, strings));
-                   }),
+  Values v;
+  EXPECT_EQ(v.read(R"({"n": "1", "i": null, "t": 1, "s": true, "c": [], "l": {}, "w": 2})"),
             "f:1:7: n: is a string; allowed: more than 0 kg\nf:1:17: i: is null; allowed: a whole number from 2 to 9\n"
             "f:1:28: t: is a number; allowed: true or false\nf:1:36: s: is a truth value; allowed: a string\n"
             "f:1:47: c: is an array; allowed: a or b\nf:1:56: l: is an object; allowed: an array of numbers\n"
             "f:1:65: w: is a number; allowed: an array of 3 strings");
-  EXPECT_TRUE(std::isnan(number));
-  EXPECT_TRUE(whole == 7 && !truth && text == "7" && choice == "7");
-  EXPECT_EQ(numbers, std::vector<double>{7});
-  EXPECT_EQ(strings, std::vector<std::string>{"7"});
+  EXPECT_EQ(v.took, std::vector<bool>(3, false));
+  EXPECT_TRUE(std::isnan(v.number));
+  v.expectUnread();
   EXPECT_EQ(toldOf("[]", [](ObjectReader& reader) { EXPECT_EQ(reader.required("x", "y"), nullptr); }),
             "f:1:1: file: is an array; allowed: an object { … }");
   EXPECT_EQ(toldOf(
@@ -118,18 +110,13 @@ TEST(ObjectReader, TellsWhatIsOfAnotherKind) {
 }
 
 TEST(ObjectReader, TellsWhatIsOutOfRange) {
-  double number = 7;
-  int whole = 7;
-  std::string choice = "7";
-  EXPECT_EQ(toldOf(R"({"n": 0, "i": 1, "c": "x"})",
-                   [&](ObjectReader& reader) {
-                     reader.number("n", positive("kg"), number);
-                     reader.integer("i", 2, 9, whole);
-                     EXPECT_FALSE(reader.choice("c", {"a", "b"}, choice, false));
-                   }),
+  Values v;
+  EXPECT_EQ(v.read(R"({"n": 0, "i": 1, "c": "x"})"),
             "f:1:7: n: is 0; allowed: more than 0 kg\nf:1:15: i: is 1; allowed: a whole number from 2 to 9\n"
             "f:1:23: c: is \"x\"; allowed: a or b");
-  EXPECT_TRUE(std::isnan(number) && whole == 7 && choice == "7");
+  EXPECT_EQ(v.took, std::vector<bool>{false});
+  EXPECT_TRUE(std::isnan(v.number));
+  v.expectUnread();
 }
 
 TEST(ObjectReader, TellsAListOfTheWrongLengthAndEachWrongElement) {
