@@ -34,6 +34,7 @@ class Devices : public InAFolder {
     return "run " + patient(folder_, experiment) + " --device \"" + device + "\" --trials 1 --seed 1 --timing-check 0 --data " +
            folder_.path();
   }
+  const std::string fast_ = " --trials 1 --seed 1 --fast --data " + folder_.path();
 };
 
 TEST_F(Devices, ListSaysWhyAVendorsLibraryIsNotThereInTheLoadersWords) {
@@ -81,25 +82,23 @@ TEST_F(Devices, BothOfTwoHandsAreCheckedBeforehand) {
   const Json rows = printedJson("validate " + hands + " --json");
   EXPECT_EQ(rows.front()["hand"], 1);
   EXPECT_EQ(rows.back()["hand"], 2);
-  const Ended run = reach("run " + hands + " --trials 1 --seed 1 --fast --data " + folder_.path());
+  const Ended run = reach("run " + hands + fast_);
   EXPECT_TRUE(holds(run.err, "warning: hand 2: workspace"));
   EXPECT_FALSE(holds(run.err, "warning: hand 1"));
 }
 
 TEST_F(Devices, RunWarnsOfADeviceThatIsTooWeakAndOfNoOther) {
-  const std::string rest = " --trials 1 --seed 1 --fast --data " + folder_.path();
-  EXPECT_TRUE(says(reach("run chain-fast --device virtual:omni" + rest), 0, "warning: peak force: "));
-  EXPECT_FALSE(holds(reach("run chain-slow --device virtual:premium15" + rest).err, "warning: "));
+  EXPECT_TRUE(says(reach("run chain-fast --device virtual:omni" + fast_), 0, "warning: peak force: "));
+  EXPECT_FALSE(holds(reach("run chain-slow --device virtual:premium15" + fast_).err, "warning: "));
 }
 
 TEST_F(Devices, AMappingIsKeptForDeviceAndSubjectAndRecordedWithTheRun) {
-  const std::string rest = " --trials 1 --seed 1 --fast --data " + folder_.path();
-  EXPECT_EQ(reach("run chain-slow --device virtual:premium15 --subject 03 --save-mapping" + rest).exitCode, 2) << "there is none to keep";
-  printed("run chain-slow --device virtual:premium15,scale=1.25,wall=yes --subject 03 --save-mapping" + rest);
+  EXPECT_EQ(reach("run chain-slow --device virtual:premium15 --subject 03 --save-mapping" + fast_).exitCode, 2) << "there is none to keep";
+  printed("run chain-slow --device virtual:premium15,scale=1.25,wall=yes --subject 03 --save-mapping" + fast_);
   const Json kept = Json::parse(contentOf(folder_ / "sourcedata/mappings/sub-03_virtual-premium15.json"));
   EXPECT_EQ(kept["scale"], 1.25);
-  EXPECT_TRUE(holds(reach("run chain-slow --device virtual:premium15 --subject 03" + rest).err, "mapping of "));
-  EXPECT_FALSE(holds(reach("run chain-slow --device virtual:premium15 --subject 04" + rest).err, "mapping of "));
+  EXPECT_TRUE(holds(reach("run chain-slow --device virtual:premium15 --subject 03" + fast_).err, "mapping of "));
+  EXPECT_FALSE(holds(reach("run chain-slow --device virtual:premium15 --subject 04" + fast_).err, "mapping of "));
   const std::string name = folder_.path() + "/sourcedata/sub-03_ses-01_task-chainslow_run-01_log.reach";
   printed("replay " + name + " --check");
   const std::string log = contentOf(name);
@@ -120,7 +119,7 @@ TEST_F(Devices, AMappingIsKeptOnlyWithARunAndInAFolderOfAnyName) {
 }
 
 TEST_F(Devices, OfTwoHandsEachKeepsItsOwnMapping) {
-  const std::string rest = " --subject 03 --trials 1 --seed 1 --fast --data " + folder_.path();
+  const std::string rest = " --subject 03" + fast_;
   printed("run chain-two-hands --device \"virtual:premium15,scale=1.25 + virtual:omni,scale=0.5,mirror=x\" --save-mapping" + rest);
   EXPECT_EQ(Json::parse(contentOf(folder_ / "sourcedata/mappings/sub-03_virtual-premium15.json"))["scale"], 1.25);
   EXPECT_EQ(Json::parse(contentOf(folder_ / "sourcedata/mappings/sub-03_virtual-omni.json"))["mirror_x"], true);

@@ -32,15 +32,11 @@ TEST_F(Instruments, AreToldOfARunAndTheRecordingSaysWhen) {
   for (const record::RecordedEvent& event : sent) {
     EXPECT_GT(event.value, 0);
     const record::RecordedTrial& trial = log.trials().at(static_cast<std::size_t>(event.trial - 1));
-    if (event.text.ends_with(" out go")) {
-      EXPECT_EQ(event.tick, trial.goTick);
-    }
-    if (event.text.ends_with(" out onset")) {
-      EXPECT_EQ(event.tick, trial.result.onsetTick);
-    }
-    if (event.text.ends_with(" out success")) {
-      EXPECT_EQ(event.tick, trial.lastTick);
-    }
+    for (const auto& [word, tick] :
+         {std::pair{" out go", trial.goTick}, {" out onset", trial.result.onsetTick}, {" out success", trial.lastTick}})
+      if (event.text.ends_with(word)) {
+        EXPECT_EQ(event.tick, tick) << event.text;
+      }
   }
   ::close(wire);
   ::close(slave);
