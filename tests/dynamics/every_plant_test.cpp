@@ -18,6 +18,9 @@ struct MovingPlant {
   Experiment experiment;
   std::vector<double> q, rate;
   Vec3 hand;
+  HandFunction drifting() const {
+    return [at = hand](double t) { return HandSample{at + t * Vec3{0.3, -0.2, 0.1}, {0.3, -0.2, 0.1}, true}; };
+  }
 };
 
 Experiment point() { return makePoint(0.7, {300, 0}); }
@@ -165,7 +168,7 @@ TEST(EveryPlant, VelocitiesAndAccelerationsAreTheRatesOfThePlaces) {
       const Scene scene = begun(c, method, kStep);
       if (!scene.plant) continue;
       SCOPED_TRACE(std::string(c.name) + ", " + method);
-      const HandFunction hand = [&](double t) { return HandSample{c.hand + t * Vec3{0.3, -0.2, 0.1}, {0.3, -0.2, 0.1}, true}; };
+      const HandFunction hand = c.drifting();
       std::vector<MassState> at[3];
       int tick = 0;
       for (auto& masses : at) {
@@ -220,7 +223,7 @@ TEST(EveryPlant, ThatIsPutUpAgainMovesToTheBitAsANewOneDoes) {
     for (const char* method : {"auto", "abm", "adaptive", "stiff"}) {
       const Scene used = begun(c, method, 1e-3), fresh = begun(c, method, 1e-3);
       if (!used.plant) continue;
-      const HandFunction hand = [&](double t) { return HandSample{c.hand + t * Vec3{0.3, -0.2, 0.1}, {0.3, -0.2, 0.1}, true}; };
+      const HandFunction hand = c.drifting();
       ASSERT_EQ(run(*used.plant, hand, 0.15), StepStatus::Ok) << c.name << " " << method;
       used.plant->place(c.q, c.rate);
       if (c.experiment.object.kind == ObjectKind::Body) used.plant->setAngularVelocity({1, -2, 0.5});
@@ -240,7 +243,7 @@ TEST(EveryPlant, ThatIsPutUpAgainMovesToTheBitAsANewOneDoes) {
 TEST(EveryPlant, Rk4ComesToTheSamePlace) {
   for (const MovingPlant& c : movingPlants()) {
     if (std::string(c.name).starts_with("kink") || std::string(c.name) == "crease") continue;  // a fixed step knows no corner's moment
-    const HandFunction hand = [&](double t) { return HandSample{c.hand + t * Vec3{0.3, -0.2, 0.1}, {0.3, -0.2, 0.1}, true}; };
+    const HandFunction hand = c.drifting();
     const Scene rk4 = begun(c, "rk4", 2e-4), sure = begun(c, "adaptive", 1e-3);
     ASSERT_TRUE(rk4.plant && sure.plant) << c.name;
     ASSERT_EQ(run(*rk4.plant, hand, 0.1, 2e-4), StepStatus::Ok);

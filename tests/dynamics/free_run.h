@@ -46,13 +46,9 @@ inline FreeRun runFree(constraints::Definition definition, std::uint64_t seed, b
     result.rate = {kFreeRunSpeed * a / speed, kFreeRunSpeed * b / speed};
   }
 
-  experiment::Experiment experiment = makePoint();
+  experiment::Experiment experiment = from(makePoint(), result.start, definition.target);
   experiment.constraint.name = definition.name;
   experiment.constraint.definition = constraints::toJson(definition);
-  experiment::Task task;
-  task.start = result.start;
-  task.target = definition.target;
-  experiment.task = task;
   Scene scene = freeScene(experiment, result.start, result.rate);
   result.choice = scene.choice;
   const double before = scene.plant->energy({});

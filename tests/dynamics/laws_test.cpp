@@ -141,6 +141,23 @@ TEST(Ends, AnOpenCurveStopsOrBouncesAsItsDefinitionSays) {
   }
 }
 
+TEST(Ends, AreMetAtTheirMomentForAFewRightHandSides) {
+  // Thrown up a cylinder whose ends are elastic, v goes up and down at constant speed: a triangle between -1 and 1.
+  experiment::Experiment e = makePoint(0.5);
+  e.constraint.name = "cylinder";
+  const double rate = 7.3;
+  const Scene scene = freeScene(e, {0.2, 0.4}, {3, rate});
+  std::uint64_t before = scene.plant->rhsEvaluations(), most = 0;
+  for (int i = 1; i <= 3000; ++i) {
+    ASSERT_EQ(scene.plant->step(makeSegment(noHand, 0, 1e-3), 1e-3), StepStatus::Ok);
+    most = std::max(most, scene.plant->rhsEvaluations() - before);
+    before = scene.plant->rhsEvaluations();
+    const double way = std::fmod(0.4 + 1 + rate * i * 1e-3, 4);  // from the lower end, there and back
+    ASSERT_NEAR(observed(*scene.plant)[0].q[1], way < 2 ? way - 1 : 3 - way, 1e-10) << "after " << i << " ms of the default tolerance";
+  }
+  EXPECT_LT(most, 60u) << "the tick's step, the way to the end, four for its moment, the rest of the tick and a new start";
+}
+
 // A straight curve with ends goes by the propagator: where the masses of a chain meet one, they have the speeds they came with.
 TEST(Ends, AChainOnALineMeetsItsEndWithItsSpeed) {
   const auto e = onDefinition(makeChain(3, 0.5, 400), "curve", R"(["0.1*phi", "0", "0"])", "[0, 2]", "stop");

@@ -5,6 +5,7 @@
 
 #include "sim/dynamics/hand/hand_function.h"
 #include "sim/dynamics/methods/abm.h"
+#include "sim/dynamics/methods/dense_output.h"
 #include "sim/dynamics/methods/rk4.h"
 #include "sim/dynamics/methods/stiff.h"
 
@@ -237,34 +238,47 @@ TEST(Method, TheCoefficientsOfThePairAreOfTheirOrders) {
   }
 }
 
-/// The error of one step of h of the pair for x'' = -x from (1, 0).
-double attempted(double h, double& estimate) {
-  const auto rate = [](double, const Numbers<2>& y, Numbers<2>& dy) { dy.values = {y[1], -y[0]}; };
-  const auto unit = [](int, double) { return 1.0; };
-  auto k = dop853::makeStages<2>(2);
-  Numbers<2> y, next;
-  y.values = {1, 0};
-  rate(0, y, k[0]);
-  estimate = dop853::attempt<2>(rate, unit, 0, h, y, k, next);
-  return std::hypot(next[0] - std::cos(h), next[1] + std::sin(h));
-}
+const auto kUnit = [](int, double) { return 1.0; };
+
+/// One step of h of the pair for x'' = -x from (1, 0), whose solution is the cosine.
+struct OneStep {
+  double estimate = 0, error = 0;  // at its end
+  double within = 0;               // the largest error of its dense output
+  explicit OneStep(double h) {
+    const auto rate = [](double, const Numbers<2>& y, Numbers<2>& dy) { dy.values = {y[1], -y[0]}; };
+    auto k = dop853::makeStages<2>(2);
+    Numbers<2> y, next, at;
+    y.values = {1, 0};
+    rate(0, y, k[0]);
+    estimate = dop853::attempt<2>(rate, kUnit, 0, h, y, k, next);
+    error = std::hypot(next[0] - std::cos(h), next[1] + std::sin(h));
+    const auto dense = dop853::makeDenseOutput<2>(rate, 0, h, y, k, next);
+    for (int i = 0; i <= 40; ++i) {
+      dense.at(i / 40.0, at);
+      within = std::max({within, std::abs(at[0] - std::cos(i / 40.0 * h)), std::abs(at[1] + std::sin(i / 40.0 * h))});
+    }
+  }
+};
 
 TEST(Method, AStepOfThePairErrsByItsNinthPowerAndEstimatesMore) {
-  double whole = 0, half = 0;
-  const double ratio = attempted(1.0, whole) / attempted(0.5, half);
-  EXPECT_NEAR(std::log2(ratio), 9, 0.5);
-  EXPECT_GT(whole, attempted(1.0, whole));
-  EXPECT_NEAR(std::log2(whole / half), 8, 1);
-  double none = 1;
+  const OneStep whole(1), half(0.5);
+  EXPECT_NEAR(std::log2(whole.error / half.error), 9, 0.5);
+  EXPECT_GT(whole.estimate, whole.error);
+  EXPECT_NEAR(std::log2(whole.estimate / half.estimate), 8, 1);
   const auto still = [](double, const Numbers<2>&, Numbers<2>& dy) { dy.values = {0, 0}; };
   auto k = dop853::makeStages<2>(2);
   Numbers<2> y, next;
   y.values = {1, 2};
   still(0, y, k[0]);
-  none = dop853::attempt<2>(
-      still, [](int, double) { return 1.0; }, 0, 1, y, k, next);
-  EXPECT_EQ(none, 0) << "nothing moves";
+  EXPECT_EQ(dop853::attempt<2>(still, kUnit, 0, 1, y, k, next), 0) << "nothing moves";
   EXPECT_EQ(next[1], 2);
+}
+
+TEST(DenseOutput, FollowsTheMotionWithinAStepToOrderSeven) {
+  EXPECT_LT(OneStep(0.5).within, 1e-8);
+  // A local error of order 8 falls 256-fold when the step is halved; 100 leaves room for the next order.
+  EXPECT_GT(OneStep(1).within / OneStep(0.5).within, 100);
+  EXPECT_GT(OneStep(0.5).within / OneStep(0.25).within, 100);
 }
 
 }  // namespace

@@ -94,9 +94,7 @@ void tryOne(std::uint64_t seed, Tally& tally) {
   SCOPED_TRACE(fmt::format("seed {}: {}, {}, {}", seed, lines[0], lines[1], lines[2]));
   std::vector<double> start;
   for (int k = 0; k < (surface ? 2 : 1); ++k) start.push_back(writer.uniform(-1.5, 1.5));
-  experiment::Task task;
-  task.start = task.target = start;
-  e.task = task;
+  e = from(e, start, start);
   Scene scene;
   bool smooth = false;
   std::array<constraints::Domain, 2> box;  // where a surface was proved smooth

@@ -40,12 +40,8 @@ double trueError(const experiment::Experiment& e) {
 TEST(Rk4Error, IsForetoldToAFactorOfThreeOnTheCatalogue) {
   int judged = 0;
   for (const constraints::Definition& d : constraints::catalogue()) {
-    experiment::Experiment e = makePoint(1, {600, 5});
+    experiment::Experiment e = from(makePoint(1, {600, 5}), d.start, d.target);
     e.constraint.name = d.name;
-    experiment::Task task;
-    task.start = d.start;
-    task.target = d.target;
-    e.task = task;
     double foretold = 0;
     try {
       foretold = compileScene(e, {"rk4", kLongStep, 0}).choice.predictedError;
