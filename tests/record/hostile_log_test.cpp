@@ -73,28 +73,22 @@ TEST_F(HostileLog, LabelsAreLabelsBecauseTheyBecomeNamesOfFiles) {
   expectRefusal(logWith(folder_, [](json& j) { j["subject"] = std::string(300, 'a'); }), "subject");
 }
 
-TEST_F(HostileLog, EveryNumberIsWithinItsBounds) {
-  const json cases = json::parse(R"([["run", 0], ["run", -3], ["run", 100000], ["run", 1e300], ["run", 2.5], ["run", "1"], ["run", null],
-    ["first_run", -1], ["first_trial", 0], ["first_trial", 5e9], ["block", -1], ["day", -1], ["pause_s", -1],
-    ["seed", -1], ["seed", 1e30], ["sampling_hz", 0], ["sampling_hz", -1], ["device_max_force_n", -1],
-    ["sample_every_ticks", 0], ["sample_every_ticks", 4294967297], ["practice", 1], ["notes", 3], ["trials", 7],
-    ["participant", "F"]])");
-  for (const json& c : cases) expectRefusal(logWith(folder_, [&](json& j) { j[c[0].get<std::string>()] = c[1]; }), c[0]);
-  expectRefusal(logWith(folder_, [](json& j) { j["trials"] = {{{"index", -1}, {"foreperiod_ms", 0}, {"catch", false}}}; }), "index");
-  expectRefusal(logWith(folder_, [](json& j) { j["table"] = 3; }), "table: is no object");
+// The place of a value in the configuration, the value that is put there, and what its refusal names.
+TEST_F(HostileLog, EveryNumberIsWithinItsBoundsAndTheTableHasTheChannelsThatItsCountsAskFor) {
+  const json cases = json::parse(R"([["/run", 0, "run"], ["/run", -3, "run"], ["/run", 100000, "run"], ["/run", 1e300, "run"],
+    ["/run", 2.5, "run"], ["/run", "1", "run"], ["/run", null, "run"], ["/first_run", -1, "first_run"], ["/first_trial", 0, "first_trial"],
+    ["/first_trial", 5e9, "first_trial"], ["/block", -1, "block"], ["/day", -1, "day"], ["/pause_s", -1, "pause_s"], ["/seed", -1, "seed"],
+    ["/seed", 1e30, "seed"], ["/sampling_hz", 0, "sampling_hz"], ["/sampling_hz", -1, "sampling_hz"],
+    ["/device_max_force_n", -1, "device_max_force_n"], ["/sample_every_ticks", 0, "sample_every_ticks"],
+    ["/sample_every_ticks", 4294967297, "sample_every_ticks"], ["/practice", 1, "practice"], ["/notes", 3, "notes"], ["/trials", 7, "trials"],
+    ["/participant", "F", "participant"], ["/trials", [{"index": -1, "foreperiod_ms": 0, "catch": false}], "index"],
+    ["/table", 3, "table: is no object"], ["/table/mass_count", 2000000000, "mass_count"], ["/table/mass_count", -1, "mass_count"],
+    ["/table/mass_count", 3, "channels"], ["/table/parameter_count", 50, "parameter_count"], ["/table/parameter_count", 4, "parameter_count"],
+    ["/table/parameter_count", 2, "channels"], ["/table/body", true, "channels"], ["/table/channels", [], "channels"],
+    ["/table/channels/0/name", 5, "name"]])");
+  for (const json& c : cases)
+    expectRefusal(logWith(folder_, [&](json& j) { j[json::json_pointer(c[0].get<std::string>())] = c[1]; }), c[2]);
   expectRefusal(logWith(folder_, [](json& j) { j.erase("clock"); }), "clock: is missing");
-}
-
-TEST_F(HostileLog, TheTableHasTheChannelsThatItsCountsAskFor) {
-  expectRefusal(logWith(folder_, [](json& j) { j["table"]["mass_count"] = 2'000'000'000; }), "mass_count");
-  expectRefusal(logWith(folder_, [](json& j) { j["table"]["mass_count"] = -1; }), "mass_count");
-  expectRefusal(logWith(folder_, [](json& j) { j["table"]["mass_count"] = 3; }), "channels");
-  expectRefusal(logWith(folder_, [](json& j) { j["table"]["parameter_count"] = 50; }), "parameter_count");
-  expectRefusal(logWith(folder_, [](json& j) { j["table"]["parameter_count"] = 4; }), "parameter_count");
-  expectRefusal(logWith(folder_, [](json& j) { j["table"]["parameter_count"] = 2; }), "channels");
-  expectRefusal(logWith(folder_, [](json& j) { j["table"]["body"] = true; }), "channels");
-  expectRefusal(logWith(folder_, [](json& j) { j["table"]["channels"] = json::array(); }), "channels");
-  expectRefusal(logWith(folder_, [](json& j) { j["table"]["channels"][0]["name"] = 5; }), "name");
 }
 
 TEST_F(HostileLog, ATextThatIsNoJsonIsRefusedInWords) {

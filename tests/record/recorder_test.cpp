@@ -76,14 +76,6 @@ TEST_F(Recording, GoesOnCountingTrialsInAResumedBlock) {
   for (std::size_t row = 0; row < rows.size(); ++row) EXPECT_EQ(rows.at(row, column), 9);
 }
 
-TEST_F(Recording, ATrialThatNobodyAnnouncedHasThePlaceOfItsNumber) {
-  MadeRecording recording(log_);
-  recording.until(2 * MadeRun::kTicksPerTrial);
-  const RunLog log = recording.closed();
-  ASSERT_EQ(log.trials().size(), 2u);
-  for (const RecordedTrial& trial : log.trials()) EXPECT_EQ(trial.planned.index, trial.trial - 1);
-}
-
 // Two further hands, over several blocks of a thousand ticks.
 TEST_F(Recording, KeepsEveryHandsRawSamples) {
   const RunConfiguration configuration = madeConfiguration(2, 3);
