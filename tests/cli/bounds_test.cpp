@@ -7,16 +7,6 @@
 using namespace reachlab::test;
 namespace fs = std::filesystem;
 
-namespace {
-
-std::string experimentWith(const std::string& duration) {
-  return R"({"schema_version":1,"constraint":{"name":"line"},"object":{"kind":"point","masses_kg":[1]},"coupling":{"stiffness_n_per_m":600},
-    "task":{"start":[0],"target":[6.28],"duration_s":)" +
-         duration + R"(,"tolerance":{"position_m":0.01,"velocity_m_per_s":0.01,"time_s":0.5}}})";
-}
-
-}  // namespace
-
 class Bounds : public InAFolder {};
 
 TEST_F(Bounds, OfTimesAndCountsOnTheCommandLine) {
@@ -29,28 +19,24 @@ TEST_F(Bounds, OfTimesAndCountsOnTheCommandLine) {
 
 TEST_F(Bounds, OfAnExperimentsTimes) {
   for (const char* duration : {"1e308", "3601", "0", "-1"}) {
-    const std::string file = folder_.write("e.json", experimentWith(duration));
+    const std::string file = folder_.write("e.json", experimentOn(R"({"name": "line"})", reachFrom("0", "6.28", duration)));
     for (const std::string& command : {"validate " + file, "run " + file + " --device simulated --fast --data " + data_,
                                        "predict " + file + " --criterion min-hand-jerk"})
       EXPECT_TRUE(says(reach(command), 2, "task.duration_s: is"));
   }
-  EXPECT_EQ(reach("validate " + folder_.write("e.json", experimentWith("3600"))).exitCode, 0);
+  EXPECT_EQ(reach("validate " + folder_.write("e.json", experimentOn(R"({"name": "line"})", reachFrom("0", "6.28", "3600")))).exitCode, 0);
 }
 
 // A hundred and sixty times round a torus, and a mass that swings a thousand times on its way: each took many seconds, or gigabytes.
 TEST_F(Bounds, OfWhatAPredictionMayCost) {
-  const auto file = [&](const std::string& constraint, const std::string& stiffness, const std::string& task) {
-    return folder_.write("far.json", R"({"schema_version":1,"constraint":)" + constraint +
-                                         R"(,"object":{"kind":"chain","masses_kg":[1,0.01],"stiffness_n_per_m":[)" + stiffness +
-                                         R"(]},"coupling":{"stiffness_n_per_m":600},"task":{)" + task +
-                                         R"(,"duration_s":1.5,"tolerance":{"position_m":0.01,"velocity_m_per_s":0.01,"time_s":0.5}}})");
-  };
   std::string torus = contentOf(std::string(REACHLAB_SOURCE_DIR) + "/resources/experiments/torus.json");
   const std::size_t target = torus.find("\"target\": [") + 11;
   torus.replace(target, torus.find(',', target) - target, "1000");
   const std::string words[] = {"multiplications, which is what a prediction may cost", "numbers at once\nhelp: allowed"};
-  const std::string experiments[] = {folder_.write("round.json", torus),
-                                     file(R"({"name":"ellipse"})", "1e5", R"("start":[0.2],"target":[3])")};
+  const std::string swinging = R"("kind": "chain", "masses_kg": [1, 0.01], "stiffness_n_per_m": [1e5])";
+  const std::string experiments[] = {
+      folder_.write("round.json", torus),
+      folder_.write("far.json", experimentOn(R"({"name": "ellipse"})", reachFrom("0.2", "3", "1.5"), swinging))};
   for (int i = 0; i < 2; ++i) {
     EXPECT_TRUE(says(reach("predict " + experiments[i] + " --criterion min-hand-jerk"), 4, words[i]));
   }

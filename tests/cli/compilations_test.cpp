@@ -10,11 +10,8 @@ const std::string kFormula = "0 | a*cos(phi) | a*sin(phi)/2";
 
 std::string experimentFile(const TemporaryFolder& folder, const std::string& name,
                            const std::string& kind = R"("kind": "point", "masses_kg": [1])") {
-  return folder.write(name + ".json", R"json({ "schema_version": 1,
-    "constraint": { "curve": ["0", "a*cos(phi)", "a*sin(phi)/2"], "shape": { "a": 0.1 } },
-    "object": { )json" + kind + R"json( }, "coupling": { "stiffness_n_per_m": 600 },
-    "task": { "start": [0.3], "target": [2.0], "duration_s": 1,
-              "tolerance": { "position_m": 0.02, "velocity_m_per_s": 0.1, "time_s": 0.5 } } })json");
+  const std::string constraint = R"j({"curve": ["0", "a*cos(phi)", "a*sin(phi)/2"], "shape": {"a": 0.1}})j";
+  return folder.write(name + ".json", experimentOn(constraint, reachFrom("0.3", "2.0", "1", "0.02"), kind));
 }
 
 /// By `reach` with a counter that the linker has put before the compiler of formulas.

@@ -32,8 +32,7 @@ TEST_F(ConstraintCommand, ShowsEveryDefinition) {
 }
 
 TEST_F(ConstraintCommand, PointsAtTheCharacterOfASyntaxFault) {
-  const std::string file = folder_.write("bad.json", R"j({"schema_version": 1, "constraint": {"curve": ["cos(phi", "2", "3"]},
-    "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600}})j");
+  const std::string file = folder_.write("bad.json", experimentOn(R"j({"curve": ["cos(phi", "2", "3"]})j"));
   const Ended ended = reach("validate " + file);
   EXPECT_TRUE(says(ended, 2, "expected"));
   EXPECT_TRUE(holds(ended.err, "bad.json:1:"));

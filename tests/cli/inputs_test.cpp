@@ -177,9 +177,7 @@ TEST_F(Limits, AtThemEveryCommandEnds) {
 TEST_F(Limits, MoreNamesThanAFormulaTakesAreCountedAndNotRead) {
   std::string names;
   for (int i = 0; i < 50'000; ++i) names += (i == 0 ? "\"" : ", \"") + ("n" + std::to_string(i)) + "\": 1";
-  const std::string file =
-      folder_.write("e.json", R"({"schema_version": 1, "constraint": {"name": "line", "shape": {)" + names +
-                                  R"(}}, "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600}})");
+  const std::string file = folder_.write("e.json", experimentOn(R"({"name": "line", "shape": {)" + names + "}}"));
   EXPECT_TRUE(says(reach("validate " + file, "timeout 10"), 2, "constraint.shape: has 50000 names"));
 }
 
@@ -187,10 +185,8 @@ TEST_F(Limits, MoreNamesThanAFormulaTakesAreCountedAndNotRead) {
 TEST_F(Limits, AFormulaThatBendsWithoutEndIsRefusedSoon) {
   std::string sines = "phi";
   for (int i = 0; i < 30; ++i) sines = "sin(1e3*" + sines + ")";
-  const std::string file = folder_.write(
-      "e.json", R"({"schema_version": 1, "constraint": {"curve": ["phi/10 + )" + sines + R"(", ")" + sines + R"(", ")" + sines +
-                    R"("]}, "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600},
-      "task": {"start": [0], "target": [1], "duration_s": 1, "tolerance": {"position_m": 0.01, "velocity_m_per_s": 0.01, "time_s": 0.5}}})");
+  const std::string curve = R"({"curve": ["phi/10 + )" + sines + R"(", ")" + sines + R"(", ")" + sines + R"("]})";
+  const std::string file = folder_.write("e.json", experimentOn(curve, reachFrom("0", "1")));
   const Ended ended = reach("validate " + file, "timeout 10");
   EXPECT_TRUE(ended.exitCode == 2 || ended.exitCode == 4) << ended.exitCode << ended.err;
 }

@@ -31,9 +31,8 @@ TEST(NastyFormulas, AreRightOrRefusedOrStoppedInWords) {
     SCOPED_TRACE(c[0]);
     ASSERT_EQ(c.size(), 14u);
     const std::string file =
-        folder.write("e.json", R"({"schema_version": 1, "constraint": {")" + c[1] + R"(": [")" + c[2] + R"(", ")" + c[3] + R"(", ")" +
-                                   c[4] + R"("]}, "object": {"kind": "point", "masses_kg": [1], "gravity_m_per_s2": [0, )" + c[7] +
-                                   R"(, 0]}, "coupling": {"stiffness_n_per_m": 600}})");
+        folder.write("e.json", experimentOn(R"({")" + c[1] + R"(": [")" + c[2] + R"(", ")" + c[3] + R"(", ")" + c[4] + R"("]})", "",
+                                            R"("kind": "point", "masses_kg": [1], "gravity_m_per_s2": [0, )" + c[7] + ", 0]"));
     const Ended ended =
         reach("simulate " + file + " --hand none --at=" + c[5] + " --rate=" + c[6] + " --until " + c[8] + " --every " + c[8]);
     if (c[9] == "refused") {

@@ -116,6 +116,18 @@ inline pid_t start(std::vector<std::string> arguments, int out = -1) {
   ::_exit(127);
 }
 
+/// An experiment's text: an object on a constraint, a point of 1 kg where nothing else is said, with a reach as `reachFrom` gives it or none.
+inline std::string experimentOn(const std::string& constraint, const std::string& reach = "",
+                                const std::string& object = R"("kind": "point", "masses_kg": [1])") {
+  return R"({"schema_version": 1, "constraint": )" + constraint + R"(, "object": {)" + object +
+         R"(}, "coupling": {"stiffness_n_per_m": 600, "damping_n_s_per_m": 5})" + reach + "}";
+}
+inline std::string reachFrom(const std::string& start, const std::string& target, const std::string& seconds = "1.35",
+                             const std::string& tolerance = "0.012") {
+  return R"(, "task": {"start": [)" + start + R"(], "target": [)" + target + R"(], "duration_s": )" + seconds +
+         R"(, "tolerance": {"position_m": )" + tolerance + R"(, "velocity_m_per_s": 0.012, "time_s": 0.5}})";
+}
+
 /// A CSV with its header; cells as written.
 struct Table {
   std::vector<std::string> header;

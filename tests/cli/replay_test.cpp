@@ -49,9 +49,7 @@ TEST_F(Replay, NeedsNoFileOfTheConstraintThatAnExperimentNames) {
              "domain": [0, "2*pi"], "periodic": true, "start": [0], "target": ["pi/2"]})json";
   };
   write(definition, eight("w_m*cos(phi)"));
-  write(experiment, R"({"schema_version": 1, "constraint": {"name": "own-eight", "shape": {"w_m": 0.12}},
-      "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600, "damping_n_s_per_m": 5},
-      "task": {"start": [0], "target": [1.5], "duration_s": 1.5, "tolerance": {"position_m": 0.012, "velocity_m_per_s": 0.012, "time_s": 1}}})");
+  write(experiment, test::experimentOn(R"({"name": "own-eight", "shape": {"w_m": 0.12}})", test::reachFrom("0", "1.5", "1.5")));
   ::setenv("REACHLAB_CONSTRAINTS", std::filesystem::path(definition).parent_path().c_str(), 1);
   printed("run " + experiment + " --device simulated --trials 2 --seed 4 --fast --data " + data_);
   const std::string log = session::recordedRuns({data_}).at(0).path;

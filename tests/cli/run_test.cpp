@@ -76,11 +76,8 @@ TEST(List, TellsWhatAnExperimentAsks) {
 // As validate says it: the chord stands at right angles to the ellipse at the start.
 TEST(Run, SaysThatRoundingDecidesWhichWayTheMassLeaves) {
   const TemporaryFolder folder;
-  const std::string file = folder.write("e.json", R"json({"schema_version": 1,
-    "constraint": {"curve": ["0.1*cos(phi)", "0.06*sin(phi)", "0"]},
-    "object": {"kind": "point", "masses_kg": [1]}, "coupling": {"stiffness_n_per_m": 600},
-    "task": {"start": [0], "target": [3.141592653589793], "duration_s": 1,
-             "tolerance": {"position_m": 0.01, "velocity_m_per_s": 0.05, "time_s": 0.5}}})json");
+  const std::string ellipse = R"j({"curve": ["0.1*cos(phi)", "0.06*sin(phi)", "0"]})j";
+  const std::string file = folder.write("e.json", experimentOn(ellipse, reachFrom("0", "3.141592653589793")));
   EXPECT_TRUE(says(reach("run " + file + " --device simulated --trials 1 --seed 1 --fast --data " + (folder / "data").string()), 0,
                    "rounding decides which way"));
 }

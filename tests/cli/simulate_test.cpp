@@ -11,14 +11,6 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-std::string onePoint(const std::string& constraint, const std::string& more, const std::string& task) {
-  return R"({"schema_version": 1, "constraint": )" + constraint + R"(, "object": {"kind": "point", "masses_kg": [1])" + more +
-         R"(}, "coupling": {"stiffness_n_per_m": 600, "damping_n_s_per_m": 5})" + task + "}";
-}
-std::string task(const std::string& from, const std::string& to) {
-  return R"(, "task": {"start": [)" + from + R"(], "target": [)" + to +
-         R"(], "duration_s": 1.35, "tolerance": {"position_m": 0.012, "velocity_m_per_s": 0.012, "time_s": 0.5}})";
-}
 Table simulated(const std::string& arguments) { return parseCsv(printed("simulate " + arguments)); }
 
 }  // namespace
@@ -52,7 +44,8 @@ TEST_F(Simulate, AMethodThatIsNoneIsRefusedWithThoseThatThereAre) {
 }
 
 TEST_F(Simulate, AFallingPointFollowsTheClosedForm) {
-  const std::string file = folder_.write("fall.json", onePoint(R"({"name": "free"})", R"(, "gravity_m_per_s2": [0, -9.81, 0])", ""));
+  const std::string file = folder_.write(
+      "fall.json", experimentOn(R"({"name": "free"})", "", R"("kind": "point", "masses_kg": [1], "gravity_m_per_s2": [0, -9.81, 0])"));
   const Table table = simulated(file + " --hand none --until 1 --at 0.1,0.2,0.3 --rate 1,0,0");
   const std::size_t last = table.rows.size() - 1;
   EXPECT_NEAR(table.at(last, "mass1_y_m"), 0.2 - 9.81 / 2, 1e-11);
@@ -63,7 +56,7 @@ TEST_F(Simulate, AFallingPointFollowsTheClosedForm) {
 
 TEST_F(Simulate, ADampedSpringFollowsTheClosedForm) {
   const std::string file =
-      folder_.write("spring.json", onePoint(R"({"name": "line", "shape": {"length_m": 0.2}})", "", task("0", "6.283185307179586")));
+      folder_.write("spring.json", experimentOn(R"({"name": "line", "shape": {"length_m": 0.2}})", reachFrom("0", "6.283185307179586")));
   // The hand holds at phi = 0 (x = -0.1); the mass starts 0.1 m to its right: m x'' + 5 x' + 600 x = 0.
   const Table table = simulated(file + " --hand hold --at 3.141592653589793 --until 2 --every 0.5");
   const double decay = 2.5, omega = std::sqrt(600 - decay * decay);
@@ -91,7 +84,7 @@ TEST_F(Simulate, AHandsFileHasItsInnerVelocityAtBothEndsAndRestsBeyond) {
     csv += row.str();
   }
   const std::string hand = folder_.write("hand.csv", csv);
-  const std::string file = folder_.write("free.json", onePoint(R"({"name": "free"})", "", ""));
+  const std::string file = folder_.write("free.json", experimentOn(R"({"name": "free"})"));
   const auto forces = [&](const std::string& more) {
     return simulated(file + " --hand " + hand + " --until 1.2 --every 0.1 --at 0.1,0,0" + more);
   };
@@ -120,7 +113,7 @@ TEST_F(Simulate, AFreeBodyTurnsAsItWasLetGo) {
 
 TEST_F(Simulate, ATaskWhoseWayRoundingDecidesIsToldSo) {
   const auto validated = [&](const std::string& curve, const std::string& from, const std::string& to) {
-    return reach("validate " + folder_.write("e.json", onePoint(R"({"curve": [)" + curve + "]}", "", task(from, to))));
+    return reach("validate " + folder_.write("e.json", experimentOn(R"({"curve": [)" + curve + "]}", reachFrom(from, to))));
   };
   const std::string ellipse = R"j("0", "0.1*cos(phi)", "0.06*sin(phi)")j";
   EXPECT_TRUE(says(validated(ellipse, "0", "3.141592653589793"), 0, "rounding decides which way"));

@@ -147,15 +147,10 @@ TEST_F(Usage, EveryListHasNames) {
   }
 }
 
-std::string lineExperiment(const std::string& version, const std::string& target, const std::string& tolerance, const std::string& mass,
-                           const std::string& duration) {
-  return R"({"schema_version": )" + version + R"(, "constraint": {"name": "line"}, "object": {"kind": "point", "masses_kg": [)" + mass +
-         R"(]}, "coupling": {"stiffness_n_per_m": 600}, "task": {"start": [1], "target": [)" + target + R"(], "duration_s": )" + duration +
-         R"(, "tolerance": {"position_m": )" + tolerance + R"(, "velocity_m_per_s": 0.01, "time_s": 0.5}}})";
-}
+const std::string kLine = R"({"name": "line"})";
 
 TEST_F(Usage, ValidateRefusesTheTaskThatARunRefuses) {
-  const std::string file = folder_.write("still.json", lineExperiment("1", "1", "0.01", "1", "1"));
+  const std::string file = folder_.write("still.json", experimentOn(kLine, reachFrom("1", "1")));
   const Ended validated = reach("validate " + file);
   EXPECT_TRUE(says(validated, 2, "same position"));
   EXPECT_TRUE(says(reach("run " + file + " --device simulated --fast --seed 1 --data " + folder_.path()), 2, validated.err));
@@ -163,7 +158,8 @@ TEST_F(Usage, ValidateRefusesTheTaskThatARunRefuses) {
 }
 
 TEST_F(Usage, ValidateWarnsOfNumbersThatAreHardlyMeant) {
-  const Ended ended = reach("validate " + folder_.write("odd.json", lineExperiment("1", "2", "0.5", "150", "90")));
+  const Ended ended = reach("validate " + folder_.write("odd.json", experimentOn(kLine, reachFrom("1", "2", "90", "0.5"),
+                                                                                 R"("kind": "point", "masses_kg": [150])")));
   for (const char* part : {"masses_kg[0]: is 150 kg", "duration_s: is 90 s", "position_m: is 0.5 m"}) EXPECT_TRUE(says(ended, 0, part));
 }
 
@@ -179,8 +175,9 @@ TEST_F(Usage, ValidateTakesNamesAndSaysWhatItExpects) {
   for (const char* name : {"chain-moderate", "paper"})
     EXPECT_EQ(shell("cd " + folder_.path() + " && mkdir -p " + name + " && $REACH validate " + name).exitCode, 0) << "a folder is no file";
   EXPECT_TRUE(holds(reach("validate chain-modrate").err, "did you mean chain-moderate?"));
-  EXPECT_TRUE(
-      says(reach("validate " + folder_.write("old.json", lineExperiment("2", "2", "0.01", "1", "1"))), 2, "error: schema_version: is 2\n"));
+  std::string old = experimentOn(kLine, reachFrom("1", "2"));
+  old.replace(old.find(": 1"), 3, ": 2");
+  EXPECT_TRUE(says(reach("validate " + folder_.write("old.json", old)), 2, "error: schema_version: is 2\n"));
 }
 
 TEST_F(Usage, ValidateAcceptsEveryShippedFile) {
