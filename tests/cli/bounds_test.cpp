@@ -97,10 +97,3 @@ TEST(Resume, IsRefusedWhileTheRunIsBeingRecordedAndNamesItsProcess) {
                             data.path() + "\ncode=$?\nkill -INT $recording\nwait $recording\nexit $code");
   EXPECT_TRUE(says(ended, 3, "is being recorded (" + ended.out.substr(0, ended.out.find('\n')) + ")")) << ended.out;
 }
-
-TEST(Run, OfAHandThatIsNeverAtTheStartEnds) {
-  const TemporaryFolder data;
-  const Ended ended = reach("run chain-fast --device virtual:omni,scale=0.5 --trials 3 --seed 1 --fast --data " + data.path());
-  EXPECT_TRUE(ended.exitCode == 0 || ended.exitCode == 2 || ended.exitCode == 4) << ended.err;
-  for (const auto& trial : trialLines(ended.out)) EXPECT_NE(trial.at("outcome"), "interrupted");
-}

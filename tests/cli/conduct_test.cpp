@@ -14,20 +14,22 @@ namespace {
 using test::Ended;
 using test::reach;
 
-std::vector<record::RunLog> logsOf(const TemporaryFolder& folder) { return session::test::logsIn({.data = folder.path()}); }
+class Conduct : public InAFolder {
+ protected:
+  std::vector<record::RunLog> recordedLogs() const { return session::test::logsIn({.data = folder_.path()}); }
+};
 
-TEST(Conduct, ThePlansBlocksAreRunsOfTheirOwnEachWithItsLabelAndItsRowsInTheDataset) {
-  const TemporaryFolder folder;
-  const std::string plan = folder.write("plan.json", R"({ "schema_version": 1, "trials": 2, "blocks": [
+TEST_F(Conduct, ThePlansBlocksAreRunsOfTheirOwnEachWithItsLabelAndItsRowsInTheDataset) {
+  const std::string plan = folder_.write("plan.json", R"({ "schema_version": 1, "trials": 2, "blocks": [
     { "experiment": "chain-slow", "condition": "slow", "practice": true }, { "experiment": "dingwell" },
     { "experiment": "chain-slow", "condition": "slow", "trials": 1 } ] })");
-  const Ended ended = reach("run " + plan + " --device simulated:noise=0 --seed 4 --fast --data " + folder.path());
+  const Ended ended = reach("run " + plan + " --device simulated:noise=0 --seed 4 --fast --data " + folder_.path());
   ASSERT_EQ(ended.exitCode, 0) << ended.err;
   EXPECT_FALSE(holds(ended.err, "seed="));
-  const std::vector<record::RunLog> logs = logsOf(folder);
+  const std::vector<record::RunLog> logs = recordedLogs();
   ASSERT_EQ(logs.size(), 3u);
   const char *tasks[] = {"chainslow", "dingwell", "chainslow"}, *conditions[] = {"slow", "dingwell", "slow"};
-  const std::string scans = test::contentOf(folder / "sub-01/ses-01/sub-01_ses-01_scans.tsv");
+  const std::string scans = test::contentOf(folder_ / "sub-01/ses-01/sub-01_ses-01_scans.tsv");
   for (int k = 0; k < 3; ++k) {
     const record::RunLog& log = logs[static_cast<std::size_t>(k)];
     record::expectRecorded(log.configuration(),
@@ -39,19 +41,18 @@ TEST(Conduct, ThePlansBlocksAreRunsOfTheirOwnEachWithItsLabelAndItsRowsInTheData
     EXPECT_TRUE(holds(scans, name + "_motion.tsv"));
     EXPECT_TRUE(holds(ended.err, "run " + std::to_string(k + 1) + ": " + conditions[k]));
   }
-  EXPECT_TRUE(std::filesystem::exists(folder / "dataset_description.json"));
+  EXPECT_TRUE(std::filesystem::exists(folder_ / "dataset_description.json"));
   for (const auto& [device, warned] : {std::pair{"simulated:noise=0", false}, {"simulated", true}, {"simulated:noise=1", true}}) {
-    const Ended again = reach("run " + plan + " --device " + device + " --fast --resume --data " + folder.path());
+    const Ended again = reach("run " + plan + " --device " + device + " --fast --resume --data " + folder_.path());
     EXPECT_TRUE(says(again, 0, "nothing is left to do"));
     EXPECT_EQ(bool(holds(again.err, "recorded with the device simulated:noise=0, and is resumed with")), warned) << again.err;
   }
-  EXPECT_EQ(logsOf(folder).size(), 3u);
+  EXPECT_EQ(recordedLogs().size(), 3u);
 }
 
-TEST(Conduct, TheRecordSaysWithWhatAndWhenItWasMade) {
-  const TemporaryFolder folder;
-  test::printed("run chain-moderate --device simulated:noise=0 --trials 1 --seed 2 --fast --data " + folder.path());
-  const std::vector<record::RunLog> logs = logsOf(folder);
+TEST_F(Conduct, TheRecordSaysWithWhatAndWhenItWasMade) {
+  test::printed("run chain-moderate --device simulated:noise=0 --trials 1 --seed 2 --fast --data " + folder_.path());
+  const std::vector<record::RunLog> logs = recordedLogs();
   ASSERT_EQ(logs.size(), 1u);
   const record::RunConfiguration& c = logs[0].configuration();
   record::expectRecorded(c, {{"device", "simulated:noise=0"}, {"virtual_hand", true}, {"method", "exact"}, {"clock", "virtual"}});

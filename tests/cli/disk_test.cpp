@@ -17,10 +17,11 @@ test::Ended runWithFileLimit(const std::string& data, int kilobytes) {
                      "\n\"$REACH\" run chain-moderate --device simulated --trials 50 --seed 1 --fast --data " + data);
 }
 
-TEST(FullDisk, StopsTheRunWithOneSentenceAndExitCode3AndKeepsEveryAnnouncedTrial) {
-  const TemporaryFolder folder;
+class FullDisk : public InAFolder {};
+
+TEST_F(FullDisk, StopsTheRunWithOneSentenceAndExitCode3AndKeepsEveryAnnouncedTrial) {
   for (const int limit : {400, 1000, 2222}) {
-    const std::string data = folder / std::to_string(limit);
+    const std::string data = folder_ / std::to_string(limit);
     const test::Ended ending = runWithFileLimit(data, limit);
     EXPECT_TRUE(says(ending, 3, "_log.reach"));
     const std::size_t announced = test::trialLines(ending.out).size();
@@ -35,10 +36,9 @@ TEST(FullDisk, StopsTheRunWithOneSentenceAndExitCode3AndKeepsEveryAnnouncedTrial
 }
 
 // Such a log took a run's number, and every later command warned of it.
-TEST(FullDisk, LeavesNoLogOfARunThatCouldNotBegin) {
-  const TemporaryFolder folder;
+TEST_F(FullDisk, LeavesNoLogOfARunThatCouldNotBegin) {
   for (const int limit : {0, 1}) {
-    const std::string data = folder / std::to_string(limit);
+    const std::string data = folder_ / std::to_string(limit);
     const std::filesystem::path sources = std::filesystem::path(data) / "sourcedata";
     std::filesystem::create_directories(sources);
     EXPECT_EQ(runWithFileLimit(data, limit).exitCode, 3);

@@ -68,28 +68,26 @@ TEST_F(Outputs, AreNeitherAnInputNorARecordingNorAmongThem) {
 }
 
 // The log's reader refuses names beyond what file names hold; so does whoever would write it.
-TEST(Recordings, WhatCouldNotBeReadAgainIsRefusedBeforeTheFirstTrial) {
-  const TemporaryFolder folder;
+TEST_F(Outputs, ThatCouldNotBeReadAgainAreRefusedBeforeTheFirstTrial) {
   const std::string text = contentOf(std::filesystem::path(REACHLAB_SOURCE_DIR) / "resources/experiments/dingwell.json");
-  const std::string file = folder.write(std::string(61, 'a') + ".json", text), fine = folder.write(std::string(60, 'a') + ".json", text);
+  const std::string file = folder_.write(std::string(61, 'a') + ".json", text), fine = folder_.write(std::string(60, 'a') + ".json", text);
   const std::string plan =
-      folder.write("long.json", R"({"schema_version": 1, "blocks": [{"experiment": "dingwell", "trials": 1, "pause_s": 1e7}]})");
+      folder_.write("long.json", R"({"schema_version": 1, "blocks": [{"experiment": "dingwell", "trials": 1, "pause_s": 1e7}]})");
   std::string hands = contentOf(std::filesystem::path(REACHLAB_SOURCE_DIR) / "resources/experiments/two-hands/chain-two-hands.json");
   const std::string line = R"("name": "line", "shape": { "length_m": 0.2 })";
   hands.replace(hands.find(line), line.size(), R"("name": "cycloid")");
-  folder.write("cusp.json", hands);
-  const std::string cusp = folder.write(
+  folder_.write("cusp.json", hands);
+  const std::string cusp = folder_.write(
       "cusps.json", R"({"schema_version": 1, "trials": 1, "blocks": [{"experiment": "dingwell"}, {"experiment": "cusp.json"}]})");
   for (const std::string& refused : {file, plan, cusp})
-    for (const std::string& command :
-         {"validate " + refused, "run " + refused + " --device simulated --fast --seed 1 --data " + (folder / "data").string()}) {
+    for (const std::string& command : {"validate " + refused, "run " + refused + " --device simulated --fast --seed 1 --data " + data_}) {
       const Ended ended = reach(command);
       EXPECT_EQ(ended.exitCode, 2) << command << ended.err;
       EXPECT_EQ(trialLines(ended.out).size(), 0u) << ended.out;
     }
-  EXPECT_FALSE(std::filesystem::exists(folder / "data"));
-  EXPECT_EQ(reach("run " + fine + " --device simulated --fast --seed 1 --data " + (folder / "data").string()).exitCode, 0);
-  EXPECT_EQ(reach("show " + (folder / "data").string()).exitCode, 0);
+  EXPECT_FALSE(std::filesystem::exists(data_));
+  EXPECT_EQ(reach("run " + fine + " --device simulated --fast --seed 1 --data " + data_).exitCode, 0);
+  EXPECT_EQ(reach("show " + data_).exitCode, 0);
 }
 
 // No permission, and links in a loop: as root, only the second is to be had.
@@ -111,12 +109,11 @@ TEST_F(Outputs, ThatCannotBeWrittenAreNamedWithTheReason) {
   }
 }
 
-TEST(FullDisk, EndsAnExportByALibraryInOneSentenceAndLeavesNothing) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(reach("run dingwell --device simulated --fast --seed 1 --trials 8 --data " + (folder / "data").string()).exitCode, 0);
+TEST_F(Outputs, OfALibraryOnAFullDiskEndInOneSentenceAndLeaveNothing) {
+  ASSERT_EQ(reach("run dingwell --device simulated --fast --seed 1 --trials 8 --data " + data_).exitCode, 0);
   for (const char* format : {"hdf5", "mat"}) {
-    const std::string out = folder / format;
-    const Ended ended = shell("ulimit -f 40; $REACH export " + (folder / "data").string() + " --format " + format + " --out " + out);
+    const std::string out = folder_ / format;
+    const Ended ended = shell("ulimit -f 40; $REACH export " + data_ + " --format " + format + " --out " + out);
     EXPECT_TRUE(says(ended, 3, "error: ")) << format;
     EXPECT_EQ(ended.err.find("error: "), ended.err.rfind("error: ")) << format << ended.err;
     EXPECT_TRUE(std::filesystem::is_empty(out)) << format;

@@ -14,22 +14,23 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string logOf(const TemporaryFolder& folder) { return reachlab::session::test::logsIn({.data = folder.path()}).at(0).path(); }
+class Run : public InAFolder {
+ protected:
+  std::string recordedLog() const { return reachlab::session::test::logsIn({.data = folder_.path()}).at(0).path(); }
+};
 
 }  // namespace
 
-TEST(Run, WithoutNoiseEveryTrialSucceeds) {
-  const TemporaryFolder folder;
-  const std::string run = "run chain-moderate --device simulated:noise=0 --trials 5 --seed 1 --fast --data " + folder.path();
+TEST_F(Run, WithoutNoiseEveryTrialSucceeds) {
+  const std::string run = "run chain-moderate --device simulated:noise=0 --trials 5 --seed 1 --fast --data " + folder_.path();
   for (const auto& trial : trialLines(printed(run))) EXPECT_EQ(trial.at("outcome"), "success");
 }
 
-TEST(Run, PlaysTheHumanReachesAndItsCsvReproducesThePrintedResults) {
-  const TemporaryFolder folder;
+TEST_F(Run, PlaysTheHumanReachesAndItsCsvReproducesThePrintedResults) {
   const auto trials =
-      trialLines(printed("run chain-moderate --device replay:" REACHLAB_SOURCE_DIR "/resources/reaches --fast --data " + folder.path()));
+      trialLines(printed("run chain-moderate --device replay:" REACHLAB_SOURCE_DIR "/resources/reaches --fast --data " + folder_.path()));
   ASSERT_EQ(trials.size(), 19u);
-  const Table table = exportedTrials(logOf(folder));
+  const Table table = exportedTrials(recordedLog());
   ASSERT_EQ(table.rows.size(), 19u);
   for (std::size_t i = 0; i < trials.size(); ++i) {
     EXPECT_EQ(table.rows[i][table.column("outcome")], trials[i].at("outcome"));
@@ -38,32 +39,30 @@ TEST(Run, PlaysTheHumanReachesAndItsCsvReproducesThePrintedResults) {
       EXPECT_EQ(table.rows[i][table.column("reason")], trials[i].at("reason"));
     }
   }
-  EXPECT_EQ(reach("replay --check " + logOf(folder)).exitCode, 0);
+  EXPECT_EQ(reach("replay --check " + recordedLog()).exitCode, 0);
 }
 
-TEST(Run, RunsThatStartAtOnceTakeOneNumberEach) {
-  const TemporaryFolder folder;
+TEST_F(Run, RunsThatStartAtOnceTakeOneNumberEach) {
   std::vector<std::future<std::string>> started;
   for (const char* experiment : {"dingwell", "dingwell", "chain-moderate", "dingwell"})
-    started.push_back(std::async(std::launch::async, [&folder, experiment] {
-      return printed(std::string("run ") + experiment + " --device simulated --trials 1 --seed 3 --fast --data " + folder.path());
+    started.push_back(std::async(std::launch::async, [this, experiment] {
+      return printed(std::string("run ") + experiment + " --device simulated --trials 1 --seed 3 --fast --data " + folder_.path());
     }));
   for (auto& run : started) run.wait();
   std::set<std::string> numbers;
-  for (const auto& entry : fs::directory_iterator(folder / "sourcedata")) {
+  for (const auto& entry : fs::directory_iterator(folder_ / "sourcedata")) {
     const std::string name = entry.path().filename().string();
     numbers.insert(name.substr(name.find("_run-")));
   }
   EXPECT_EQ(numbers.size(), 4u);
-  const std::string scans = contentOf(folder / "sub-01/ses-01/sub-01_ses-01_scans.tsv");
+  const std::string scans = contentOf(folder_ / "sub-01/ses-01/sub-01_ses-01_scans.tsv");
   EXPECT_EQ(std::count(scans.begin(), scans.end(), '\n'), 5) << "a header and a row a run\n" << scans;
 }
 
-TEST(Run, TheFirstLineNamesTheMethodAndLeavesItsReasonToTheDataset) {
-  const TemporaryFolder folder;
-  const Ended run = reach("run chain-slow --device simulated --trials 1 --seed 1 --fast --data " + folder.path());
+TEST_F(Run, TheFirstLineNamesTheMethodAndLeavesItsReasonToTheDataset) {
+  const Ended run = reach("run chain-slow --device simulated --trials 1 --seed 1 --fast --data " + folder_.path());
   ASSERT_EQ(run.exitCode, 0) << run.err;
-  EXPECT_EQ(run.err, fmt::format("run 1: chain-slow, 1 trial, method exact; recording to {}\n", logOf(folder)));
+  EXPECT_EQ(run.err, fmt::format("run 1: chain-slow, 1 trial, method exact; recording to {}\n", recordedLog()));
 }
 
 TEST(List, TellsWhatAnExperimentAsks) {
@@ -74,10 +73,15 @@ TEST(List, TellsWhatAnExperimentAsks) {
 }
 
 // As validate says it: the chord stands at right angles to the ellipse at the start.
-TEST(Run, SaysThatRoundingDecidesWhichWayTheMassLeaves) {
-  const TemporaryFolder folder;
+TEST_F(Run, SaysThatRoundingDecidesWhichWayTheMassLeaves) {
   const std::string ellipse = R"j({"curve": ["0.1*cos(phi)", "0.06*sin(phi)", "0"]})j";
-  const std::string file = folder.write("e.json", experimentOn(ellipse, reachFrom("0", "3.141592653589793")));
-  EXPECT_TRUE(says(reach("run " + file + " --device simulated --trials 1 --seed 1 --fast --data " + (folder / "data").string()), 0,
-                   "rounding decides which way"));
+  const std::string file = folder_.write("e.json", experimentOn(ellipse, reachFrom("0", "3.141592653589793")));
+  EXPECT_TRUE(
+      says(reach("run " + file + " --device simulated --trials 1 --seed 1 --fast --data " + data_), 0, "rounding decides which way"));
+}
+
+TEST_F(Run, OfAHandThatIsNeverAtTheStartEnds) {
+  const Ended ended = reach("run chain-fast --device virtual:omni,scale=0.5 --trials 3 --seed 1 --fast --data " + folder_.path());
+  EXPECT_TRUE(ended.exitCode == 0 || ended.exitCode == 2 || ended.exitCode == 4) << ended.err;
+  for (const auto& trial : trialLines(ended.out)) EXPECT_NE(trial.at("outcome"), "interrupted");
 }

@@ -12,7 +12,8 @@ namespace reachlab::cli {
 namespace {
 
 // A trial of three masses whose speeds and force are multiples of the tick in three dimensions; onset at tick 40, or none.
-record::RunLog recorded(const TemporaryFolder& folder, bool moves) {
+ShownTrial shownOf(bool moves) {
+  const TemporaryFolder folder;
   record::RunConfiguration configuration = record::madeConfiguration(3);
   const experiment::Experiment chain = experiment::readExperiment("chain-moderate");
   configuration.experimentText = chain.text;
@@ -31,13 +32,12 @@ record::RunLog recorded(const TemporaryFolder& folder, bool moves) {
     state.hands[0].couplingForce = {-1 * t, -2 * t, 2 * t};  // of size 3
     return state.tick >= 10;
   });
-  return recording.closed();
+  const record::RunLog log = recording.closed();
+  return profileOf(log, log.trials()[0]);
 }
 
 TEST(ShownTrial, IsOfTheSamplesSinceTheOnset) {
-  const TemporaryFolder folder;
-  const record::RunLog log = recorded(folder, true);
-  const ShownTrial profile = profileOf(log, log.trials()[0]);
+  const ShownTrial profile = shownOf(true);
   EXPECT_TRUE(profile.sinceOnset);
   ASSERT_EQ(profile.time.size(), 10u) << "ticks 10, 20 … 100";
   for (std::size_t i = 0; i < 10; ++i) {
@@ -51,9 +51,7 @@ TEST(ShownTrial, IsOfTheSamplesSinceTheOnset) {
 }
 
 TEST(ShownTrial, OfAHandThatNeverSetOffIsSinceTheTrialWasPutUp) {
-  const TemporaryFolder folder;
-  const record::RunLog log = recorded(folder, false);
-  const ShownTrial profile = profileOf(log, log.trials()[0]);
+  const ShownTrial profile = shownOf(false);
   EXPECT_FALSE(profile.sinceOnset);
   EXPECT_EQ(profile.time.front(), 0);
   EXPECT_EQ(profile.time.back(), 0.09);
