@@ -85,3 +85,13 @@ TEST_F(Run, OfAHandThatIsNeverAtTheStartEnds) {
   EXPECT_TRUE(ended.exitCode == 0 || ended.exitCode == 2 || ended.exitCode == 4) << ended.err;
   for (const auto& trial : trialLines(ended.out)) EXPECT_NE(trial.at("outcome"), "interrupted");
 }
+
+// The criterion of this hand is known. Where its mass was not among the tried ones, another criterion was named.
+TEST_F(Run, OfAHeavyHandIsNotTakenForAnotherCriterion) {
+  for (const std::string mass : {"3", "4"}) {
+    const std::string data = folder_ / mass;
+    printed("run dingwell --device simulated:criterion=min-hand-force,hand-mass=" + mass + " --trials 60 --seed 7 --fast --data " + data);
+    const std::string all = printed("analyze " + data);
+    EXPECT_TRUE(holds(all.substr(0, all.find('\n')), "follow (4) min-hand-force")) << mass << " kg";
+  }
+}
