@@ -3,9 +3,9 @@
 
 cases.txt holds `NAME: COMMAND`, run one after the other by `bash -e` in one empty folder with the repository's `resources` and `tests` beside
 it. What a command prints, how it ends and the files that it writes make NAME.txt: long tables as some of their rows and the sum of every column,
-drawings as their elements with the sums of their coordinates, books of other programs as their names, what is said of a column on one
-line; where NAME ends with `quiet`, the files are left out. Numbers may differ by one part in 100,000 (fits and quadratures end where the last
-bits of a machine's elementary functions put them), and by 2e-6 where they are small.
+drawings as their elements with the sums of their coordinates, books of other programs as their names, a list and what is said of a column on
+one line; where NAME ends with `quiet`, the files are left out. Numbers may differ by one part in 100,000
+(fits and quadratures end where the last bits of a machine's elementary functions put them), and by 2e-6 where they are small.
 """
 import argparse
 import difflib
@@ -21,7 +21,7 @@ import tempfile
 HERE = pathlib.Path(__file__).resolve().parent
 ROOT = HERE.parents[1]
 NUMBER = re.compile(r"(?<![\w.#])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![\w])")
-FLAT = re.compile(r'\{((?:\n {4}"[^"\n]*": [^\n{\[]+)+)\n {2}\}')  # what a file says of a column
+FLAT = re.compile(r"^( +)(.*[\[{])((?:\n\1  [^\n{\[]+)+)\n\1([\]}])", re.M)  # a list or an object that holds no other
 RELATIVE, ABSOLUTE = 1e-5, 2e-6
 ROWS = 6  # of a long table
 TEXTS = {".csv", ".tsv", ".json", ".svg", ".html", ".txt", ".md", ".cpp", ".gz", ".sh"}
@@ -85,7 +85,8 @@ def drawing(text):
                 end += 1
             places = [[float(n) for n in re.findall(r'\b[xy]="([-\d.]+)"', use)] for use in out[k:end]]
             letters = hashlib.sha256("".join(re.findall(r'href="(#[^"]*)"', " ".join(out[k:end]))).encode()).hexdigest()[:8]
-            merged.append(f"{end - k} letters {letters} " + " ".join(f"{sum(c):.6g}" for c in zip(*places)))
+            style = merged.pop() + " " if merged[-1].startswith("g style=") else ""
+            merged.append(f"{style}{end - k} letters {letters} " + " ".join(f"{sum(c):.6g}" for c in zip(*places)))
             k = end
             continue
         if out[k] not in ("g", ""):
@@ -111,7 +112,7 @@ def digest(file):
     if kind == ".tsv":
         return table(text, "\t")
     if kind == ".json":
-        return FLAT.sub(lambda found: "{" + found[1].replace("\n   ", "") + " }", text)
+        return FLAT.sub(lambda found: found[1] + found[2] + found[3].replace(f"\n{found[1]} ", "") + f" {found[4]}", text)
     if kind == ".html":
         text = re.sub(r"<style.*?</style>", "", text, flags=re.S)
         text = re.sub(r"<svg.*?</svg>", "(a drawing)", text, flags=re.S)
