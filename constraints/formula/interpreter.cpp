@@ -21,10 +21,11 @@ template <Code code>
 // With `table` set it only tells its addresses; they exist nowhere else.
 [[gnu::noinline]] void execute(const Instruction* i, double* r, HandlerTable* table) noexcept {
 #define ADDRESS(name) &&name,
-#define ADDRESS_OF_TWO(name) table->two[static_cast<std::size_t>(Code::name)] = &&Two##name;
+#define ADDRESS_OF_TWO(name) all.two[static_cast<std::size_t>(Code::name)] = &&Two##name;
   if (table != nullptr) [[unlikely]] {
-    table->one = {&&SinCos, &&Return, REACHLAB_JOINED_OPERATIONS(ADDRESS) REACHLAB_PLAIN_OPERATIONS(ADDRESS)};
+    HandlerTable all{{&&SinCos, &&Return, REACHLAB_JOINED_OPERATIONS(ADDRESS) REACHLAB_PLAIN_OPERATIONS(ADDRESS)}, {}};
     REACHLAB_PAIRED_OPERATIONS(ADDRESS_OF_TWO)
+    *table = all;
     return;
   }
 #define NEXT \
