@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <QAbstractButton>
+#include <QAction>
 #include <QApplication>
 #include <QMessageBox>
 #include <QTimer>
@@ -26,24 +27,34 @@ class Answer {
   bool answered_ = false;
 };
 
-/// Answers the next question by a click on that button. `text` of the question stays to be looked at.
-class AnswerBox {
- public:
-  explicit AnswerBox(const QString& button)
-      : answer_([this, button](QWidget* dialog) {
-          auto* box = qobject_cast<QMessageBox*>(dialog);
-          if (box == nullptr) return false;
-          text_ = box->text();
-          for (QAbstractButton* choice : box->buttons())
-            if (choice->text().remove(QLatin1Char('&')) == button) return choice->click(), true;
-          box->reject();  // no such button: the test sees what was asked
-          return false;
-        }) {}
-  QString text() const { return text_; }
+/// Answers the question that `work` makes the window ask by a click on that button. What was asked.
+template <class Work>
+QString answered(const QString& button, const Work& work) {
+  QString asked;
+  const Answer answer([&](QWidget* dialog) {
+    auto* box = qobject_cast<QMessageBox*>(dialog);
+    if (box == nullptr) return false;
+    asked = box->text();
+    for (QAbstractButton* choice : box->buttons())
+      if (choice->text().remove(QLatin1Char('&')) == button) return choice->click(), true;
+    box->reject();  // no such button: the test sees what was asked
+    return false;
+  });
+  work();
+  return asked;
+}
 
- private:
-  QString text_;
-  Answer answer_;
-};
+/// Triggers the action, fills in the dialog that it opens, and accepts it.
+template <class Dialog, class FillIn>
+void triggerWith(QAction* action, const FillIn& fillIn) {
+  const Answer answer([&](QWidget* box) {
+    auto* dialog = qobject_cast<Dialog*>(box);
+    if (dialog == nullptr) return false;
+    fillIn(*dialog);
+    static_cast<QDialog*>(dialog)->accept();
+    return true;
+  });
+  action->trigger();
+}
 
 }  // namespace reachlab::gui

@@ -11,6 +11,7 @@
 
 #include "gui/app/main_window.h"
 #include "tests/gui/child.h"
+#include "tests/gui/words.h"
 
 namespace reachlab::gui {
 

@@ -147,32 +147,18 @@ TEST_F(Day, AChangeInMidRunIsAskedAboutAndDroppedIfTheRunIsToGoOn) {
   window.nextTrial();
   ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
   auto* masses = find<QLineEdit>("masses");
-  {
-    const AnswerBox box("Continue it");
-    type(masses, "1 1");
-    EXPECT_TRUE(box.text().startsWith("0 of 3 trials are done.")) << box.text().toStdString();
-  }
+  EXPECT_TRUE(starts(answered("Continue it", [&] { type(masses, "1 1"); }), "0 of 3 trials are done."));
   EXPECT_NE(window.session().run(), nullptr);
   EXPECT_EQ(masses->text(), "5 x 0.6") << "what holds is shown again";
-  {
-    const AnswerBox box("End the run");
-    type(masses, "1 1");
-  }
+  answered("End the run", [&] { type(masses, "1 1"); });
   EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{1, 1}));
   // Taking the edit back is an edit too.
   window.nextTrial();
   ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
-  {
-    const AnswerBox box("Continue it");
-    find<QAction>("undo")->trigger();
-    EXPECT_TRUE(box.text().contains("Undo ends the run")) << box.text().toStdString();
-  }
+  EXPECT_TRUE(holds(answered("Continue it", [&] { find<QAction>("undo")->trigger(); }), "Undo ends the run"));
   EXPECT_NE(window.session().run(), nullptr);
   EXPECT_EQ(window.session().experiment().object.masses.size(), 2u);
-  {
-    const AnswerBox box("End the run");
-    find<QAction>("undo")->trigger();
-  }
+  answered("End the run", [&] { find<QAction>("undo")->trigger(); });
   EXPECT_EQ(window.session().experiment().object.masses.size(), 5u);
 }
 
@@ -183,23 +169,15 @@ TEST_F(Day, ClosingAsksWhileARunIsOpenOrAChangeUnsaved) {
   masses->setText("1 1");
   Q_EMIT masses->editingFinished();
   EXPECT_TRUE(window.isWindowModified());
-  {
-    const AnswerBox box("Cancel");
-    EXPECT_FALSE(window.close());
-    EXPECT_TRUE(box.text().contains("was changed")) << box.text().toStdString();
-  }
+  EXPECT_TRUE(holds(answered("Cancel", [&] { EXPECT_FALSE(window.close()); }), "was changed"));
   window.edits().undo();
   EXPECT_FALSE(window.isWindowModified());
   window.nextTrial();
   ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
-  {
-    const AnswerBox box("Continue it");
-    EXPECT_FALSE(window.close());
-  }
+  answered("Continue it", [&] { EXPECT_FALSE(window.close()); });
   EXPECT_NE(window.session().run(), nullptr);
   const std::string log = window.session().run()->logPath();
-  const AnswerBox box("End the run");
-  EXPECT_TRUE(window.close());
+  answered("End the run", [&] { EXPECT_TRUE(window.close()); });
   EXPECT_EQ(window.session().run(), nullptr);
   const record::RunLog read = record::RunLog::open(log);
   EXPECT_EQ(read.trials().at(0).result.outcome, trial::Outcome::Interrupted);
@@ -292,14 +270,9 @@ TEST_F(Day, ARunThatIsEndedEarlyAsksAndSaysWhereItIsSaved) {
   MainWindow& window = open();
   window.nextTrial();
   ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
-  {
-    const AnswerBox box("Continue it");
-    window.endRun();
-    EXPECT_TRUE(box.text().contains(QString::fromStdString(request_.place.data))) << box.text().toStdString();
-  }
+  EXPECT_TRUE(holds(answered("Continue it", [&] { window.endRun(); }), QString::fromStdString(request_.place.data)));
   EXPECT_NE(window.session().run(), nullptr);
-  const AnswerBox box("End the run");
-  window.endRun();
+  answered("End the run", [&] { window.endRun(); });
   EXPECT_EQ(window.session().run(), nullptr);
   EXPECT_EQ(window.message(), QStringLiteral("Run 1 is saved in %1.").arg(QString::fromStdString(request_.place.data)));
 }
@@ -317,10 +290,9 @@ TEST_F(Day, ARunWhoseDatasetCannotBeWrittenIsNotCalledSaved) {
   ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
   const QString log = QString::fromStdString(window.session().run()->logPath());
   ASSERT_TRUE(QDir().mkpath(QString::fromStdString(request_.place.data) + "/participants.tsv"));  // no file can have this name now
-  const AnswerBox box("End the run");
-  window.endRun();
-  EXPECT_TRUE(window.message().contains(QStringLiteral("The finished trials are safe in %1.").arg(log))) << window.message().toStdString();
-  EXPECT_TRUE(window.message().contains("participants.tsv")) << window.message().toStdString();
+  answered("End the run", [&] { window.endRun(); });
+  EXPECT_TRUE(holds(window.message(), QStringLiteral("The finished trials are safe in %1.").arg(log)));
+  EXPECT_TRUE(holds(window.message(), "participants.tsv"));
 }
 
 TEST(SessionDock, CountsALabelUp) {
@@ -441,10 +413,7 @@ TEST_F(Day, AShapeThatIsNotToChangeInAnOpenRunGoesBack) {
   ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
   auto* radius = find<QDoubleSpinBox>("value_b_m");
   const double before = radius->value();
-  {
-    const AnswerBox box("Continue it");
-    type(radius, "0.04");
-  }
+  answered("Continue it", [&] { type(radius, "0.04"); });
   EXPECT_NE(window.session().run(), nullptr);
   EXPECT_EQ(radius->value(), before);
 }
@@ -454,10 +423,7 @@ TEST_F(Day, AChangeInATrialEndsItSoThatNoTrialIsJudgedByAnotherScene) {
   window.nextTrial();
   ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
   const std::string log = window.session().run()->logPath();
-  {
-    const AnswerBox box("End the run");
-    type(find<QLineEdit>("taskTarget"), "3");
-  }
+  answered("End the run", [&] { type(find<QLineEdit>("taskTarget"), "3"); });
   EXPECT_EQ(window.session().run(), nullptr);
   EXPECT_EQ(window.session().experiment().task->target, std::vector<double>{3});
   const record::RunLog read = record::RunLog::open(log);
@@ -477,7 +443,7 @@ TEST_F(Day, ACompleteRunStaysCompleteWhenItsRepeatIsTakenBack) {
   EXPECT_EQ(window.session().run()->logPath(), log);
   window.resumeSession();
   EXPECT_EQ(window.session().run(), nullptr);
-  EXPECT_TRUE(window.message().contains("every trial of this session is recorded")) << window.message().toStdString();
+  EXPECT_TRUE(holds(window.message(), "every trial of this session is recorded"));
 }
 
 TEST_F(Day, WhatRestsIsNotDrawnAgain) {

@@ -75,7 +75,7 @@ TEST_F(DraggedPlaces, AreShownWhileTheyAreDraggedAndGoBackWithEscape) {
   const QPointF shown = view().pixelOf(view().plan().target);
   EXPECT_LE(std::hypot(shown.x() - at.x(), shown.y() - at.y()), kUnderThePointer);
   EXPECT_EQ(task().target, target) << "not taken over yet";
-  EXPECT_TRUE(find<scene::SceneOverlay>("")->label().startsWith("phi = 2.19")) << find<scene::SceneOverlay>("")->label().toStdString();
+  EXPECT_TRUE(starts(find<scene::SceneOverlay>("")->label(), "phi = 2.19"));
   QTest::keyClick(view().focusProxy(), Qt::Key_Escape);
   drop(at);
   EXPECT_EQ(task().target, target);
@@ -164,7 +164,7 @@ TEST_F(TypedPlaces, AreLengthsAlongTheCurve) {
 TEST_F(TypedPlaces, LengthsBeyondTheEndAndOnSurfacesAreRefused) {
   begin("torus");
   type("taskTarget", "0.1 m");
-  EXPECT_TRUE(faults().contains("no number")) << faults().toStdString();
+  EXPECT_TRUE(holds(faults(), "no number"));
   EXPECT_FALSE(faults().contains("a length"));
   window_->edits().setClean();
 }
@@ -172,12 +172,12 @@ TEST_F(TypedPlaces, LengthsBeyondTheEndAndOnSurfacesAreRefused) {
 TEST_F(TypedPlaces, AFaultGoesWithItsCause) {
   begin("torus");
   type("taskTarget", "abc");
-  EXPECT_TRUE(faults().contains("\"abc\" is no number")) << faults().toStdString();
+  EXPECT_TRUE(holds(faults(), "\"abc\" is no number"));
   type("taskTarget", "0.5 0.1");
   EXPECT_EQ(faults(), QString()) << "mended";
   const std::vector<double> kept = task().target;
   type("taskTarget", find<widgets::NumberListEdit>("taskStart")->text());
-  EXPECT_TRUE(faults().contains("start and target are the same position")) << faults().toStdString();
+  EXPECT_TRUE(holds(faults(), "start and target are the same position"));
   EXPECT_EQ(task().target, kept);
   type("taskTarget", "0.5 0.1");
   // Of an entry that was refused as a whole: an older state of the experiment takes its place, and has no fault.

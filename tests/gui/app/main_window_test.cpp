@@ -93,7 +93,7 @@ TEST_F(Window, AReachByThePointerTurnsTheSemaphoreGreenSucceedsAndIsRecorded) {
   EXPECT_TRUE(seen.contains(trial::Semaphore::Neutral));
   EXPECT_TRUE(seen.contains(trial::Semaphore::Green));
   EXPECT_GT(window.plot().pointCount(), 20u);
-  EXPECT_TRUE(find<QLabel>("tally")->text().contains("1 of 1")) << find<QLabel>("tally")->text().toStdString();
+  EXPECT_TRUE(holds(find<QLabel>("tally")->text(), "1 of 1"));
 
   // What the screen shows is what the record holds.
   const std::string log = window.session().run()->logPath();
@@ -244,17 +244,17 @@ TEST_F(Window, AWrongEntryIsNamedWhileItIsTypedAndClearsWhenItIsRight) {
   for (const auto& entry : entries) {
     type(masses, entry.text, false);
     EXPECT_TRUE(faults->isVisible()) << entry.text;
-    EXPECT_TRUE(faults->text().startsWith(QLatin1String(entry.says))) << faults->text().toStdString();
+    EXPECT_TRUE(starts(faults->text(), QLatin1String(entry.says)));
     EXPECT_NE(masses->styleSheet(), QString());
     QTest::keyClick(masses, Qt::Key_Return);
-    EXPECT_TRUE(faults->text().startsWith(QLatin1String(entry.says))) << faults->text().toStdString();
+    EXPECT_TRUE(starts(faults->text(), QLatin1String(entry.says)));
     EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
   }
   type(masses, "0.2 0.2", false);
   EXPECT_FALSE(faults->isVisible());
   EXPECT_EQ(masses->styleSheet(), QString());
   type(find<QLineEdit>("stiffness"), "900 900", false);
-  EXPECT_TRUE(faults->text().startsWith("springs: 2 numbers; allowed: 1")) << faults->text().toStdString();
+  EXPECT_TRUE(starts(faults->text(), "springs: 2 numbers; allowed: 1"));
   auto* via = find<QLineEdit>("taskVia");
   type(via, "0.1 0", false);
   EXPECT_EQ(find<QLabel>("taskFaults")->text().toStdString(), "via: 2 numbers; allowed: 0 to 60, in groups of 3");
@@ -307,7 +307,7 @@ TEST_F(Window, ADecimalCommaInABoxIsToldAndNeverDropped) {
   for (const char* wrong : {"0,6", "1,000", "6 kg"}) {
     type(stiffness, wrong, false);
     EXPECT_TRUE(faults->isVisible()) << wrong;
-    EXPECT_TRUE(faults->text().contains(QLatin1Char('"') + QLatin1String(wrong) + QLatin1Char('"'))) << faults->text().toStdString();
+    EXPECT_TRUE(holds(faults->text(), QLatin1Char('"') + QLatin1String(wrong) + QLatin1Char('"')));
     QTest::keyClick(stiffness, Qt::Key_Return);
     EXPECT_EQ(stiffness->value(), 900) << wrong;
   }
@@ -319,20 +319,10 @@ TEST_F(Window, ADecimalCommaInABoxIsToldAndNeverDropped) {
 TEST_F(Window, AWrongFieldIsAskedAboutBeforeARunBeginsOrAFileIsSaved) {
   MainWindow& window = open();
   type(find<QLineEdit>("masses"), "5 x 0,8", false);
-  {
-    const AnswerBox box("Cancel");
-    window.nextTrial();
-    EXPECT_TRUE(box.text().startsWith("masses: ")) << box.text().toStdString();
-  }
+  EXPECT_TRUE(starts(answered("Cancel", [&] { window.nextTrial(); }), "masses: "));
   EXPECT_EQ(window.session().run(), nullptr);
-  {
-    const AnswerBox box("Cancel");
-    EXPECT_FALSE(window.saveExperiment());
-  }
-  {
-    const AnswerBox box("Start");
-    window.nextTrial();
-  }
+  answered("Cancel", [&] { EXPECT_FALSE(window.saveExperiment()); });
+  answered("Start", [&] { window.nextTrial(); });
   ASSERT_NE(window.session().run(), nullptr) << window.message().toStdString();
   EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{0.2, 0.2}));
 }
@@ -402,9 +392,9 @@ TEST_F(Window, WhatAnyHandsDeviceCannotGiveIsSaidWhenARunBegins) {
   MainWindow& window = open();
   window.nextTrial();
   ASSERT_NE(window.session().run(), nullptr) << window.message().toStdString();
-  EXPECT_TRUE(window.message().contains("hand 2: workspace")) << window.message().toStdString();
-  EXPECT_TRUE(window.message().contains("hand 2: continuous force")) << "all of them: " << window.message().toStdString();
-  EXPECT_FALSE(window.message().contains("hand 1")) << window.message().toStdString();
+  EXPECT_TRUE(holds(window.message(), "hand 2: workspace"));
+  EXPECT_TRUE(holds(window.message(), "hand 2: continuous force")) << "all of them";
+  EXPECT_FALSE(holds(window.message(), "hand 1"));
 }
 
 TEST_F(Window, AMappingThatIsKeptForTheSubjectIsTakenAndSaid) {
@@ -417,7 +407,7 @@ TEST_F(Window, AMappingThatIsKeptForTheSubjectIsTakenAndSaid) {
   MainWindow& window = open();
   window.nextTrial();
   ASSERT_NE(window.session().run(), nullptr) << window.message().toStdString();
-  EXPECT_TRUE(window.message().contains(file)) << window.message().toStdString();
+  EXPECT_TRUE(holds(window.message(), file));
   EXPECT_NE(window.session().run()->configuration().firstHand.mapping.find("1.5"), std::string::npos);
 }
 
@@ -442,7 +432,7 @@ TEST_F(Window, ADiskThatRefusesIsOneSentenceAndTheWindowGoesOn) {
   request_.place.data = "/dev/null/data";
   MainWindow& window = open();
   window.nextTrial();
-  EXPECT_TRUE(window.message().contains("/dev/null/data")) << window.message().toStdString();
+  EXPECT_TRUE(holds(window.message(), "/dev/null/data"));
   EXPECT_EQ(window.session().run(), nullptr);
   find<QLineEdit>("data")->setText(folder_.path() + "/good");
   window.nextTrial();

@@ -73,18 +73,6 @@ class MenuActions : public AtTheWindow {
     return &none;
   }
   void trigger(const char* path) { at(QString::fromUtf8(path))->trigger(); }
-  // The dialog that the action opens is filled in and accepted.
-  template <typename Dialog, typename FillIn>
-  static void triggerWith(QAction* action, FillIn fillIn) {
-    const Answer answer([&](QWidget* box) {
-      auto* dialog = qobject_cast<Dialog*>(box);
-      if (dialog == nullptr) return false;
-      fillIn(*dialog);
-      static_cast<QDialog*>(dialog)->accept();
-      return true;
-    });
-    action->trigger();
-  }
   void triggerWithFile(const char* path, const QString& chosen) {
     triggerWith<QFileDialog>(at(path), [&](QFileDialog& dialog) {
       if (auto* name = dialog.findChild<QLineEdit*>("fileNameEdit")) name->setText(chosen);
@@ -204,22 +192,16 @@ TEST_F(MenuActions, OfTrialsConductARun) {
   const std::size_t trials = window.session().run()->trialCount();
   trigger("Trial/Repeat");
   EXPECT_EQ(window.session().run()->trialCount(), trials + 1);
-  {
-    const AnswerBox box("End the run");
-    trigger("Trial/End run");
-  }
+  answered("End the run", [&] { trigger("Trial/End run"); });
   EXPECT_EQ(window.session().run(), nullptr);
   window.sessionDock().setTrials(7);  // of a new run; the one that is resumed has its own number
   trigger("Trial/Resume the session");
   ASSERT_NE(window.session().run(), nullptr) << window.message().toStdString();
   EXPECT_EQ(window.session().run()->configuration().firstRun, 1) << "run 2 resumes run 1";
-  {
-    const AnswerBox box("End the run");
-    trigger("Trial/End run");
-  }
+  answered("End the run", [&] { trigger("Trial/End run"); });
   trigger("Trial/Next subject");
   trigger("Trial/Resume the session");
-  EXPECT_TRUE(window.message().contains("nothing to resume")) << window.message().toStdString();
+  EXPECT_TRUE(holds(window.message(), "nothing to resume"));
 }
 
 TEST_F(MenuActions, OfTheViewMoveTheCameraAndChangeTheDrawing) {

@@ -112,11 +112,8 @@ TEST_F(RecordingWindow, APlanIsOpenedFromTheMenuAndLeftForAnExperiment) {
   request_.trials = 2;
   open();
   doTrial();
-  {
-    const AnswerBox box("End the run");
-    window_->openExperiment(QString::fromStdString(file));
-    EXPECT_TRUE(box.text().startsWith("1 of 2 trials are done. Opening another experiment ends the run")) << box.text().toStdString();
-  }
+  EXPECT_TRUE(starts(answered("End the run", [&] { window_->openExperiment(QString::fromStdString(file)); }),
+                     "1 of 2 trials are done. Opening another experiment ends the run"));
   EXPECT_TRUE(session().isPlan());
   EXPECT_FALSE(window_->sessionDock().request().trials.has_value());
   EXPECT_EQ(session().experiment().name, "chain-slow");
@@ -152,7 +149,7 @@ TEST_F(RecordingWindow, APlanIsOpenedFromTheMenuAndLeftForAnExperiment) {
 TEST_F(RecordingWindow, AFileThatCannotBeReadIsOneSentenceAndNothingChanges) {
   open();
   window_->openExperiment(folder_.path() + "/none.json");
-  EXPECT_TRUE(window_->message().contains("none.json")) << window_->message().toStdString();
+  EXPECT_TRUE(holds(window_->message(), "none.json"));
   EXPECT_EQ(session().experiment().name, "chain-moderate");
   EXPECT_EQ(window_->edits().count(), 0);
 }
@@ -189,8 +186,7 @@ TEST_F(RecordingWindow, ThePapersPlanIsDoneBlockByBlockAndResumedAfterAKill) {
   open();
   window_->offerResume();
   EXPECT_EQ(find<QLabel>("cardTitle")->text().toStdString(), "Resume session 01 of subject 03 at trial 8 of 100?");
-  EXPECT_TRUE(find<QLabel>("cardText")->text().contains("Device simulated:noise=0, seed 1."))
-      << find<QLabel>("cardText")->text().toStdString();
+  EXPECT_TRUE(holds(find<QLabel>("cardText")->text(), "Device simulated:noise=0, seed 1."));
   find<QPushButton>("resumeYes")->click();
   EXPECT_EQ(session().run(), nullptr) << "the first trial waits for Space";
   EXPECT_EQ(window_->sessionDock().request().place.subject, "03");
@@ -199,11 +195,7 @@ TEST_F(RecordingWindow, ThePapersPlanIsDoneBlockByBlockAndResumedAfterAKill) {
   request_.place.subject = "03";
   // Another device asks, and nothing begins when the answer is no.
   window_->sessionDock().setDevice("mouse");
-  {
-    const AnswerBox box("Cancel");
-    window_->nextTrial();
-    EXPECT_TRUE(box.text().contains("recorded with the device simulated:noise=0")) << box.text().toStdString();
-  }
+  EXPECT_TRUE(holds(answered("Cancel", [&] { window_->nextTrial(); }), "recorded with the device simulated:noise=0"));
   EXPECT_EQ(session().run(), nullptr);
   window_->sessionDock().setDevice("simulated:noise=0");
   EXPECT_EQ(session().experiment().name, before[1].configuration().experimentName);

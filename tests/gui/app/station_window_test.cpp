@@ -34,7 +34,7 @@ TEST_F(StationWindow, TheConductorsArmsNothingWhileAStationIsMissingAndSaysSo) {
   MainWindow& window = openStation(1, true);
   ASSERT_NE(window.session().run(), nullptr) << "the others hear of it from the start";
   const auto* sentence = find<QLabel>("stationsSentence");
-  EXPECT_TRUE(sentence->text().contains("station 2: is not there")) << sentence->text().toStdString();
+  EXPECT_TRUE(holds(sentence->text(), "station 2: is not there"));
   EXPECT_EQ(find<QTableWidget>("stations")->rowCount(), 2);
   EXPECT_EQ(window.view().plan().hands.size(), 2u);
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.overlay().instruction.startsWith("Station 2 is missing"); }, 5000))
@@ -72,7 +72,7 @@ TEST_F(StationWindow, AnObserverHasNoHandAndRecordsNothing) {
   EXPECT_EQ(window.session().run(), nullptr);
   EXPECT_TRUE(window.windowTitle().contains("observing"));
   const auto* sentence = find<QLabel>("stationsSentence");
-  EXPECT_TRUE(sentence->text().startsWith("This window only observes")) << sentence->text().toStdString();
+  EXPECT_TRUE(starts(sentence->text(), "This window only observes"));
   EXPECT_EQ(find<QTableWidget>("stations")->rowCount(), 2) << "both stations, and no row of its own";
   EXPECT_FALSE(std::filesystem::exists(request_.place.data));
 }

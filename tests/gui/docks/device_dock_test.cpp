@@ -9,6 +9,7 @@
 #include <QTreeWidget>
 
 #include "tests/gui/child.h"
+#include "tests/gui/words.h"
 
 namespace reachlab::gui::docks {
 namespace {
@@ -126,7 +127,7 @@ TEST_F(DeviceDockOnPlugs, WhatNeedsMoreThanItsNameIsToldAndNotTaken) {
   EXPECT_FALSE(button("deviceUse")->isEnabled());
   EXPECT_FALSE(button("deviceLook")->isEnabled());
   const QString hint = child<QLabel>(dock, "deviceHint")->text();
-  EXPECT_TRUE(hint.contains(QStringLiteral("replay:FILE"))) << hint.toStdString();
+  EXPECT_TRUE(holds(hint, "replay:FILE"));
 }
 
 TEST(DeviceDock, SaysWhatIsThereWhatIsNotAndWhy) {
@@ -137,7 +138,7 @@ TEST(DeviceDock, SaysWhatIsThereWhatIsNotAndWhy) {
   ASSERT_TRUE(QTest::qWaitForWindowExposed(&dock));
   QTreeWidgetItem* phantom = rowOf(dock, "phantom");
   ASSERT_NE(phantom, nullptr);
-  EXPECT_TRUE(phantom->text(1).contains(QStringLiteral("libHD.so"))) << phantom->text(1).toStdString();
+  EXPECT_TRUE(holds(phantom->text(1), "libHD.so"));
   EXPECT_EQ(headingOf(dock, "phantom"), QStringLiteral("Missing devices, and why"));
   EXPECT_EQ(headingOf(dock, "simulated"), QStringLiteral("Hands without a device"));
 }

@@ -139,7 +139,7 @@ TEST_F(EnvironmentDockTest, AnEntryThatIsRefusedAloneHoldsWithTheNext) {
   numbersOf("pulse.rise_s")[0]->setValue(0.08);
   const QStringList faults = widgets::inWords(experiment::check(told_).faults);
   ASSERT_EQ(faults.size(), 1);
-  EXPECT_TRUE(faults[0].startsWith(QStringLiteral("force 1, duration: is 0.1, shorter than rise and fall"))) << faults[0].toStdString();
+  EXPECT_TRUE(starts(faults[0], "force 1, duration: is 0.1, shorter than rise and fall"));
   dock_->showFaults(faults);
   EXPECT_EQ(child<QLabel>("environmentFaults")->text(), faults[0]);
   numbersOf("pulse.duration_s")[0]->setValue(0.2);

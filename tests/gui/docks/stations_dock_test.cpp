@@ -5,6 +5,8 @@
 #include <QLabel>
 #include <QTableWidget>
 
+#include "tests/gui/words.h"
+
 namespace reachlab::gui::docks {
 namespace {
 
@@ -40,7 +42,7 @@ TEST(StationsDock, TellsEachStationsLinkInNumbersAndItsLightWithoutColour) {
   EXPECT_EQ(cell(dock, 1, 0), QStringLiteral("● good"));
   const QStringList numbers{cell(dock, 1, 3), cell(dock, 1, 4), cell(dock, 1, 5), cell(dock, 1, 6), cell(dock, 1, 7), cell(dock, 1, 8)};
   EXPECT_EQ(numbers, (QStringList{"31.4", "2.0", "1.5", "25.0", "-2.500", "4"})) << "ms, ms, % lost, % overtaken, ms, ms";
-  EXPECT_TRUE(sentence(dock).contains(QStringLiteral("Space arms"))) << sentence(dock).toStdString();
+  EXPECT_TRUE(holds(sentence(dock), "Space arms"));
 }
 
 TEST(StationsDock, SaysWhyNothingIsArmedAndShowsNoNumberThatIsNotKnown) {
@@ -50,15 +52,14 @@ TEST(StationsDock, SaysWhyNothingIsArmedAndShowsNoNumberThatIsNotKnown) {
   slow.obstacles = {"a round trip takes 200 ms; allowed: up to 120"};
   dock.showStations(conductor(), StationsDock::Stage::Arming, {slow});
   EXPECT_EQ(cell(dock, 1, 0), QStringLiteral("■ stop"));
-  EXPECT_TRUE(sentence(dock).contains(QStringLiteral("Not armed: station 2: a round trip takes 200 ms; allowed: up to 120")))
-      << sentence(dock).toStdString();
+  EXPECT_TRUE(holds(sentence(dock), "Not armed: station 2: a round trip takes 200 ms; allowed: up to 120"));
   network::StationStatus absent;
   absent.station = 2;
   absent.obstacles = {"is not there"};
   dock.showStations(conductor(), StationsDock::Stage::BetweenTrials, {absent});
   EXPECT_EQ(cell(dock, 1, 0), QStringLiteral("○ absent"));
   EXPECT_EQ(cell(dock, 1, 3), QString());
-  EXPECT_TRUE(sentence(dock).contains(QStringLiteral("station 2: is not there"))) << sentence(dock).toStdString();
+  EXPECT_TRUE(holds(sentence(dock), "station 2: is not there"));
 }
 
 }  // namespace

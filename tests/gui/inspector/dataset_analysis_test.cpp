@@ -11,6 +11,7 @@
 
 #include "test_paths.h"
 #include "tests/analysis/recorded.h"
+#include "tests/gui/words.h"
 
 namespace reachlab::gui::inspector {
 namespace {
@@ -43,14 +44,14 @@ TEST(DatasetAnalysis, SaysWhyThereIsNone) {
   analysis.begin(empty.path());
   ASSERT_EQ(told.count(), 1) << "that it has begun";
   ASSERT_TRUE(said.wait(kPatienceMs));
-  EXPECT_TRUE(lastOf(said).contains("failed: ")) << lastOf(said).toStdString();
+  EXPECT_TRUE(holds(lastOf(said), "failed: "));
   EXPECT_EQ(reported.count(), 0);
 
   DatasetAnalysis none("/no/such/reach");
   QSignalSpy noneSaid(&none, &DatasetAnalysis::said);
   none.begin(empty.path());
   if (noneSaid.isEmpty()) noneSaid.wait(kPatienceMs);
-  EXPECT_TRUE(lastOf(noneSaid).contains("/no/such/reach")) << lastOf(noneSaid).toStdString();
+  EXPECT_TRUE(holds(lastOf(noneSaid), "/no/such/reach"));
 }
 
 TEST(DatasetAnalysis, SaysHowFarItIsAndCanBeCancelled) {
@@ -68,7 +69,7 @@ TEST(DatasetAnalysis, SaysHowFarItIsAndCanBeCancelled) {
   ASSERT_TRUE(QTest::qWaitFor([&] { return !progressed.isEmpty() && progressed.last() == third; }, kPatienceMs));
   analysis.cancel();
   ASSERT_TRUE(idle.wait(kPatienceMs));
-  EXPECT_TRUE(lastOf(told).contains("cancelled")) << lastOf(told).toStdString();
+  EXPECT_TRUE(holds(lastOf(told), "cancelled"));
   EXPECT_EQ(said.count(), 0) << "it was wanted";
   EXPECT_FALSE(analysis.busy());
 }

@@ -246,7 +246,7 @@ TEST_F(Inspecting, ATrialIsExcludedOnlyWithAReason) {
   const record::RunMarks marks = record::readMarks(log());
   ASSERT_EQ(marks.trials.size(), 1u);
   EXPECT_EQ(marks.trials[0].excluded, "talked");
-  EXPECT_TRUE(find<QLabel>("inspectedWords")->text().contains("excluded: talked")) << find<QLabel>("inspectedWords")->text().toStdString();
+  EXPECT_TRUE(holds(find<QLabel>("inspectedWords")->text(), "excluded: talked"));
   auto* filter = find<QLineEdit>("inspectorFilter");
   QTest::keyClicks(filter, "excluded sub-01");
   ASSERT_EQ(page_.view().model()->rowCount(), 1);
@@ -290,16 +290,12 @@ TEST_F(Inspecting, AFileWithoutAnEndingIsOfTheKindThatIsChosen) {
   QCoreApplication::setAttribute(Qt::AA_DontUseNativeDialogs);
   choose(0, 3);
   const QString base = QString::fromStdString(folder_->path()) + "/bare";
-  const Answer answer([&](QWidget* box) {
-    auto* dialog = qobject_cast<QFileDialog*>(box);
-    if (dialog == nullptr) return false;
-    dialog->selectNameFilter("Figure as PDF (*.pdf)");
-    dialog->findChild<QLineEdit*>("fileNameEdit")->setText(base);
-    static_cast<QDialog*>(dialog)->accept();
-    return true;
-  });
   for (QAction* action : page_.findChildren<QAction*>())
-    if (action->text().startsWith("Figure or lines")) action->trigger();
+    if (action->text().startsWith("Figure or lines"))
+      triggerWith<QFileDialog>(action, [&](QFileDialog& dialog) {
+        dialog.selectNameFilter("Figure as PDF (*.pdf)");
+        dialog.findChild<QLineEdit*>("fileNameEdit")->setText(base);
+      });
   EXPECT_TRUE(QFileInfo::exists(base + ".pdf")) << said_.toStdString();
   EXPECT_NE(refusalOf([&] { page_.exportTo(base + ".doc"); }).find(".csv"), std::string::npos);
 }
@@ -338,7 +334,7 @@ TEST_F(Inspecting, TheReportIsTheOneOfTheAnalysis) {
   QTest::qWait(50);
   settle();
   const std::string folder = data() + "/sourcedata/sub-01_ses-01_task-chainmoderate_run-01_report";
-  EXPECT_TRUE(said_.contains(QString::fromStdString(folder + "/report.html"))) << said_.toStdString();
+  EXPECT_TRUE(holds(said_, QString::fromStdString(folder + "/report.html")));
   EXPECT_TRUE(std::filesystem::exists(folder + "/fits.csv"));
 }
 
@@ -346,7 +342,7 @@ TEST_F(Inspecting, WhatIsNoRecordingIsSaid) {
   page_.open(QString::fromStdString(folder_->path() + "/cache"));
   ASSERT_TRUE(QTest::qWaitFor([this] { return !page_.busy(); }, 10000));
   QTest::qWait(40);
-  EXPECT_TRUE(said_.contains("neither logs")) << said_.toStdString();
+  EXPECT_TRUE(holds(said_, "neither logs"));
 }
 
 TEST_F(Inspecting, ADatasetWithoutLogsShowsItsMotionFiles) {
@@ -357,7 +353,7 @@ TEST_F(Inspecting, ADatasetWithoutLogsShowsItsMotionFiles) {
   page_.open(QString::fromStdString(copy));
   ASSERT_TRUE(QTest::qWaitFor([this] { return !page_.busy() && page_.table().rowCount() == 26; }, 20000)) << said_.toStdString();
   settle();
-  EXPECT_TRUE(said_.contains("no logs")) << said_.toStdString();
+  EXPECT_TRUE(holds(said_, "no logs"));
   choose(0, 4);
   ASSERT_NE(page_.inspection(), nullptr) << said_.toStdString();
   EXPECT_EQ(page_.plot().lineCount(), 5);
@@ -366,7 +362,7 @@ TEST_F(Inspecting, ADatasetWithoutLogsShowsItsMotionFiles) {
   const Vec3 hand = ownHand(page_.replay().view().frame());
   EXPECT_GT(norm(hand - page_.replay().view().plan().start), 1e-3) << "it moves";
   QTest::mouseClick(find<QCheckBox>("flag"), Qt::LeftButton, {}, QPoint(8, 8));
-  EXPECT_TRUE(said_.contains("Marks are kept beside a recording's log")) << said_.toStdString();
+  EXPECT_TRUE(holds(said_, "Marks are kept beside a recording's log"));
   EXPECT_FALSE(find<QCheckBox>("flag")->isChecked());
 }
 
@@ -378,7 +374,7 @@ TEST_F(Inspecting, ALogThatIsCutOffNamesWhatItLost) {
   std::filesystem::resize_file(copy, (trials[6].offset + trials[7].offset) / 2);
   page_.open(QString::fromStdString(folder_->path() + "/cut"));
   ASSERT_TRUE(QTest::qWaitFor([this] { return !page_.busy() && page_.table().rowCount() == 7; }, 20000)) << said_.toStdString();
-  EXPECT_TRUE(said_.contains("Trial 7 broke off. The planned trials 8 to 24 are not in it.")) << said_.toStdString();
+  EXPECT_TRUE(holds(said_, "Trial 7 broke off. The planned trials 8 to 24 are not in it."));
   EXPECT_TRUE(find<QLabel>("inspectorCount")->text().contains("1 with losses"));
   settle();
 }

@@ -93,10 +93,10 @@ TEST(PlanComposer, EnterEndsAnEntryAndAWrongNumberIsTold) {
     number->selectAll();
     QTest::keyClicks(number, QStringLiteral("1,5"));
     const QString told = QStringLiteral("block 1: %1: \"1,5").arg(QLatin1String(words));
-    EXPECT_TRUE(faults->text().startsWith(told)) << faults->text().toStdString();
+    EXPECT_TRUE(starts(faults->text(), told));
     EXPECT_FALSE(child<QPushButton>(dialog, "planUse")->isEnabled());
     QTest::keyClick(number, Qt::Key_Return);
-    EXPECT_TRUE(faults->text().startsWith(told)) << faults->text().toStdString();
+    EXPECT_TRUE(starts(faults->text(), told));
     number->selectAll();
     QTest::keyClicks(number, QStringLiteral("1.5"));
     QTest::keyClick(number, Qt::Key_Return);
@@ -105,21 +105,16 @@ TEST(PlanComposer, EnterEndsAnEntryAndAWrongNumberIsTold) {
   }
   EXPECT_EQ(dialog.plan().blocks[0].restSeconds, 1.5);
   EXPECT_TRUE(dialog.isVisible());
-  const AnswerBox box(QStringLiteral("Discard"));
-  dialog.close();
+  answered("Discard", [&] { dialog.close(); });
 }
 
 TEST(PlanComposer, ClosesAChangedPlanOnlyWhenItIsDiscarded) {
   PlanComposer dialog;
   dialog.show();
   QTest::mouseClick(child<QPushButton>(dialog, "planAdd"), Qt::LeftButton);
-  {
-    const AnswerBox box(QStringLiteral("Cancel"));
-    dialog.close();
-  }
+  answered("Cancel", [&] { dialog.close(); });
   EXPECT_TRUE(dialog.isVisible());
-  const AnswerBox box(QStringLiteral("Discard"));
-  dialog.close();
+  answered("Discard", [&] { dialog.close(); });
   EXPECT_FALSE(dialog.isVisible());
 }
 
@@ -164,15 +159,15 @@ TEST(PlanComposer, RefusesAPlanThatCouldNotBeRunAndLeavesItsFileAsItWas) {
   auto* experiment = child<QComboBox>(dialog, "planExperiment");
   experiment->setEditText(QStringLiteral("centre-oot"));
   use->click();
-  EXPECT_TRUE(faults->text().startsWith(QStringLiteral("block 1: experiment: "))) << faults->text().toStdString();
-  EXPECT_TRUE(faults->text().contains(QStringLiteral("centre-oot"))) << faults->text().toStdString();
+  EXPECT_TRUE(starts(faults->text(), "block 1: experiment: "));
+  EXPECT_TRUE(holds(faults->text(), "centre-oot"));
   experiment->setEditText(QStringLiteral("centre-out"));
   EXPECT_EQ(faults->text(), QString());
   child<QPushButton>(dialog, "planAddKind")->click();
   auto* changes = child<QTableWidget>(dialog, "planKinds")->item(0, 4);
   changes->setText(QStringLiteral(R"("environment": [{ "kind": "viscos" }])"));
   use->click();
-  EXPECT_TRUE(faults->text().contains(QStringLiteral("viscos"))) << faults->text().toStdString();
+  EXPECT_TRUE(holds(faults->text(), "viscos"));
   EXPECT_TRUE(dialog.isVisible());
   EXPECT_EQ(readTextFile(file), before);
   changes->setText(QStringLiteral(R"("environment": [])"));
@@ -218,21 +213,18 @@ TEST_F(PlannedSession, BeginsOnItsStartPageRestsAndResumes) {
   app::MainWindow* window = window_.get();
   EXPECT_EQ(window->windowTitle(), QStringLiteral("two[*] – Reachlab"));
   EXPECT_EQ(summary(), QStringLiteral("0 of 2 blocks done"));
-  EXPECT_TRUE(next().contains(QStringLiteral("block 1, first, with 2 trials"))) << next().toStdString();
+  EXPECT_TRUE(holds(next(), "block 1, first, with 2 trials"));
   EXPECT_TRUE(next().contains(QStringLiteral("Reach calmly.")));
   go();
   ASSERT_NE(window->session().run(), nullptr) << window->message().toStdString();
   EXPECT_FALSE(page().isVisible());
   EXPECT_TRUE(window->overlay().task.startsWith(QStringLiteral("Reach calmly."))) << "until the first reach";
   waitForTrials(1);
-  {
-    const AnswerBox box(QStringLiteral("End the run"));
-    window->endRun();  // broken off after a trial
-    EXPECT_TRUE(box.text().contains(QStringLiteral("1 of 2 trials are done. End run ends the run"))) << box.text().toStdString();
-  }
+  EXPECT_TRUE(holds(answered("End the run", [&] { window->endRun(); }), "1 of 2 trials are done. End run ends the run"))
+      << "broken off after a trial";
   ASSERT_TRUE(QTest::qWaitFor([&] { return page().isVisible(); }, 3000));
   EXPECT_TRUE(page().resumes());
-  EXPECT_TRUE(next().contains(QStringLiteral("block 1, first, with trial 2 of 2"))) << next().toStdString();
+  EXPECT_TRUE(holds(next(), "block 1, first, with trial 2 of 2"));
   go();
   ASSERT_NE(window->session().run(), nullptr) << window->message().toStdString();
   EXPECT_EQ(window->session().run()->configuration().firstRun, 1);
@@ -246,7 +238,7 @@ TEST_F(PlannedSession, BeginsOnItsStartPageRestsAndResumes) {
   EXPECT_EQ(window->overlay().rest->blocks, 2);
   EXPECT_EQ(window->session().instructions(), QStringLiteral("Now fast."));
   window->nextTrial();
-  EXPECT_TRUE(window->message().contains(QStringLiteral("rests"))) << window->message().toStdString();
+  EXPECT_TRUE(holds(window->message(), "rests"));
   EXPECT_EQ(window->session().run()->configuration().block, 1);
   window->endRun();
   ASSERT_TRUE(QTest::qWaitFor([&] { return page().isVisible(); }, 3000));
@@ -283,12 +275,9 @@ TEST_F(PlannedSession, ABlockOfWhichNothingCountsIsNotSkippedBySpace) {
   ASSERT_NE(window->session().run(), nullptr) << window->message().toStdString();
   window->abortTrial();
   waitForTrials(1);
-  {
-    const AnswerBox box(QStringLiteral("End the run"));
-    window->endRun();
-  }
+  answered("End the run", [&] { window->endRun(); });
   ASSERT_TRUE(QTest::qWaitFor([&] { return page().isVisible(); }, 3000));
-  EXPECT_TRUE(next().contains(QStringLiteral("block 1, first"))) << next().toStdString();
+  EXPECT_TRUE(holds(next(), "block 1, first"));
   window->nextTrial();
   ASSERT_NE(window->session().run(), nullptr) << window->message().toStdString();
   EXPECT_EQ(window->session().run()->configuration().block, 1);
