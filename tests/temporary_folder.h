@@ -25,6 +25,12 @@ class TemporaryFolder {
     std::ofstream(path_ / name, std::ios::binary) << text;
     return path_ / name;
   }
+  /// A program in the language of the shell.
+  std::string writeProgram(const std::string& name, const std::string& script) const {
+    const std::string path = write(name, "#!/bin/sh\n" + script + "\n");
+    std::filesystem::permissions(path, std::filesystem::perms::owner_all);
+    return path;
+  }
 
  private:
   std::filesystem::path path_;

@@ -1,13 +1,11 @@
 #include "network/station/observer.h"
 
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cmath>
 
 #include "sim/experiment/experiment.h"
-#include "sim/record/log/atomic_file.h"
 #include "tests/record/made_run.h"
 
 // An observer, with the test in the endpoint's place.
@@ -17,11 +15,8 @@ namespace {
 class ObserverOfStations : public testing::Test {
  protected:
   void SetUp() override {
-    const std::string endpoint = folder_ / "endpoint";
-    record::writeFileAtomically(endpoint, "#!/bin/sh\nexec sleep 60\n");
-    ASSERT_EQ(::chmod(endpoint.c_str(), 0700), 0);
     StationSetup setup;
-    setup.link.endpoint = endpoint;
+    setup.link.endpoint = folder_.writeProgram("endpoint", "exec sleep 60");
     setup.wait = 0.1;
     observer_ = std::make_unique<Observer>(setup, experiment_);
   }

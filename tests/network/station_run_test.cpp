@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
 
 #include <chrono>
 #include <csignal>
@@ -13,7 +12,6 @@
 
 #include "base/fault.h"
 #include "base/system/os.h"
-#include "sim/record/log/atomic_file.h"
 #include "sim/session/session.h"
 #include "tests/haptics/scripted_device.h"
 #include "tests/record/made_run.h"
@@ -26,9 +24,6 @@ namespace {
 class OneStation : public testing::Test {
  protected:
   void open(int number, bool conductor, double wait = 60, const std::string& what = "chain-two-hands") {
-    const std::string endpoint = folder_ / "endpoint";
-    record::writeFileAtomically(endpoint, "#!/bin/sh\necho $$ > \"$0.pid\"\nexec sleep 60\n");
-    ASSERT_EQ(::chmod(endpoint.c_str(), 0700), 0);
     session::SessionRequest request;
     request.what = what;
     request.device = "resting";
@@ -39,7 +34,7 @@ class OneStation : public testing::Test {
     StationSetup setup;
     setup.link.station = number;
     setup.link.conductor = conductor;
-    setup.link.endpoint = endpoint;
+    setup.link.endpoint = folder_.writeProgram("endpoint", "echo $$ > \"$0.pid\"\nexec sleep 60");
     setup.link.name = "here";
     setup.link.software = software_;
     setup.link.device = device_;
@@ -393,11 +388,9 @@ TEST_F(OneStation, GapsAndClocksThatJumpStandInTheWay) {
 
 TEST_F(OneStation, HowAnEndpointEndedIsSaid) {
   const auto saysOf = [&](const std::string& script) {
-    record::writeFileAtomically(folder_ / "ends", "#!/bin/sh\n" + script + "\n");
-    EXPECT_EQ(::chmod((folder_ / "ends").c_str(), 0700), 0);
     StationOptions options;
     options.station = 1;
-    options.endpoint = folder_ / "ends";
+    options.endpoint = folder_.writeProgram("ends", script);
     StationLink link(options, 1);
     for (int look = 0; look < 500 && link.endpointFault().empty(); ++look) std::this_thread::sleep_for(std::chrono::milliseconds(2));
     EXPECT_FALSE(link.endpointAlive());

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "tests/gui/at_the_window.h"
+#include "tests/temporary_folder.h"
 
 // The window of one of several stations, beside an endpoint that brings nothing.
 namespace reachlab::gui::app {
@@ -11,8 +12,6 @@ namespace {
 class StationWindow : public AtTheWindow {
  protected:
   MainWindow& openStation(int number, bool conductor) {
-    const std::string endpoint = write("endpoint", "#!/bin/sh\nexec sleep 60\n");
-    std::filesystem::permissions(endpoint, std::filesystem::perms::owner_all);
     request_.what = "chain-two-hands";
     request_.device = "simulated";
     network::StationSetup setup;
@@ -20,7 +19,7 @@ class StationWindow : public AtTheWindow {
     setup.link.conductor = conductor;
     setup.link.name = "here";
     setup.link.software = "reachlab";
-    setup.link.endpoint = endpoint;
+    setup.link.endpoint = programs_.writeProgram("endpoint", "exec sleep 60");
     setup.wait = 1;
     setup.insecure = true;
     window_ = std::make_unique<MainWindow>(request_, setup);
@@ -28,6 +27,7 @@ class StationWindow : public AtTheWindow {
     window_->joinStations();
     return *window_;
   }
+  const TemporaryFolder programs_;
 };
 
 TEST_F(StationWindow, TheConductorsArmsNothingWhileAStationIsMissingAndSaysSo) {

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <QDir>
-#include <QFile>
 #include <QFileInfo>
 #include <QSignalSpy>
 #include <QTemporaryDir>
@@ -12,6 +11,7 @@
 #include "test_paths.h"
 #include "tests/analysis/recorded.h"
 #include "tests/gui/words.h"
+#include "tests/temporary_folder.h"
 
 namespace reachlab::gui::inspector {
 namespace {
@@ -55,16 +55,12 @@ TEST(DatasetAnalysis, SaysWhyThereIsNone) {
 }
 
 TEST(DatasetAnalysis, SaysHowFarItIsAndCanBeCancelled) {
-  const QTemporaryDir folder;
-  QFile slow(folder.filePath("slow"));
-  ASSERT_TRUE(slow.open(QIODevice::WriteOnly));
-  slow.write("#!/bin/sh\necho 'reading run 2 of 2' >&2\necho 'fitting trial 3 of 9' >&2\nexec sleep 600\n");
-  slow.setPermissions(QFile::ReadOwner | QFile::ExeOwner);
-  slow.close();
-  DatasetAnalysis analysis(slow.fileName());
+  const TemporaryFolder folder;
+  DatasetAnalysis analysis(QString::fromStdString(
+      folder.writeProgram("slow", "echo 'reading run 2 of 2' >&2\necho 'fitting trial 3 of 9' >&2\nexec sleep 600")));
   QSignalSpy progressed(&analysis, &DatasetAnalysis::progressed), idle(&analysis, &DatasetAnalysis::idle),
       told(&analysis, &DatasetAnalysis::told), said(&analysis, &DatasetAnalysis::said);
-  analysis.begin(folder.path());
+  analysis.begin(QString::fromStdString(folder.path()));
   const QVariantList third{"fitting trial", 3, 9};
   ASSERT_TRUE(QTest::qWaitFor([&] { return !progressed.isEmpty() && progressed.last() == third; }, kPatienceMs));
   analysis.cancel();
