@@ -76,6 +76,16 @@ class AtTheWindow : public ::testing::Test {
     QTest::keyClicks(field, QLatin1String(text));
     if (enter) QTest::keyClick(field, Qt::Key_Return);
   }
+  /// Puts the next trial up, and the run that it needs. Whether there is one.
+  testing::AssertionResult startsTrial() const {
+    window_->nextTrial();
+    return testing::AssertionResult(window_->session().run() != nullptr) << window_->message().toStdString();
+  }
+  /// The same, until the trial is armed.
+  bool armsTrial() const {
+    window_->nextTrial();
+    return waitForPhase(trial::Phase::Armed);
+  }
   bool waitForPhase(trial::Phase phase) const {
     return QTest::qWaitFor([&] { return window_->session().run() != nullptr && window_->session().run()->latest().phase == phase; }, 20000);
   }

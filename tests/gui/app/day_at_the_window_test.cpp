@@ -144,8 +144,7 @@ TEST_F(Day, TheSubjectsScreenHasTheKeysAndShowsNoNumberNameOrKey) {
 
 TEST_F(Day, AChangeInMidRunIsAskedAboutAndDroppedIfTheRunIsToGoOn) {
   MainWindow& window = open();
-  window.nextTrial();
-  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  ASSERT_TRUE(armsTrial());
   auto* masses = find<QLineEdit>("masses");
   EXPECT_TRUE(starts(answered("Continue it", [&] { type(masses, "1 1"); }), "0 of 3 trials are done."));
   EXPECT_NE(window.session().run(), nullptr);
@@ -153,8 +152,7 @@ TEST_F(Day, AChangeInMidRunIsAskedAboutAndDroppedIfTheRunIsToGoOn) {
   answered("End the run", [&] { type(masses, "1 1"); });
   EXPECT_EQ(window.session().experiment().object.masses, (std::vector<double>{1, 1}));
   // Taking the edit back is an edit too.
-  window.nextTrial();
-  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  ASSERT_TRUE(armsTrial());
   EXPECT_TRUE(holds(answered("Continue it", [&] { find<QAction>("undo")->trigger(); }), "Undo ends the run"));
   EXPECT_NE(window.session().run(), nullptr);
   EXPECT_EQ(window.session().experiment().object.masses.size(), 2u);
@@ -172,8 +170,7 @@ TEST_F(Day, ClosingAsksWhileARunIsOpenOrAChangeUnsaved) {
   EXPECT_TRUE(holds(answered("Cancel", [&] { EXPECT_FALSE(window.close()); }), "was changed"));
   window.edits().undo();
   EXPECT_FALSE(window.isWindowModified());
-  window.nextTrial();
-  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  ASSERT_TRUE(armsTrial());
   answered("Continue it", [&] { EXPECT_FALSE(window.close()); });
   EXPECT_NE(window.session().run(), nullptr);
   const std::string log = window.session().run()->logPath();
@@ -268,8 +265,7 @@ TEST_F(Day, TheEndOfARunShowsItsCountsAndLeadsToTheNextSubject) {
 
 TEST_F(Day, ARunThatIsEndedEarlyAsksAndSaysWhereItIsSaved) {
   MainWindow& window = open();
-  window.nextTrial();
-  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  ASSERT_TRUE(armsTrial());
   EXPECT_TRUE(holds(answered("Continue it", [&] { window.endRun(); }), QString::fromStdString(request_.place.data)));
   EXPECT_NE(window.session().run(), nullptr);
   answered("End the run", [&] { window.endRun(); });
@@ -286,8 +282,7 @@ TEST_F(Day, CtrlEEndsTheRunFromAFieldToo) {
 
 TEST_F(Day, ARunWhoseDatasetCannotBeWrittenIsNotCalledSaved) {
   MainWindow& window = open();
-  window.nextTrial();
-  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  ASSERT_TRUE(armsTrial());
   const QString log = QString::fromStdString(window.session().run()->logPath());
   ASSERT_TRUE(QDir().mkpath(QString::fromStdString(request_.place.data) + "/participants.tsv"));  // no file can have this name now
   answered("End the run", [&] { window.endRun(); });
@@ -409,8 +404,7 @@ TEST_F(Day, EpsilonOfTheRunIsTheAnalysissAndFailedTrialsStayOut) {
 TEST_F(Day, AShapeThatIsNotToChangeInAnOpenRunGoesBack) {
   request_.what = "ellipse";
   MainWindow& window = open();
-  window.nextTrial();
-  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  ASSERT_TRUE(armsTrial());
   auto* radius = find<QDoubleSpinBox>("value_b_m");
   const double before = radius->value();
   answered("Continue it", [&] { type(radius, "0.04"); });
@@ -420,8 +414,7 @@ TEST_F(Day, AShapeThatIsNotToChangeInAnOpenRunGoesBack) {
 
 TEST_F(Day, AChangeInATrialEndsItSoThatNoTrialIsJudgedByAnotherScene) {
   MainWindow& window = open();
-  window.nextTrial();
-  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  ASSERT_TRUE(armsTrial());
   const std::string log = window.session().run()->logPath();
   answered("End the run", [&] { type(find<QLineEdit>("taskTarget"), "3"); });
   EXPECT_EQ(window.session().run(), nullptr);
@@ -448,8 +441,7 @@ TEST_F(Day, ACompleteRunStaysCompleteWhenItsRepeatIsTakenBack) {
 
 TEST_F(Day, WhatRestsIsNotDrawnAgain) {
   MainWindow& window = open();
-  window.nextTrial();
-  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  ASSERT_TRUE(armsTrial());
   // However long the settling takes: once it rests, no picture is drawn in forty frames.
   std::int64_t before = -1;
   ASSERT_TRUE(

@@ -97,8 +97,7 @@ TEST_F(DraggedPlaces, AreShownWhileTheyAreDraggedAndGoBackWithEscape) {
 
 TEST_F(DraggedPlaces, StayWhereTheyAreDuringARunAndInAPlan) {
   begin("chain-moderate");
-  window_->nextTrial();
-  ASSERT_NE(window_->session().run(), nullptr) << window_->message().toStdString();
+  ASSERT_TRUE(startsTrial());
   const std::vector<double> target = task().target;
   move(pixelOf(target), pixelOf({0.1}));
   EXPECT_EQ(task().target, target);

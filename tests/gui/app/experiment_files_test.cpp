@@ -104,8 +104,7 @@ TEST_F(Files, WhatIsBeingTypedIsSavedAndRunToo) {
   EXPECT_EQ(experiment::openExperiment(path_.toStdString()).experiment().object.masses, (std::vector<double>{2.5}));
   masses->selectAll();
   QTest::keyClicks(masses, "3.5");
-  window.nextTrial();
-  ASSERT_NE(window.session().run(), nullptr) << window.message().toStdString();
+  ASSERT_TRUE(startsTrial());
   EXPECT_EQ(window.session().run()->experimentNow().experiment().object.masses, (std::vector<double>{3.5}));
 }
 

@@ -119,8 +119,7 @@ TEST_F(Window, TheTaskIsToldBeforeTheFirstTrialAndGoesWhenItRuns) {
   EXPECT_TRUE(window.overlay().task.contains("F puts them side by side"));
   QTest::keyClick(&window, Qt::Key_F);
   EXPECT_FALSE(window.overlay().task.contains("hide"));
-  window.nextTrial();
-  ASSERT_TRUE(waitForPhase(trial::Phase::Armed));
+  ASSERT_TRUE(armsTrial());
   ASSERT_TRUE(QTest::qWaitFor([&] { return window.overlay().task.isEmpty(); }, 5000));
 }
 
@@ -390,8 +389,7 @@ TEST_F(Window, WhatAnyHandsDeviceCannotGiveIsSaidWhenARunBegins) {
   request_.what = "chain-two-hands";
   request_.device = "virtual:highforce + virtual:omni,scale=0.5";
   MainWindow& window = open();
-  window.nextTrial();
-  ASSERT_NE(window.session().run(), nullptr) << window.message().toStdString();
+  ASSERT_TRUE(startsTrial());
   EXPECT_TRUE(holds(window.message(), "hand 2: workspace"));
   EXPECT_TRUE(holds(window.message(), "hand 2: continuous force")) << "all of them";
   EXPECT_FALSE(holds(window.message(), "hand 1"));
@@ -405,8 +403,7 @@ TEST_F(Window, AMappingThatIsKeptForTheSubjectIsTakenAndSaid) {
   kept.scale = 1.5;
   devices::saveMapping(kept, file.toStdString());
   MainWindow& window = open();
-  window.nextTrial();
-  ASSERT_NE(window.session().run(), nullptr) << window.message().toStdString();
+  ASSERT_TRUE(startsTrial());
   EXPECT_TRUE(holds(window.message(), file));
   EXPECT_NE(window.session().run()->configuration().firstHand.mapping.find("1.5"), std::string::npos);
 }
@@ -421,8 +418,7 @@ TEST_F(Window, ADeviceThatIsChosenInItsDockIsTheHandUntilARunHasIt) {
   rows->setCurrentItem(omni.front());
   find<QPushButton>("deviceUse")->click();
   EXPECT_EQ(window.sessionDock().device(), "virtual:omni");
-  window.nextTrial();
-  ASSERT_NE(window.session().run(), nullptr) << window.message().toStdString();
+  ASSERT_TRUE(startsTrial());
   EXPECT_FALSE(find<QPushButton>("deviceUse")->isEnabled());
   window.session().endRun();
   EXPECT_TRUE(find<QPushButton>("deviceUse")->isEnabled());

@@ -278,8 +278,7 @@ TEST_F(PlannedSession, ABlockOfWhichNothingCountsIsNotSkippedBySpace) {
   answered("End the run", [&] { window->endRun(); });
   ASSERT_TRUE(QTest::qWaitFor([&] { return page().isVisible(); }, 3000));
   EXPECT_TRUE(holds(next(), "block 1, first"));
-  window->nextTrial();
-  ASSERT_NE(window->session().run(), nullptr) << window->message().toStdString();
+  ASSERT_TRUE(startsTrial());
   EXPECT_EQ(window->session().run()->configuration().block, 1);
 }
 
