@@ -31,6 +31,13 @@ std::vector<Fault> faultsToldBy(const Work& work) {
   }
 }
 
+/// The keys of faults in their order, with a blank between two.
+inline std::string keysTold(const std::vector<Fault>& faults) {
+  std::string keys;
+  for (const Fault& fault : faults) keys += (keys.empty() ? "" : " ") + fault.key;
+  return keys;
+}
+
 /// Whether a text has these words in it. Shows as much of it as a person reads.
 inline testing::AssertionResult holds(const std::string& text, const std::string& words) {
   const bool has = text.find(words) != std::string::npos;

@@ -99,10 +99,8 @@ TEST(CheckedExperiment, OfAValueThatIsNotFinite) {
   Experiment e = readExperiment("chain-moderate");
   e.object.masses[0] = std::numeric_limits<double>::quiet_NaN();
   e.task->target[0] = std::numeric_limits<double>::infinity();
-  const std::vector<Fault> faults = check(e).faults;
-  ASSERT_EQ(faults.size(), 2u) << toText(faults);
-  EXPECT_EQ(toText(faults[0]), "object.masses_kg[0]: is nan; allowed: 1e-06 to 1e+06 kg");
-  EXPECT_EQ(toText(faults[1]), "task.target[0]: is inf; allowed: -1e+09 to 1e+09");
+  EXPECT_EQ(toText(check(e).faults),
+            "object.masses_kg[0]: is nan; allowed: 1e-06 to 1e+06 kg\ntask.target[0]: is inf; allowed: -1e+09 to 1e+09");
 }
 
 // An editor has no file: the character stands for the place.
@@ -125,14 +123,10 @@ TEST(CheckedExperiment, NamesTheCharacterOfAFormula) {
 TEST(CheckedExperiment, WhatCannotBeReadHasNoFaultsThatFollowFromIt) {
   const std::vector<Fault> kind = faultsOfText(R"({ "schema_version": 1, "constraint": { "name": "line" },
 "object": { "kind": "chian", "masses_kg": [1, 1, 1], "stiffness_n_per_m": [1, 1] }, "hand_mass_kg": -1 })");
-  ASSERT_EQ(kind.size(), 2u) << toText(kind);
-  EXPECT_EQ(kind[0].key, "object.kind");
-  EXPECT_EQ(kind[1].key, "hand_mass_kg");
+  EXPECT_EQ(keysTold(kind), "object.kind hand_mass_kg") << toText(kind);
   const std::vector<Fault> masses = faultsOfText(R"({ "schema_version": 1, "constraint": { "name": "line" },
 "object": { "kind": "chain", "masses_kg": "three", "stiffness_n_per_m": [1, 1] }, "coupling": { "stiffness_n_per_m": -1 } })");
-  ASSERT_EQ(masses.size(), 2u) << toText(masses);
-  EXPECT_EQ(masses[0].key, "object.masses_kg");
-  EXPECT_EQ(masses[1].key, "coupling.stiffness_n_per_m");
+  EXPECT_EQ(keysTold(masses), "object.masses_kg coupling.stiffness_n_per_m") << toText(masses);
 }
 
 TEST(CompiledExperiment, OfAShippedFileIsTheExperimentWithItsConstraint) {

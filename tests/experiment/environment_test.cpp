@@ -100,18 +100,13 @@ TEST(EnvironmentKeys, AChannelNeedsALine) {
   lap.environment = still.environment;
   EXPECT_TRUE(check(lap).faults.empty());
   lap.task->target[0] = lap.task->start[0] + 2 * std::numbers::pi;
-  for (const Experiment& e : {still, lap}) {
-    ASSERT_EQ(check(e).faults.size(), 1u);
-    EXPECT_EQ(check(e).faults[0].key, "environment[0].kind");
-  }
+  for (const Experiment& e : {still, lap}) EXPECT_EQ(keysTold(check(e).faults), "environment[0].kind");
 }
 
 TEST(EnvironmentKeys, AFieldThatIsNotFiniteIsRefused) {
   Experiment e = read(R"("environment": [ { "kind": "viscous", "matrix_n_s_per_m": [[1, 0, 0], [0, 1, 0], [0, 0, 1]] } ])");
   std::get<ViscousForce>(e.environment[0].law).matrix[2][0] = std::nan("");
-  const std::vector<Fault> faults = check(e).faults;
-  ASSERT_EQ(faults.size(), 1u);
-  EXPECT_EQ(faults[0].key, "environment[0].matrix_n_s_per_m[2][0]");
+  EXPECT_EQ(keysTold(check(e).faults), "environment[0].matrix_n_s_per_m[2][0]");
 }
 
 TEST(EnvironmentKeys, ActOnOneHandOnly) {
@@ -120,8 +115,7 @@ TEST(EnvironmentKeys, ActOnOneHandOnly) {
   e.task->target[0] = e.task->start[0] + 1;
   EXPECT_TRUE(check(e).faults.empty());
   e.hands = {{1, {600}, {0}, {}}, {5, {600}, {0}, {}}};
-  ASSERT_EQ(check(e).faults.size(), 1u);
-  EXPECT_EQ(check(e).faults[0].key, "environment");
+  EXPECT_EQ(keysTold(check(e).faults), "environment");
 }
 
 TEST(NoObject, HasNeitherMassesNorCouplingNorConstraint) {
@@ -138,8 +132,7 @@ TEST(NoObject, HasNeitherMassesNorCouplingNorConstraint) {
   changed.constraint.name = "line";
   changed.task->start = {0};
   changed.task->target = {1};
-  ASSERT_EQ(check(changed).faults.size(), 1u);
-  EXPECT_EQ(check(changed).faults[0].key, "object.kind");
+  EXPECT_EQ(keysTold(check(changed).faults), "object.kind");
 }
 
 TEST(CursorKeys, AreReadAndWritten) {
@@ -157,14 +150,12 @@ TEST(CursorKeys, RefuseWhatCannotBeReached) {
   Experiment up = read(R"("cursor": { "rotation_deg": 30 })");
   EXPECT_TRUE(check(up).faults.empty());
   up.task->target = up.task->start, up.task->target[1] += 0.1;  // out of the horizontal plane
-  ASSERT_EQ(check(up).faults.size(), 1u);
-  EXPECT_EQ(check(up).faults[0].key, "cursor.rotation_deg");
+  EXPECT_EQ(keysTold(check(up).faults), "cursor.rotation_deg");
   up.task->plane = TaskPlane::Frontal;
   EXPECT_TRUE(check(up).faults.empty());
   Experiment e = readExperiment("chain-moderate");
   e.cursor.emplace();
-  ASSERT_EQ(check(e).faults.size(), 1u);
-  EXPECT_EQ(check(e).faults[0].key, "cursor");
+  EXPECT_EQ(keysTold(check(e).faults), "cursor");
 }
 
 TEST(TaskPlane, RightIsWhereTheViewerSeesIt) {

@@ -237,9 +237,7 @@ TEST(Plan, HasTheSameFaultsAsAValue) {
   plan.blocks[0].foreperiodMin = 2;
   plan.blocks[0].foreperiodMax = 1;
   plan.blocks[0].experiment.clear();
-  std::vector<std::string> keys;
-  for (const Fault& fault : problems(plan)) keys.push_back(fault.key);
-  EXPECT_EQ(keys, (std::vector<std::string>{"blocks[0].experiment", "blocks[0].trials", "blocks[0].day", "blocks[0].foreperiod_s"}));
+  EXPECT_EQ(keysTold(problems(plan)), "blocks[0].experiment blocks[0].trials blocks[0].day blocks[0].foreperiod_s");
   plan.blocks.clear();
   EXPECT_EQ(problems(plan).at(0).key, "blocks");
 }

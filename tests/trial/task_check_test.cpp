@@ -7,9 +7,17 @@
 
 #include "sim/experiment/experiment.h"
 #include "sim/trial/protocol.h"
+#include "tests/refusal.h"
 
 namespace reachlab::trial {
 namespace {
+
+// A line for each fault: its key, and what is wrong there.
+std::string told(const std::vector<Fault>& faults) {
+  std::string lines;
+  for (const Fault& fault : faults) lines += (lines.empty() ? "" : "\n") + fault.key + ": " + fault.what;
+  return lines;
+}
 
 std::vector<Fault> implausibleWith(const std::string& name, const std::function<void(experiment::Experiment&)>& change) {
   experiment::Experiment e = experiment::readExperiment(name);
@@ -65,31 +73,24 @@ TEST(TaskCheck, TellsOfPulsesThatNeverCome) {
   EXPECT_TRUE(pulseAt({.onset = 0.1, .distance = {}}).empty());
   EXPECT_TRUE(pulseAt({.onset = {}, .distance = 0.05}).empty());
   for (const auto& [at, key] : {std::pair{experiment::PulseInstant{.onset = 10, .distance = {}}, "environment[0].at.onset_s"},
-                                {experiment::PulseInstant{.onset = {}, .distance = 0.5}, "environment[0].at.distance_m"}}) {
-    ASSERT_EQ(pulseAt(at).size(), 1u);
-    EXPECT_EQ(pulseAt(at)[0].key, key);
-  }
+                                {experiment::PulseInstant{.onset = {}, .distance = 0.5}, "environment[0].at.distance_m"}})
+    EXPECT_EQ(keysTold(pulseAt(at)), key);
 }
 
 TEST(TaskCheck, TellsOfMassesAndTimesThatAreHardlyMeant) {
   EXPECT_TRUE(implausibleWith("chain-moderate", [](auto&) {}).empty());
   EXPECT_TRUE(implausibleWith("chain-moderate", [](auto& e) { e.object.masses[0] = e.object.masses[1] = 100; }).empty());
   const auto heavy = implausibleWith("chain-moderate", [](auto& e) { e.object.masses[0] = 100.5, e.object.masses[2] = 250; });
-  ASSERT_EQ(heavy.size(), 2u);
-  EXPECT_EQ(heavy[0].key, "object.masses_kg[0]");
-  EXPECT_EQ(heavy[1].key, "object.masses_kg[2]");
-  EXPECT_EQ(heavy[1].what, "is 250 kg; more than 100 kg is hardly meant");
+  EXPECT_EQ(told(heavy),
+            "object.masses_kg[0]: is 100.5 kg; more than 100 kg is hardly meant\n"
+            "object.masses_kg[2]: is 250 kg; more than 100 kg is hardly meant");
   EXPECT_TRUE(implausibleWith("chain-moderate", [](auto& e) { e.task->duration = 60; }).empty());
-  const auto slow = implausibleWith("chain-moderate", [](auto& e) { e.task->duration = 60.5; });
-  ASSERT_EQ(slow.size(), 1u);
-  EXPECT_EQ(slow[0].key, "task.duration_s");
-  EXPECT_EQ(slow[0].what, "is 60.5 s; more than 60 s is hardly meant");
+  EXPECT_EQ(told(implausibleWith("chain-moderate", [](auto& e) { e.task->duration = 60.5; })),
+            "task.duration_s: is 60.5 s; more than 60 s is hardly meant");
   EXPECT_TRUE(implausibleWith("epitrochoid", [](auto& e) { e.task->target[0] = e.task->start[0] + 2 * std::numbers::pi; }).empty())
       << "a lap";
   const auto turns = implausibleWith("epitrochoid", [](auto& e) { e.task->target[0] = e.task->start[0] - 12 * std::numbers::pi; });
-  ASSERT_EQ(turns.size(), 1u);
-  EXPECT_EQ(turns[0].key, "task.target[0]");
-  EXPECT_EQ(turns[0].what, "is 6 turns from the start; more than one turn is hardly meant");
+  EXPECT_EQ(told(turns), "task.target[0]: is 6 turns from the start; more than one turn is hardly meant");
   EXPECT_EQ(implausibleWith("chain-moderate", [](auto& e) { e.task.reset(), e.object.masses[0] = 101; }).size(), 1u)
       << "a task is not needed";
 }
@@ -115,9 +116,7 @@ TEST(TaskCheck, TellsOfAToleranceLargerThanTheWay) {
     });
   };
   EXPECT_TRUE(onCircle(0.628).empty());
-  ASSERT_EQ(onCircle(0.629).size(), 1u);
-  EXPECT_EQ(onCircle(0.629)[0].key, "task.tolerance.position_m");
-  EXPECT_EQ(onCircle(0.629)[0].what, "is 0.629 m, more than the way of 0.6283 m from start to target");
+  EXPECT_EQ(told(onCircle(0.629)), "task.tolerance.position_m: is 0.629 m, more than the way of 0.6283 m from start to target");
   const auto onSurface = [](double tolerance) {
     return implausibleWith("torus", [&](auto& e) {
       e.constraint = {.name = {}, .curve = {}, .surface = {"u", "v", "0"}, .shape = {}};
@@ -131,9 +130,7 @@ TEST(TaskCheck, TellsOfAToleranceLargerThanTheWay) {
 
 TEST(TaskCheck, TellsOfAnOnsetThatIsNoShorterThanTheWay) {
   EXPECT_TRUE(implausibleWith("chain-moderate", [](auto& e) { e.task->onset = 0.199; }).empty());
-  const auto found = implausibleWith("chain-moderate", [](auto& e) { e.task->onset = 0.201; });
-  ASSERT_EQ(found.size(), 1u);
-  EXPECT_EQ(found[0].key, "task.onset_m");
+  EXPECT_EQ(keysTold(implausibleWith("chain-moderate", [](auto& e) { e.task->onset = 0.201; })), "task.onset_m");
 }
 
 // A cycloid has two ends.
@@ -155,8 +152,7 @@ TEST(TaskCheck, NeedsATargetOnTheSurface) {
       e.task->start = std::move(start), e.task->target = std::move(target);
     });
   };
-  ASSERT_EQ(problems("helicoid", {-1.5, 0.6}, {1, 1.5}).size(), 1u);
-  EXPECT_EQ(problems("helicoid", {-1.5, 0.6}, {1, 1.5})[0].key, "task.target[1]");
+  EXPECT_EQ(keysTold(problems("helicoid", {-1.5, 0.6}, {1, 1.5})), "task.target[1]");
   EXPECT_TRUE(problems("helicoid", {-1.5, 0.6}, {1, 1}).empty());
   EXPECT_TRUE(problems("sphere", {0, 1}, {0, 2}).empty());
   EXPECT_TRUE(problems("torus", {0, 0.5}, {0, 6.5}).empty());
@@ -164,20 +160,14 @@ TEST(TaskCheck, NeedsATargetOnTheSurface) {
 
 TEST(TaskCheck, WarnsOfASpringThatHoldsNothing) {
   const auto found = implausibleWith("chain-moderate", [](auto& e) { e.coupling->stiffness = 0, e.object.stiffness[2] = 0; });
-  ASSERT_EQ(found.size(), 2u);
-  EXPECT_EQ(found[0].key + " " + found[1].key, "coupling.stiffness_n_per_m object.stiffness_n_per_m[2]");
+  EXPECT_EQ(keysTold(found), "coupling.stiffness_n_per_m object.stiffness_n_per_m[2]");
 }
 
 TEST(TaskCheck, NeedsATaskBetweenTwoPlaces) {
   EXPECT_TRUE(problemsWith("chain-moderate", [](auto&) {}).empty());
-  const auto none = problemsWith("chain-moderate", [](auto& e) { e.task.reset(); });
-  ASSERT_EQ(none.size(), 1u);
-  EXPECT_EQ(none[0].key, "task");
-  EXPECT_EQ(none[0].what, "is missing, and a run needs one");
-  const auto same = problemsWith("chain-moderate", [](auto& e) { e.task->target = e.task->start; });
-  ASSERT_EQ(same.size(), 1u);
-  EXPECT_EQ(same[0].key, "task.target");
-  EXPECT_EQ(same[0].what, "start and target are the same position");
+  EXPECT_EQ(told(problemsWith("chain-moderate", [](auto& e) { e.task.reset(); })), "task: is missing, and a run needs one");
+  EXPECT_EQ(told(problemsWith("chain-moderate", [](auto& e) { e.task->target = e.task->start; })),
+            "task.target: start and target are the same position");
   EXPECT_TRUE(problemsWith("ellipse", [](auto& e) { e.task->start = {0}, e.task->target = {2 * std::numbers::pi}; }).empty()) << "a lap";
   experiment::Experiment e = experiment::readExperiment("chain-moderate");
   e.task->target = e.task->start;
