@@ -34,6 +34,12 @@ class OpenArmOverAPort : public ::testing::Test {
     return report;
   }
   Report reportOf(const Vec3& inArm) const { return reportAt(encoderCounts(*options.model, anglesAt(*options.model, inArm))); }
+  // A turn with nothing to read, or with this report behind those that wait.
+  Exchange turn() { return arm->exchange(wish, sample); }
+  Exchange turn(const Report& report) {
+    hid.reports.push_back(report);
+    return turn();
+  }
 
   OpenArm::Options options;
   test::FakeHid& hid = test::resetToOneFakeHid();
@@ -44,15 +50,13 @@ class OpenArmOverAPort : public ::testing::Test {
 
 TEST_F(OpenArmOverAPort, GivesThePlaceInTheWorldsAxesToACount) {
   const Vec3 inArm{0.02, -0.03, 0.04};
-  hid.reports.push_back(reportOf(inArm));
-  ASSERT_EQ(arm->exchange(wish, sample), Exchange::Report);
+  ASSERT_EQ(turn(reportOf(inArm)), Exchange::Report);
   EXPECT_LT(norm(sample.position - Vec3{-0.03, 0.04, 0.02}), 2e-4) << "a count on every axis is 0.1 mm";
 }
 
 TEST_F(OpenArmOverAPort, AnswersEveryReportOnceWithTheForcesCurrents) {
-  hid.reports.push_back(reportOf({}));
   wish.force = {1, 0, 0};  // the arm's y: to the right
-  arm->exchange(wish, sample);
+  turn(reportOf({}));
   ASSERT_EQ(hid.written.size(), 1u);
   EXPECT_EQ(hid.written[0].size(), 65u);
   EXPECT_EQ(fieldOf(hid.written[0], 7), 0);
@@ -63,21 +67,19 @@ TEST_F(OpenArmOverAPort, AnswersEveryReportOnceWithTheForcesCurrents) {
 
 TEST_F(OpenArmOverAPort, ALostReportIsAskedForAgainWithoutForce) {
   wish.force = {1, 1, 1};
-  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Nothing);
+  EXPECT_EQ(turn(), Exchange::Nothing);
   ASSERT_EQ(hid.written.size(), 1u);
   for (const std::uint8_t byte : hid.written[0]) EXPECT_EQ(byte, 0);
 }
 
 TEST_F(OpenArmOverAPort, WhatIsNotAWholeReportIsNotBelieved) {
   hid.reports.push_back(Report(10, 0x7F));
-  hid.reports.push_back(Report(63, 0x7F));
-  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Nothing);
+  EXPECT_EQ(turn(Report(63, 0x7F)), Exchange::Nothing);
 }
 
 TEST_F(OpenArmOverAPort, CountsGoOnPastTheEndOfSixteenBits) {
   const auto placeAt = [&](double counts) {
-    hid.reports.push_back(reportAt({counts, 3000, 6000}));
-    EXPECT_EQ(arm->exchange(wish, sample), Exchange::Report);
+    EXPECT_EQ(turn(reportAt({counts, 3000, 6000})), Exchange::Report);
     return sample.position;
   };
   Vec3 last = placeAt(32'000);
@@ -89,52 +91,47 @@ TEST_F(OpenArmOverAPort, CountsGoOnPastTheEndOfSixteenBits) {
 }
 
 TEST_F(OpenArmOverAPort, TheCalibrationButtonSetsTheEncoders) {
-  hid.reports.push_back(reportAt({11, 22, 33}, 1));
-  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Nothing);
+  EXPECT_EQ(turn(reportAt({11, 22, 33}, 1)), Exchange::Nothing);
   ASSERT_EQ(hid.written.size(), 1u);
   EXPECT_EQ(fieldOf(hid.written[0], 7), 1);
   EXPECT_EQ(fieldOf(hid.written[0], 13), 6000);
-  hid.reports.push_back(reportAt({0, 0, 6000}));
-  ASSERT_EQ(arm->exchange(wish, sample), Exchange::Report);
+  ASSERT_EQ(turn(reportAt({0, 0, 6000})), Exchange::Report);
   EXPECT_LT(norm(sample.position - Vec3{0, 0.205, 0.025}), 1e-12) << "the published home";
 }
 
 TEST_F(OpenArmOverAPort, AGoneDeviceIsLostAndComesBack) {
   hid.gone = true;
-  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost);
+  EXPECT_EQ(turn(), Exchange::Lost);
   EXPECT_THROW(arm->reopen(), ResourceError);
-  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost);
+  EXPECT_EQ(turn(), Exchange::Lost);
   hid.gone = false;
   EXPECT_TRUE(arm->reopen());
-  hid.reports.push_back(reportOf({}));
-  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Report);
+  EXPECT_EQ(turn(reportOf({})), Exchange::Report);
   hid.deaf = true;
-  hid.reports.push_back(reportOf({}));
-  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost) << "a force that cannot be told is a loss";
+  EXPECT_EQ(turn(reportOf({})), Exchange::Lost) << "a force that cannot be told is a loss";
 }
 
 TEST_F(OpenArmOverAPort, TheLastWordIsZero) {
   wish.force = {2, 0, 0};
-  hid.reports.push_back(reportOf({}));
-  arm->exchange(wish, sample);
+  turn(reportOf({}));
   arm->close();
   for (const std::uint8_t byte : hid.written.back()) EXPECT_EQ(byte, 0);
 }
 
 TEST_F(OpenArmOverAPort, WaitsForItsTurnOnceAndTakesWhatHasPiledUpWithoutWaiting) {
   hid.reports = {reportOf({}), reportOf({})};
-  arm->exchange(wish, sample);
+  turn();
   EXPECT_EQ(hid.waits, (std::vector<int>{10, 0, 0}));
   EXPECT_EQ(hid.room, 64u);
   hid.waits.clear();
   hid.reports = {Report(3, 0), reportOf({})};
-  arm->exchange(wish, sample);
+  turn();
   EXPECT_EQ(hid.waits[1], 10) << "garbage is not its turn";
 }
 
 TEST_F(OpenArmOverAPort, OneThatNeverStopsSendingIsAnsweredAfterSixtyFour) {
   for (int i = 0; i < 70; ++i) hid.reports.push_back(reportOf({0.0005 * i, 0, 0}));
-  ASSERT_EQ(arm->exchange(wish, sample), Exchange::Report);
+  ASSERT_EQ(turn(), Exchange::Report);
   EXPECT_EQ(hid.reports.size(), 6u);
   EXPECT_NEAR(sample.position.z, 0.0005 * 63, 2e-4);
 }
@@ -142,12 +139,10 @@ TEST_F(OpenArmOverAPort, OneThatNeverStopsSendingIsAnsweredAfterSixtyFour) {
 TEST_F(OpenArmOverAPort, ItsButtonIsTheFirst) {
   Report pressed = reportAt({0, 0, 6000});
   pressed[6] = 0x10, pressed[7] = 0x27;  // 10000 in encoder d
-  hid.reports.push_back(pressed);
-  arm->exchange(wish, sample);
+  turn(pressed);
   EXPECT_EQ(sample.buttons, 1u);
   EXPECT_FALSE(sample.hasVelocity);
-  hid.reports.push_back(reportAt({0, 0, 6000}));
-  arm->exchange(wish, sample);
+  turn(reportAt({0, 0, 6000}));
   EXPECT_EQ(sample.buttons, 0u);
 }
 
@@ -165,22 +160,19 @@ TEST_F(OpenArmOverAPort, OlderFirmwaresHaveReportsOfFourteenBytes) {
   open();
   Report report = reportAt({0, 0, 6000});
   report.resize(14);
-  hid.reports.push_back(report);
-  ASSERT_EQ(arm->exchange(wish, sample), Exchange::Report);
+  ASSERT_EQ(turn(report), Exchange::Report);
   EXPECT_LT(norm(sample.position - Vec3{0, 0.205, 0.025}), 1e-12);
   EXPECT_EQ(hid.written.at(0).size(), 15u);
   EXPECT_EQ(hid.room, 14u);
   options.commandBytes = options.reportBytes = 1000;
   open();
-  hid.reports.push_back(Report(64, 0));
-  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Report) << "no more than a report of USB has";
+  EXPECT_EQ(turn(Report(64, 0)), Exchange::Report) << "no more than a report of USB has";
   EXPECT_EQ(hid.written.back().size(), 65u);
 }
 
 TEST_F(OpenArmOverAPort, AfterTheCalibrationAndAfterAnUnpluggingItsCountsBeginAnew) {
   const auto place = [&](double counts) {
-    hid.reports.push_back(reportAt({counts, 0, 6000}));
-    EXPECT_EQ(arm->exchange(wish, sample), Exchange::Report);
+    EXPECT_EQ(turn(reportAt({counts, 0, 6000})), Exchange::Report);
     return sample.position;
   };
   const Vec3 fresh = place(30'000);
@@ -203,8 +195,7 @@ TEST_F(OpenArmOverAPort, SaysHowItIsCalibratedAndWhyItIsNot) {
   EXPECT_EQ(arm->calibrationHint(), "hold the arm in its calibration pose (encoders 0, 0, -5000)");
   hid.deaf = true;
   EXPECT_EQ(arm->calibrate(), "it does not take the calibration");
-  hid.reports.push_back(reportAt({0, 0, 0}, 1));
-  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost) << "its own button";
+  EXPECT_EQ(turn(reportAt({0, 0, 0}, 1)), Exchange::Lost) << "its own button";
   arm->close();
   EXPECT_EQ(arm->calibrate(), "it is not connected");
 }
@@ -215,17 +206,15 @@ TEST_F(OpenArmOverAPort, ZeroIsToldWithoutBeingAskedFor) {
   EXPECT_EQ(hid.written[0], Report(65, 0));
   hid.deaf = true;
   EXPECT_FALSE(arm->tellZero());
-  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Lost) << "nothing was read, and nothing can be told";
+  EXPECT_EQ(turn(), Exchange::Lost) << "nothing was read, and nothing can be told";
   arm->close();
   EXPECT_TRUE(arm->tellZero()) << "there is nobody to tell";
 }
 
 TEST_F(OpenArmOverAPort, ReportsOfAnOldFirmwareAreNotBelievedAndSaidToBeOld) {
-  hid.reports.push_back(Report(8, 1));
-  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Nothing);
+  EXPECT_EQ(turn(Report(8, 1)), Exchange::Nothing);
   EXPECT_TRUE(holds(arm->lossText(), "too old: it sends reports of 8 bytes, and 14 are needed"));
-  hid.reports.push_back(reportAt({0, 0, 6000}));
-  EXPECT_EQ(arm->exchange(wish, sample), Exchange::Report);
+  EXPECT_EQ(turn(reportAt({0, 0, 6000})), Exchange::Report);
   EXPECT_EQ(arm->lossText(), "") << "a short one among whole ones is a fault of the line";
 }
 
