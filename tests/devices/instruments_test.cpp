@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <linux/ppdev.h>
-#include <pty.h>
 #include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
@@ -17,6 +16,7 @@
 #include "devices/instruments/lab_streaming.h"
 #include "devices/instruments/trigger_lines.h"
 #include "tests/devices/fakes/fake_lsl.h"
+#include "tests/devices/fakes/pseudo_terminal.h"
 #include "tests/record/made_run.h"
 #include "tests/refusal.h"
 #include "tests/until.h"
@@ -304,9 +304,7 @@ TEST_F(Triggers, OneThatMayNotBeOpenedSaysWhatToDo) {
 
 // The speed that the line then has, and bytes both ways, by a pseudo-terminal.
 TEST_F(Triggers, TheLineIsRawAndOfTheSpeedThatWasAskedFor) {
-  int wire = -1, slave = -1;
-  char name[128] = {};
-  ASSERT_EQ(::openpty(&wire, &slave, name, nullptr, nullptr), 0);
+  const test::PseudoTerminal terminal;
   for (const auto& [baud, speed] : {std::pair{9600, B9600},
                                     {19200, B19200},
                                     {38400, B38400},
@@ -314,24 +312,22 @@ TEST_F(Triggers, TheLineIsRawAndOfTheSpeedThatWasAskedFor) {
                                     {115200, B115200},
                                     {230400, B230400},
                                     {1000000, B1000000}}) {
-    const auto box = openByteLine({.name = "box", .path = name, .baud = baud});
+    const auto box = openByteLine({.name = "box", .path = terminal.path, .baud = baud});
     termios line{};
-    ASSERT_EQ(::tcgetattr(slave, &line), 0);
+    ASSERT_EQ(::tcgetattr(terminal.slave, &line), 0);
     EXPECT_EQ(::cfgetospeed(&line), static_cast<speed_t>(speed)) << baud;
     EXPECT_EQ(line.c_lflag & (ICANON | ECHO), 0u) << "raw";
     EXPECT_NE(line.c_cflag & CREAD, 0u);
     EXPECT_NE(line.c_cflag & CLOCAL, 0u);
     unsigned char byte = 0;
     EXPECT_TRUE(box->send({Mark::Success, 1, 0}));
-    ASSERT_EQ(::read(wire, &byte, 1), 1);
+    ASSERT_EQ(::read(terminal.wire, &byte, 1), 1);
     EXPECT_EQ(byte, 4);
-    ASSERT_EQ(::write(wire, "\xfe", 1), 1);
+    ASSERT_EQ(::write(terminal.wire, "\xfe", 1), 1);
     notes_.clear();
     EXPECT_TRUE(test::until([&] { return box->look(5, notes_), !notes_.empty(); }));
     EXPECT_EQ(notes_.at(0).value, 0xfe);
   }
-  ::close(wire);
-  ::close(slave);
 }
 
 TEST(OpenInstruments, RefusesWhatItDoesNotKnowAndBoundsItsNumbers) {

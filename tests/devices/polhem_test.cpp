@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 #include <poll.h>
-#include <pty.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -13,7 +12,6 @@
 #include <mutex>
 #include <random>
 #include <thread>
-#include <utility>
 
 #include "base/error.h"
 #include "cli/bench/allocation_count.h"
@@ -22,6 +20,7 @@
 #include "devices/serial/serial_port.h"
 #include "sim/experiment/experiment.h"
 #include "tests/devices/fakes/fake_message_line.h"
+#include "tests/devices/fakes/pseudo_terminal.h"
 #include "tests/refusal.h"
 #include "tests/until.h"
 
@@ -46,34 +45,22 @@ using test::until;
 /// taken back by the program alone.
 class Firmware {
  public:
-  Firmware() {
-    char name[128] = {};
-    if (::openpty(&wire_, &slave_, name, nullptr, nullptr) != 0) throw std::runtime_error("openpty");
-    path = name;
-    thread_ = std::jthread([this](const std::stop_token& stop) { run(stop); });
-  }
-  ~Firmware() {
-    thread_.request_stop();
-    thread_.join();
-    ::close(slave_);
-    ::close(wire_);
-  }
   Vec3 force() const {  // [N], its own axes
     const std::lock_guard lock(mutex_);
     return force_;
   }
 
-  std::string path;
+  const test::PseudoTerminal line;
   std::atomic<bool> silent{false};
 
  private:
   void run(const std::stop_token& stop) {
     std::string heard;
     while (!stop.stop_requested()) {
-      pollfd at{wire_, POLLIN, 0};
+      pollfd at{line.wire, POLLIN, 0};
       if (::poll(&at, 1, 2) > 0 && (at.revents & POLLIN) != 0) {
         char bytes[256];
-        const ssize_t got = ::read(wire_, bytes, sizeof bytes);
+        const ssize_t got = ::read(line.wire, bytes, sizeof bytes);
         if (got > 0) heard.append(bytes, static_cast<std::size_t>(got));
       }
       if (heard.size() >= kPolhemLineBytes) {
@@ -82,9 +69,9 @@ class Firmware {
       }
     }
   }
-  void take(const std::string& line) {
+  void take(const std::string& heard) {
     short fx = 0, fy = 0, fz = 0, command = 0;
-    if (line.back() != '\n' || std::sscanf(line.c_str(), "%hd %hd %hd %hd", &fx, &fy, &fz, &command) != 4 || command != 2) return;
+    if (heard.back() != '\n' || std::sscanf(heard.c_str(), "%hd %hd %hd %hd", &fx, &fy, &fz, &command) != 4 || command != 2) return;
     {
       const std::lock_guard lock(mutex_);
       force_ = 1e-3 * Vec3{static_cast<double>(fx), static_cast<double>(fy), static_cast<double>(fz)};
@@ -93,17 +80,16 @@ class Firmware {
     std::string answer = "  25.000  -10.000   40.000  0.0000  0.0000  0.0000  0.0000 0";
     answer.resize(kPolhemLineBytes - 1, ' ');
     answer += '\n';
-    (void)!::write(wire_, answer.data(), answer.size());
+    (void)!::write(line.wire, answer.data(), answer.size());
   }
 
-  int wire_ = -1, slave_ = -1;
   mutable std::mutex mutex_;
   Vec3 force_;
-  std::jthread thread_;
+  std::jthread thread_{[this](const std::stop_token& stop) { run(stop); }};
 };
 
 std::unique_ptr<haptics::HapticDevice> openPolhem(const Firmware& firmware) {
-  return makeDevice("polhem:" + firmware.path, experiment::readExperiment("chain-slow"), 1);
+  return makeDevice("polhem:" + firmware.line.path, experiment::readExperiment("chain-slow"), 1);
 }
 
 TEST(PolhemLine, PlacesAreReadInMetresAndGarbageIsNot) {
@@ -221,28 +207,18 @@ TEST_F(PolhemOverAWire, GoneOrDeafItIsLostAndToldZeroAsLongAsItIsOpen) {
   EXPECT_EQ(turn(), Exchange::Lost);
 }
 
-/// A pseudo-terminal, the line at its one end.
+/// The line at the one end of a pseudo-terminal.
 class SerialLine : public ::testing::Test {
  protected:
-  SerialLine() {
-    char name[128] = {};
-    if (::openpty(&wire, &slave, name, nullptr, nullptr) != 0) throw std::runtime_error("openpty");
-    path = name;
-    line = openSerial(path);
+  void put(const std::string& text) const {
+    ASSERT_EQ(::write(terminal.wire, text.data(), text.size()), static_cast<ssize_t>(text.size()));
   }
-  ~SerialLine() override {
-    line.reset();
-    ::close(slave);
-    if (wire >= 0) ::close(wire);
-  }
-  void put(const std::string& text) const { ASSERT_EQ(::write(wire, text.data(), text.size()), static_cast<ssize_t>(text.size())); }
   std::string next(int milliseconds = 1000) {
     std::string message;
     return line->receive(message, milliseconds) == MessageLink::Got::Message ? message : "nothing";
   }
-  int wire = -1, slave = -1;
-  std::string path;
-  std::unique_ptr<MessageLink> line;
+  test::PseudoTerminal terminal;
+  std::unique_ptr<MessageLink> line = openSerial(terminal.path);
 };
 
 TEST_F(SerialLine, GivesWholeLinesInTheirOrder) {
@@ -286,27 +262,27 @@ TEST_F(SerialLine, IsReadWithoutAskingForMemory) {
 TEST_F(SerialLine, OneThatCannotBeSetUpIsRefused) {
   line.reset();
   settingFault = EIO;
-  EXPECT_EQ(refusalOf([&] { openSerial(path); }), path + ": cannot be set to 115200 baud, raw: Input/output error");
+  EXPECT_EQ(refusalOf([&] { openSerial(terminal.path); }), terminal.path + ": cannot be set to 115200 baud, raw: Input/output error");
   settingFault = 0;
 }
 
 // Two hands or two programs would tell one arm two forces.
 TEST_F(SerialLine, IsHeldByOneAlone) {
-  EXPECT_TRUE(holds(refusalOf([&] { openSerial(path); }), path + ": is already in use"));
+  EXPECT_TRUE(holds(refusalOf([&] { openSerial(terminal.path); }), terminal.path + ": is already in use"));
   line.reset();
-  EXPECT_NE(openSerial(path), nullptr);
+  EXPECT_NE(openSerial(terminal.path), nullptr);
 }
 
 TEST_F(SerialLine, SendsAsItIsAndIsGoneWithItsOtherEnd) {
   EXPECT_TRUE(line->send("a\r\n\x03 b"));
   char heard[32];
-  ASSERT_EQ(::read(wire, heard, sizeof heard), 6);
+  ASSERT_EQ(::read(terminal.wire, heard, sizeof heard), 6);
   EXPECT_EQ(std::string(heard, 6), "a\r\n\x03 b") << "raw";
   // Nobody reads: what fits in is taken, and then no more within 20 ms.
   const std::string much(1 << 16, 'x');
   EXPECT_FALSE(line->send(much));
   EXPECT_EQ(line->fault(), "Connection timed out");
-  ::close(std::exchange(wire, -1));
+  terminal.cut();
   std::string message;
   EXPECT_EQ(line->receive(message, 1000), MessageLink::Got::Gone);
   EXPECT_FALSE(line->send("x"));
@@ -328,7 +304,7 @@ TEST(Polhem, AnArmThatNeverReportsIsRefusedAndNamedADeviceOnce) {
   Firmware firmware;
   firmware.silent = true;
   const std::string said = refusalOf<ResourceError>([&] { openPolhem(firmware); });
-  EXPECT_TRUE(said.starts_with("device polhem:" + firmware.path + ": ")) << said;
+  EXPECT_TRUE(said.starts_with("device polhem:" + firmware.line.path + ": ")) << said;
   EXPECT_EQ(said.find("device ", 1), std::string::npos) << said;
   EXPECT_TRUE(holds(said, "no report came within 2000 ms"));
 }
