@@ -26,16 +26,18 @@
 #include "sim/haptics/loop_core.h"
 #include "sim/haptics/watchdog.h"
 #include "tests/devices/arm_poses.h"
-#include "tests/devices/fakes/diary_device.h"
 #include "tests/devices/fakes/fake_dhd.h"
 #include "tests/devices/fakes/fake_hd.h"
 #include "tests/devices/fakes/fake_hidapi.h"
 #include "tests/devices/invented_clock.h"
+#include "tests/haptics/set_device.h"
 
 /// Every driver that renders force, behind the whole loop, on invented time, with faults mixed at random (seeded: RC_PARAMS). What must hold
 /// at every tick is in `Run`. RC_PARAMS="max_success=1000" runs a thousand of each (tests/long/fault_runs.sh).
 namespace reachlab::devices {
 namespace {
+
+using haptics::test::SetDevice;
 
 const int kSeeded = ::setenv("RC_PARAMS", "seed=20260101 max_success=40", 0);
 
@@ -304,7 +306,7 @@ class VirtualRig final : public Rig {
   std::shared_ptr<haptics::HapticDevice> open() override {
     VirtualDevice::Options options;
     options.hand = {1, 300, 30};
-    auto hand = std::make_unique<test::DiaryDevice>();
+    auto hand = std::make_unique<SetDevice>();
     hand_ = hand.get();
     return device_ = std::make_shared<VirtualDevice>(*findDeviceModel("premium15"), options, std::move(hand));
   }
@@ -316,7 +318,7 @@ class VirtualRig final : public Rig {
   double told() const override { return 0; }
 
  private:
-  test::DiaryDevice* hand_ = nullptr;  // what holds the device
+  SetDevice* hand_ = nullptr;  // what holds the device
   std::shared_ptr<VirtualDevice> device_;
 };
 

@@ -14,24 +14,26 @@
 #include "devices/make_device.h"
 #include "devices/mapping/guarded_device.h"
 #include "sim/experiment/experiment.h"
-#include "tests/devices/fakes/diary_device.h"
 #include "tests/devices/fakes/fake_input.h"
+#include "tests/haptics/set_device.h"
 #include "tests/refusal.h"
 #include "tests/temporary_folder.h"
 
 namespace reachlab::devices {
 namespace {
 
+using haptics::test::SetDevice;
+
 struct Guarded {
   explicit Guarded(const HandSettings& options) {
-    auto owned = std::make_unique<test::DiaryDevice>();
+    auto owned = std::make_unique<SetDevice>();
     inner = owned.get();
-    inner->shown.rendersForce = true;
-    inner->shown.workspaceRadius = 0.1;
-    inner->shown.resolution = 1e-5;
+    inner->about.rendersForce = true;
+    inner->about.workspaceRadius = 0.1;
+    inner->about.resolution = 1e-5;
     device = guardDevice(std::move(owned), options);
   }
-  test::DiaryDevice* inner;
+  SetDevice* inner;
   std::unique_ptr<haptics::HapticDevice> device;
 };
 
@@ -40,7 +42,7 @@ TEST(GuardedDevice, PassesOnWhatIsAskedOfTheDevice) {
   options.speedLimit = 1;
   Guarded guarded(options);
   haptics::HapticDevice& device = *guarded.device;
-  guarded.inner->state = haptics::DeviceHealth::Warm, guarded.inner->said = "warm", guarded.inner->hint = "hold it";
+  guarded.inner->is = haptics::DeviceHealth::Warm, guarded.inner->says = "warm", guarded.inner->hint = "hold it";
   device.prepareTrial(7);
   device.cue(haptics::Cue::Go);
   const std::array<dynamics::MassState, 3> masses{};
@@ -98,8 +100,8 @@ TEST(Mapping, TheDeviceDoesTheWorkThatTheHandFeelsDividedByTheScale) {
     const Vec3 force = vector();
     guarded.device->write(force);
     const double outside = dot(force, guarded.device->read().velocity);
-    ASSERT_NEAR(dot(guarded.inner->force, guarded.inner->sample.velocity), outside / mapping.scale, 1e-13);
-    ASSERT_NEAR(norm(guarded.inner->force), norm(force), 1e-14) << "felt as it is computed";
+    ASSERT_NEAR(dot(guarded.inner->written.back(), guarded.inner->sample.velocity), outside / mapping.scale, 1e-13);
+    ASSERT_NEAR(norm(guarded.inner->written.back()), norm(force), 1e-14) << "felt as it is computed";
   }
 }
 
@@ -249,10 +251,10 @@ TEST(HandSettings, SayWhatWasAskedFor) {
 TEST(HandSettings, AHandThatIsSteeredKeepsItsStart) {
   HandSettings options;
   options.mapping.scale = 2, options.mapping.mirrorX = true, options.mapped = true;
-  auto owned = std::make_unique<test::DiaryDevice>();
-  test::DiaryDevice& inner = *owned;
-  inner.shown.steered = true;
-  inner.sample.position = inner.shown.workspaceCentre = {-0.1, 0.2, 0.3};
+  auto owned = std::make_unique<SetDevice>();
+  SetDevice& inner = *owned;
+  inner.about.steered = true;
+  inner.sample.position = inner.about.workspaceCentre = {-0.1, 0.2, 0.3};
   const auto device = guardDevice(std::move(owned), options);
   EXPECT_EQ(device->read().position, (Vec3{-0.1, 0.2, 0.3}));
   inner.sample.position += Vec3{0.01, 0.01, 0};
@@ -262,8 +264,8 @@ TEST(HandSettings, AHandThatIsSteeredKeepsItsStart) {
 TEST(HandSettings, AWallNeedsAWorkspaceOrARadius) {
   bool rendersForce = true;
   const auto refusal = [&](const HandSettings& options) {
-    auto device = std::make_unique<test::DiaryDevice>("unknown");
-    device->shown.rendersForce = rendersForce;
+    auto device = std::make_unique<SetDevice>(Vec3{}, "unknown");
+    device->about.rendersForce = rendersForce;
     return refusalOf([&] { (void)guardDevice(std::move(device), options); }, "made");
   };
   HandSettings options;
@@ -280,7 +282,7 @@ TEST(HandSettings, AWallNeedsAWorkspaceOrARadius) {
                                    {"passivity", {.passivityControl = true}},
                                    {"dead-man-button", {.deadManButton = 1}}})
     EXPECT_TRUE(holds(refusal(asked), std::string(key) + ": unknown renders no force")) << "it would change nothing";
-  auto own = std::make_unique<test::DiaryDevice>();
+  auto own = std::make_unique<SetDevice>();
   const haptics::HapticDevice* const inner = own.get();
   EXPECT_EQ(guardDevice(std::move(own), {}).get(), inner) << "nothing asked for: itself";
 }

@@ -14,13 +14,15 @@
 #include "sim/experiment/resources.h"
 #include "sim/trial/task_places.h"
 #include "tests/devices/driver_answers.h"
-#include "tests/devices/fakes/diary_device.h"
 #include "tests/devices/fakes/fake_dhd.h"
 #include "tests/devices/fakes/fake_hd.h"
+#include "tests/haptics/set_device.h"
 #include "tests/refusal.h"
 
 namespace reachlab::devices {
 namespace {
+
+using haptics::test::SetDevice;
 
 TEST(Registry, EveryDriverIsListedOnceUnderItsNameAndSaysWhyItIsNotThere) {
   test::resetFakeHd();
@@ -156,18 +158,18 @@ TEST_F(MakeDevice, HandSettingsAreOfTheDeviceWithOrWithoutAName) {
 using Devices = std::vector<std::unique_ptr<haptics::HapticDevice>>;
 
 TEST(SeveralHands, AreOneDeviceInTheFirstOnesNameAndAllAreAsked) {
-  std::vector<test::DiaryDevice*> parts;
+  std::vector<SetDevice*> parts;
   Devices owned;
   for (const char* name : {"one", "second", "third"}) {
-    auto part = std::make_unique<test::DiaryDevice>(name);
-    part->shown.virtualHand = true;
+    auto part = std::make_unique<SetDevice>(Vec3{}, name);
+    part->about.virtualHand = true;
     parts.push_back(part.get());
     owned.push_back(std::move(part));
   }
   const auto device = joinDevices(std::move(owned));
   EXPECT_EQ(device->info().name, "one");
   EXPECT_TRUE(device->info().virtualHand);
-  parts[2]->shown.virtualHand = false;
+  parts[2]->about.virtualHand = false;
   EXPECT_FALSE(device->info().virtualHand) << "all must be";
   device->prepareTrial(3);
   device->cue(haptics::Cue::Go);
@@ -176,35 +178,35 @@ TEST(SeveralHands, AreOneDeviceInTheFirstOnesNameAndAllAreAsked) {
   device->calibrate();
   device->startClock(nullptr, nullptr);
   device->stopClock();
-  for (const test::DiaryDevice* part : parts)
+  for (const SetDevice* part : parts)
     EXPECT_EQ(part->calls, std::string("prepare 3; go; see 2; calibrate; ") + (part == parts[0] ? "clock; no clock; " : ""));
   parts[0]->sample.position.x = 3;
   EXPECT_EQ(device->read().position.x, 3);
   device->write({1, 0, 0});
-  EXPECT_EQ(parts[0]->force.x, 1);
-  EXPECT_EQ(parts[1]->force.x, 0) << "each is told for itself";
+  EXPECT_EQ(parts[0]->written, (std::vector<Vec3>{{1, 0, 0}}));
+  EXPECT_TRUE(parts[1]->written.empty()) << "each is told for itself";
   ASSERT_EQ(device->hands().size(), 3u);
   EXPECT_EQ(device->hands()[2], parts[2]);
   EXPECT_EQ(device->health(), haptics::DeviceHealth::Ready);
-  parts[1]->state = haptics::DeviceHealth::Lost;
-  parts[2]->state = haptics::DeviceHealth::Warm;
+  parts[1]->is = haptics::DeviceHealth::Lost;
+  parts[2]->is = haptics::DeviceHealth::Warm;
   EXPECT_EQ(device->health(), haptics::DeviceHealth::Lost) << "the worst of them";
   EXPECT_EQ(device->healthText(), "");
-  parts[1]->said = "gone", parts[2]->said = "hot", parts[2]->hint = "hold it";
+  parts[1]->says = "gone", parts[2]->says = "hot", parts[2]->hint = "hold it";
   EXPECT_EQ(device->healthText(), "second: gone; third: hot");
   EXPECT_EQ(device->calibrationHint(), "third: hold it");
   EXPECT_TRUE(device->stopForce());
   parts[0]->stops = false;
   EXPECT_FALSE(device->stopForce());
-  for (const test::DiaryDevice* part : parts) EXPECT_TRUE(part->calls.ends_with("stop; stop; ")) << "whatever another says";
+  for (const SetDevice* part : parts) EXPECT_TRUE(part->calls.ends_with("stop; stop; ")) << "whatever another says";
 }
 
 TEST(SeveralHands, OnlyTheFirstMayDriveTheClock) {
   const auto joined = [](const std::vector<bool>& drives) {
     Devices owned;
     for (const bool one : drives) {
-      auto part = std::make_unique<test::DiaryDevice>("P");
-      part->shown.drivesClock = one;
+      auto part = std::make_unique<SetDevice>(Vec3{}, "P");
+      part->about.drivesClock = one;
       owned.push_back(std::move(part));
     }
     const haptics::HapticDevice* const first = owned[0].get();

@@ -16,8 +16,14 @@ class SetDevice final : public HapticDevice {
     written.reserve(20'000);
   }
   DeviceInfo info() const override { return about; }
-  void prepareTrial(int index, int /*scene*/ = 0) override { prepared.push_back(index); }
-  void cue(Cue cue) noexcept override { cues.push_back(cue); }
+  void prepareTrial(int index, int /*scene*/ = 0) override {
+    prepared.push_back(index);
+    calls += "prepare " + std::to_string(index) + "; ";
+  }
+  void cue(Cue cue) noexcept override {
+    cues.push_back(cue);
+    calls += cue == Cue::Go ? "go; " : "place; ";
+  }
   DeviceSample read() noexcept override {
     ++reads;
     if (whileItIsRead) whileItIsRead();
@@ -27,7 +33,10 @@ class SetDevice final : public HapticDevice {
     if (written.size() < written.capacity()) written.push_back(force);
     if (whileItIsTold) whileItIsTold();
   }
-  void see(std::span<const dynamics::MassState> masses) noexcept override { seen = masses.size(); }
+  void see(std::span<const dynamics::MassState> masses) noexcept override {
+    seen = masses.size();
+    calls += "see " + std::to_string(seen) + "; ";
+  }
   std::vector<HapticDevice*> hands() override {
     std::vector<HapticDevice*> all{this};
     all.insert(all.end(), others.begin(), others.end());
@@ -35,22 +44,31 @@ class SetDevice final : public HapticDevice {
   }
   DeviceHealth health() const noexcept override { return is; }
   std::string healthText() const override { return says; }
+  std::string calibrationHint() const override { return hint; }
+  void calibrate() override { calls += "calibrate; "; }
   bool stopForce() noexcept override {
-    ++stops;
-    return true;
+    calls += "stop; ";
+    return stops;
   }
+  void startClock(ClockTick tick, void* context) override {
+    calls += "clock; ";
+    if (tick != nullptr) tick(context);
+  }
+  void stopClock() noexcept override { calls += "no clock; "; }
 
   DeviceInfo about;
   DeviceSample sample;
   DeviceHealth is = DeviceHealth::Ready;
-  std::string says;
+  std::string says, hint;  // healthText, calibrationHint
+  bool stops = true;
   std::vector<HapticDevice*> others;  // which are together with this one
   std::function<void()> whileItIsRead, whileItIsTold;
 
   std::vector<Vec3> written;
   std::vector<Cue> cues;
   std::vector<int> prepared;
-  int reads = 0, stops = 0;
+  std::string calls;  // in their order, but for what is read and written
+  int reads = 0;
   std::size_t seen = 0;
 };
 
