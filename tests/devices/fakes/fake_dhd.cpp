@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <thread>
 
 namespace reachlab::test {
@@ -53,18 +54,7 @@ std::atomic<int>& fakeDhdCount() { return connected; }
 
 void resetFakeDhd() {
   connected = 1;
-  for (FakeDhd& device : devices) {
-    for (int i = 0; i < 3; ++i) device.position[i] = 0, device.force[i] = 0;
-    device.open = device.forceOn = device.hangs = device.sameAgain = false;
-    device.watchdog = 0;
-    device.callsUntilFailure = -1;
-    device.tellsSerial = true;
-    for (auto& part : device.velocity) part = 0;
-    device.type = 33;
-    device.maxForce = -1;
-    device.forces = device.error = device.failOnce = 0;
-    device.most = 0;
-  }
+  for (FakeDhd& device : devices) std::construct_at(&device);
 }
 
 }  // namespace reachlab::test
