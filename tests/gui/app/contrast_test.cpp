@@ -50,10 +50,7 @@ class Contrast : public AtTheWindow, public ::testing::WithParamInterface<Theme>
 
 TEST_P(Contrast, OfEveryWordIsEnough) {
   open();
-  auto* masses = find<widgets::NumberListEdit>("masses");
-  masses->setFocus();
-  masses->clear();
-  QTest::keyClicks(masses, "abc");
+  type(find<widgets::NumberListEdit>("masses"), "abc", false);
   find<QWidget>("note")->setFocus();
   for (const QSize& size : {QSize(1900, 1050), QSize(1366, 740)}) {
     window_->resize(size);

@@ -97,13 +97,10 @@ TEST_F(Files, WhatIsBeingTypedIsSavedAndRunToo) {
   window.activateWindow();
   ASSERT_TRUE(QTest::qWaitForWindowActive(&window));
   auto* masses = window.findChild<QLineEdit*>("masses");
-  masses->setFocus();
-  masses->selectAll();
-  QTest::keyClicks(masses, "2.5");
+  type(masses, "2.5", false);
   QTest::keyClick(&window, Qt::Key_S, Qt::ControlModifier);
   EXPECT_EQ(experiment::openExperiment(path_.toStdString()).experiment().object.masses, (std::vector<double>{2.5}));
-  masses->selectAll();
-  QTest::keyClicks(masses, "3.5");
+  type(masses, "3.5", false);
   ASSERT_TRUE(startsTrial());
   EXPECT_EQ(window.session().run()->experimentNow().experiment().object.masses, (std::vector<double>{3.5}));
 }
