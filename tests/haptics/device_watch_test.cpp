@@ -81,19 +81,12 @@ TEST_F(Watch, ADeviceThatDoesNotCountItsReportsIsNotJudgedByThem) {
   }
 }
 
-TEST_F(Watch, WhileTheObjectIsPutUpTheHandMayJump) {
-  context.engaged = false;
-  settle({});
-  EXPECT_TRUE(look({0.3, 0, 0}).valid);
-  EXPECT_EQ(watch.fault(), DeviceFault::None);
-}
-
 // A virtual hand is carried from the target back to the start in one tick, and is engaged there at once.
 TEST_F(Watch, AHandThatWasCarriedToTheStartIsNotFastThere) {
   settle({0.3, 0, 0});
   context.engaged = false;
   look({0.3, 0, 0});
-  look({});
+  EXPECT_TRUE(look({}).valid) << "while the object is put up the hand may jump";
   context.engaged = true;
   for (int i = 0; i < 50; ++i) ASSERT_TRUE(look({}).valid) << i;
   EXPECT_EQ(watch.fault(), DeviceFault::None);
