@@ -51,11 +51,8 @@ TEST_F(ShippedSchema, AcceptsALookThatTheReaderTakesAndTheWriterKeeps) {
   look.cameras.push_back({"above", {0, 0.5, 0.1}, {0.1, 0, 0}, {0, 0, -1}, 20, true});
   const Experiment seen = withLook(readExperiment("chain-moderate"), look);
   EXPECT_EQ(lookOf(seen), look);
-  const Experiment read = parseExperiment(toJson(seen), "x.json");
-  EXPECT_EQ(lookOf(read), look);
+  EXPECT_EQ(lookOf(parseExperiment(toJson(seen), "x.json")), look);
   EXPECT_TRUE(schemaAccepts(Json::parse(toJson(seen))));
-  EXPECT_EQ(lookOf(withLook(read, {})), SceneLook{});
-  EXPECT_EQ(lookOf(readExperiment("chain-moderate")), SceneLook{});
 }
 
 Json resolved(const Json& root, const Json& node) {

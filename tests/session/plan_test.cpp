@@ -81,15 +81,7 @@ TEST(Plan, KnowsTheEdgesOfWhatItTakes) {
   EXPECT_NE(faultsOf(block("\"trials\": 1, \"day\": 0")), "");
   EXPECT_TRUE(holds(faultsOf(block("\"trials\": 1, \"rest_s\": -1")), "rest_s"));
   EXPECT_NE(faultsOf(block("\"trials\": 1, \"day\": 10001")), "");
-  const Plan plain = parsePlan(block("\"trials\": 2"), "folder/mine.json");
-  EXPECT_EQ(plain.name, "mine");
-  EXPECT_EQ(plain.orderSeed, 0u);
-  EXPECT_EQ(plain.counterbalance, Counterbalance::None);
-  EXPECT_FALSE(plain.blocks[0].practice);
-  EXPECT_FALSE(plain.blocks[0].repeatAborted);
-  EXPECT_EQ(plain.blocks[0].day, 0);
-  EXPECT_EQ(plain.blocks[0].experiment, "chain-slow");
-  EXPECT_EQ(plain.blocks[0].condition, "");
+  EXPECT_EQ(parsePlan(block("\"trials\": 2"), "folder/mine.json").name, "mine");
 }
 
 TEST(BlockOrder, GivesSixSubjectsTheSixOrdersOfThreePaces) {
