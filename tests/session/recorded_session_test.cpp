@@ -1,4 +1,3 @@
-#include "sim/record/log/atomic_file.h"
 #include "sim/session/recorded_session.h"
 
 #include <atomic>
@@ -24,13 +23,13 @@ using test::stillHand;
 
 class Conducted : public Recorded {
  protected:
-  Programme plan(const std::string& text) const {
-    record::writeFileAtomically(folder_ / "easy.json", kEasy);
-    record::writeFileAtomically(folder_ / "plan.json", text);
-    return readProgramme(folder_ / "plan.json");
+  Programme plan(const std::string& text) {
+    request_.trials.reset();
+    folder_.write("easy.json", kEasy);
+    return readProgramme(folder_.write("plan.json", text));
   }
   /// Two blocks of one trial each.
-  Programme planWithRest(double seconds) const {
+  Programme planWithRest(double seconds) {
     return plan(R"({ "schema_version": 1, "trials": 1, "blocks": [ { "experiment": "easy.json" },
       { "experiment": "easy.json", "condition": "b", "rest_s": )" +
                 std::to_string(seconds) + " } ] }");
@@ -61,7 +60,6 @@ constexpr const char* kTwoBlocks = R"({ "schema_version": 1, "trials": 2, "repea
   { "experiment": "easy.json", "condition": "a" }, { "experiment": "easy.json", "trials": 1, "condition": "b" } ] })";
 
 TEST_F(Conducted, ASessionDoesItsBlocksInOrderAndSaysEachStep) {
-  request_.trials.reset();
   RecordedSession session(plan(kTwoBlocks), request_, maker());
   EXPECT_EQ(session.blocksLeft(), 2u);
   EXPECT_EQ(session.seed(), 1u);
@@ -82,7 +80,6 @@ TEST_F(Conducted, ASessionDoesItsBlocksInOrderAndSaysEachStep) {
 }
 
 TEST_F(Conducted, AStopBeforeATrialRecordsNoneAndLeavesTheRestToBeResumed) {
-  request_.trials.reset();
   const Programme programme = plan(kTwoBlocks);
   {
     RecordedSession session(programme, request_, maker());
@@ -145,7 +142,6 @@ TEST_F(Conducted, ABlockWhoseDeviceCannotBeHadIsStillLeft) {
 }
 
 TEST_F(Conducted, OpeningTheNextRunFinishesTheOneBefore) {
-  request_.trials.reset();
   RecordedSession session(plan(kTwoBlocks), request_, maker());
   ASSERT_TRUE(session.openNext());
   ASSERT_TRUE(session.run()->putUpNext());
@@ -173,7 +169,6 @@ TEST_F(Conducted, TheSessionSaysWhatIsWorthAWord) {
 }
 
 TEST_F(Conducted, ARestIsSaidWhereThePlanHasOneAndSomebodyWaits) {
-  request_.trials.reset();
   const Programme rested = plan(R"({ "schema_version": 1, "trials": 1, "blocks": [ { "experiment": "easy.json", "rest_s": 3600 },
       { "experiment": "easy.json", "condition": "b", "rest_s": 0.05 }, { "experiment": "easy.json", "condition": "c" } ] })");
   SessionWords said = words();
@@ -202,7 +197,6 @@ TEST_F(Conducted, ARestIsSaidWhereThePlanHasOneAndSomebodyWaits) {
 
 TEST_F(Conducted, AStopInARestLeavesTheNextBlockToBeResumed) {
   request_.fast = false;
-  request_.trials.reset();
   RecordedSession session(planWithRest(3600), request_, maker(false));
   std::atomic<bool> stop{false};
   SessionWords said = words();
@@ -215,7 +209,6 @@ TEST_F(Conducted, AStopInARestLeavesTheNextBlockToBeResumed) {
 // Lower bounds alone: however slow the machine is, rest and pause are not shorter.
 TEST_F(Conducted, ThePlansRestLiesBetweenBlocksInRealTime) {
   request_.fast = false;
-  request_.trials.reset();
   RecordedSession session(planWithRest(0.3), request_, maker(false));
   std::chrono::steady_clock::time_point ended, opened;
   SessionWords said = words();
@@ -251,7 +244,6 @@ TEST_F(Conducted, ATrialThatWaitsForItsHandIsSaidToWait) {
 // Lower bounds alone: however slow the machine is, the pause is not shorter.
 TEST_F(Conducted, ThePlansPauseLiesBetweenTrialsInRealTime) {
   request_.fast = false;
-  request_.trials.reset();
   RecordedSession session(plan(R"({ "schema_version": 1, "trials": 2, "pause_s": 0.3, "blocks": [ { "experiment": "easy.json" } ] })"),
                           request_, maker(false));
   EXPECT_TRUE(conduct(session, kNeverStop, words()));
@@ -267,9 +259,8 @@ TEST_F(Conducted, ThePlansPauseLiesBetweenTrialsInRealTime) {
 
 TEST(ProgrammeOfASession, CompilesEachExperimentOfAPlanOnce) {
   const TemporaryFolder folder;
-  record::writeFileAtomically(folder / "p.json", R"({ "schema_version": 1, "trials": 1, "blocks": [
-      { "experiment": "chain-slow" }, { "experiment": "epitrochoid" }, { "experiment": "chain-slow" } ] })");
-  const Programme programme = readProgramme(folder / "p.json");
+  const Programme programme = readProgramme(folder.write("p.json", R"({ "schema_version": 1, "trials": 1, "blocks": [
+      { "experiment": "chain-slow" }, { "experiment": "epitrochoid" }, { "experiment": "chain-slow" } ] })"));
   EXPECT_TRUE(programme.isPlan());
   ASSERT_EQ(programme.experiments.size(), 3u);
   EXPECT_EQ(&programme.experiments[0].experiment(), &programme.experiments[2].experiment());
