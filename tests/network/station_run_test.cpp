@@ -21,6 +21,8 @@
 namespace reachlab::network {
 namespace {
 
+using Words = std::vector<std::string>;
+
 class OneStation : public testing::Test {
  protected:
   void open(int number, bool conductor, double wait = 60, const std::string& what = "chain-two-hands") {
@@ -125,6 +127,14 @@ class OneStation : public testing::Test {
     station_->keep();
     return station_->link().statuses().at(0);
   }
+  // The same while station 2 is heard, until a trial has begun or cannot.
+  StationNews pollWhileHeard(double roundTrip, double seconds = 2) {
+    const auto wanted = [&](const StationNews& news) {
+      hear(2, roundTrip);
+      return news.begun || !news.problem.empty();
+    };
+    return pollUntil(wanted, seconds);
+  }
   static bool never(const StationNews&) { return false; }
   static bool begun(const StationNews& news) { return news.begun; }
   static bool ended(const StationNews& news) { return news.ended.has_value(); }
@@ -213,11 +223,7 @@ TEST_F(OneStation, TheConductorArmsWhenEveryLineIsGoodAndSaysWhyNot) {
   station_->armNext();
   const StationNews slow = pollUntil([](const StationNews& news) { return !news.notArmed.empty(); });
   EXPECT_EQ(slow.notArmed, "station 2: a round trip takes 200 ms; allowed: up to 120");
-  const StationNews armed = pollUntil([&](const StationNews& news) {
-    hear(2, 0.002);
-    return news.begun;
-  });
-  EXPECT_TRUE(armed.begun);
+  EXPECT_TRUE(pollWhileHeard(0.002).begun);
   const std::optional<LinkEvent> arm = sent(LinkEvent::Kind::Arm);
   ASSERT_TRUE(arm);
   EXPECT_EQ(arm->frequency, 3) << "a chain's, which the check before the block has found to do";
@@ -234,10 +240,7 @@ TEST_F(OneStation, AConductorThatIsStartedAgainCountsOn) {
   showCard(2, false);
   tell(2, LinkEvent::Kind::Ended, 7);
   station_->armNext();
-  EXPECT_TRUE(pollUntil([&](const StationNews& news) {
-                hear(2, 0.002);
-                return news.begun;
-              }).begun);
+  EXPECT_TRUE(pollWhileHeard(0.002).begun);
   EXPECT_EQ(sent(LinkEvent::Kind::Arm).value_or(LinkEvent{}).trial, 8);
 }
 
@@ -246,12 +249,7 @@ TEST_F(OneStation, NothingIsArmedThatWouldNotComeToRestOverThisLine) {
   open(1, true, 2, "body-two-hands");
   showCard(2, false);
   station_->armNext();
-  const StationNews refused = pollUntil(
-      [&](const StationNews& news) {
-        hear(2, 0.1);
-        return news.begun || !news.problem.empty();
-      },
-      5);
+  const StationNews refused = pollWhileHeard(0.1, 5);
   EXPECT_FALSE(refused.begun);
   EXPECT_TRUE(refused.problem.starts_with("no trial was armed: simulated with limp hands over this link (round trip 100.0 ms"))
       << refused.problem;
@@ -319,10 +317,9 @@ TEST_F(OneStation, ALinkThatLosesMoreThanAFifthStandsInTheWay) {
   };
   EXPECT_EQ(status(0, 0.76, 0.03).light, Light::Good) << "what is overtaken is not lost";
   EXPECT_EQ(status(0.11, 0, 0.16).light, Light::Fair);
-  EXPECT_EQ(status(0.13, 0, 0.2).obstacles, (std::vector<std::string>{}));
-  EXPECT_EQ(status(0.15, 0, 0.21).obstacles,
-            (std::vector<std::string>{"how much of what it sends is lost is not known well enough yet; allowed: up to 20 %"}));
-  EXPECT_EQ(status(0.21, 0, 0.3).obstacles, (std::vector<std::string>{"21 % of what it sends is lost; allowed: up to 20"}));
+  EXPECT_EQ(status(0.13, 0, 0.2).obstacles, Words{});
+  EXPECT_EQ(status(0.15, 0, 0.21).obstacles, Words{"how much of what it sends is lost is not known well enough yet; allowed: up to 20 %"});
+  EXPECT_EQ(status(0.21, 0, 0.3).obstacles, Words{"21 % of what it sends is lost; allowed: up to 20"});
 }
 
 TEST_F(OneStation, StatusesSayHowGoodALineIs) {
@@ -338,7 +335,7 @@ TEST_F(OneStation, StatusesSayHowGoodALineIs) {
   EXPECT_EQ(statusNow().light, Light::Fair);
   hear(2, 0.13);
   EXPECT_EQ(statusNow().light, Light::Stop);
-  EXPECT_EQ(statusNow().obstacles, (std::vector<std::string>{"a round trip takes 130 ms; allowed: up to 120"}));
+  EXPECT_EQ(statusNow().obstacles, Words{"a round trip takes 130 ms; allowed: up to 120"});
 }
 
 // What stands on a station's card is held against this one's, and each difference is said.
@@ -351,7 +348,6 @@ TEST_F(OneStation, ACardThatDoesNotFitIsSaidWithBothSides) {
     hear(2, 0.002);
     return statusNow().obstacles;
   };
-  using Words = std::vector<std::string>;
   EXPECT_EQ(obstaclesOf([](StationCard&) {}), Words{});
   EXPECT_EQ(obstaclesOf([](StationCard& card) { card.conductor = true; }), Words{"is a conductor too"});
   EXPECT_EQ(obstaclesOf([](StationCard& card) { std::strcpy(card.software.data(), "reachlab 0.1"); }),
@@ -375,7 +371,7 @@ TEST_F(OneStation, GapsAndClocksThatJumpStandInTheWay) {
   EXPECT_EQ(standing().light, Light::Fair) << "more than half of what is allowed";
   status.gap.store(0.051);
   EXPECT_EQ(standing().light, Light::Stop);
-  EXPECT_EQ(standing().obstacles, (std::vector<std::string>{"nothing comes for 51 ms at a time; allowed: up to 50"}));
+  EXPECT_EQ(standing().obstacles, Words{"nothing comes for 51 ms at a time; allowed: up to 50"});
   status.gap.store(0);
   status.offset.store(2);
   EXPECT_EQ(standing().light, Light::Good) << "in its first second the clock is still looked for";
@@ -383,7 +379,7 @@ TEST_F(OneStation, GapsAndClocksThatJumpStandInTheWay) {
   status.offset.store(2.004);
   EXPECT_EQ(standing().light, Light::Good);
   status.offset.store(2.0105);
-  EXPECT_EQ(standing().obstacles, (std::vector<std::string>{"its clock jumped by 6.5 ms against this one's; allowed: up to 5"}));
+  EXPECT_EQ(standing().obstacles, Words{"its clock jumped by 6.5 ms against this one's; allowed: up to 5"});
 }
 
 TEST_F(OneStation, HowAnEndpointEndedIsSaid) {
