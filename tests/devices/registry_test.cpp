@@ -110,26 +110,23 @@ TEST_F(MakeDevice, OfSeveralHandsEachHasADeviceOfItsOwn) {
   EXPECT_TRUE(holds(refusalOf("hid:A + simulated + hid:A"), "twice"));
   EXPECT_FALSE(holds(refusalOf("hid:A + hid:B"), "twice")) << "two";
   EXPECT_EQ(refusalOf("simulated + simulated"), "made");
-  // Two subjects of one seed move each in its own way, and the first as it would alone.
-  const auto placeOf = [](haptics::HapticDevice& device) {
-    device.cue(haptics::Cue::Go);
-    Vec3 place;
-    for (int i = 0; i < 900; ++i) place = device.read().position;
-    return place;
-  };
+  // Subjects of one seed move each in its own way, and the first as it would alone.
   const auto device = makeDevice("simulated + simulated + simulated", experiment, 5);
   const auto alone = makeDevice("simulated", experiment, 5);
-  for (haptics::HapticDevice* one : {device.get(), alone.get()}) one->prepareTrial(0), one->cue(haptics::Cue::Place);
   ASSERT_EQ(device->hands().size(), 3u);
-  Vec3 second, third;
-  device->cue(haptics::Cue::Go);
-  Vec3 first;
+  for (haptics::HapticDevice* one : {device.get(), alone.get()}) {
+    one->prepareTrial(0);
+    one->cue(haptics::Cue::Place);
+    one->cue(haptics::Cue::Go);
+  }
+  Vec3 first, second, third, own;
   for (int i = 0; i < 900; ++i) {
     first = device->read().position;
     second = device->hands()[1]->read().position;
     third = device->hands()[2]->read().position;
+    own = alone->read().position;
   }
-  EXPECT_EQ(first, placeOf(*alone));
+  EXPECT_EQ(first, own);
   EXPECT_FALSE(second == first);
   EXPECT_FALSE(third == first);
   EXPECT_FALSE(third == second);
