@@ -6,6 +6,7 @@
 #include "sim/experiment/resources.h"
 #include "sim/haptics/haptic_loop.h"
 #include "tests/bare_reach.h"
+#include "tests/dynamics/make_experiment.h"
 #include "tests/haptics/scripted_device.h"
 #include "tests/refusal.h"
 
@@ -17,9 +18,7 @@ HapticLoop onVirtualClock(std::unique_ptr<TickEngine> engine, test::MemorySink& 
   const Vec3 start = engine->protocol().start;
   const auto device = std::make_shared<test::ScriptedDevice>(start.x, start.x + 0.02, 400);
   device->beside = start;
-  LoopOptions options;
-  options.virtualClock = true;
-  return HapticLoop(std::move(engine), device, &sink, options);
+  return HapticLoop(std::move(engine), device, &sink, {.virtualClock = true, .clock = {}});
 }
 
 // A whole trial: put up, armed, moved, judged, put up again, with every tick handed to window and recorder.
@@ -111,33 +110,27 @@ TEST(HapticLoop, TickAllocatesNothingUnderAnyForceAndWithACursor) {
 }
 
 TEST(HapticLoop, TickAllocatesNothingOnAnyKindOfConstraintWithAnyMethod) {
-  const std::string
-      line = R"j("constraint": {"name": "line", "shape": {"length_m": 0.2}})j",
-      ellipse = R"j("constraint": {"curve": ["a*cos(phi)", "0", "b*sin(phi)"], "shape": {"a": 0.1, "b": 0.06}})j",
-      torus = R"j("constraint": {"surface": ["(0.1+0.04*cos(u))*cos(v)", "(0.1+0.04*cos(u))*sin(v)", "0.04*sin(u)"], "shape": {}})j",
-      free = R"j("constraint": {"name": "free"})j";
-  const std::string chain =
-                        R"j("object": {"kind": "chain", "masses_kg": [0.6, 0.6], "stiffness_n_per_m": [600], "damping_n_s_per_m": [1]})j",
-                    point = R"j("object": {"kind": "point", "masses_kg": [1]})j";
-  const auto task = [](const char* start, const char* target) {
-    return std::string(R"j("task": {"start": )j") + start + R"(, "target": )" + target +
-           R"(, "duration_s": 1, "tolerance": {"position_m": 0.01, "velocity_m_per_s": 0.01, "time_s": 0.3}})";
+  using experiment::Experiment;
+  Experiment chain = dynamics::makeChain(2, 0.6, 600, {600, 1});
+  chain.object.damping = {1};
+  const Experiment point = dynamics::makePoint(1, {600, 1});
+  const Experiment onTorus = dynamics::onSurface("(0.1+0.04*cos(u))*cos(v)", "(0.1+0.04*cos(u))*sin(v)", "0.04*sin(u)");
+  const auto onEllipse = [](const Experiment& e) {
+    Experiment moved = dynamics::onCurve(e, "a*cos(phi)", "0", "b*sin(phi)");
+    moved.constraint.shape = {{"a", 0.1}, {"b", 0.06}};
+    return moved;
   };
-  struct Case {
-    std::string constraint, object, task;
-    std::vector<const char*> methods;
-  };
-  const std::vector<Case> cases{{line, chain, task("[0]", "[6]"), {"auto", "rk4", "exact", "abm", "adaptive", "stiff"}},
-                                {ellipse, point, task("[0]", "[3]"), {"auto", "rk4", "abm", "adaptive", "stiff"}},
-                                {ellipse, chain, task("[0]", "[3]"), {"auto", "rk4", "abm", "adaptive", "stiff"}},
-                                {torus, point, task("[0, 0]", "[1, 1]"), {"auto", "rk4", "abm", "adaptive", "stiff"}},
-                                {free, point, task("[0, 0, 0]", "[0.1, 0, 0]"), {"auto", "rk4", "exact"}}};
-  for (const Case& c : cases)
-    for (const std::string method : c.methods) {
-      const std::string text = R"j({"schema_version": 1, )j" + c.constraint + ", " + c.object +
-                               R"(, "coupling": {"stiffness_n_per_m": 600, "damping_n_s_per_m": 1}, )" + c.task + R"(, "method": ")" +
-                               method + "\"}";
-      EXPECT_EQ(allocationsOfThreeTrials(experiment::parseExperiment(text, "case")), 0u) << text;
+  const std::vector<std::pair<Experiment, std::vector<const char*>>> cases{
+      {dynamics::from(chain, {0}, {6}), {"auto", "rk4", "exact", "abm", "adaptive", "stiff"}},
+      {dynamics::from(onEllipse(point), {0}, {3}), {"auto", "rk4", "abm", "adaptive", "stiff"}},
+      {dynamics::from(onEllipse(chain), {0}, {3}), {"auto", "rk4", "abm", "adaptive", "stiff"}},
+      {dynamics::from(onTorus, {0, 0}, {1, 1}), {"auto", "rk4", "abm", "adaptive", "stiff"}},
+      {dynamics::from(dynamics::free(point), {0, 0, 0}, {0.1, 0, 0}), {"auto", "rk4", "exact"}}};
+  for (const auto& [made, methods] : cases)
+    for (const char* method : methods) {
+      Experiment e = made;
+      e.method = method;
+      EXPECT_EQ(allocationsOfThreeTrials(e), 0u) << toJson(e);
     }
 }
 
