@@ -8,17 +8,15 @@
 
 #include "base/c3d_file.h"
 #include "base/fault.h"
+#include "tests/in_a_folder.h"
 #include "tests/refusal.h"
-#include "tests/temporary_folder.h"
 
 namespace reachlab::devices {
 namespace {
 
-class OthersFiles : public ::testing::Test {
+class OthersFiles : public InAFolder {
  protected:
-  std::string write(const std::string& name, const std::string& text) const { return folder.write(name, text); }
-  std::string at(const std::string& name) const { return (folder / name).string(); }
-  TemporaryFolder folder;
+  std::string write(const std::string& name, const std::string& text) const { return folder_.write(name, text); }
 };
 
 std::vector<RecordedReach> readFrom(const std::string& argument) { return readReaches(reachSourceOf(argument)); }
@@ -98,16 +96,16 @@ TEST_F(OthersFiles, KeysThatDoNotFitTheFileAreRefused) {
   Bids bids;
   bids.channels += "t\tn/a\tLATENCY\tn/a\ts\n";
   bids.motion = "1\t2\t3\t1\t2\t3\t0\n4\t5\t6\t4\t5\t6\t0.5\n";
-  const std::string latency = writeBids(folder, bids);
+  const std::string latency = writeBids(folder_, bids);
   EXPECT_EQ(refusalToReplay(latency + ",point=hand"), "");
   EXPECT_TRUE(holds(refusalToReplay(latency + ",point=hand,rate=4"), "has a LATENCY channel beside rate="));
   EXPECT_TRUE(holds(refusalToReplay(latency + ",point=hand,x=X"), "x is not known for"));
-  EXPECT_EQ(refusalToReplay(folder.path() + ",point=hand"), "") << "the folder has a file that uses it";
+  EXPECT_EQ(refusalToReplay(folder_.path() + ",point=hand"), "") << "the folder has a file that uses it";
 }
 
 TEST_F(OthersFiles, ABidsPointIsReadWithItsUnits) {
-  expectTwoRows(readFrom(writeBids(folder, {}) + ",point=hand").front());
-  expectTwoRows(readFrom(writeBids(folder, {}) + ",point=elbow").front());
+  expectTwoRows(readFrom(writeBids(folder_, {}) + ",point=hand").front());
+  expectTwoRows(readFrom(writeBids(folder_, {}) + ",point=elbow").front());
 }
 
 TEST_F(OthersFiles, EachBidsEventThatLastsIsAReach) {
@@ -116,14 +114,14 @@ TEST_F(OthersFiles, EachBidsEventThatLastsIsAReach) {
   bids.motion.clear();
   for (int i = 0; i < 100; ++i) bids.motion += (i == 31 ? "n/a" : std::to_string(10 * i)) + "\t0\t0\t0\t0\t0\n";
   bids.events = "onset\tduration\ttrial_type\n0.5\t1\treach\n1.6\t0\tbeep\n2\t0.5\tcatch\n3\t1.5\treach\n4\tn/a\treach\n";
-  const std::string file = writeBids(folder, bids);
+  const std::string file = writeBids(folder_, bids);
   EXPECT_EQ(readFrom(file + ",point=hand").size(), 3u);
   Bids own = bids;  // our own recordings have a column more
   own.events = "onset\tduration\ttrial_type\tmovement_time\n0.5\t1\treach\t0.8\n2\t0.5\tcatch\t0.1\n3\t1.5\treach\tn/a\n";
   for (const char* type : {"", ",trial_type=reach"})
-    EXPECT_EQ(readFrom(writeBids(folder, own) + ",point=hand" + type).size(), 1u)
+    EXPECT_EQ(readFrom(writeBids(folder_, own) + ",point=hand" + type).size(), 1u)
         << "where the hand was to stay, or never moved, is no reach";
-  writeBids(folder, bids);
+  writeBids(folder_, bids);
   const std::vector<RecordedReach> reaches = readFrom(file + ",point=hand,trial_type=reach");
   ASSERT_EQ(reaches.size(), 2u);
   EXPECT_NEAR(reaches[0].time.front(), 0.5, 1e-12);
@@ -134,7 +132,7 @@ TEST_F(OthersFiles, EachBidsEventThatLastsIsAReach) {
 
 TEST_F(OthersFiles, WhatIsWrongWithBidsIsSaid) {
   const auto refusal = [&](Bids bids, const std::string& options = ",point=hand") {
-    return refusalToReplay(writeBids(folder, bids) + options);
+    return refusalToReplay(writeBids(folder_, bids) + options);
   };
   EXPECT_EQ(refusal({}), "");
   EXPECT_TRUE(holds(refusal({}, ""), "has 2 tracked points, and none is named; allowed: point= with one of hand, elbow"));
@@ -212,7 +210,7 @@ TEST_F(OthersFiles, AFolderMayHoldAllKinds) {
   c3d.places = {1, 2, 3, 4, 5, 6};
   write("b.c3d", c3dBytes(c3d));
   write("c.txt", "no reach");
-  const std::vector<RecordedReach> reaches = readFrom(folder.path());
+  const std::vector<RecordedReach> reaches = readFrom(folder_.path());
   ASSERT_EQ(reaches.size(), 2u);
   EXPECT_TRUE(reaches[1].file.ends_with("b.c3d"));
 }
@@ -252,23 +250,23 @@ TEST_F(OthersFiles, ABidsLatencyIsTheTimeSinceItsFirstRow) {
       "hz\tz\tPOS\thand\tm\nhv\tx\tVEL\thand\tm\nq\tquat_w\tPOS\thand\tm\n";
   bids.motion = "10\t100\t2000\t3\t9\t9\r\nn/a\t0\t0\t0\t0\t0\n\n10.5\t400\t5000\t6\t9\t9\n";
   bids.json.clear();
-  const RecordedReach reach = readFrom(writeBids(folder, bids)).front();
+  const RecordedReach reach = readFrom(writeBids(folder_, bids)).front();
   expectTwoRows(reach);
   EXPECT_EQ(reach.time.front(), 0);
   EXPECT_EQ(reach.file.substr(reach.file.size() - 11), "_motion.tsv");
   bids.motion = "0\t1\t1\t1\t0\t0\n0\t1\t1\t1\t0\t0\n";
-  EXPECT_TRUE(holds(refusalToReplay(writeBids(folder, bids)), "time does not increase at 0 s"));
+  EXPECT_TRUE(holds(refusalToReplay(writeBids(folder_, bids)), "time does not increase at 0 s"));
 }
 
 TEST_F(OthersFiles, TheEffectiveRateGoesBeforeTheNominalOneAndTheAskedOneBeforeBoth) {
   Bids bids;
   bids.json = R"({"SamplingFrequency": 3, "SamplingFrequencyEffective": 2})";
-  expectTwoRows(readFrom(writeBids(folder, bids) + ",point=hand").front());
+  expectTwoRows(readFrom(writeBids(folder_, bids) + ",point=hand").front());
   bids.json = R"({"SamplingFrequency": 2, "SamplingFrequencyEffective": "n/a"})";
-  expectTwoRows(readFrom(writeBids(folder, bids) + ",point=hand").front());
-  EXPECT_EQ(readFrom(writeBids(folder, bids) + ",point=hand,rate=4").front().time[1], 0.25);
+  expectTwoRows(readFrom(writeBids(folder_, bids) + ",point=hand").front());
+  EXPECT_EQ(readFrom(writeBids(folder_, bids) + ",point=hand,rate=4").front().time[1], 0.25);
   bids.json = R"({"SamplingFrequency": 0})";
-  EXPECT_TRUE(holds(refusalToReplay(writeBids(folder, bids) + ",point=hand"), "SamplingFrequency: is missing or no number above 0"));
+  EXPECT_TRUE(holds(refusalToReplay(writeBids(folder_, bids) + ",point=hand"), "SamplingFrequency: is missing or no number above 0"));
 }
 
 TEST_F(OthersFiles, AGapOfATenthOfASecondIsLeftToTheSpline) {
@@ -285,7 +283,7 @@ TEST_F(OthersFiles, AGapOfATenthOfASecondIsLeftToTheSpline) {
       if (!missing) withoutRows += time + ",1,0,0\n";
     }
     for (const std::string& file :
-         {writeBids(folder, unseen) + ",point=hand", write("cells.csv", withEmptyCells), write("rows.csv", withoutRows)}) {
+         {writeBids(folder_, unseen) + ",point=hand", write("cells.csv", withEmptyCells), write("rows.csv", withoutRows)}) {
       const std::string said = refusalToReplay(file);
       EXPECT_EQ(said.empty(), isRead) << file << ", " << gap << ": " << said;
     }
@@ -298,21 +296,21 @@ TEST_F(OthersFiles, AnEventHoldsTheSamplesFromItsOnsetToItsEnd) {
   bids.json = R"({"SamplingFrequency": 4})";
   bids.motion.clear();
   for (int i = 0; i < 40; ++i) bids.motion += std::to_string(i) + "\t0\t0\t0\t0\t0\n";
-  EXPECT_EQ(readFrom(writeBids(folder, bids) + ",point=hand").front().time.size(), 40u);
+  EXPECT_EQ(readFrom(writeBids(folder_, bids) + ",point=hand").front().time.size(), 40u);
   bids.events = "onset\tduration\n1.25\t2\n5\t0.5\n";
-  const auto reaches = readFrom(writeBids(folder, bids) + ",point=hand");
+  const auto reaches = readFrom(writeBids(folder_, bids) + ",point=hand");
   ASSERT_EQ(reaches.size(), 2u);
   EXPECT_EQ(reaches[0].time.front(), 1.25);
   EXPECT_EQ(reaches[0].time.back(), 3.25);
   EXPECT_EQ(reaches[1].time, (std::vector<double>{5, 5.25, 5.5}));
   EXPECT_TRUE(reaches[1].file.ends_with("_motion.tsv: event 2")) << reaches[1].file;
-  EXPECT_TRUE(holds(refusalToReplay(writeBids(folder, bids) + ",point=hand,trial_type=reach"), "no event of trial_type reach"))
+  EXPECT_TRUE(holds(refusalToReplay(writeBids(folder_, bids) + ",point=hand,trial_type=reach"), "no event of trial_type reach"))
       << "a table without types has none of that type";
   bids.events = "onset\tduration\nsoon\t2\n";
-  EXPECT_TRUE(holds(refusalToReplay(writeBids(folder, bids) + ",point=hand"),
+  EXPECT_TRUE(holds(refusalToReplay(writeBids(folder_, bids) + ",point=hand"),
                     "_events.tsv:2: onset: 'soon' is not a number; allowed: a number or n/a"));
   bids.events = "onset\tduration\n1\tn/a\n1\t-1\n";
-  EXPECT_TRUE(holds(refusalToReplay(writeBids(folder, bids) + ",point=hand"), "has no event that lasts"));
+  EXPECT_TRUE(holds(refusalToReplay(writeBids(folder_, bids) + ",point=hand"), "has no event that lasts"));
 }
 
 TEST_F(OthersFiles, AC3dFileMayEndInCapitalsAndGiveItsPlacesPointByPoint) {
@@ -321,10 +319,10 @@ TEST_F(OthersFiles, AC3dFileMayEndInCapitalsAndGiveItsPlacesPointByPoint) {
        {1.0f, 2.0f, 3.0f, 10.0f, 20.0f, 30.0f, 4.0f, 5.0f, 6.0f, 40.0f, 50.0f, 60.0f, 7.0f, 8.0f, 9.0f, 70.0f, 80.0f, 90.0f})
     c3d.places.push_back(value);
   write("UP.C3D", c3dBytes(c3d));
-  const auto reach = readFrom(folder.path() + ",point=B").front();
+  const auto reach = readFrom(folder_.path() + ",point=B").front();
   EXPECT_EQ(reach.time, (std::vector<double>{0, 0.02, 0.04}));
   EXPECT_LT(norm(reach.position[1] - Vec3{0.4, 0.5, 0.6}), 1e-12);
-  EXPECT_TRUE(holds(refusalToReplay(at("gone.c3d")), "gone.c3d: no such file or folder to replay"));
+  EXPECT_TRUE(holds(refusalToReplay((folder_ / "gone.c3d").string()), "gone.c3d: no such file or folder to replay"));
 }
 
 }  // namespace

@@ -11,19 +11,15 @@
 #include "base/fault.h"
 #include "sim/experiment/resources.h"
 #include "test_paths.h"
+#include "tests/in_a_folder.h"
 #include "tests/refusal.h"
-#include "tests/temporary_folder.h"
 
 namespace reachlab::devices {
 namespace {
 
 const std::string kReaches = REACHLAB_SOURCE_DIR "/resources/reaches";
 
-class Files : public ::testing::Test {
- protected:
-  std::string write(const std::string& name, const std::string& text) const { return folder.write(name, text); }
-  TemporaryFolder folder;
-};
+class Files : public InAFolder {};
 
 // A curved reach in a frame of its own: chord of 0.5 m, a detour of 5 cm, overshoot and return at the end, uneven times.
 RecordedReach curvedReach() {
@@ -78,9 +74,9 @@ TEST(ReplayedReach, AllHumanReachesStartAtTheStartAndPassTheTarget) {
 }
 
 TEST_F(Files, AFolderIsPlayedInNameOrderAndFromTheFirstAgain) {
-  write("b.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n0.2,1,0,0\n");
-  write("a.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n0.1,1,0,0\n");
-  const auto device = makeReplayHand(folder.path(), {0, 0, 0}, {1, 0, 0});
+  folder_.write("b.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n0.2,1,0,0\n");
+  folder_.write("a.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n0.1,1,0,0\n");
+  const auto device = makeReplayHand(folder_.path(), {0, 0, 0}, {1, 0, 0});
   const auto ticksOf = [&](int trial) {
     device->prepareTrial(trial);
     device->cue(haptics::Cue::Place);
@@ -95,10 +91,10 @@ TEST_F(Files, AFolderIsPlayedInNameOrderAndFromTheFirstAgain) {
 }
 
 TEST_F(Files, SaysWhatIsWrongWithAFile) {
-  EXPECT_THROW(readReach((folder / "missing.csv").string()), ResourceError);
-  const auto missing = [&] { makeReplayHand((folder / "missing").string(), {}, {1, 0, 0}); };
+  EXPECT_THROW(readReach((folder_ / "missing.csv").string()), ResourceError);
+  const auto missing = [&] { makeReplayHand((folder_ / "missing").string(), {}, {1, 0, 0}); };
   EXPECT_TRUE(holds(reachlab::refusalOf(missing), experiment::resourceFolder() + "/reaches"));
-  EXPECT_THROW(makeReplayHand(folder.path(), {}, {1, 0, 0}), ResourceError) << "an empty folder";
+  EXPECT_THROW(makeReplayHand(folder_.path(), {}, {1, 0, 0}), ResourceError) << "an empty folder";
 }
 
 // A line at constant speed, uneven in time: the spline is the line itself. At rest for 0.3 s, blended onto it over 0.1 s, held at its end.
@@ -145,7 +141,7 @@ TEST(ReplayedReach, WhatCannotBeLaidIsRefusedInWords) {
 }
 
 TEST_F(Files, AReplayIsNamedAndMovesByTickCount) {
-  const auto device = makeReplayHand(write("a.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n0.1,1,0,0\n"), {0, 0, 0}, {1, 0, 0});
+  const auto device = makeReplayHand(folder_.write("a.csv", "time_s,x_m,y_m,z_m\n0,0,0,0\n0.1,1,0,0\n"), {0, 0, 0}, {1, 0, 0});
   EXPECT_EQ(device->info().name, "replay");
   EXPECT_EQ(device->info().version, "1");
   EXPECT_TRUE(device->info().virtualHand);
