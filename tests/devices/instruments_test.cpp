@@ -305,17 +305,13 @@ TEST_F(Triggers, OneThatMayNotBeOpenedSaysWhatToDo) {
 // The speed that the line then has, and bytes both ways, by a pseudo-terminal.
 TEST_F(Triggers, TheLineIsRawAndOfTheSpeedThatWasAskedFor) {
   const test::PseudoTerminal terminal;
-  for (const auto& [baud, speed] : {std::pair{9600, B9600},
-                                    {19200, B19200},
-                                    {38400, B38400},
-                                    {57600, B57600},
-                                    {115200, B115200},
-                                    {230400, B230400},
-                                    {1000000, B1000000}}) {
+  const std::pair<int, speed_t> speeds[] = {{9600, B9600},     {19200, B19200},   {38400, B38400},    {57600, B57600},
+                                            {115200, B115200}, {230400, B230400}, {1000000, B1000000}};
+  for (const auto& [baud, speed] : speeds) {
     const auto box = openByteLine({.name = "box", .path = terminal.path, .baud = baud});
     termios line{};
     ASSERT_EQ(::tcgetattr(terminal.slave, &line), 0);
-    EXPECT_EQ(::cfgetospeed(&line), static_cast<speed_t>(speed)) << baud;
+    EXPECT_EQ(::cfgetospeed(&line), speed) << baud;
     EXPECT_EQ(line.c_lflag & (ICANON | ECHO), 0u) << "raw";
     EXPECT_NE(line.c_cflag & CREAD, 0u);
     EXPECT_NE(line.c_cflag & CLOCAL, 0u);
