@@ -120,9 +120,8 @@ class ArmRig final : public PolledRig {
 
  protected:
   std::shared_ptr<Transport> transport() override {
-    OpenArm::Options options;
-    options.model = findArmModel("woodenhaptics_v2015");
-    return std::make_shared<OpenArm>(options, "1", [this] { return std::make_unique<HidPort>(HidInterface{.path = hid_.path}); });
+    return std::make_shared<OpenArm>(OpenArm::Options{.model = findArmModel("woodenhaptics_v2015")}, "1",
+                                     [this] { return std::make_unique<HidPort>(HidInterface{.path = hid_.path}); });
   }
   void serve() override {
     if (inventedNs - answered_ > 500 * kMs || has(DeviceFault::Unplug)) told_ = 0;  // the firmware's watchdog; no current without a cable
@@ -304,11 +303,10 @@ class VirtualRig final : public Rig {
  public:
   VirtualRig() : Rig({DeviceFault::Silence, DeviceFault::Jump}, 8.5) {}
   std::shared_ptr<haptics::HapticDevice> open() override {
-    VirtualDevice::Options options;
-    options.hand = {1, 300, 30};
     auto hand = std::make_unique<SetDevice>();
     hand_ = hand.get();
-    return device_ = std::make_shared<VirtualDevice>(*findDeviceModel("premium15"), options, std::move(hand));
+    return device_ = std::make_shared<VirtualDevice>(*findDeviceModel("premium15"), VirtualDevice::Options{.hand = {1, 300, 30}},
+                                                     std::move(hand));
   }
   void advance(const std::function<void()>& tick) override {
     hand_->sample.position = seen();
@@ -469,10 +467,8 @@ TEST(FaultRuns, Virtual) { checkRandomRuns<VirtualRig>(); }
 
 // The check itself can fail: where nothing looks after a device, a silent one goes on being told the force.
 TEST(FaultRuns, SilenceIsFoundWhereNothingLooksAfterTheDevice) {
-  Plan plan;
-  plan.faults = {{DeviceFault::Silence, 300, 250}};
-  plan.mass = 1000;  // does not follow: the force stands
-  plan.reach = 0.02;
+  // A mass that does not follow: the force stands.
+  const Plan plan{.mass = 1000, .reach = 0.02, .faults = {{DeviceFault::Silence, 300, 250}}};
   const auto run = [&](bool guarded) {
     ArmRig rig;
     runPlan(rig, plan, guarded);

@@ -23,11 +23,7 @@ using test::until;
 
 /// Answers as the test says, and keeps what it was told.
 struct Scripted final : Transport {
-  haptics::DeviceInfo info() const override {
-    haptics::DeviceInfo info;
-    info.name = "scripted";
-    return info;
-  }
+  haptics::DeviceInfo info() const override { return {.name = "scripted"}; }
   Exchange exchange(ForceSource& force, haptics::DeviceSample& sample) override {
     ++exchanges;
     told = force.newest();
@@ -236,9 +232,7 @@ struct Pushes final : DeflectionSource {
 class Steered : public ::testing::Test {
  protected:
   void make(const RateHand::Options& options) {
-    haptics::DeviceInfo info;
-    info.name = "steered";
-    hand = std::make_unique<RateHand>(info, options, start, source);
+    hand = std::make_unique<RateHand>(haptics::DeviceInfo{.name = "steered"}, options, start, source);
   }
   // The first sample with this push: `before` ticks have none of it yet.
   haptics::DeviceSample first(const Vec3& push, std::uint32_t buttons = 0) {

@@ -38,9 +38,7 @@ struct Guarded {
 };
 
 TEST(GuardedDevice, PassesOnWhatIsAskedOfTheDevice) {
-  HandSettings options;
-  options.speedLimit = 1;
-  Guarded guarded(options);
+  Guarded guarded({.speedLimit = 1});
   haptics::HapticDevice& device = *guarded.device;
   guarded.inner->is = haptics::DeviceHealth::Warm, guarded.inner->says = "warm", guarded.inner->hint = "hold it";
   device.prepareTrial(7);
@@ -61,17 +59,10 @@ TEST(GuardedDevice, PassesOnWhatIsAskedOfTheDevice) {
   EXPECT_EQ(device.info().mapping, "");
 }
 
-HandSettings mapped(const Mapping& mapping) {
-  HandSettings options;
-  options.mapping = mapping;
-  options.mapped = true;
-  return options;
-}
+HandSettings mapped(const Mapping& mapping) { return {.mapping = mapping, .mapped = true}; }
 
 TEST(DeadManButton, GivesForceOnlyWhileItIsHeld) {
-  HandSettings options;
-  options.deadManButton = 2;
-  Guarded guarded(options);
+  Guarded guarded({.deadManButton = 2});
   EXPECT_TRUE(guarded.device->read().released);
   guarded.inner->sample.buttons = 0b01;
   EXPECT_TRUE(guarded.device->read().released) << "another button";
@@ -249,13 +240,11 @@ TEST(HandSettings, SayWhatWasAskedFor) {
 
 // A SpaceMouse puts the hand at the start before each trial. A mapping turns its motion and leaves the start.
 TEST(HandSettings, AHandThatIsSteeredKeepsItsStart) {
-  HandSettings options;
-  options.mapping.scale = 2, options.mapping.mirrorX = true, options.mapped = true;
   auto owned = std::make_unique<SetDevice>();
   SetDevice& inner = *owned;
   inner.about.steered = true;
   inner.sample.position = inner.about.workspaceCentre = {-0.1, 0.2, 0.3};
-  const auto device = guardDevice(std::move(owned), options);
+  const auto device = guardDevice(std::move(owned), mapped({2, {}, {}, true}));
   EXPECT_EQ(device->read().position, (Vec3{-0.1, 0.2, 0.3}));
   inner.sample.position += Vec3{0.01, 0.01, 0};
   EXPECT_LT(norm(device->read().position - Vec3{-0.12, 0.22, 0.3}), 1e-15);
@@ -268,13 +257,9 @@ TEST(HandSettings, AWallNeedsAWorkspaceOrARadius) {
     device->about.rendersForce = rendersForce;
     return refusalOf([&] { (void)guardDevice(std::move(device), options); }, "made");
   };
-  HandSettings options;
-  options.wall = 0;
-  EXPECT_TRUE(holds(refusal(options), "wall=yes: the workspace of unknown is not known; allowed: wall=RADIUS_M"));
-  options.wall = 0.1;
-  EXPECT_EQ(refusal(options), "made");
-  options = {};
-  EXPECT_EQ(refusal(options), "made");
+  EXPECT_TRUE(holds(refusal({.wall = 0}), "wall=yes: the workspace of unknown is not known; allowed: wall=RADIUS_M"));
+  EXPECT_EQ(refusal({.wall = 0.1}), "made");
+  EXPECT_EQ(refusal({}), "made");
   rendersForce = false;
   for (const auto& [key, asked] : {std::pair{"wall", HandSettings{.wall = 0.1}},
                                    {"speed-limit", {.speedLimit = 1.0}},

@@ -139,10 +139,7 @@ TEST(Preflight, EveryShippedExperimentIsJudged) {
   for (const std::string& name : experiment::shippedExperiments()) {
     const auto experiment = experiment::readExperiment(name);
     if (!experiment.task) continue;
-    haptics::DeviceInfo info;
-    info.name = "device";
-    info.rendersForce = true;
-    const auto lines = check(experiment, info);
+    const auto lines = check(experiment, {.name = "device", .rendersForce = true});
     const bool bare = experiment.object.kind == experiment::ObjectKind::None, pushed = !experiment.environment.empty();
     ASSERT_EQ(lines.size(), (bare ? 3u : 5u) + (pushed ? 1u : 0u)) << name;
     EXPECT_TRUE(std::isfinite(lines[0].asked)) << name;
@@ -152,14 +149,13 @@ TEST(Preflight, EveryShippedExperimentIsJudged) {
 }
 
 haptics::DeviceInfo plainDevice() {
-  haptics::DeviceInfo info;
-  info.name = "plain";
-  info.rendersForce = true;
-  info.maxForce = 100, info.maxContinuousForce = 100;
-  info.workspaceRadius = 1;
-  info.apparentMass = 0.1;
-  info.viscosity = 5;
-  return info;
+  return {.name = "plain",
+          .maxForce = 100,
+          .maxContinuousForce = 100,
+          .rendersForce = true,
+          .workspaceRadius = 1,
+          .apparentMass = 0.1,
+          .viscosity = 5};
 }
 
 // Of several hands one may bear all of it alone: Newton's law on a minimum-jerk reach of the whole mass, and its weight.
@@ -274,10 +270,8 @@ TEST(Preflight, StabilityIsThatOfARelaxedHand) {
   e.velocityEstimator.kind = "difference";
   haptics::DeviceInfo info = plainDevice();
   info.rate = 500;
-  LoopSettings loop;
-  loop.damping = 4, loop.mass = 0.4, loop.friction = 8, loop.period = 2e-3;
-  loop.estimator = e.velocityEstimator;
-  const double largest = largestStableStiffness(loop);
+  const double largest =
+      largestStableStiffness({.damping = 4, .mass = 0.4, .friction = 8, .period = 2e-3, .estimator = e.velocityEstimator});
   const PreflightLine line = lineOf(check(e, info), "stability");
   EXPECT_NEAR(line.limit.value_or(0), largest, 1e-9);
   EXPECT_EQ(line.asked, 1500);
@@ -332,11 +326,7 @@ TEST(Preflight, AChannelIsHeldAgainstTheDevicesLimitOfStability) {
   const PreflightLine soft = lineFor(500);
   ASSERT_TRUE(soft.limit);
   const haptics::DeviceInfo info = infoOf("virtual:omni", reachUnder({}));
-  LoopSettings loop;
-  loop.damping = 2;
-  loop.mass = info.apparentMass + 0.3;
-  loop.friction = info.viscosity + 3;
-  loop.estimator = {"butterworth", 40};
+  const LoopSettings loop{.damping = 2, .mass = info.apparentMass + 0.3, .friction = info.viscosity + 3, .estimator = {"butterworth", 40}};
   EXPECT_NEAR(*soft.limit, largestStableStiffness(loop), 1e-9);
   EXPECT_EQ(soft.verdict, Verdict::Fine);
   EXPECT_TRUE(holds(soft.sentence, "Colgate"));

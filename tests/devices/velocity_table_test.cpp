@@ -32,11 +32,9 @@ std::string writeReach(const TemporaryFolder& folder, double duration) {
 
 // Without encoder steps only the delay is left, and that of each filter is known.
 TEST(VelocityTable, DelaysAreThoseOfTheFilters) {
-  VelocityTableSettings settings;
-  settings.resolutions = {1e-9};
   // A slow minimum-jerk reach: recordings of people have frequencies beyond the cut-off, where delays are others.
   const TemporaryFolder folder;
-  const auto rows = compareVelocityEstimators(writeReach(folder, 3), settings);
+  const auto rows = compareVelocityEstimators(writeReach(folder, 3), {.resolutions = {1e-9}});
   constexpr double kHalfTick = 0.5e-3, kFound = 0.1e-3;  // of the difference; searched in steps of 0.05 ms
   EXPECT_NEAR(rowOf(rows, "difference").delay, kHalfTick, 0.05e-3);
   EXPECT_NEAR(rowOf(rows, "butterworth").delay, kHalfTick + std::numbers::sqrt2 / (2 * std::numbers::pi * 40), kFound);
@@ -47,9 +45,7 @@ TEST(VelocityTable, DelaysAreThoseOfTheFilters) {
 
 // One step of 0.1 mm within a tick is 0.1 m/s to the difference.
 TEST(VelocityTable, EncoderStepsMakeTheDifferenceRoughAndTheFiltersSmooth) {
-  VelocityTableSettings settings;
-  settings.resolutions = {0.1e-3};
-  const auto rows = compareVelocityEstimators(experiment::resourceFolder() + "/reaches", settings);
+  const auto rows = compareVelocityEstimators(experiment::resourceFolder() + "/reaches", {.resolutions = {0.1e-3}});
   const VelocityRow& rough = rowOf(rows, "difference");
   EXPECT_GT(rough.worst, 0.05);
   for (const char* kind : {"low-pass", "butterworth", "kalman", "adaptive-window"})
@@ -60,10 +56,8 @@ TEST(VelocityTable, EncoderStepsMakeTheDifferenceRoughAndTheFiltersSmooth) {
 // the most of a minimum-jerk reach. The rest's and the join's 0.45 s are left out, in which little happens.
 TEST(VelocityTable, TheDifferencesErrorIsHalfATickOfAcceleration) {
   constexpr double kDuration = 1.5;
-  VelocityTableSettings settings;
-  settings.resolutions = {1e-12, 1e-4};
   const TemporaryFolder folder;
-  const auto rows = compareVelocityEstimators(writeReach(folder, kDuration), settings);
+  const auto rows = compareVelocityEstimators(writeReach(folder, kDuration), {.resolutions = {1e-12, 1e-4}});
   const double unit = 0.5e-3 * 0.2 / (kDuration * kDuration);
   EXPECT_EQ(rows.front().kind, "difference");
   EXPECT_EQ(rows.front().resolution, 1e-12);

@@ -54,10 +54,8 @@ TEST(VirtualDevice, ADelayedForceActsThatManyTicksLater) {
 TEST(VirtualDevice, AWholeRunIsTheSameTwiceAndWithinTheDevicesForce) {
   const experiment::Experiment experiment = experiment::readExperiment("chain-moderate");
   const auto run = [&] {
-    haptics::LoopOptions options;
-    options.virtualClock = true;
     haptics::RunConductor conductor(experiment::CompiledExperiment(experiment), makeDevice("virtual:premium15", experiment, 3),
-                                    {trial::PlannedTrial{0}}, options);
+                                    {trial::PlannedTrial{0}}, {.virtualClock = true, .clock = {}});
     conductor.start(nullptr);
     return conductor.runTrial(std::atomic<bool>{false})->result;
   };
@@ -75,14 +73,7 @@ TEST_F(VirtualDevices, AreMadeByOptionsThatAreChecked) {
   EXPECT_NO_THROW(make("virtual:omni,arm-mass=2,noise=0"));
 }
 
-LoopSettings passiveArm(int delay) {
-  LoopSettings s;
-  s.mass = 0.1;
-  s.friction = 0.5;
-  s.delayTicks = delay;
-  s.estimator.kind = "difference";
-  return s;
-}
+LoopSettings passiveArm(int delay) { return {.mass = 0.1, .friction = 0.5, .delayTicks = delay, .estimator = {.kind = "difference"}}; }
 
 // b > k T/2 without delay, 3 k T/2 with one tick, 5 k T/2 with two (Colgate and Schenkel): 1000, 333, 200 N/m for 0.5 N s/m. The light
 // body comes within 1 % of the law.
@@ -91,9 +82,7 @@ TEST(LoopStability, TheLargestStableStiffnessIsColgatesForALightBody) {
   EXPECT_NEAR(largestStableStiffness(passiveArm(1)), 333, 3.3);
   EXPECT_NEAR(largestStableStiffness(passiveArm(2)), 200, 2);
   for (const int delay : {0, 1, 2}) {
-    StabilityMapSettings settings;
-    settings.delayTicks = delay;
-    for (const StabilityPoint& p : computeStabilityMap(*findDeviceModel("premium15"), settings))
+    for (const StabilityPoint& p : computeStabilityMap(*findDeviceModel("premium15"), {.delayTicks = delay, .estimator = {}}))
       EXPECT_LE(p.largestPassive, 1.01 * p.largestStable) << "what is passive is stable, " << delay;
   }
 }
@@ -248,9 +237,8 @@ TEST(LoopStability, TheRadiusIsHowFastTheMotionGrowsOrDies) {
 }
 
 TEST(LoopStability, ColgatesMarginIsWhatFrictionIsLeft) {
-  LoopSettings s;
-  s.stiffness = 800, s.damping = -0.3, s.friction = 1.2, s.period = 2e-3;
-  EXPECT_NEAR(passivityMargin(s), 1.2 - 0.8 - 0.3, 1e-12);
+  EXPECT_NEAR(passivityMargin({.stiffness = 800, .damping = -0.3, .friction = 1.2, .period = 2e-3, .estimator = {}}), 1.2 - 0.8 - 0.3,
+              1e-12);
 }
 
 TEST(LoopStability, TheLargestStiffnessIsFoundToAThousandthOrIsTheMostThatWasAsked) {
@@ -269,13 +257,12 @@ TEST(LoopStability, TheLargestStiffnessIsFoundToAThousandthOrIsTheMostThatWasAsk
 TEST(StabilityMap, EachRowIsTheLoopWithItsHandAndDamping) {
   DeviceModel model = *findDeviceModel("premium15");
   model.viscosity = 0.4;
-  StabilityMapSettings settings;
-  settings.handMass = 0.2;
-  settings.handDampings = {2, 0.5};
-  settings.mostDamping = 1.2, settings.dampingStep = 0.4;
-  settings.delayTicks = 1;
-  settings.estimator.kind = "difference";
-  const auto map = computeStabilityMap(model, settings);
+  const auto map = computeStabilityMap(model, {.handMass = 0.2,
+                                               .handDampings = {2, 0.5},
+                                               .mostDamping = 1.2,
+                                               .dampingStep = 0.4,
+                                               .delayTicks = 1,
+                                               .estimator = {.kind = "difference"}});
   ASSERT_EQ(map.size(), 8u);
   for (std::size_t i = 0; i < map.size(); ++i) {
     LoopSettings loop;
@@ -292,10 +279,7 @@ TEST(StabilityMap, EachRowIsTheLoopWithItsHandAndDamping) {
 TEST(StabilityMap, SettingsOutOfRangeGiveNothing) {
   const DeviceModel& model = *findDeviceModel("omni");
   const auto rows = [&](double most, double step) {
-    StabilityMapSettings settings;
-    settings.handDampings = {1};
-    settings.mostDamping = most, settings.dampingStep = step;
-    return computeStabilityMap(model, settings).size();
+    return computeStabilityMap(model, {.handDampings = {1}, .mostDamping = most, .dampingStep = step, .estimator = {}}).size();
   };
   EXPECT_EQ(rows(1, 0), 0u);
   EXPECT_EQ(rows(1, -1), 0u);

@@ -15,11 +15,7 @@ const Vec3 kStart{0.1, 0.02, 0.3}, kTarget{0.1, 0.02, 0.2};  // forward on the t
 const Vec3 kHand = kStart + Vec3{0.01, 0.003, -0.04};
 
 Cursor cursorOf(double rotation, double gain = 1, std::optional<double> clamp = {}) {
-  Cursor cursor;
-  cursor.rotation = rotation;
-  cursor.gain = gain;
-  cursor.clamp = clamp;
-  return cursor;
+  return {.rotation = rotation, .gain = gain, .clamp = clamp};
 }
 CursorLaw lawOf(const Cursor& cursor) { return {cursor, TaskPlane::Horizontal, kStart, kTarget}; }
 /// Angle of the way from the start, counterclockwise from the right as seen from above [degrees].
@@ -49,9 +45,7 @@ TEST(CursorLaw, AClampedCursorKeepsItsDirectionWhereverTheHandGoes) {
 
 TEST(CursorLaw, TellsWhichPointIsJudged) {
   EXPECT_TRUE(lawOf({}).isJudged());
-  Cursor ofTheHand;
-  ofTheHand.judge = CursorJudge::Hand;
-  EXPECT_FALSE(lawOf(ofTheHand).isJudged());
+  EXPECT_FALSE(lawOf({.clamp = {}, .judge = CursorJudge::Hand}).isJudged());
 }
 
 }  // namespace

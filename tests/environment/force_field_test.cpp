@@ -75,9 +75,7 @@ TEST(ForceField, AChannelHoldsAHandThatIsPushedAcrossIt) {
 }
 
 TEST(ForceField, AChannelIsFreeWithinItsWidth) {
-  ChannelForce law;
-  law.halfWidth = 0.005;
-  ForceField field = fieldOf({law, ForceWhen::Trial});
+  ForceField field = fieldOf({ChannelForce{.halfWidth = 0.005}, ForceWhen::Trial});
   letGrow(field, 600);
   EXPECT_EQ(field.step(moving({0.004, 0, -0.05}, {1, 0, 0})), Vec3{});
   EXPECT_NEAR(field.step(moving({0.006, 0, -0.05}, {})).x, -1, 1e-9);

@@ -18,11 +18,7 @@ using namespace experiment;
 constexpr double kForceLimit = 12;  // [N]
 
 Cursor cursorOf(double rotation, double gain = 1, CursorJudge judge = CursorJudge::Cursor) {
-  Cursor cursor;
-  cursor.rotation = rotation;
-  cursor.gain = gain;
-  cursor.judge = judge;
-  return cursor;
+  return {.rotation = rotation, .gain = gain, .clamp = {}, .judge = judge};
 }
 
 Experiment judgedReach() {

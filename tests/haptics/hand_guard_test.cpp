@@ -39,11 +39,7 @@ TEST(PassivityObserver, APassiveDamperIsLeftAlone) {
 }
 
 TEST(Wall, PushesAlongTheRayFromItsCentre) {
-  GuardSettings settings;
-  settings.wallCentre = {0.01, -0.02, 0.03};
-  settings.wallRadius = 0.1;
-  settings.wallStiffness = 700;
-  settings.wallDamping = 3;
+  GuardSettings settings{.wallCentre = {0.01, -0.02, 0.03}, .wallRadius = 0.1, .wallStiffness = 700, .wallDamping = 3, .compensation = {}};
   const Vec3 outwards{2.0 / 7, -3.0 / 7, 6.0 / 7}, place = settings.wallCentre + 0.105 * outwards;
   const Vec3 along = wallForce(settings, place, 0.4 * outwards + Vec3{3, 2, 0});  // the second part is along the wall
   EXPECT_LT(norm(along + (700 * 0.005 + 3 * 0.4) * outwards), 1e-9);

@@ -162,10 +162,7 @@ TEST(HapticLoop, KeepsToItsDeadlinesWhateverItMisses) {
 }
 
 TEST(HapticLoop, SaysWhatPriorityAndMemoryItGot) {
-  LoopOptions options;
-  options.priority = 7;
-  options.clock = std::make_shared<MadeClock>(std::map<int, std::int64_t>{});
-  Looped run("dingwell", options);
+  Looped run("dingwell", {.priority = 7, .clock = std::make_shared<MadeClock>(std::map<int, std::int64_t>{})});
   HapticLoop& loop = run.loop;
   loop.start();
   loop.stop();

@@ -27,12 +27,7 @@ using namespace std::chrono_literals;
 class FailingDevice : public HapticDevice {
  public:
   explicit FailingDevice(const Vec3& start) : start_(start) {}
-  DeviceInfo info() const override {
-    DeviceInfo info;
-    info.name = "failing";
-    info.rendersForce = true;
-    return info;
-  }
+  DeviceInfo info() const override { return {.name = "failing", .rendersForce = true}; }
   void cue(Cue cue) noexcept override { going_ = cue == Cue::Go; }
   DeviceSample read() noexcept override {
     hangIf(hangsInRead);

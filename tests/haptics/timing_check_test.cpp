@@ -14,15 +14,12 @@ trial::ProtocolSettings limits() {
 }
 
 LoopReport watched(std::uint64_t missed, double longestGapMs) {
-  LoopReport report;
-  report.ticks = 2000 - missed;
-  report.seconds = 2;
-  report.latenessMax = 90;
-  report.faults.missedTicks = missed;
-  report.faults.longestGapNs = static_cast<std::uint64_t>(longestGapMs * 1e6);
-  report.mode = "SCHED_FIFO 80, memory locked";
-  report.realTime = true;
-  return report;
+  return {.ticks = 2000 - missed,
+          .seconds = 2,
+          .latenessMax = 90,
+          .faults = {.missedTicks = missed, .longestGapNs = static_cast<std::uint64_t>(longestGapMs * 1e6)},
+          .mode = "SCHED_FIFO 80, memory locked",
+          .realTime = true};
 }
 
 TEST(TimingCheck, IsGoodAsLongAsAMovementThatMissedAsMuchWouldCount) {
