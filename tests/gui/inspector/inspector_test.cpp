@@ -73,9 +73,7 @@ class Inspecting : public ::testing::Test {
   }
   template <typename T>
   T* find(const char* name) const {
-    T* found = page_.findChild<T*>(QLatin1String(name));
-    EXPECT_NE(found, nullptr) << name;
-    return found;
+    return child<T>(page_, name);
   }
   QPoint cell(int viewRow, int column = 0) const { return page_.view().visualRect(page_.view().model()->index(viewRow, column)).center(); }
   void choose(int first, int last) {
