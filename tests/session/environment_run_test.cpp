@@ -76,13 +76,8 @@ TEST_F(Pushed, TheCursorOfEveryRowIsTheHandRotatedAboutTheStart) {
 TEST_F(Pushed, ABrokenChannelIsAnEventAndAMarkOfItsTrial) {
   const std::string channel = R"("environment": [{ "kind": "channel" }], "hand_mass_kg": 1)";
   const record::RunLog held = recorded(channel), left = recorded(channel, 0.049);
-  const auto broken = [](const record::RunLog& log) {
-    std::size_t count = 0;
-    for (const record::RecordedEvent& event : log.events()) count += event.kind == record::EventKind::ChannelBroken;
-    return count;
-  };
-  EXPECT_EQ(broken(held), 0u);
-  EXPECT_EQ(broken(left), left.trials().size());
+  EXPECT_TRUE(test::eventsOf(held, record::EventKind::ChannelBroken).empty());
+  EXPECT_EQ(test::eventsOf(left, record::EventKind::ChannelBroken).size(), left.trials().size());
   for (const record::RecordedTrial& trial : held.trials()) EXPECT_FALSE(trial.channelBroken);
   for (const record::RecordedTrial& trial : left.trials()) EXPECT_TRUE(trial.channelBroken);
   EXPECT_TRUE(record::replayRun(left).identical());

@@ -152,11 +152,8 @@ TEST_F(InRealTime, WhatAnInstrumentSaysAtItsEndIsInTheLog) {
   RecordedRun run(block(), goodHand(), with);
   ASSERT_TRUE(run.runTrial(kNeverStop));
   run.finish();
-  std::string told;
   const record::RunLog log = logs().at(0);
-  for (const record::RecordedEvent& event : log.events())
-    if (event.kind == record::EventKind::Instrument) told += event.text + "; ";
-  EXPECT_EQ(told, "the first; the last word; ");
+  EXPECT_EQ(test::eventsOf(log, record::EventKind::Instrument), (std::vector<std::string>{"the first", "the last word"}));
   EXPECT_EQ(log.configuration().instruments, "last-word");
 }
 

@@ -198,10 +198,7 @@ TEST_F(Recorded, InRealTimeTheLogHasNotesAndHowWellTheLoopKeptTime) {
   EXPECT_TRUE(run.timing().starts_with("loop: ")) << run.timing();
   const record::RunLog log = logs().at(0);
   EXPECT_EQ(log.configuration().clock, "monotonic");
-  std::vector<std::string> notes;
-  for (const record::RecordedEvent& event : log.events())
-    if (event.kind == record::EventKind::Note) notes.push_back(event.text);
-  EXPECT_EQ(notes, (std::vector<std::string>{"the phone rang", run.timing()}));
+  EXPECT_EQ(test::eventsOf(log, record::EventKind::Note), (std::vector<std::string>{"the phone rang", run.timing()}));
 }
 
 }  // namespace

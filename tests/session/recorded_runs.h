@@ -3,6 +3,7 @@
 
 #include <atomic>
 #include <memory>
+#include <string>
 #include <vector>
 
 #include "sim/session/recorded_session.h"
@@ -36,6 +37,14 @@ inline std::vector<record::RunLog> logsIn(const SessionPlace& place) {
   std::vector<record::RunLog> logs;
   for (const RunOnDisk& run : recordedRuns(place)) logs.push_back(record::RunLog::open(run.path));
   return logs;
+}
+
+/// What a log's events of this kind say, in their order.
+inline std::vector<std::string> eventsOf(const record::RunLog& log, record::EventKind kind) {
+  std::vector<std::string> texts;
+  for (const record::RecordedEvent& event : log.events())
+    if (event.kind == kind) texts.push_back(event.text);
+  return texts;
 }
 
 /// A dataset of its own, and three trials of an easy reach on the virtual clock.
