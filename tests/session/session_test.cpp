@@ -23,8 +23,6 @@
 namespace reachlab::session {
 namespace {
 
-std::string contentOf(const std::string& file) { return readTextFile(file); }
-
 SessionToRun planSession(const SessionRequest& request) { return session::planSession(request, readProgramme(request.what)); }
 
 std::vector<int> indicesOf(const BlockToRun& block) {
@@ -119,9 +117,8 @@ TEST_F(PlannedSession, OfAnExperimentIsOneBlockWithItsTrialsInOrder) {
 }
 
 TEST_F(PlannedSession, GoesOnWithTheTrialThatWasBrokenOffAndWithTheSameOrder) {
-  const std::string plan = write("p.json", planOf(6, {"chain-slow", "chain-fast"}, R"(, "order_seed": 3,
-      "counterbalance": "permute", "foreperiod_s": [0.1, 0.9], "catch_share": 0.34)"));
-  SessionRequest r = request(plan);
+  SessionRequest r = request(write("p.json", planOf(6, {"chain-slow", "chain-fast"}, R"(, "order_seed": 3,
+      "counterbalance": "permute", "foreperiod_s": [0.1, 0.9], "catch_share": 0.34)")));
   r.place.subject = "02";
   const SessionToRun first = planSession(r);
   ASSERT_EQ(first.blocks.size(), 2u);
@@ -269,8 +266,7 @@ TEST_F(PlannedSession, OfAPlanWithoutDaysMayHaveAnyName) {
 }
 
 TEST_F(PlannedSession, GivesItsBlocksRunNumbersInTurn) {
-  const std::string plan = write("p.json", planOf(2, {"chain-slow", "chain-fast", "chain-slow"}));
-  SessionRequest r = request(plan);
+  SessionRequest r = request(write("p.json", planOf(2, {"chain-slow", "chain-fast", "chain-slow"})));
   const auto runs = [](const SessionToRun& session) {
     std::vector<std::array<int, 3>> numbers;
     for (const BlockToRun& block : session.blocks)
@@ -330,7 +326,7 @@ TEST_F(PlannedSession, ResumesTheRunOfItsOwnExperimentAlone) {
 
 // The rest would be recorded under the text of the old file.
 TEST_F(PlannedSession, RefusesToResumeWhatWasChangedSince) {
-  const std::string experiment = contentOf(experiment::resourceFolder() + "/experiments/chain-slow.json");
+  const std::string experiment = readTextFile(experiment::resourceFolder() + "/experiments/chain-slow.json");
   const struct { const char *what, *changed; } cases[] = {{"p.json", "p.json"}, {"p.json", "mine.json"}, {"mine.json", "mine.json"}};
   for (const auto& [what, changed] : cases) {
     SCOPED_TRACE(std::string(what) + ", of which " + changed + " was changed");
@@ -342,7 +338,7 @@ TEST_F(PlannedSession, RefusesToResumeWhatWasChangedSince) {
     recordAndBreakOff(planSession(r).blocks[0], 1);
     r.resume = true;
     EXPECT_NO_THROW(planSession(r));
-    write(changed, contentOf(folder_ / changed) + "\n");
+    write(changed, readTextFile(folder_ / changed) + "\n");
     const Fault fault = faultsToldBy([&] { planSession(r); }).at(0);
     EXPECT_EQ(fault.key, "resume") << toText(fault);
     if (what != changed) {
@@ -355,9 +351,7 @@ TEST_F(PlannedSession, RepeatsWhatWasInterruptedAndWhatWasAbortedOnlyIfThePlanSa
   const std::vector<trial::Outcome> outcomes{trial::Outcome::Success, trial::Outcome::Aborted, trial::Outcome::Failure,
                                              trial::Outcome::Interrupted};
   for (const bool repeat : {false, true}) {
-    const std::string plan =
-        write(repeat ? "again.json" : "once.json", planOf(5, {"chain-slow"}, repeat ? R"(, "repeat_aborted": true)" : ""));
-    SessionRequest r = request(plan);
+    SessionRequest r = request(write("again.json", planOf(5, {"chain-slow"}, repeat ? R"(, "repeat_aborted": true)" : "")));
     r.place.subject = repeat ? "01" : "02";
     const SessionToRun first = planSession(r);
     EXPECT_EQ(first.blocks[0].configuration.repeatAborted, repeat);
@@ -425,7 +419,7 @@ TEST_F(PlannedSession, KeepsWhatThePlanAndTheRequestSayInTheRecord) {
                     {"order_seed", 12},
                     {"session_seed", session.seed},
                     {"experiment_name", planned.name},
-                    {"experiment_text", contentOf(experiment::resourceFolder() + "/experiments/" + planned.name + ".json")},
+                    {"experiment_text", readTextFile(experiment::resourceFolder() + "/experiments/" + planned.name + ".json")},
                     {"definition_text", experiment::definitionTextOf(planned)},
                     {"sample_every_ticks", 1},
                     {"sampling_hz", 1000},
