@@ -7,13 +7,7 @@
 namespace reachlab::network {
 namespace {
 
-LinkBenchPlan planOf(double roundTrip) {
-  LinkBenchPlan plan;
-  plan.roundTrips = {roundTrip};
-  plan.seeds = 2;
-  plan.setups = 0;
-  return plan;
-}
+LinkBenchPlan planOf(double roundTrip) { return {.roundTrips = {roundTrip}, .seeds = 2, .setups = 0}; }
 
 // The bounds that the design asks of a link: half a millimetre at 50 ms, one and a half at 100. The hands are without noise.
 TEST(LinkBench, TheObjectIsStableAndItsCopiesKeepTogether) {
@@ -44,10 +38,8 @@ TEST(LinkBench, ItsLossIsThatOfItsLinks) {
 
 // A part of the random set-ups; `reach bench --network` has them all.
 TEST(RandomSetups, AreStableAndNoCopyHoldsMoreThanTheHandsPutIn) {
-  LinkBenchPlan plan;
-  plan.setups = 6;
   for (const SharedObject object : kSharedObjects) {
-    const LinkBenchRow share = runRandomSetups(plan, object, 0.1);
+    const LinkBenchRow share = runRandomSetups({.setups = 6}, object, 0.1);
     EXPECT_GE(share.stable, 5) << nameOf(object);
     EXPECT_LT(share.ledgerDuration, 0.5) << nameOf(object) << " above " << kLedgerAmount << " J";
   }

@@ -55,9 +55,7 @@ Asked askedByAStation(const std::string& name) {
   record::Recorder log(folder / "log.reach", c, {.further = &link});
   BothSinks sink(link, log);
 
-  haptics::LoopOptions options;
-  options.virtualClock = true;
-  haptics::HapticLoop loop(std::move(engine), device, &sink, options);
+  haptics::HapticLoop loop(std::move(engine), device, &sink, {.virtualClock = true, .clock = {}});
   Asked asked;
   OwnState sent;
   HeardState heard;

@@ -237,8 +237,7 @@ TEST(TwoHands, OverALinkEachCopyHearsTheOtherHandLate) {
     const TwoHandsReference without = makeReference(setup);
     setup.roundTrip = 2e-3 * kLate;
     setup.jitterShare = -0.025;  // takes off what the link adds to every delay: half a millisecond either way
-    CopySettings alone;
-    alone.frequency = 0, alone.ledger = false;
+    const CopySettings alone{.frequency = 0, .ledger = false};
     const TwoHandsOutcome outcome = runTwoHands(setup, alone, without);
     ASSERT_GT(apartOf(expected), 1e-5);
     EXPECT_NEAR(outcome.apart, apartOf(expected), 0.03 * apartOf(expected));
@@ -255,8 +254,7 @@ TEST(TwoHands, WithoutSynchronisationAChainIsNotStable) {
   setup.experiment = makeSharedExperiment(SharedObject::Chain);
   setup.roundTrip = 0.1;
   const TwoHandsReference reference = makeReference(setup);
-  CopySettings alone;
-  alone.frequency = 0, alone.ledger = false;
+  const CopySettings alone{.frequency = 0, .ledger = false};
   EXPECT_FALSE(runTwoHands(setup, alone, reference).stable);
   EXPECT_TRUE(runTwoHands(setup, copySettingsFor(setup.experiment), reference).stable);
   setup.experiment = makeSharedExperiment(SharedObject::Chain, 2000);

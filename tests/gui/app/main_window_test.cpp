@@ -163,10 +163,7 @@ TEST(Strip, TellsWhyATrialFailedOnAFullHdScreenAtAScaleOf2) {
   record::RunConfiguration run;
   run.condition = "chain-moderate";
   strip.showRun(run);
-  trial::TrialResult result;
-  result.outcome = trial::Outcome::Failure;
-  result.reason = trial::Reason::TimeShort;
-  strip.count(result);
+  strip.count({.outcome = trial::Outcome::Failure, .reason = trial::Reason::TimeShort});
   strip.show();
   ASSERT_TRUE(QTest::qWaitForWindowExposed(&strip));
   const auto* tally = child<QLabel>(strip, "tally");
@@ -184,10 +181,7 @@ TEST_F(Window, FieldsSpeakPlainWordsAndUnits) {
   labels.clear();
   for (const auto* label : free.findChildren<QLabel*>()) labels << label->text();
   EXPECT_TRUE(labels.contains("start x y z [m]"));
-  trial::TrialResult result;
-  result.outcome = trial::Outcome::Failure;
-  result.reason = trial::Reason::TimeShort;
-  find<SessionStrip>("sessionStrip")->count(result);
+  find<SessionStrip>("sessionStrip")->count({.outcome = trial::Outcome::Failure, .reason = trial::Reason::TimeShort});
   EXPECT_TRUE(find<QLabel>("tally")->text().contains("1 × too fast"));
 }
 
@@ -399,9 +393,7 @@ TEST_F(Window, AMappingThatIsKeptForTheSubjectIsTakenAndSaid) {
   request_.device = "virtual:premium15";
   request_.place.data = (folder_.path() + "/data").toStdString();
   const QString file = folder_.path() + "/data/sourcedata/mappings/sub-01_virtual-premium15.json";
-  devices::Mapping kept;
-  kept.scale = 1.5;
-  devices::saveMapping(kept, file.toStdString());
+  devices::saveMapping({1.5, {}, {}, false}, file.toStdString());
   MainWindow& window = open();
   ASSERT_TRUE(startsTrial());
   EXPECT_TRUE(holds(window.message(), file));

@@ -12,12 +12,7 @@ namespace reachlab::gui::plot {
 namespace {
 
 SignalPlot::Point pointAt(double t) {
-  SignalPlot::Point p;
-  p.time = t;
-  p.position = {std::sin(t), 0, 0};
-  p.velocity = {std::cos(t), 0, 0};
-  p.force = 2 * t;
-  return p;
+  return {.time = t, .position = {std::sin(t), 0, 0}, .velocity = {std::cos(t), 0, 0}, .force = 2 * t};
 }
 
 TEST(SignalPlot, KeepsTheLastPointsInConstantMemory) {

@@ -217,11 +217,7 @@ TEST(NumberList, RefusesWhatIsNoNumber) {
 }
 
 TEST(Overlay, TheLongestSentenceFitsIntoTheSmallestScene) {
-  trial::TrialResult result;
-  result.outcome = trial::Outcome::Failure;
-  result.reason = trial::Reason::Position;
-  result.mass = 12;
-  result.by = 0.1279;
+  const trial::TrialResult result{trial::Outcome::Failure, trial::Reason::Position, 12, 0.1279};
   QFont font = QApplication::font();
   font.setWeight(QFont::DemiBold);
   EXPECT_EQ(pointsToFit(QStringLiteral("Wait"), font, 19, {500, 32}), 19);
