@@ -99,9 +99,7 @@ TEST(InputAxis, ValuesAreAboutItsMiddleAndWithinItsRange) {
 using Told = std::vector<std::array<int, 3>>;
 
 PenState told(const Told& events, int perMmX = 0, int perMmY = 0) {
-  TabletNode node;
-  node.x = {0, 100, perMmX}, node.y = {0, 200, perMmY};
-  PenState state(node);
+  PenState state({.path = {}, .name = {}, .x = {0, 100, perMmX}, .y = {0, 200, perMmY}, .whyNot = {}});
   for (const auto& [type, code, value] : events) {
     input_event e{};
     e.type = static_cast<std::uint16_t>(type), e.code = static_cast<std::uint16_t>(code), e.value = value;
@@ -155,19 +153,11 @@ TEST(InputPort, APathThatIsNotThereIsRefusedInTheSystemsWords) {
 class TabletDevices : public EventNodes, public DriverAnswers {
  protected:
   TabletNode fifo(const std::string& name, const std::string& title) {
-    TabletNode node;
-    node.path = (folder / name).string();
-    node.name = title;
-    node.x = node.y = {0, 100};
+    const TabletNode node{.path = (folder / name).string(), .name = title, .x = {0, 100}, .y = {0, 100}, .whyNot = {}};
     EXPECT_EQ(::mkfifo(node.path.c_str(), 0600), 0);
     return node;
   }
-  static TabletNode closed() {
-    TabletNode node;
-    node.path = "/dev/input/event99";
-    node.whyNot = "not for you";
-    return node;
-  }
+  static TabletNode closed() { return {.path = "/dev/input/event99", .name = {}, .x = {}, .y = {}, .whyNot = "not for you"}; }
 };
 
 TEST_F(TabletDevices, AreListedByTheNameThatOpensThem) {

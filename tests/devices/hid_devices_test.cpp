@@ -87,9 +87,8 @@ TEST_F(HidDevices, OneThatMayNotBeOpenedSaysWhatToDo) {
   EXPECT_EQ(why(EPERM), "/dev/hidraw3: Operation not permitted" + remedy);
   EXPECT_EQ(why(ENXIO), "/dev/hidraw3: No such device or address");
   EXPECT_THROW(HidPort(findHid().at(0)), ResourceError);
-  HidInterface nowhere;
-  nowhere.path = "/dev/null";  // it may be opened, but not as HID
-  EXPECT_EQ(reachlab::refusalOf([&] { const HidPort port(nowhere); }), "/dev/null: the library?s own words");
+  EXPECT_EQ(reachlab::refusalOf([&] { const HidPort port(HidInterface{.path = "/dev/null"}); }), "/dev/null: the library?s own words")
+      << "it may be opened, but not as HID";
 }
 
 TEST_F(HidDevices, APortIsReadWrittenAndClosed) {
