@@ -48,7 +48,7 @@ TEST_F(ShippedSchema, AcceptsALookThatTheReaderTakesAndTheWriterKeeps) {
   look.depthCue = "grid";
   look.sceneFile = "table.wrl";
   look.colours["last"] = "#f58521";
-  look.cameras.push_back({"above", {0, 0.5, 0.1}, {0.1, 0, 0}, {0, 0, -1}, 20, true});
+  look.cameras.push_back({{{0, 0.5, 0.1}, {0.1, 0, 0}, {0, 0, -1}, 20, true}, "above"});
   const Experiment seen = withLook(readExperiment("chain-moderate"), look);
   EXPECT_EQ(lookOf(seen), look);
   EXPECT_EQ(lookOf(parseExperiment(toJson(seen), "x.json")), look);
