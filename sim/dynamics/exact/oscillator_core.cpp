@@ -194,13 +194,11 @@ bool OscillatorCore::advanceFree(const State& state, const AxisHand& hand, State
   const std::size_t count = free_.size();
   for (std::size_t i = 0; i < count; ++i) {
     const FreeGroup& g = group[i];
-    const auto follow = [&](double h, double second, double fourth) {
-      return mulAdd(-g.period, mulAdd(-fourth, g.period, broadcast<Lanes>(second)), broadcast<Lanes>(h));
-    };
-    const Lanes e = mulAdd(-g.rest, follow(begin[0], begin[2], begin[4]), x[i]);
-    const Lanes rate = mulAdd(-g.rest, follow(begin[1], begin[3], begin[5]), v[i]);
-    const Lanes newX = x[i] + mulAdd(g.rest, follow(change[0], change[2], change[4]), mulAdd(g.turn, e, g.xv * rate));
-    const Lanes newV = v[i] + mulAdd(g.rest, follow(change[1], change[3], change[5]), mulAdd(g.turn, rate, g.vx * e));
+    const auto follow = [&](double h, double second) { return mulAdd(-g.period, broadcast<Lanes>(second), broadcast<Lanes>(h)); };
+    const Lanes e = mulAdd(-g.rest, follow(begin[0], begin[2]), x[i]);
+    const Lanes rate = mulAdd(-g.rest, follow(begin[1], begin[3]), v[i]);
+    const Lanes newX = x[i] + mulAdd(g.rest, follow(change[0], change[2]), mulAdd(g.turn, e, g.xv * rate));
+    const Lanes newV = v[i] + mulAdd(g.rest, follow(change[1], change[3]), mulAdd(g.turn, rate, g.vx * e));
     nextX[i] = newX;
     nextV[i] = newV;
     check += newX + newV;
