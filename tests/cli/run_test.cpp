@@ -12,14 +12,10 @@
 using namespace reachlab::test;
 namespace fs = std::filesystem;
 
-namespace {
-
 class Run : public InAFolder {
  protected:
   std::string recordedLog() const { return reachlab::session::test::logsIn({.data = folder_.path()}).at(0).path(); }
 };
-
-}  // namespace
 
 TEST_F(Run, WithoutNoiseEveryTrialSucceeds) {
   const std::string run = "run chain-moderate --device simulated:noise=0 --trials 5 --seed 1 --fast --data " + folder_.path();
