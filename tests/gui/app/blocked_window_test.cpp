@@ -1,4 +1,5 @@
 #include "base/system/os.h"
+#include "sim/experiment/experiment.h"
 #include "sim/record/log/run_log.h"
 #include "tests/gui/at_the_window.h"
 
@@ -8,7 +9,9 @@ namespace {
 class BlockedWindow : public AtTheWindow {
  protected:
   BlockedWindow() {
-    request_.what = "chain-slow";
+    experiment::Experiment slow = experiment::readExperiment("chain-slow");
+    slow.timing = experiment::kNoTimingLimits;
+    request_.what = write("slow.json", experiment::toJson(slow));
     request_.device = "simulated:noise=0";
     request_.trials = 1;
     request_.timingCheckSeconds = 0;
