@@ -168,7 +168,8 @@ template <int Degree, bool Full>
 
 bool OscillatorCore::advance(const State& state, const AxisHand& hand, State& next) const noexcept {
   const bool pushed = hand.extraForce != 0 || hand.gravity != 0;
-  if (!free_.empty() && !pushed && hand.degree <= kFreeDegree) return advanceFree(state, hand, next);
+  const bool smooth = hand.degree <= 3 || (hand.degree <= kFreeDegree && std::abs(hand.r(4)) + std::abs(hand.r(5)) <= kMostFourth);
+  if (!free_.empty() && !pushed && smooth) return advanceFree(state, hand, next);
   return withDegree(hand.degree, [&](auto degree) {
     return pushed || damped_ ? advance<degree.value, true>(state, hand, next) : advance<degree.value, false>(state, hand, next);
   });
@@ -194,11 +195,13 @@ bool OscillatorCore::advanceFree(const State& state, const AxisHand& hand, State
   const std::size_t count = free_.size();
   for (std::size_t i = 0; i < count; ++i) {
     const FreeGroup& g = group[i];
-    const auto follow = [&](double h, double second) { return mulAdd(-g.period, broadcast<Lanes>(second), broadcast<Lanes>(h)); };
-    const Lanes e = mulAdd(-g.rest, follow(begin[0], begin[2]), x[i]);
-    const Lanes rate = mulAdd(-g.rest, follow(begin[1], begin[3]), v[i]);
-    const Lanes newX = x[i] + mulAdd(g.rest, follow(change[0], change[2]), mulAdd(g.turn, e, g.xv * rate));
-    const Lanes newV = v[i] + mulAdd(g.rest, follow(change[1], change[3]), mulAdd(g.turn, rate, g.vx * e));
+    const auto follow = [&](double h, double second, double fourth) {
+      return mulAdd(-g.period, mulAdd(-fourth, g.period, broadcast<Lanes>(second)), broadcast<Lanes>(h));
+    };
+    const Lanes e = mulAdd(-g.rest, follow(begin[0], begin[2], begin[4]), x[i]);
+    const Lanes rate = mulAdd(-g.rest, follow(begin[1], begin[3], begin[5]), v[i]);
+    const Lanes newX = x[i] + mulAdd(g.rest, follow(change[0], change[2], change[4]), mulAdd(g.turn, e, g.xv * rate));
+    const Lanes newV = v[i] + mulAdd(g.rest, follow(change[1], change[3], change[5]), mulAdd(g.turn, rate, g.vx * e));
     nextX[i] = newX;
     nextV[i] = newV;
     check += newX + newV;

@@ -45,16 +45,18 @@ class OscillatorCore {
     std::array<Lanes, kForceTerms> rateX{}, rateV{};  // by velocity coefficients
   };
   /// A chain without damping, extra force or gravity. Each mode turns freely about the position p at which it would follow the polynomial h
-  /// of the hand for ever. There p = rest (h - h2/w^2), with h2 the second derivative of h, up to degree 3. A fourth derivative would enter
-  /// with 1/w^4 and lose all digits of slow modes. A third of the numbers of a Group, so that 500 modes remain in the cache.
+  /// of the hand for ever. There p = rest (h - h2/w^2 + h4/w^4), with h2 and h4 the second and fourth derivative of h. A third of the
+  /// numbers of a Group, so that 500 modes remain in the cache.
   struct FreeGroup {
     Lanes turn, vx, xv;  // cos(w dt) - 1, -w sin(w dt), sin(w dt)/w
     Lanes rest, period;  // period: 1/w^2 [s^2]
   };
   static constexpr int kFewestFree = 128;   // masses: fewer fit into the cache as Groups
   static constexpr int kFewestEnds = 3;     // masses: fewer have no masses between the ends
-  static constexpr int kFreeDegree = 3;     // of the hand's polynomial, the highest of a device's samples
+  static constexpr int kFreeDegree = 5;     // of the hand's polynomial
   static constexpr double kSlowest = 3e-4;  // w dt below which 1/w^2 would magnify rounding
+  // [m] of the hand's path over dt, of degree 4 and 5. 1/(w dt)^4 magnifies the rounding of more. A reach of 0.4 m in a second has 4e-12.
+  static constexpr double kMostFourth = 1e-11;
   bool advanceFree(const State& state, const AxisHand& hand, State& next) const noexcept;
 
   int n_ = 0;
