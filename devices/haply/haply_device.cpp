@@ -64,7 +64,7 @@ void HaplyInverse3::greet(MessageLink& link) {
   info_.apparentMass = model.mass;
   info_.coulombFriction = model.friction;
   info_.resolution = model.resolution;
-  info_.secondPath = "the I/O thread tells it zero when the tick leaves no new force for 20 ms";
+  info_.secondPath = PolledDevice::describeStale();
   options_.id = state_.id;
   garbled_ = 0;
 }

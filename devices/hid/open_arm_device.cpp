@@ -40,7 +40,7 @@ haptics::DeviceInfo OpenArm::info() const {
           .maxForce = options_.model->maxForce,
           .rendersForce = true,
           .workspaceRadius = 0.1,
-          .secondPath = "the I/O thread tells it zero when the tick leaves no new force for 20 ms; its firmware switches off after 0.5 s"};
+          .secondPath = PolledDevice::describeStale() + "; its firmware switches off after 0.5 s"};
 }
 
 bool OpenArm::send(const ArmCommand& command) {

@@ -213,6 +213,9 @@ bool PolledDevice::stopForce() noexcept {
   return true;
 }
 
+std::string PolledDevice::describeStale() {
+  return fmt::format("the I/O thread tells it zero when the tick leaves no new force for {} ms", kStaleNs / 1'000'000);
+}
 std::string PolledDevice::calibrationHint() const { return shared_->transport->calibrationHint(); }
 
 void PolledDevice::calibrate() {

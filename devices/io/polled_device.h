@@ -65,6 +65,8 @@ class PolledDevice final : public haptics::HapticDevice {
  public:
   static constexpr std::int64_t kStaleNs = 20'000'000;
   static constexpr std::int64_t kReopenNs = 200'000'000;
+  /// Says that the I/O thread sends zero force after kStaleNs. `DeviceInfo::secondPath` of a transport begins with this sentence.
+  static std::string describeStale();
 
   /// Waits at most `patienceMs` for the first report. Throws ResourceError when no report comes.
   explicit PolledDevice(std::shared_ptr<Transport> transport, int patienceMs = 2000);

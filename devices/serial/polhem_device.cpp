@@ -31,7 +31,7 @@ haptics::DeviceInfo PolhemSerial::info() const {
           .maxForce = 5,
           .rendersForce = true,
           .workspaceRadius = 0.15,
-          .secondPath = "the I/O thread tells it zero when the tick leaves no new force for 20 ms; its firmware switches off after 0.5 s"};
+          .secondPath = PolledDevice::describeStale() + "; its firmware switches off after 0.5 s"};
 }
 
 std::string PolhemSerial::commandOf(const Vec3& force) const { return polhemForceLine(toTowardsRightUp(force)); }

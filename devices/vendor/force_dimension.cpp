@@ -125,11 +125,8 @@ class ForceDimension final : public Transport {
     if (const double told = dhd_.getMaxForce != nullptr ? dhd_.getMaxForce(id_) : 0; std::isfinite(told) && told > 0) info_.maxForce = told;
     info_.rendersForce = true;
     info_.rate = 1e9 / kPeriodNs;
-    info_.secondPath =
-        std::string(
-            "the I/O thread tells it zero when the tick leaves no new force for 20 ms, and another thread switches its forces "
-            "off when a call hangs for as long") +
-        (watchdog_ ? "; its own watchdog does so too" : "; its library offers no watchdog");
+    info_.secondPath = PolledDevice::describeStale() + ", and another thread switches its forces off when a call hangs for as long" +
+                       (watchdog_ ? "; its own watchdog does so too" : "; its library offers no watchdog");
     deviceVelocity_ = deviceVelocity_ && dhd_.getLinearVelocity != nullptr;
   }
 
