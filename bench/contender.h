@@ -26,7 +26,7 @@ struct Contender {
   std::string method;
   double step = kTickSeconds;  // [s]
   double tolerance = 0;        // 0: the method has no tolerance
-  std::string form;            // the chosen form of the equations
+  std::string form = {};       // the chosen form of the equations
   /// Computes the whole reach from the start with a result every millisecond. `out` null: only the time matters.
   std::function<void(Trajectory* out)> run;
 };

@@ -49,7 +49,7 @@ Contender fixedStep(const std::string& method, const BenchScene& scene, const Sy
     steps += stepsPerTick;
     return true;
   };
-  return {.method = method, .step = step, .form = {}, .run = makeRun(scene, system, tick)};
+  return {.method = method, .step = step, .run = makeRun(scene, system, tick)};
 }
 
 template <class Stepper, class System>
@@ -71,7 +71,7 @@ Contender controlled(const std::string& method, const BenchScene& scene, const S
     }
     return true;
   };
-  return {.method = method, .tolerance = tolerance, .form = {}, .run = makeRun(scene, system, tick)};
+  return {.method = method, .tolerance = tolerance, .run = makeRun(scene, system, tick)};
 }
 
 }  // namespace

@@ -166,7 +166,7 @@ struct Step {
 };
 
 /// Newton's step from the sums at (duration, amplitude), damped as by Marquardt. Where the cost does not curve upwards, it is the step of Gauss and
-/// Newton. A profile that is planned anew for another duration also changes its shape. The second derivatives leave this change out.
+/// Newton. A plan for another duration also has a profile of another shape. The second derivatives ignore that.
 Step stepFrom(const Sums& s, double duration, double amplitude, double damping) {
   const double A = amplitude, T = duration;
   // Sums over the residuals v - A phi.

@@ -32,7 +32,7 @@ struct AnalyzeOptions {
   int recovery = 0, jobs = 0;
   std::uint64_t seed = 1;
   bool alternatives = false, json = false, progress = false;
-  analysis::AnalysisOptions how;  // as far as options are its members
+  analysis::AnalysisOptions how;  // without what `analysisOptions` makes of the members above
 };
 
 std::vector<double> parseMasses(const std::string& text) {

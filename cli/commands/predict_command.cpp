@@ -28,7 +28,7 @@ struct PredictArguments {
   std::string experiment, criterion, point, sweep, out, figure;
   int samples = 201;
   bool json = false, time = false;
-  predict::PredictOptions options;  // its point from the name
+  predict::PredictOptions options;  // without its point, which `runPredict` takes from the name
 };
 
 void writeText(const std::string& text, const std::string& path) {

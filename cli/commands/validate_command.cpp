@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "analysis/study/run_study.h"
 #include "base/fault.h"
 #include "base/json/json_reader.h"
 #include "base/terminal/message.h"
@@ -13,7 +14,6 @@
 #include "cli/commands/commands.h"
 #include "cli/commands/definition_files.h"
 #include "cli/output/json_text.h"
-#include "analysis/study/run_study.h"
 #include "cli/terminal/option_words.h"
 #include "constraints/catalogue/definition.h"
 #include "devices/make_device.h"

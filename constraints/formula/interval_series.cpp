@@ -81,7 +81,7 @@ Series integrate(const Series& a, Interval begin, const Next& next) {
   }
   return f;
 }
-/// f with s f' = r / w, begun with f_0. `rate` makes r_k from f_0 … f_(k-1).
+/// f with s f' = r / w for the parameter s, begun with f_0. `rate` makes r_k from f_0 … f_(k-1).
 template <class Rate>
 Series integrateOver(Interval begin, const Series& w, const Rate& rate) {
   Series f{}, slopes{};  // slopes: of f

@@ -68,7 +68,7 @@ inline void removeLogs(const std::string& folder, const std::string& log) {
   std::filesystem::remove_all(folder + "/sourcedata");
 }
 
-/// Runs that are recorded into a dataset in a folder of its own.
+/// A test that records runs into a dataset of its own and opens the dataset.
 class RecordedDataset : public InAFolder {
  protected:
   std::string record(const RunToRecord& what) const { return recordRun(folder_.path(), what); }

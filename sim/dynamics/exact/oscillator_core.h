@@ -55,7 +55,8 @@ class OscillatorCore {
   static constexpr int kFewestEnds = 3;     // masses: fewer have no masses between the ends
   static constexpr int kFreeDegree = 5;     // of the hand's polynomial
   static constexpr double kSlowest = 3e-4;  // w dt below which 1/w^2 would magnify rounding
-  // [m] of the hand's path over dt, of degree 4 and 5. 1/(w dt)^4 magnifies the rounding of more. A reach of 0.4 m in a second has 4e-12.
+  // A larger sum of the hand's coefficients of degree 4 and 5 [m] loses digits, because 1/(w dt)^4 magnifies their rounding. A reach of minimum
+  // jerk over 0.4 m in a second has 6e-12.
   static constexpr double kMostFourth = 1e-11;
   bool advanceFree(const State& state, const AxisHand& hand, State& next) const noexcept;
 
