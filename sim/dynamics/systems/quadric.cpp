@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "base/math/matrix.h"
+#include "base/math/eigen_solvers.h"
 #include "constraints/constraint.h"
 #include "constraints/formula/formula.h"
 #include "constraints/formula/polynomial.h"
@@ -28,7 +28,7 @@ constexpr double kNone = 1e-6, kOn = 1e-9;  // of the gradient, which is of orde
 Eigen::Vector3d flattest(const Quadric& q, Eigen::Matrix3d& a, Eigen::Vector3d& b) {
   a << q.a[0], q.a[3], q.a[4], q.a[3], q.a[1], q.a[5], q.a[4], q.a[5], q.a[2];
   b << q.b.x, q.b.y, q.b.z;
-  return (2 * a).completeOrthogonalDecomposition().solve(-b);
+  return (2 * a).colPivHouseholderQr().solve(-b);
 }
 
 // Ten fitted coefficients tell a cone from a hyperboloid with a narrow waist only down to their rounding, and a cylinder has no apex.
@@ -37,7 +37,7 @@ bool isCone(const Quadric& q) {
   Eigen::Matrix3d a;
   Eigen::Vector3d b;
   const Eigen::Vector3d d = flattest(q, a, b);
-  const Eigen::Vector3d singular = a.jacobiSvd().singularValues();
+  const Eigen::VectorXd singular = singularValues(a);
   return singular(2) > kNone * singular(0) && std::abs(d.dot(a * d) + b.dot(d) + q.c) * singular(0) <= kRounding;
 }
 
