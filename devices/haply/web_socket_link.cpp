@@ -114,7 +114,7 @@ class WebSocketLink final : public MessageLink {
   }
 
   asio::io_context io_;
-  beast::websocket::stream<beast::tcp_stream> socket_;
+  beast::websocket::stream<beast::tcp_stream, false> socket_;  // without compression, which no service asks for
   beast::flat_buffer received_;
   std::string sending_, fault_;
   beast::error_code readFault_;
