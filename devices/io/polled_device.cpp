@@ -19,11 +19,6 @@ using haptics::DeviceSample;
 
 namespace {
 
-struct TimedForce {
-  Vec3 force;           // [N]
-  std::int64_t ns = 0;  // when the tick left it
-};
-
 constexpr std::int64_t kPauseNs = 1'000'000;  // after an exchange that brought nothing, so that a dead device does not burn a core
 constexpr std::int64_t kGuardNs = 5'000'000;  // how often the guard looks
 constexpr std::chrono::milliseconds kPatience{300};
@@ -31,6 +26,11 @@ constexpr std::chrono::milliseconds kPatience{300};
 }  // namespace
 
 struct PolledDevice::Shared final : ForceSource {
+  struct TimedForce {
+    Vec3 force;           // [N]
+    std::int64_t ns = 0;  // when the tick left it
+  };
+
   Shared(std::shared_ptr<Transport> t, std::int64_t (*n)()) : transport(std::move(t)), clock(n) {}
 
   std::shared_ptr<Transport> transport;
