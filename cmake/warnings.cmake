@@ -71,15 +71,31 @@ endfunction()
 
 # What computes little is compiled so. It takes three quarters of the compile time of -O1, and -O0 takes no less.
 set(REACHLAB_QUICK -Og)
+# And what computes in a library that is compiled so.
+set(REACHLAB_COMPUTES $<$<CONFIG:RelWithDebInfo>:-O2>)
 
 # reachlab_compile_quickly(<target>): nobody waits for what it computes, so a dev build spends half the time on it. A release is unchanged.
 function(reachlab_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:${REACHLAB_QUICK}>)
 endfunction()
 
-# reachlab_compute(<sources…>): the speed of these sources counts even in a library that is compiled quickly.
-function(reachlab_compute)
-  set_source_files_properties(${ARGN} PROPERTIES COMPILE_OPTIONS $<$<CONFIG:RelWithDebInfo>:-O2>)
+# reachlab_compile_apart(<target> <option> <sources…>): these sources of a target get one more option. They are compiled as one all the same,
+# while CMake compiles each source that has options of its own alone. Called when nothing else of the target changes.
+function(reachlab_compile_apart target option)
+  set(apart ${target}_apart)
+  list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)
+  get_target_property(others ${target} SOURCES)
+  list(REMOVE_ITEM others ${sources})
+  set_property(TARGET ${target} PROPERTY SOURCES ${others} $<TARGET_OBJECTS:${apart}>)
+  add_library(${apart} OBJECT ${sources})
+  reachlab_unity(${apart})
+  foreach(property INCLUDE_DIRECTORIES LINK_LIBRARIES COMPILE_OPTIONS)
+    get_target_property(value ${target} ${property})
+    if(value)
+      set_property(TARGET ${apart} PROPERTY ${property} ${value})
+    endif()
+  endforeach()
+  target_compile_options(${apart} PRIVATE ${option})
 endfunction()
 
 # reachlab_library(<name> [COMPUTES] DEPENDS <public libraries…> PRIVATE <private libraries…> ROOMS <sub-folders…>): the .cpp files of this folder and

@@ -10,7 +10,7 @@ namespace reachlab::analysis {
 namespace {
 
 constexpr std::size_t kCellsAtOnce = 4;  // numbers side by side
-using FourCells = Lanes<kCellsAtOnce>;
+using FourNumbers = Lanes<kCellsAtOnce>;
 constexpr int kNodes = 20000;  // durations that may ever be asked for: 0 … kNodes * spacing
 
 /// Slope at sample i by central differences of fourth order; what lies beyond the ends counts as 0.
@@ -120,7 +120,7 @@ bool ProfileFamily::at(double duration, Profile& out) const {
     store(value, &out.value[i]), store(change, &out.change[i]);
   };
   std::size_t i = 0;
-  for (; i + kCellsAtOnce <= size; i += kCellsAtOnce) add(i, loadLanes<FourCells>, storeLanes<FourCells>);
+  for (; i + kCellsAtOnce <= size; i += kCellsAtOnce) add(i, loadLanes<FourNumbers>, storeLanes<FourNumbers>);
   for (; i < size; ++i)
     add(
         i, [](const double* from) { return *from; }, [](double number, double* to) { *to = number; });

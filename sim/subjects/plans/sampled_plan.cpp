@@ -9,13 +9,13 @@
 namespace reachlab::subjects {
 namespace {
 
-constexpr std::size_t kPoints = 6;
+constexpr std::size_t kNodes = 6;
 
 }  // namespace
 
 SampledPlan::SampledPlan(ReachPlan plan) : plan_(std::move(plan)) {
   const auto cells = static_cast<std::size_t>(std::ceil(plan_.duration / kTickSeconds));
-  if (cells < kPoints) return;
+  if (cells < kNodes) return;
   step_ = plan_.duration / static_cast<double>(cells);
   places_.reserve(4 * (cells + 1));
   for (std::size_t i = 0; i <= cells; ++i) {
@@ -33,7 +33,7 @@ SampledPlan::SampledPlan(ReachPlan plan) : plan_(std::move(plan)) {
 // Lagrange's form on equally spaced nodes, x from the third of the six.
 Vec3 SampledPlan::interpolate(double time) const noexcept {
   const double at = time / step_;
-  const auto last = places_.size() / 4 - kPoints;
+  const auto last = places_.size() / 4 - kNodes;
   const auto cell = static_cast<std::size_t>(std::max(at, 2.0)) - 2;
   const std::size_t first = std::min(cell, last);
   const double x = at - static_cast<double>(first);
