@@ -71,7 +71,7 @@ endfunction()
 
 # What computes little is compiled so. It takes three quarters of the compile time of -O1, and -O0 takes no less.
 set(REACHLAB_QUICK -Og)
-# And what computes in a library that is compiled so.
+# The option of sources whose speed counts in a library that is compiled quickly.
 set(REACHLAB_COMPUTES $<$<CONFIG:RelWithDebInfo>:-O2>)
 
 # reachlab_compile_quickly(<target>): nobody waits for what it computes, so a dev build spends half the time on it. A release is unchanged.
@@ -79,8 +79,8 @@ function(reachlab_compile_quickly target)
   target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:${REACHLAB_QUICK}>)
 endfunction()
 
-# reachlab_compile_apart(<target> <option> <sources…>): these sources of a target get one more option. They are compiled as one all the same,
-# while CMake compiles each source that has options of its own alone. Called when nothing else of the target changes.
+# reachlab_compile_apart(<target> <option> <sources…>): these sources of a target get one more option. They become an object library, because CMake
+# leaves a source with further options out of a unity build. The call copies the target's options, so it comes after them.
 function(reachlab_compile_apart target option)
   set(apart ${target}_apart)
   list(TRANSFORM ARGN PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE sources)

@@ -68,7 +68,7 @@ inline void removeLogs(const std::string& folder, const std::string& log) {
   std::filesystem::remove_all(folder + "/sourcedata");
 }
 
-/// A test that records runs into a dataset of its own and opens the dataset.
+/// A fixture with an empty folder. Its tests record runs into the folder and open them as a dataset.
 class RecordedDataset : public InAFolder {
  protected:
   std::string record(const RunToRecord& what) const { return recordRun(folder_.path(), what); }
