@@ -321,6 +321,8 @@ TEST(Alternatives, ChangeTheConclusionOnlyWhereTheTruthIsLeftOut) {
   const std::vector<std::string> asAsked = linesOf("alternative_scores.csv", "as asked,all,");
   EXPECT_EQ(asAsked, linesOf("conclusions.csv", "all,"));
   EXPECT_EQ(asAsked.size(), 4u);
+  for (const std::string& line : asAsked)
+    EXPECT_EQ(line.find(",yes,") != std::string::npos, line.find(",min-hand-jerk,") != std::string::npos) << line << ": only one is best";
   EXPECT_EQ(linesOf("alternative_scores.csv", "with failed trials,all,").size(), 4u);
   EXPECT_EQ(linesOf("alternative_scores.csv", "without min-crackle,all,").size(), 3u);
 }

@@ -57,6 +57,11 @@ TEST(Predict, SaysNullWhereAPulseOrAParallelObjectLeavesNoNumber) {
   EXPECT_NEAR(numbers("chain-fast --criterion min-hand-jerk").at("travel_time_s").get<double>(), 2 * 5 * std::sqrt(0.6 / 600), 1e-12);
 }
 
+TEST(Predict, SaysHowLongItComputed) {
+  EXPECT_TRUE(
+      std::regex_search(reach("predict dingwell --criterion min-hand-jerk --json --time").err, std::regex("computed in [1-9][0-9]* us")));
+}
+
 TEST(Predict, SweepsAFamily) {
   const std::string family = printed("predict dingwell --criterion min-hand-jerk --sweep duration_s=0.5:3:0.5");
   EXPECT_TRUE(family.starts_with("duration_s,cost,hand_peak_m_p"));

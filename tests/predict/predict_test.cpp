@@ -48,6 +48,8 @@ std::vector<Family> families() {
     all.push_back({"pair with hand " + name, [=] { return predict(parallelPair(), c, heavy); }});
     all.push_back({"damped chain " + name, [=] { return predict(unevenlyDamped(unevenChain()), c, heavy); }});
   }
+  for (const Criterion c : {MinHandForce, MinHandForceChange})
+    all.push_back({"damped chain, massless hand " + std::string(nameOf(c)), [=] { return predict(unevenlyDamped(unevenChain()), c); }});
   all.push_back({"damped pair", [] { return predict(unevenlyDamped(parallelPair()), MinHandForceChange); }});
   all.push_back({"merged", [] { return predict(makeParallel({3, 1, 2}, {60, 20, 90}, 2), MinHandJerk); }});
   all.push_back({"hand", [] { return predict(makeChain(1, 2, 600, 1.3), MinHandJerk, asHand()); }});

@@ -154,6 +154,7 @@ TEST_F(Tables, WhereADeviceIsLostOrAPlaceIsNoNumberAPointIsNotSeen) {
   const RunLog run = recordedTicks(275, [](haptics::TickState& state) {
     state.hands[0].device.valid = state.tick != 20;
     if (state.tick == 30) state.masses[1].r.z = std::nan("");
+    if (state.tick == 35) state.masses[1].r = {0.125, -0.25, 2};
     return state.tick < 40 || state.tick >= 50;
   });
   const C3dFile file = c3dOf(run, run.trials()[0]);
@@ -164,6 +165,8 @@ TEST_F(Tables, WhereADeviceIsLostOrAPlaceIsNoNumberAPointIsNotSeen) {
   EXPECT_EQ(seen(3), "\1\1\1\1");
   EXPECT_EQ(seen(4), std::string("\0\0\1\1", 4)) << "hand and device; the masses are simulated";
   EXPECT_EQ(seen(6), std::string("\1\1\1\0", 4));
+  const float* place = &file.places[(7 * 4 + 3) * 3];
+  EXPECT_EQ(std::vector(place, place + 3), (std::vector<float>{125, -250, 2000})) << "in " << file.pointUnit;
   for (const std::size_t frame : {8, 9}) {
     EXPECT_EQ(seen(frame), std::string(4, '\0')) << "dropped: the frames keep their times";
     EXPECT_TRUE(std::isnan(file.signals[frame * file.analogs.size()]));
