@@ -129,5 +129,5 @@ function(reachlab_test folder)
   target_compile_options(test_${folder} PRIVATE ${REACHLAB_QUICK})  # what a test itself computes is short
   reachlab_precompile(test_${folder} <gtest/gtest.h> <algorithm> <cmath> <filesystem> <fstream> <functional> <map> <optional> <random> <string>
     <vector>)
-  gtest_discover_tests(test_${folder} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
+  gtest_discover_tests(test_${folder} NO_PRETTY_VALUES DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 600)
 endfunction()
