@@ -67,7 +67,7 @@ std::string HelpFormat::make_footer(const CLI::App* app) const {
     else filled += (heading ? "" : "  ") + wrapped(line, kHelpColumns - 8, " \\\n      ") + "\n";
   }
   flush();
-  return filled;
+  return filled.empty() ? filled : "\n" + filled;  // CLI11 before 2.4 begins it with an empty line, too
 }
 
 std::string HelpFormat::make_subcommand(const CLI::App* command) const {
