@@ -12,10 +12,10 @@
 namespace reachlab::devices {
 namespace {
 
-const VelocityRow& rowOf(const std::vector<VelocityRow>& rows, const std::string& kind) {
+const VelocityRow& rowOf(const std::vector<VelocityRow>& rows, std::string_view kind) {
   for (const VelocityRow& row : rows)
     if (row.kind == kind) return row;
-  throw std::runtime_error(kind);
+  throw std::runtime_error(std::string(kind));
 }
 
 // A minimum-jerk reach along x.

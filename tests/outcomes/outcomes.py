@@ -8,6 +8,7 @@ one line; where NAME ends with `quiet`, the files are left out. Numbers may diff
 (fits and quadratures end where the last bits of a machine's elementary functions put them), and by 2e-6 where they are small.
 """
 import argparse
+import ctypes.util
 import difflib
 import gzip
 import hashlib
@@ -23,6 +24,9 @@ ROOT = HERE.parents[1]
 NUMBER = re.compile(r"(?<![\w.#])[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?(?![\w])")
 FLAT = re.compile(r"^( +)(.*[\[{])((?:\n\1  [^\n{\[]+)+)\n\1([\]}])", re.M)  # a list or an object that holds no other
 RELATIVE, ABSOLUTE = 1e-5, 2e-6
+cairo_version = ctypes.CDLL(ctypes.util.find_library("cairo")).cairo_version_string
+cairo_version.restype = ctypes.c_char_p
+CAIRO = cairo_version()
 ROWS = 6  # of a long table
 TEXTS = {".csv", ".tsv", ".json", ".svg", ".html", ".txt", ".md", ".cpp", ".gz", ".sh"}
 
@@ -159,8 +163,14 @@ def same(wanted, got):
     return True
 
 
+def without_drawings(text):
+    return re.sub(r"^(--- \S+\.svg)\n(?:(?!--- ).*\n)*", r"\1\n", text, flags=re.M)
+
+
 def differences(name, wanted, got):
     """Lines of a diff, without those that are the same but for the last digits of their numbers."""
+    if not CAIRO.startswith(b"1.16."):  # others write the same drawing as other elements
+        wanted, got = without_drawings(wanted), without_drawings(got)
     a, b = wanted.splitlines(), got.splitlines()
     if len(a) == len(b):
         b = [x if same(x, y) else y for x, y in zip(a, b)]

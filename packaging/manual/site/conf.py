@@ -28,7 +28,6 @@ html_copy_source = html_show_sourcelink = html_show_sphinx = False
 html_show_search_summary = False  # it asks for pages by HTTP, which a page that was opened as a file may not
 html_search_scorer = str(HERE / "scorer.js")
 html_favicon = str(HERE.parents[2] / "resources/icons/reachlab.svg")
-html_theme_options = {"top_of_page_button": None}
 pygments_style = "friendly"
 html_math_renderer = "mathml"
 # An accented symbol with an index: the converter would put the index below the accent.

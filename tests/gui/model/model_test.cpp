@@ -38,10 +38,10 @@ DEF clock TimeSensor { cycleInterval 2 }
 ROUTE clock.fraction_changed TO hand.set_translation
 )";
 
-const ModelPart& named(const Model& model, const std::string& name, std::size_t skip = 0) {
+const ModelPart& named(const Model& model, std::string_view name, std::size_t skip = 0) {
   for (const ModelPart& part : model.parts)
     if (part.name == name && skip-- == 0) return part;
-  throw std::runtime_error("no part " + name);
+  throw std::runtime_error("no part " + std::string(name));
 }
 
 Vec3 middleOf(const ModelPart& part) {
