@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """The house's layers, read from the sources: exits 1 with a line for every arrow that CMake does not know, that no include needs, that
-runs back up, for a file whose namespace is not its folder's, or that takes Eigen from elsewhere than base/math/matrix.h.
+runs back up, for a file whose namespace is not its folder's, that takes Eigen from elsewhere than base/math/matrix.h, or that has more than
+400 lines of code.
 
   tests/house/layers.py          checks
   tests/house/layers.py --show   prints the arrows
@@ -9,9 +10,12 @@ import re
 import sys
 from pathlib import Path
 
+from lines import code_lines
+
 ROOT = Path(__file__).resolve().parents[2]
 ORDER = ["base", "constraints", "sim", "analysis", "devices", "network", "bench", "gui", "cli"]  # a folder uses those to its left; gui and cli not each other
 MAX_FILES = 30
+MAX_LINES = 400
 
 
 def library_of(folder):
@@ -92,6 +96,8 @@ def main():
             if other != here:
                 arrows[here].add(other)
         text = (ROOT / file).read_text()
+        if (count := code_lines(text, "c")) > MAX_LINES:
+            faults.append(f"{file}: {count} lines of code, at most {MAX_LINES}: split it by its sections")
         text = re.sub(r"^namespace \w[\w:]* {\n(?:(?:class|struct) \w+;\n)+}", "", text, flags=re.M)  # names said in advance
         wrong = [n for n in re.findall(r"^namespace (reachlab[\w:]*) {", text, re.M)
                  if n != namespace_of(here) and not n.startswith(namespace_of(here) + "::")]
