@@ -68,16 +68,16 @@ void fitPeople(Analysis& analysis, std::size_t condition, const FittingProgress&
 }
 
 void concludeTogether(Analysis& analysis) {
-  // A subject who lacks a condition would differ from the others for that alone, so only conditions that all have are averaged.
-  std::set<std::string> anywhere;
-  std::vector<std::size_t> fitted(analysis.results.size(), 0);
+  // A subject who lacks a condition would differ from the others for that alone. Averaged are therefore the conditions of the most subjects, and
+  // only those that have the same subjects.
+  std::vector<std::set<std::string>> fitted(analysis.results.size());
   for (const PersonResult& person : analysis.people)
-    if (person.fitted) anywhere.insert(person.subject), ++fitted[person.condition];
+    if (person.fitted) fitted[person.condition].insert(person.subject);
+  const auto fewer = [](const auto& a, const auto& b) { return a.size() < b.size(); };
+  const std::set<std::string> most = fitted.empty() ? std::set<std::string>{} : *std::max_element(fitted.begin(), fitted.end(), fewer);
   std::vector<std::size_t>& judged = analysis.together;
-  for (std::size_t c = 0; c < analysis.results.size(); ++c)
-    if (fitted[c] > 0 && fitted[c] == anywhere.size()) judged.push_back(c);
-  for (std::size_t c = 0; judged.empty() && c < analysis.results.size(); ++c)  // none: the one that most have
-    if (fitted[c] > 0 && fitted[c] == *std::max_element(fitted.begin(), fitted.end())) judged = {c};
+  for (std::size_t c = 0; c < fitted.size(); ++c)
+    if (!most.empty() && fitted[c] == most) judged.push_back(c);
   if (judged.empty()) {
     analysis.overall.subjects = 0;
     return;

@@ -370,7 +370,7 @@ std::string makeReport(const ReportHeader& header, const Analysis& analysis, con
     html.heading(2, "Optimality criteria");
   }
   const std::string sentence = describeConclusion(analysis.overall, analysis.common);
-  html.paragraph((analysis.conditions.size() > 1 ? "All conditions together: " : "") + sentence,
+  html.paragraph((analysis.conditions.size() > 1 ? "Conditions together: " : "") + sentence,
                  learning.empty() ? "answer finding" : "finding");
   addFigure(html, figures, "scores");
   if (analysis.overall.best) {

@@ -182,7 +182,8 @@ std::string describeTogether(const Analysis& analysis) {
     (std::find(analysis.together.begin(), analysis.together.end(), c) != analysis.together.end() ? in : out)
         .push_back(analysis.conditions[c].name);
   std::string text = "Over " + joined(in) + ".";
-  if (!out.empty()) text += fmt::format(" Left out: {}, where not every subject has {} successful trials.", joined(out), kFewestTrials);
+  if (!out.empty())
+    text += fmt::format(" Left out: {}, where not each of these subjects has {} successful trials.", joined(out), kFewestTrials);
   return text;
 }
 

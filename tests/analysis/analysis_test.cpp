@@ -117,6 +117,22 @@ TEST(Study, BearsOneTrialNoSuccessAndNoTrial) {
   EXPECT_FALSE(analysis.overall.best);
 }
 
+// Who did only another condition takes none away from those who did the rest.
+TEST(Study, JudgesTogetherTheConditionsOfTheMostSubjects) {
+  const AnalysisInput two = simulatedTrials({{"slow", compiledChain(2)}, {"moderate", compiledChain(1.35)}, {"apart", compiledChain(1)}},
+                                            predict::Criterion::MinHandJerk, 0, 2, 1, 15, 8);
+  AnalysisInput input;
+  input.conditions = two.conditions;
+  for (std::size_t i = 0; i < two.trials.size(); ++i) {
+    TrialData trial = two.trials[i];
+    if (two.conditionOf[i] == 2 && trial.key.subject == "S2") continue;
+    if (two.conditionOf[i] == 2) trial.key.subject = "S3";
+    input.trials.push_back(std::move(trial));
+    input.conditionOf.push_back(two.conditionOf[i]);
+  }
+  EXPECT_EQ(analyzeTrials(input, quickOptions()).together, (std::vector<std::size_t>{0, 1}));
+}
+
 TEST(Study, CountsInvalidTimingApartAndLeavesItOut) {
   AnalysisInput input = simulatedTrials({{"m", compiledChain(1.35)}}, predict::Criterion::MinHandJerk, 0, 1, 1, 6, 4);
   input.trials[0].result.reason = trial::Reason::Timing;

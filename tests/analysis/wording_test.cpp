@@ -113,7 +113,7 @@ TEST(Wording, OfTheReferenceSaysHowNearItIs) {
 
 TEST(Wording, OfConditionsTogetherSaysWhichAreLeftOut) {
   Analysis analysis = madeStudy();
-  EXPECT_EQ(describeTogether(analysis), "Over slow pace. Left out: quick, where not every subject has 10 successful trials.");
+  EXPECT_EQ(describeTogether(analysis), "Over slow pace. Left out: quick, where not each of these subjects has 10 successful trials.");
   analysis.together = {0, 1};
   EXPECT_EQ(describeTogether(analysis), "Over slow pace and quick.");
   analysis.together.clear();
