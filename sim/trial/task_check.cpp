@@ -19,6 +19,7 @@ namespace {
 
 constexpr double kLongTask = 60;    // [s]
 constexpr double kHeavyMass = 100;  // [kg]
+constexpr double kFastHand = 10;    // [m/s], above a boxer's punch of 9.1 m/s (Walilko, Viano & Bir 2005)
 constexpr double kManyTurns = 1.5;  // a full lap is a reach, and may end a little behind its start
 
 // Along the curve, so that a full lap is a way; the chord elsewhere. A lap on a surface has no chord: it counts as infinitely long. [m]
@@ -199,6 +200,11 @@ std::vector<Fault> implausibleNumbers(const experiment::CompiledExperiment& comp
   }
   const ProtocolSettings settings = makeProtocolSettings(experiment, compiled.constraint());
   const double way = wayOf(compiled.constraint(), task, settings);
+  constexpr double kPeakOverMean = 1.875;  // of a minimum-jerk movement
+  if (const double peak = kPeakOverMean * way / task.duration; std::isfinite(peak) && peak > kFastHand)
+    found.push_back(
+        {"task.duration_s", fmt::format("is {} s for a way of {:.3g} m, which needs {:.3g} m/s; more than {} m/s is hardly meant",
+                                        task.duration, way, peak, kFastHand)});
   std::optional<double> farthest;
   if (compiled.constraint().kind == constraints::ConstraintKind::Free || compiled.constraint().straight) {
     farthest = norm(settings.target - settings.start);

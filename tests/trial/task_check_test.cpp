@@ -91,6 +91,8 @@ TEST(TaskCheck, TellsOfMassesAndTimesThatAreHardlyMeant) {
       << "a lap";
   const auto turns = implausibleWith("epitrochoid", [](auto& e) { e.task->target[0] = e.task->start[0] - 12 * std::numbers::pi; });
   EXPECT_EQ(told(turns), "task.target[0]: is 6 turns from the start; more than one turn is hardly meant");
+  EXPECT_EQ(told(implausibleWith("chain-moderate", [](auto& e) { e.task->duration = 0.03; })),
+            "task.duration_s: is 0.03 s for a way of 0.2 m, which needs 12.5 m/s; more than 10 m/s is hardly meant");
   EXPECT_EQ(implausibleWith("chain-moderate", [](auto& e) { e.task.reset(), e.object.masses[0] = 101; }).size(), 1u)
       << "a task is not needed";
 }
