@@ -110,7 +110,10 @@ class TreeBuilder : public nlohmann::json::json_sax_t {
     if (const std::size_t comma = trailingComma(end); comma != std::string::npos)
       throw FaultError(Fault{{}, "this comma has nothing behind it", "a further element, or no comma after the last one", place(comma)});
     const SyntaxFault fault = syntaxFault(e.what());
-    throw FaultError(Fault{{}, fault.what, fault.allowed, place(end > 0 ? end - 1 : 0)});
+    std::string what = fault.what;
+    if (fault.library == "unexpected end of input" && !open_.empty())
+      what += fmt::format("; the bracket of line {} is not closed", open_.back()->line);
+    throw FaultError(Fault{{}, what, fault.allowed, place(end > 0 ? end - 1 : 0)});
   }
 
  private:

@@ -68,27 +68,28 @@ TEST(JsonTree, TellsWhereASentenceOfItsSyntaxBreaks) {
 
 // No text of the library, and one sentence for each way in which a text is no JSON.
 TEST(JsonTree, TellsEachFaultOfSyntaxInItsOwnSentence) {
-  const std::pair<std::string, std::string> cases[] = {{"", "the text ends before the value is complete"},
-                                                       {"{\"a\": [1", "the text ends before the value is complete"},
-                                                       {"[\"a", "a string is not closed before the end of the text"},
-                                                       {"[\"a\n\"]", "a string contains a control character, such as the end of its line"},
-                                                       {"[\"\xE9\"]", "a string contains bytes that are not UTF-8"},
-                                                       {R"(["\d"])", "this character has no meaning after a backslash"},
-                                                       {R"(["\u12"])", "an escaped character is not complete"},
-                                                       {R"(["\uD834"])", "half of a pair of escaped characters is missing"},
-                                                       {"\xEF{}", "the mark at the beginning of the text is not complete"},
-                                                       {"{} /* x", "this comment is not complete"},
-                                                       {"[-]", "this number is not complete"},
-                                                       {"[1.]", "this number is not complete"},
-                                                       {"{a: 1}", "a key is missing here"},
-                                                       {"{1: 1}", "a key is missing here"},
-                                                       {"{\"a\" 1}", "a colon is missing behind the key"},
-                                                       {"{\"a\": 1 \"b\": 2}", "a comma or a closing bracket is missing here"},
-                                                       {"[1 2]", "a comma or a closing bracket is missing here"},
-                                                       {"[1, 2}", "a comma or a closing bracket is missing here"},
-                                                       {"{} {}", "the text continues behind its closing bracket"},
-                                                       {"[yes]", "this is not a value"},
-                                                       {"['; expected ':']", "this is not a value"}};
+  const std::pair<std::string, std::string> cases[] = {
+      {"", "the text ends before the value is complete"},
+      {"{\"a\":\n[1", "the text ends before the value is complete; the bracket of line 2 is not closed"},
+      {"[\"a", "a string is not closed before the end of the text"},
+      {"[\"a\n\"]", "a string contains a control character, such as the end of its line"},
+      {"[\"\xE9\"]", "a string contains bytes that are not UTF-8"},
+      {R"(["\d"])", "this character has no meaning after a backslash"},
+      {R"(["\u12"])", "an escaped character is not complete"},
+      {R"(["\uD834"])", "half of a pair of escaped characters is missing"},
+      {"\xEF{}", "the mark at the beginning of the text is not complete"},
+      {"{} /* x", "this comment is not complete"},
+      {"[-]", "this number is not complete"},
+      {"[1.]", "this number is not complete"},
+      {"{a: 1}", "a key is missing here"},
+      {"{1: 1}", "a key is missing here"},
+      {"{\"a\" 1}", "a colon is missing behind the key"},
+      {"{\"a\": 1 \"b\": 2}", "a comma or a closing bracket is missing here"},
+      {"[1 2]", "a comma or a closing bracket is missing here"},
+      {"[1, 2}", "a comma or a closing bracket is missing here"},
+      {"{} {}", "the text continues behind its closing bracket"},
+      {"[yes]", "this is not a value"},
+      {"['; expected ':']", "this is not a value"}};
   for (const auto& [text, what] : cases) {
     const Fault fault = faultOf(text);
     EXPECT_EQ(fault.what, what) << text;
