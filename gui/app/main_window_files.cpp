@@ -124,6 +124,8 @@ void MainWindow::movePlace(scene::TaskPlace place, const std::vector<double>& q)
   if (!faults.isEmpty()) {
     say(faults.join(QLatin1Char('\n')));
     screens_->showExperiment(session_.compiled(), session_.blockPlaces());  // back where it was
+  } else {
+    tell(start ? tr("The start is moved. Ctrl+Z takes it back.") : tr("The target is moved. Ctrl+Z takes it back."));
   }
   view_->setCamera(kept);
 }
