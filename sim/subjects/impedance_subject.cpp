@@ -180,7 +180,7 @@ ImpedanceSpec parseImpedanceSubject(const std::string& text) {
   ImpedanceSpec spec;
   if (const auto criterion = options.take("criterion")) {
     spec.criterion = predict::criterionFromName(*criterion);
-    if (!spec.criterion) throw FaultError(Fault{"device", "simulated: criterion=" + *criterion, "the name of a criterion"});
+    if (!spec.criterion) throw FaultError(Fault{"device", "simulated: criterion=" + *criterion, "a name from `reach list criteria`"});
   }
   spec.arm = {number("arm-mass"), number("arm-damping"), number("muscle")};
   spec.stiffness = number("stiffness");

@@ -97,7 +97,7 @@ SubjectSpec takeSubject(DeviceOptions& options) {
   subject.noise = options.number("noise", subject.noise, 0, 10);
   if (const auto name = options.take("criterion")) {
     subject.criterion = predict::criterionFromName(*name);
-    if (!subject.criterion) throw FaultError(Fault{"device", "criterion=" + *name, "the name of a criterion"});
+    if (!subject.criterion) throw FaultError(Fault{"device", "criterion=" + *name, "a name from `reach list criteria`"});
   }
   constexpr double kNotGiven = -1;
   if (const double mass = options.number("hand-mass", kNotGiven, 0, 1000); mass != kNotGiven) subject.handMass = mass;
