@@ -36,7 +36,7 @@ Panel scorePanel(const Analysis& analysis, std::size_t condition, const std::vec
       const Bounds interval = intervalOf(computeSerialTTest(subtract(fit.score, reference.score)));  // 95 %, over the person's trials
       s.x.push_back(static_cast<double>(k + 1) + aside), s.y.push_back(score);
       s.errorLow.push_back(interval.finite() ? interval.low : score), s.errorHigh.push_back(interval.finite() ? interval.high : score);
-      if (fit.mass && fit.mass->atEdge) panel.words.push_back({s.x[k], s.y[k], "mass at edge", palette::kVermilion});
+      if (fit.mass && fit.mass->atEdge) panel.words.push_back({s.x[k], s.errorHigh[k], "*", palette::kVermilion});
     }
     s.width = 0;  // criteria have no order that a line could follow
     panel.series.push_back(std::move(s));
@@ -57,7 +57,7 @@ NamedFigure scoreFigure(const Analysis& analysis) {
   out.caption =
       "How far each criterion is from the movements: a subject's score (mean of ln S, lower is nearer) less that of a minimum jerk that "
       "ignores the object, with its 95 % interval over the subject's trials. Dashed: that reference. Dotted: what the mean of a subject's own other trials "
-      "reaches, below which nothing can be expected. Mass at edge: the hand's mass that fits best is an end of its range.";
+      "reaches, below which nothing can be expected. An asterisk: the hand's mass that fits best is an end of its range.";
   for (std::size_t c = 0; c < analysis.results.size(); ++c) {
     std::vector<const PersonResult*> people;
     for (const PersonResult& person : analysis.people)

@@ -29,7 +29,7 @@ TEST(ScoreFigure, HasIntervalsWithoutLinesAndMarksAMassAtTheEdge) {
   EXPECT_NEAR(panel.series[0].y[1], -3, 1e-12);
   EXPECT_NEAR(panel.series[0].errorLow[1], -3, 1e-12);
   ASSERT_EQ(panel.words.size(), 1u);
-  EXPECT_EQ(panel.words[0].text, "mass at edge");
+  EXPECT_EQ(panel.words[0].text, "*");
   EXPECT_EQ(panel.words[0].x, 2);
 }
 
