@@ -98,13 +98,14 @@ void noteMixedDevices(DatasetIndex& dataset) {
   std::map<std::string, std::set<std::string>> devices;
   for (const AnalysedRun& run : dataset.runs) {
     const record::RunConfiguration& c = run.configuration;
-    devices[record::conditionOf(c)].insert(c.device.substr(0, c.device.find(':')));
+    for (const std::string& what : {record::conditionOf(c), "subject " + c.subject})
+      devices[what].insert(c.device.substr(0, c.device.find(':')));
   }
-  for (const auto& [condition, used] : devices) {
+  for (const auto& [what, used] : devices) {
     if (used.size() < 2) continue;
     dataset.notes.push_back(fmt::format(
-        "{}: trials of different devices are analysed together ({}); give a subject's or a session's folder alone to keep them apart",
-        condition, fmt::join(used, ", ")));
+        "{}: trials of different devices are analysed together ({}); give a subject's or a session's folder alone to keep them apart", what,
+        fmt::join(used, ", ")));
   }
 }
 

@@ -196,6 +196,8 @@ TEST_F(Datasets, OfSimulatedAndRealHandsSaysThatItMixesThem) {
   const Dataset mixed = opened();
   ASSERT_EQ(mixed.notes.size(), 1u);
   EXPECT_NE(mixed.notes[0].find("(replay, simulated)"), std::string::npos) << mixed.notes[0];
+  record({.experiment = "chain-fast", .device = kQuiet, .subject = "02", .trials = 1});
+  EXPECT_TRUE(holds(opened().notes.back(), "subject 02: trials of different devices")) << "in whichever conditions";
 }
 
 TEST(FileName, OfAConditionHasLettersNumbersAndSingleHyphens) {
