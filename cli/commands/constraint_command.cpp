@@ -129,7 +129,7 @@ void showPlaces(const constraints::Constraint& c) {
                  constraints::isPassed(place.kind) ? "passed" : "never crossed");
       ++told;
     }
-    if (told == 0) fmt::print("smooth    no kink, jump, pole, end or cusp from phi = {:.6g} to {:.6g}\n", range[0].lo, range[0].hi);
+    if (told == 0) fmt::print("smooth    no kink, jump, pole, end or cusp between phi = {:.6g} and {:.6g}\n", range[0].lo, range[0].hi);
   } else {
     const auto branches = constraints::computeBranches(c);
     for (const constraints::Place& place : branches->places)
