@@ -60,7 +60,8 @@ FeedbackSpec parseFeedbackSubject(const std::string& text) {
   const std::string criterion = options.take("criterion").value_or("effort");
   if (criterion != "effort") {
     spec.criterion = predict::criterionFromName(criterion);
-    if (!spec.criterion) throw FaultError(Fault{"device", "simulated: criterion=" + criterion, "effort, or a name from `reach list criteria`"});
+    if (!spec.criterion)
+      throw FaultError(Fault{"device", "simulated: criterion=" + criterion, "effort, or a name from `reach list criteria`"});
   }
   const std::string sight = options.word("sight", {"ends", "all", "none"});
   spec.senses.sight = sight == "all" ? Sight::All : sight == "none" ? Sight::None : Sight::Ends;
