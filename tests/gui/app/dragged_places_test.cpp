@@ -89,6 +89,7 @@ TEST_F(DraggedPlaces, AreShownWhileTheyAreDraggedAndGoBackWithEscape) {
   EXPECT_EQ(view().frame().masses.back(), view().plan().start);
   drop(elsewhere);
   EXPECT_NEAR(task().start[0], -0.5, 0.02);
+  EXPECT_EQ(window_->message(), "The start is moved. Ctrl+Z takes it back.");
   const std::vector<double> moved = task().start;
   take(elsewhere);
   drop(elsewhere);
