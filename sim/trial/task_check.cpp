@@ -7,6 +7,7 @@
 
 #include "base/json/json_reader.h"
 #include "base/math/eigen_solvers.h"
+#include "base/math/minimum_jerk.h"
 #include "constraints/constraint.h"
 #include "constraints/geometry/arc_length.h"
 #include "constraints/geometry/task_path.h"
@@ -200,8 +201,7 @@ std::vector<Fault> implausibleNumbers(const experiment::CompiledExperiment& comp
   }
   const ProtocolSettings settings = makeProtocolSettings(experiment, compiled.constraint());
   const double way = wayOf(compiled.constraint(), task, settings);
-  constexpr double kPeakOverMean = 1.875;  // of a minimum-jerk movement
-  if (const double peak = kPeakOverMean * way / task.duration; std::isfinite(peak) && peak > kFastHand)
+  if (const double peak = way * minimumJerkRate(0.5) / task.duration; std::isfinite(peak) && peak > kFastHand)
     found.push_back(
         {"task.duration_s", fmt::format("is {} s for a way of {:.3g} m, which needs {:.3g} m/s; more than {} m/s is hardly meant",
                                         task.duration, way, peak, kFastHand)});
