@@ -73,8 +73,9 @@ void concludeTogether(Analysis& analysis) {
   std::vector<std::set<std::string>> fitted(analysis.results.size());
   for (const PersonResult& person : analysis.people)
     if (person.fitted) fitted[person.condition].insert(person.subject);
-  const auto fewer = [](const auto& a, const auto& b) { return a.size() < b.size(); };
-  const std::set<std::string> most = fitted.empty() ? std::set<std::string>{} : *std::max_element(fitted.begin(), fitted.end(), fewer);
+  std::set<std::string> most;
+  for (const std::set<std::string>& subjects : fitted)
+    if (subjects.size() > most.size()) most = subjects;
   std::vector<std::size_t>& judged = analysis.together;
   for (std::size_t c = 0; c < fitted.size(); ++c)
     if (!most.empty() && fitted[c] == most) judged.push_back(c);
