@@ -46,7 +46,7 @@ class VelocityPlot : public QWidget {
   std::size_t pointCount() const;
   std::pair<double, double> shownTimes() const;  // [s] where the time axis begins and ends now
   QSize sizeHint() const override { return {900, 260}; }
-  QSize minimumSizeHint() const override { return {300, 156}; }
+  QSize minimumSizeHint() const override { return {300, 156}; }  // [px] the title of the left axis fits
 
  private:
   void draw();
